@@ -1,0 +1,55 @@
+// Evaluates batches of episodes on all threads, with the best instruction set of this machine.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rollout.hpp"
+
+namespace botschool {
+
+/// Names of the instruction sets that this machine can run, the best last.
+std::vector<std::string> instruction_sets();
+
+/// Facts about every native problem.
+std::vector<Info> native_problems();
+
+/// One native problem with one network layout.
+class Engine {
+ public:
+  /// instruction_set: one of instruction_sets(), or "" for the best. Throws std::invalid_argument.
+  Engine(const std::string& problem, const Spec& spec, const std::string& instruction_set);
+
+  const Layout& layout() const { return layout_; }
+  const Info& info() const { return kernel_->info; }
+
+  /// Evaluates `count` jobs on up to `threads` threads; the results do not depend on how many.
+  void evaluate(const Jobs& jobs, std::size_t count, int threads) const;
+  /// Evaluates the first job and reports every step.
+  void record(const Jobs& jobs, Recorder& recorder) const;
+
+ private:
+  void run(const Jobs& jobs, Queue& queue, Recorder* recorder) const;
+
+  Layout layout_;
+  const Kernel* kernel_;
+};
+
+/// A native problem step by step, in double precision: for Gymnasium, for tests, for looking.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  virtual Info info() const = 0;
+  virtual void start(std::uint64_t seed, std::uint32_t episode) = 0;
+  virtual void set_state(const double* state) = 0;
+  virtual void get_state(double* state) const = 0;
+  virtual void observe(double* observation) const = 0;
+  /// Returns whether the episode has ended (a time limit is the caller's affair).
+  virtual bool step(const double* action, double& reward) = 0;
+};
+
+std::unique_ptr<Stepper> make_stepper(const std::string& problem);
+
+}  // namespace botschool

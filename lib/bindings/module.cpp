@@ -1,0 +1,7 @@
+#include "bindings.hpp"
+
+NB_MODULE(_core, module) {
+  module.doc() = "The C++ core of botschool; use botschool.net and botschool.problems.";
+  botschool::bind_evonet(module);
+  botschool::bind_engine(module);
+}

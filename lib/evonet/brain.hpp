@@ -1,0 +1,221 @@
+// The forward pass, for L networks of one layout side by side ("lanes"): value v of lane l is at
+// [v * L + l], and every lane goes through the same instructions. With L = 1 that is the genotype's
+// own layout. T is the scalar.
+#pragma once
+
+#include <cstddef>
+
+#include "layout.hpp"
+#include "philox.hpp"
+
+BOTSCHOOL_BEGIN
+
+/// What drives the action noise of a lane: a pure function of these and the step.
+struct NoiseKey {
+  std::uint64_t seed;
+  std::uint32_t episode;
+};
+
+/// Working memory of a Brain, all [values * L]; carve() lays it out in one zeroed buffer.
+template <class T, int L>
+struct BrainMemory {
+  T* parameters;
+  T* mean;         ///< inputs
+  T* deviation;    ///< inputs
+  T* inputs;       ///< raw observation
+  T* activations;  ///< neurons, in the order inputs, hidden, outputs
+  T* previous;     ///< activations of the step before
+  T* gates;        ///< 4 * cells
+  T* state;        ///< cells
+  T* noise;        ///< outputs: standard deviation of the action noise
+  T* actions;      ///< outputs: what the actuators get
+
+  /// Number of T that the buffer must hold.
+  static std::size_t size(const Layout& l) {
+    BrainMemory memory;
+    return memory.carve(l, nullptr);
+  }
+  std::size_t carve(const Layout& l, T* buffer) {
+    std::size_t used = 0;
+    auto take = [&](int values) {
+      T* place = buffer ? buffer + used : nullptr;
+      used += std::size_t(values) * L;
+      return place;
+    };
+    parameters = take(l.parameters);
+    mean = take(l.spec.inputs);
+    deviation = take(l.spec.inputs);
+    inputs = take(l.spec.inputs);
+    activations = take(l.neurons);
+    previous = take(l.neurons);
+    gates = take(4 * l.cells);
+    state = take(l.cells);
+    noise = take(l.spec.outputs);
+    actions = take(l.spec.outputs);
+    return used;
+  }
+};
+
+template <class T, int L>
+class Brain {
+ public:
+  Brain(const Layout& layout, const BrainMemory<T, L>& memory) : l_(layout), m_(memory) {}
+
+  /// Puts a genotype into a lane; `normalisation` is all means, then all deviations, or null.
+  void load(int lane, const double* genotype, const double* normalisation) {
+    for (int i = 0; i < l_.parameters; ++i) m_.parameters[i * L + lane] = static_cast<T>(genotype[i]);
+    for (int i = 0; i < l_.spec.inputs; ++i) {
+      m_.mean[i * L + lane] = normalisation ? static_cast<T>(normalisation[i]) : T(0);
+      m_.deviation[i * L + lane] =
+          normalisation ? static_cast<T>(normalisation[l_.spec.inputs + i]) : T(1);
+    }
+    set_noise(lane);
+  }
+
+  /// Standard deviations of the action noise, from the parameters of the lane.
+  void set_noise(int lane) {
+    for (int o = 0; o < l_.spec.outputs; ++o)
+      m_.noise[o * L + lane] =
+          l_.deviations >= 0 ? exponential(m_.parameters[(l_.deviations + o) * L + lane])
+                             : static_cast<T>(l_.spec.action_noise_range);
+  }
+
+  /// Start of an episode: all activations and states are 0.
+  void clear(int lane) {
+    for (int i = 0; i < l_.neurons; ++i) m_.activations[i * L + lane] = T(0);
+    for (int i = 0; i < l_.cells; ++i) m_.state[i * L + lane] = T(0);
+  }
+
+  /// From `inputs` to `activations` and `actions`. steps[lane]: steps done in the episode.
+  void step(const NoiseKey* keys, const int* steps) {
+    if (l_.recurrent)
+      for (int i = l_.spec.inputs * L; i < l_.neurons * L; ++i) m_.previous[i] = m_.activations[i];
+    read_inputs();
+    if (l_.cells > 0) update_cells();
+    for (int i = 0; i < l_.layers; ++i) {
+      const Layer& layer = l_.layer[i];
+      net_inputs(layer, m_.activations + layer.first * L);
+      activate(layer.activation, m_.activations + layer.first * L, layer.neurons * L);
+    }
+    act();
+    if (l_.spec.action_noise != no_noise) add_noise(keys, steps);
+  }
+
+ private:
+  void read_inputs() {
+    const int n = l_.spec.inputs * L;
+    T* BOTSCHOOL_RESTRICT out = m_.activations;
+    const T* BOTSCHOOL_RESTRICT in = m_.inputs;
+    if (!l_.spec.normalize) {
+      for (int i = 0; i < n; ++i) out[i] = in[i];
+    } else {
+      for (int i = 0; i < n; ++i) out[i] = (in[i] - m_.mean[i]) / m_.deviation[i];
+    }
+    if (l_.spec.clip)
+      for (int i = 0; i < n; ++i) out[i] = clamp(out[i], T(-5), T(5));
+  }
+
+  /// Sums over the senders of R receivers at a time (independent chains keep the adders busy);
+  /// each sum runs over the blocks and their senders in order, whatever R is.
+  template <int R>
+  void sum(const Layer& layer, int receiver, T* BOTSCHOOL_RESTRICT out) const {
+    T total[R * L];
+    for (int r = 0; r < R; ++r)
+      for (int l = 0; l < L; ++l)
+        total[r * L + l] =
+            layer.bias < 0 ? T(0) : m_.parameters[(layer.bias + receiver + r) * L + l];
+    for (int b = 0; b < layer.blocks; ++b) {
+      const Connections& c = layer.block[b];
+      const T* BOTSCHOOL_RESTRICT from =
+          (c.previous ? m_.previous : m_.activations) + std::ptrdiff_t(c.sender) * L;
+      const T* BOTSCHOOL_RESTRICT weights =
+          m_.parameters + (c.weights + std::ptrdiff_t(receiver) * c.stride) * L;
+      const std::ptrdiff_t stride = std::ptrdiff_t(c.stride) * L;
+      for (int s = 0; s < c.senders; ++s, from += L, weights += L)
+        for (int r = 0; r < R; ++r)
+          for (int l = 0; l < L; ++l) total[r * L + l] += weights[r * stride + l] * from[l];
+    }
+    for (int i = 0; i < R * L; ++i) out[i] = total[i];
+  }
+
+  void net_inputs(const Layer& layer, T* out) const {
+    int r = 0;
+    for (; r + 4 <= layer.neurons; r += 4) sum<4>(layer, r, out + r * L);
+    for (; r < layer.neurons; ++r) sum<1>(layer, r, out + r * L);
+  }
+
+  static void activate(int activation, T* BOTSCHOOL_RESTRICT x, int n) {
+    switch (activation) {
+      case logistic_unit:
+        for (int i = 0; i < n; ++i) x[i] = logistic(x[i]);
+        break;
+      case tanh_unit:
+        for (int i = 0; i < n; ++i) x[i] = hyperbolic_tangent(x[i]);
+        break;
+      case binary_unit:
+        for (int i = 0; i < n; ++i) x[i] = x[i] >= T(0.5) ? T(1) : T(-1);
+        break;
+      default:
+        break;
+    }
+  }
+
+  void update_cells() {
+    net_inputs(l_.gates, m_.gates);
+    T* BOTSCHOOL_RESTRICT hidden = m_.activations + l_.spec.inputs * L;
+    for (int u = 0; u < l_.cells; ++u) {
+      const T* BOTSCHOOL_RESTRICT gate = m_.gates + 4 * u * L;
+      T* BOTSCHOOL_RESTRICT state = m_.state + u * L;
+      for (int l = 0; l < L; ++l) {
+        const T forget = logistic(gate[l] + T(1)), input = logistic(gate[L + l]);
+        const T output = logistic(gate[2 * L + l]), candidate = hyperbolic_tangent(gate[3 * L + l]);
+        state[l] = state[l] * forget + candidate * input;
+        hidden[u * L + l] = hyperbolic_tangent(state[l]) * output;
+      }
+    }
+  }
+
+  void act() {
+    const T* BOTSCHOOL_RESTRICT out = m_.activations + (l_.neurons - l_.outputs) * L;
+    const int bins = l_.spec.nbins;
+    if (bins <= 1) {
+      for (int i = 0; i < l_.spec.outputs * L; ++i) m_.actions[i] = out[i];
+      return;
+    }
+    const T low = static_cast<T>(l_.spec.low), range = static_cast<T>(l_.spec.high - l_.spec.low);
+    for (int o = 0; o < l_.spec.outputs; ++o) {
+      int winner[L];
+      argmax(out + o * bins * L, bins, winner);
+      for (int l = 0; l < L; ++l)
+        m_.actions[o * L + l] = low + range * T(winner[l]) / T(bins - 1);
+    }
+  }
+
+ public:
+  /// The largest of n values of each lane; the first wins ties.
+  static void argmax(const T* BOTSCHOOL_RESTRICT values, int n, int* BOTSCHOOL_RESTRICT winner) {
+    T best[L];
+    for (int l = 0; l < L; ++l) best[l] = values[l], winner[l] = 0;
+    for (int i = 1; i < n; ++i)
+      for (int l = 0; l < L; ++l) {
+        const bool better = values[i * L + l] > best[l];
+        best[l] = better ? values[i * L + l] : best[l];
+        winner[l] = better ? i : winner[l];
+      }
+  }
+
+ private:
+  void add_noise(const NoiseKey* keys, const int* steps) {
+    for (int o = 0; o < l_.spec.outputs; ++o)
+      for (int l = 0; l < L; ++l) {
+        const Block block = philox(keys[l].seed, keys[l].episode, Stream::action,
+                                   static_cast<std::uint32_t>(steps[l]), o);
+        m_.actions[o * L + l] += static_cast<T>(gaussian_of(block)) * m_.noise[o * L + l];
+      }
+  }
+
+  const Layout& l_;
+  BrainMemory<T, L> m_;
+};
+
+BOTSCHOOL_END

@@ -1,0 +1,23 @@
+// One source, several instruction sets: every header of the inner loops opens its code with
+// BOTSCHOOL_BEGIN, so that each build of it (plain, AVX2, AVX-512) has names of its own and the
+// linker never mixes them. See arena/kernel.cpp.
+#pragma once
+
+#ifndef BOTSCHOOL_ISA
+#define BOTSCHOOL_ISA baseline
+#endif
+
+#define BOTSCHOOL_BEGIN \
+  namespace botschool { \
+  inline namespace BOTSCHOOL_ISA {
+#define BOTSCHOOL_END \
+  }                   \
+  }
+
+#if defined(_MSC_VER)
+#define BOTSCHOOL_RESTRICT __restrict
+#define BOTSCHOOL_INLINE __forceinline
+#else
+#define BOTSCHOOL_RESTRICT __restrict__
+#define BOTSCHOOL_INLINE inline __attribute__((always_inline))
+#endif

@@ -1,0 +1,168 @@
+// Elementary functions without branches, so that loops over lanes vectorise and every machine gives
+// the same bits. Polynomials are Taylor series around 0, long enough that the first term left out
+// is below the rounding error on the reduced range. NaN in, NaN out.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "isa.hpp"
+
+BOTSCHOOL_BEGIN
+
+template <class To, class From>
+BOTSCHOOL_INLINE To bits_of(From from) {
+  static_assert(sizeof(To) == sizeof(From));
+  To to;
+  std::memcpy(&to, &from, sizeof to);
+  return to;
+}
+
+template <class T>
+BOTSCHOOL_INLINE T clamp(T x, T low, T high) {
+  x = x < low ? low : x;
+  return x > high ? high : x;
+}
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// x = k ln 2 + rest with |rest| <= ln 2 / 2; scale = 2^k. Adding 1.5 * 2^mantissa rounds to the
+/// nearest integer and leaves it in the low bits.
+BOTSCHOOL_INLINE void split_by_ln2(double x, double& rest, double& scale) {
+  const double magic = 6755399441055744.0;
+  const double shifted = x * 1.4426950408889634074 + magic;
+  const double k = shifted - magic;
+  rest = (x - k * 6.93147180369123816490e-01) - k * 1.90821492927058770002e-10;
+  scale = bits_of<double>((bits_of<std::uint64_t>(shifted) + 1023) << 52);
+}
+BOTSCHOOL_INLINE void split_by_ln2(float x, float& rest, float& scale) {
+  const float magic = 12582912.0f;
+  const float shifted = x * 1.44269504f + magic;
+  const float k = shifted - magic;
+  rest = (x - k * 0.693145751953125f) - k * 1.42860677e-06f;
+  scale = bits_of<float>((bits_of<std::uint32_t>(shifted) + 127) << 23);
+}
+
+/// exp(r) - 1 for |r| <= ln 2 / 2.
+BOTSCHOOL_INLINE double expm1_series(double r) {
+  double p = 1.0 / 6227020800.0;
+  p = p * r + 1.0 / 479001600.0;
+  p = p * r + 1.0 / 39916800.0;
+  p = p * r + 1.0 / 3628800.0;
+  p = p * r + 1.0 / 362880.0;
+  p = p * r + 1.0 / 40320.0;
+  p = p * r + 1.0 / 5040.0;
+  p = p * r + 1.0 / 720.0;
+  p = p * r + 1.0 / 120.0;
+  p = p * r + 1.0 / 24.0;
+  p = p * r + 1.0 / 6.0;
+  p = p * r + 0.5;
+  return (p * r) * r + r;
+}
+BOTSCHOOL_INLINE float expm1_series(float r) {
+  float p = 1.0f / 5040.0f;
+  p = p * r + 1.0f / 720.0f;
+  p = p * r + 1.0f / 120.0f;
+  p = p * r + 1.0f / 24.0f;
+  p = p * r + 1.0f / 6.0f;
+  p = p * r + 0.5f;
+  return (p * r) * r + r;
+}
+
+/// Arguments past these give 0 and (nearly) the largest finite number.
+template <class T>
+constexpr T kExpLow = sizeof(T) == 8 ? T(-708) : T(-87);
+template <class T>
+constexpr T kExpHigh = sizeof(T) == 8 ? T(709) : T(88);
+
+template <class T>
+BOTSCHOOL_INLINE T exponential(T x) {
+  T rest, scale;
+  split_by_ln2(clamp(x, kExpLow<T>, kExpHigh<T>), rest, scale);
+  return scale * expm1_series(rest) + scale;
+}
+
+template <class T>
+BOTSCHOOL_INLINE T hyperbolic_tangent(T x) {
+  const T limit = sizeof(T) == 8 ? T(40) : T(20);
+  T rest, scale;
+  split_by_ln2(clamp(x + x, -limit, limit), rest, scale);
+  const T e = scale * expm1_series(rest) + (scale - T(1));
+  return e / (e + T(2));
+}
+
+template <class T>
+BOTSCHOOL_INLINE T logistic(T x) {
+  return T(1) / (T(1) + exponential(-x));
+}
+
+/// Nearest integer, as a double; |x| < 2^51.
+BOTSCHOOL_INLINE double nearest(double x) {
+  const double magic = 6755399441055744.0;
+  return (x + magic) - magic;
+}
+
+/// Sine and cosine; full precision for |x| up to about 10^6.
+BOTSCHOOL_INLINE void sine_cosine(double x, double& sine, double& cosine) {
+  const double magic = 6755399441055744.0;
+  const double shifted = x * (2.0 / kPi) + magic;
+  const double k = shifted - magic;
+  const std::uint64_t quadrant = bits_of<std::uint64_t>(shifted);
+  // pi / 2 in three parts, the first two with trailing zeros: k times each is exact
+  double r = x - k * 1.57079632673412561417e+00;
+  r -= k * 6.07710050630396597660e-11;
+  r -= k * 2.02226624879595063154e-21;
+  const double z = r * r;
+  double s = 1.0 / 355687428096000.0;
+  s = s * z - 1.0 / 1307674368000.0;
+  s = s * z + 1.0 / 6227020800.0;
+  s = s * z - 1.0 / 39916800.0;
+  s = s * z + 1.0 / 362880.0;
+  s = s * z - 1.0 / 5040.0;
+  s = s * z + 1.0 / 120.0;
+  s = s * z - 1.0 / 6.0;
+  s = (s * z) * r + r;
+  double c = -1.0 / 6402373705728000.0;
+  c = c * z + 1.0 / 20922789888000.0;
+  c = c * z - 1.0 / 87178291200.0;
+  c = c * z + 1.0 / 479001600.0;
+  c = c * z - 1.0 / 3628800.0;
+  c = c * z + 1.0 / 40320.0;
+  c = c * z - 1.0 / 720.0;
+  c = c * z + 1.0 / 24.0;
+  c = (c * z) * z + (1.0 - 0.5 * z);
+  const std::uint64_t swap = 0 - (quadrant & 1);
+  const std::uint64_t s_bits = bits_of<std::uint64_t>(s), c_bits = bits_of<std::uint64_t>(c);
+  sine = bits_of<double>(((s_bits & ~swap) | (c_bits & swap)) ^ ((quadrant & 2) << 62));
+  cosine = bits_of<double>(((c_bits & ~swap) | (s_bits & swap)) ^ (((quadrant + 1) & 2) << 62));
+}
+
+/// Natural logarithm of a positive normal number.
+BOTSCHOOL_INLINE double logarithm(double x) {
+  const std::uint64_t bits = bits_of<std::uint64_t>(x);
+  // the mantissa is taken to [sqrt(1/2), sqrt(2)), so that the series converges fast
+  const std::uint64_t offset = bits - 0x3fe6a09e667f3bcdull;
+  const std::uint64_t exponent = offset & 0xfff0000000000000ull;
+  const double mantissa = bits_of<double>(bits - exponent);
+  const double magic = 6755399441055744.0;
+  // an arithmetic shift by 52, done so that it vectorises: biased, then unbiased
+  const double k =
+      bits_of<double>(((exponent + 0x4000000000000000ull) >> 52) + 0x4338000000000000ull) - magic -
+      1024.0;
+  const double f = (mantissa - 1.0) / (mantissa + 1.0);
+  const double z = f * f;
+  double p = 1.0 / 21.0;
+  p = p * z + 1.0 / 19.0;
+  p = p * z + 1.0 / 17.0;
+  p = p * z + 1.0 / 15.0;
+  p = p * z + 1.0 / 13.0;
+  p = p * z + 1.0 / 11.0;
+  p = p * z + 1.0 / 9.0;
+  p = p * z + 1.0 / 7.0;
+  p = p * z + 1.0 / 5.0;
+  p = p * z + 1.0 / 3.0;
+  p = 2.0 * (f * z * p + f);
+  return k * 6.93147180369123816490e-01 + (p + k * 1.90821492927058770002e-10);
+}
+
+BOTSCHOOL_END
