@@ -1,0 +1,132 @@
+"""A policy: a network bound to a problem; observation -> action, genotype in and out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool.config import PolicyConfig
+from botschool.errors import BotschoolError
+from botschool.net import Network, NetworkSpec
+
+
+@dataclass(frozen=True)
+class Interface:
+    """What a problem asks of a policy."""
+
+    observations: int
+    """Values of an observation."""
+    outputs: int
+    """Actuators, or the number of actions of a discrete problem."""
+    discrete: bool
+    """Whether an action is the index of the most active output."""
+    low: float | None = -1.0
+    """Smallest action of every actuator; None where they differ or are unbounded."""
+    high: float | None = 1.0
+    morphology: int = 0
+    """Parameters of the body, at the end of the genotype."""
+
+
+class Policy:
+    """The policy that an experiment's [POLICY] describes, for one problem.
+
+    A genotype is a float64 vector of `genotype_size` parameters. A saved genotype of a normalised
+    policy is followed by all means, then all standard deviations (FACTS.md section 1).
+    """
+
+    def __init__(self, problem: str, interface: Interface, config: PolicyConfig) -> None:
+        if config.nrobots != 1:
+            raise BotschoolError(f"{problem} has one robot: set nrobots = 1, not {config.nrobots}.")
+        if config.nbins > 1 and interface.discrete:
+            raise BotschoolError(
+                f"{problem} has discrete actions, which need no bins: set nbins = 1."
+            )
+        if config.nbins > 1 and (interface.low is None or interface.high is None):
+            raise BotschoolError(
+                f"The actuators of {problem} have no common finite range, so its actions cannot "
+                "be binned: set nbins = 1."
+            )
+        self.interface = interface
+        self.config = config
+        try:
+            self.spec = NetworkSpec(
+                inputs=interface.observations,
+                outputs=interface.outputs,
+                nhiddens=config.nhiddens,
+                nlayers=config.nlayers,
+                nhiddens2=config.nhiddens2,
+                bias=config.bias,
+                architecture=config.architecture,
+                afunction=config.afunction,
+                out_type=config.out_type,
+                winit=config.winit,
+                clip=config.clip,
+                normalize=config.normalize,
+                action_noise=config.action_noise,
+                action_noise_range=config.action_noise_range,
+                wrange=config.wrange,
+                nbins=config.nbins,
+                low=-1.0 if interface.low is None else interface.low,
+                high=1.0 if interface.high is None else interface.high,
+            )
+        except ValueError as error:
+            raise BotschoolError(f"The network for {problem} cannot be built: {error}") from None
+        self.network = Network(self.spec)
+        self._nparameters = len(self.network.parameters)
+
+    @property
+    def genotype_size(self) -> int:
+        """Parameters of the network and of the body."""
+        return self._nparameters + self.interface.morphology
+
+    def initial(self, seed: int, index: int = 0) -> np.ndarray:
+        """A random genotype, shape (genotype_size,); each (seed, index) gives another."""
+        self.network.seed(seed, index)
+        return np.concatenate([self.network.initialise(), np.zeros(self.interface.morphology)])
+
+    def split(self, saved: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+        """A saved genotype -> (genotype, normalisation vectors or None).
+
+        Raises BotschoolError when its length is not what this policy needs.
+        """
+        saved = np.asarray(saved)
+        vectors = 2 * self.spec.inputs if self.spec.normalize else 0
+        expected = self.genotype_size + vectors
+        if saved.dtype.kind not in "fiu" or saved.shape != (expected,):
+            parts = f" ({self.genotype_size} parameters, {vectors} for normalisation)"
+            raise BotschoolError(
+                f"The genotype has shape {saved.shape}, but this experiment needs {expected} "
+                f"values{parts if vectors else ''}: it was saved with other [POLICY] settings."
+            )
+        saved = saved.astype(np.float64)
+        if not np.all(np.isfinite(saved)):
+            raise BotschoolError("The genotype holds values that are not finite numbers.")
+        if not vectors:
+            return saved, None
+        if np.any(saved[-self.spec.inputs :] <= 0):
+            raise BotschoolError("The genotype's standard deviations must be above 0.")
+        return saved[: self.genotype_size], saved[self.genotype_size :]
+
+    def join(self, genotype: np.ndarray, normalisation: np.ndarray | None) -> np.ndarray:
+        """What is saved: the reverse of `split`."""
+        return genotype.copy() if normalisation is None else np.append(genotype, normalisation)
+
+    def load(self, genotype: np.ndarray, normalisation: np.ndarray | None) -> None:
+        """Puts a genotype (and normalisation vectors) into the network."""
+        self.network.parameters[:] = genotype[: self._nparameters]
+        if normalisation is not None:
+            self.network.normalisation = normalisation
+
+    def reset(self, seed: int, episode: int) -> None:
+        """Start of an episode; its action noise depends on (seed, episode) alone."""
+        self.network.seed(seed, episode)
+        self.network.reset()
+
+    def act(self, observation: np.ndarray) -> np.ndarray | int:
+        """The action: an index for a discrete problem, else float32 of shape (outputs,)."""
+        self.network.observation[:] = observation
+        action = self.network.step()
+        if self.interface.discrete:
+            return int(np.argmax(action))
+        return action.astype(np.float32)
