@@ -76,10 +76,9 @@ class Rollout {
     auto* bytes = static_cast<unsigned char*>(workspace);
     Memory memory;
     const std::size_t used = memory.carve(layout, reinterpret_cast<Real*>(bytes + kHeader));
-    auto* moments = reinterpret_cast<double*>(
-        bytes + kHeader + (used * sizeof(Real) + 63) / 64 * 64);
-    Rollout rollout(layout, jobs, queue, recorder, memory, moments,
-                    *new (bytes) Problem<L>());
+    auto* moments =
+        reinterpret_cast<double*>(bytes + kHeader + (used * sizeof(Real) + 63) / 64 * 64);
+    Rollout rollout(layout, jobs, queue, recorder, memory, moments, *new (bytes) Problem<L>());
     rollout.run();
   }
 

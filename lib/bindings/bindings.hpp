@@ -31,8 +31,7 @@ template <class T>
 nb::object to_numpy(std::vector<T>&& values, std::vector<std::size_t> shape) {
   auto* kept = new std::vector<T>(std::move(values));
   nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
-  return nb::cast(
-      nb::ndarray<nb::numpy, T>(kept->data(), shape.size(), shape.data(), owner));
+  return nb::cast(nb::ndarray<nb::numpy, T>(kept->data(), shape.size(), shape.data(), owner));
 }
 
 void bind_evonet(nb::module_& module);

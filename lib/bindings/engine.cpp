@@ -107,9 +107,10 @@ nb::dict record(const Engine& engine, Vector<const double> genotype,
   const std::int32_t candidate = 0;
   double fitness = 0;
   std::int32_t steps = 0;
-  const Jobs jobs{genotype.data(), genotype.size(),
-                  normalisation ? normalisation->data() : nullptr,
-                  &candidate, &seed, &episode, nullptr, limit, &fitness, &steps, nullptr};
+  const Jobs jobs{genotype.data(), genotype.size(), normalisation ? normalisation->data() : nullptr,
+                  &candidate,      &seed,           &episode,
+                  nullptr,         limit,           &fitness,
+                  &steps,          nullptr};
   Tape tape(engine);
   engine.record(jobs, tape);
   const std::size_t n = tape.reward.size();
@@ -154,8 +155,8 @@ void bind_engine(nb::module_& module) {
       .def("evaluate", &evaluate, nb::arg("genotypes"), nb::arg("normalisation").none(),
            nb::arg("candidates"), nb::arg("seeds"), nb::arg("episodes"), nb::arg("collect").none(),
            nb::arg("limit"), nb::arg("threads") = 1)
-      .def("record", &record, nb::arg("genotype"), nb::arg("normalisation").none(),
-           nb::arg("seed"), nb::arg("episode"), nb::arg("limit"));
+      .def("record", &record, nb::arg("genotype"), nb::arg("normalisation").none(), nb::arg("seed"),
+           nb::arg("episode"), nb::arg("limit"));
 
   nb::class_<Stepper>(module, "Stepper")
       .def("start", &Stepper::start, nb::arg("seed"), nb::arg("episode") = 0)

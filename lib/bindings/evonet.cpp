@@ -106,23 +106,27 @@ void bind_evonet(nb::module_& module) {
       .def_prop_ro("nactions", &Evonet::actions)
       .def_prop_ro("nneurons", &Evonet::neurons)
       .def("seed", &Evonet::seed)
-      .def("initialise",
-           [](const Evonet& net, Doubles parameters) {
-             expect_size(parameters, net.parameters(), "the parameters vector");
-             net.initialise(parameters.data());
-           }, nb::arg().noconvert())
+      .def(
+          "initialise",
+          [](const Evonet& net, Doubles parameters) {
+            expect_size(parameters, net.parameters(), "the parameters vector");
+            net.initialise(parameters.data());
+          },
+          nb::arg().noconvert())
       .def("reset", &Evonet::reset)
       .def("step", &step, nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
            nb::arg().noconvert())
       .def("step_single", &step_single, nb::arg().noconvert(), nb::arg().noconvert(),
            nb::arg().noconvert(), nb::arg().noconvert())
       .def_rw("collecting", &Evonet::collecting)
-      .def_prop_ro("moments", [](Evonet& net) -> Moments& { return net.moments; },
-                   nb::rv_policy::reference_internal)
-      .def("set_normalisation", [](Evonet& net, ConstDoubles values) {
-        expect_size(values, net.normalisation.size(), "the normalisation vector");
-        net.normalisation.assign(values.data(), values.data() + values.size());
-      })
+      .def_prop_ro(
+          "moments", [](Evonet& net) -> Moments& { return net.moments; },
+          nb::rv_policy::reference_internal)
+      .def("set_normalisation",
+           [](Evonet& net, ConstDoubles values) {
+             expect_size(values, net.normalisation.size(), "the normalisation vector");
+             net.normalisation.assign(values.data(), values.data() + values.size());
+           })
       .def("get_normalisation", [](const Evonet& net) {
         return to_numpy(std::vector<double>(net.normalisation), {net.normalisation.size()});
       });

@@ -63,7 +63,8 @@ class Brain {
 
   /// Puts a genotype into a lane; `normalisation` is all means, then all deviations, or null.
   void load(int lane, const double* genotype, const double* normalisation) {
-    for (int i = 0; i < l_.parameters; ++i) m_.parameters[i * L + lane] = static_cast<T>(genotype[i]);
+    for (int i = 0; i < l_.parameters; ++i)
+      m_.parameters[i * L + lane] = static_cast<T>(genotype[i]);
     for (int i = 0; i < l_.spec.inputs; ++i) {
       m_.mean[i * L + lane] = normalisation ? static_cast<T>(normalisation[i]) : T(0);
       m_.deviation[i * L + lane] =
@@ -75,9 +76,9 @@ class Brain {
   /// Standard deviations of the action noise, from the parameters of the lane.
   void set_noise(int lane) {
     for (int o = 0; o < l_.spec.outputs; ++o)
-      m_.noise[o * L + lane] =
-          l_.deviations >= 0 ? exponential(m_.parameters[(l_.deviations + o) * L + lane])
-                             : static_cast<T>(l_.spec.action_noise_range);
+      m_.noise[o * L + lane] = l_.deviations >= 0
+                                   ? exponential(m_.parameters[(l_.deviations + o) * L + lane])
+                                   : static_cast<T>(l_.spec.action_noise_range);
   }
 
   /// Start of an episode: all activations and states are 0.
@@ -186,8 +187,7 @@ class Brain {
     for (int o = 0; o < l_.spec.outputs; ++o) {
       int winner[L];
       argmax(out + o * bins * L, bins, winner);
-      for (int l = 0; l < L; ++l)
-        m_.actions[o * L + l] = low + range * T(winner[l]) / T(bins - 1);
+      for (int l = 0; l < L; ++l) m_.actions[o * L + l] = low + range * T(winner[l]) / T(bins - 1);
     }
   }
 

@@ -58,7 +58,8 @@ void Evonet::seed(std::uint64_t seed, std::uint32_t episode) {
 
 void Evonet::initialise(double* parameters) const {
   for (int n = 0; n < (heterogeneous_ ? networks_ : 1); ++n)
-    initial_parameters(layout_, seed_, episode_ * networks_ + n, parameters + n * layout_.parameters);
+    initial_parameters(layout_, seed_, episode_ * networks_ + n,
+                       parameters + n * layout_.parameters);
 }
 
 void Evonet::reset() {

@@ -180,9 +180,12 @@ Layout make_layout(const Spec& spec) {
     neuron += size;
   }
   // an LSTM's read-out is linear whatever out_type says
-  l.layer[hidden_layers] = {neuron, l.outputs,
+  l.layer[hidden_layers] = {neuron,
+                            l.outputs,
                             spec.bias ? placer.take(l.outputs) : -1,
-                            gated ? int(linear_unit) : spec.out_type, 0, {}};
+                            gated ? int(linear_unit) : spec.out_type,
+                            0,
+                            {}};
   place_hidden_and_outputs(l, placer, hidden_layers);
   if (gated) {  // the hidden layer is updated through its gates
     l.layer[0] = l.layer[1];
@@ -202,8 +205,8 @@ void initial_parameters(const Layout& l, std::uint64_t seed, std::uint32_t index
   for (int i = 0; i < l.layers; ++i) {
     const bool output = i == l.layers - 1;
     // one block of a fully recurrent network has all its neurons as receivers
-    const int fan_out = l.spec.architecture == fully_recurrent ? l.hiddens + l.outputs
-                                                                : l.layer[i].neurons;
+    const int fan_out =
+        l.spec.architecture == fully_recurrent ? l.hiddens + l.outputs : l.layer[i].neurons;
     initial_layer(l, l.layer[i], fan_out, output, random, parameters);
   }
 }

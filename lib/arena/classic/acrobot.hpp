@@ -42,8 +42,8 @@ struct Acrobot {
     const double d1 = 0.25 + (1.25 + c2) + 2.0, d2 = (0.25 + 0.5 * c2) + 1.0;
     const double inverse = 1.0 / d1;
     const double phi2 = 0.5 * gravity * (s1 * c2 + c1 * s2);
-    const double phi1 = -0.5 * (omega2 * omega2) * s2 - (omega2 * omega1) * s2 +
-                        1.5 * gravity * s1 + phi2;
+    const double phi1 =
+        -0.5 * (omega2 * omega2) * s2 - (omega2 * omega1) * s2 + 1.5 * gravity * s1 + phi2;
     alpha2 = (torque + d2 * inverse * phi1 - 0.5 * (omega1 * omega1) * s2 - phi2) /
              (1.25 - d2 * d2 * inverse);
     alpha1 = -(d2 * alpha2 + phi1) * inverse;

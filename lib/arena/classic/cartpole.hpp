@@ -41,8 +41,8 @@ struct CartPole {
       state[2][l] = next_angle;
       state[3][l] = omega + dt * angular;
       reward[l] = 1.0;
-      ended[l] = (next_x < -2.4) | (next_x > 2.4) | (next_angle < -max_angle) |
-                 (next_angle > max_angle);
+      ended[l] =
+          (next_x < -2.4) | (next_x > 2.4) | (next_angle < -max_angle) | (next_angle > max_angle);
     }
   }
 };

@@ -37,8 +37,8 @@ struct Swingup {
       const double v = state[1][l], omega = state[3][l], s = sine[l], c = cosine[l];
       const double push = 10.0 * limited(action[l], -1.0, 1.0) - friction * v;
       const double spin = pole * length * (omega * omega) * s;
-      const double linear = (-2 * spin + 3 * pole * gravity * s * c + 4 * push) /
-                            (4 * mass - 3 * pole * (c * c));
+      const double linear =
+          (-2 * spin + 3 * pole * gravity * s * c + 4 * push) / (4 * mass - 3 * pole * (c * c));
       const double angular = (-3 * spin * c + 6 * mass * gravity * s + 6 * push * c) /
                              (4 * length * mass - 3 * pole * length * (c * c));
       state[0][l] += dt * v;
