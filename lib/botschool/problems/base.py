@@ -1,0 +1,121 @@
+"""What all problems have in common."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.policy import Interface, Policy
+from botschool.problems.moment import Moment
+
+
+class Interrupted(Exception):
+    """The evaluation was stopped on request; its results are dropped."""
+
+
+@dataclass
+class Episodes:
+    """A batch of episodes to evaluate; all arrays have shape (n,)."""
+
+    candidate: np.ndarray
+    """int32: rows of the genotypes."""
+    seed: np.ndarray
+    """uint64."""
+    episode: np.ndarray
+    """uint32: together with the seed, what is random in the episode."""
+    collect: np.ndarray | None = None
+    """uint8: 1 where the moments of the observations are wanted."""
+
+    @classmethod
+    def of(cls, seeds: np.ndarray, episodes: int) -> Episodes:
+        """`episodes` episodes of every candidate, candidate by candidate."""
+        n = len(seeds)
+        return cls(
+            np.repeat(np.arange(n, dtype=np.int32), episodes),
+            np.repeat(np.asarray(seeds, dtype=np.uint64), episodes),
+            np.tile(np.arange(episodes, dtype=np.uint32), n),
+        )
+
+    def part(self, chosen: slice) -> Episodes:
+        """Some of the episodes."""
+        collect = None if self.collect is None else self.collect[chosen]
+        return Episodes(self.candidate[chosen], self.seed[chosen], self.episode[chosen], collect)
+
+    def __len__(self) -> int:
+        return len(self.candidate)
+
+
+@dataclass
+class Outcome:
+    """What a batch of n episodes gave."""
+
+    fitness: np.ndarray
+    """float64, shape (n,): the return of each episode."""
+    steps: np.ndarray
+    """int32, shape (n,)."""
+    moments: np.ndarray | None = None
+    """float64, shape (n, 2 * observations): sums, then sums of squares of the raw observations."""
+
+
+class Problem(ABC):
+    """An environment and the way to evaluate policies on it."""
+
+    name: str
+    interface: Interface
+    limit: int | None
+    fps: float
+    native: bool
+    dynamics: str
+    """Name of the dynamics, by which pictures are drawn."""
+
+    @abstractmethod
+    def evaluate(
+        self,
+        policy: Policy,
+        genotypes: np.ndarray,
+        normalisation: np.ndarray | None,
+        episodes: Episodes,
+        maxsteps: int,
+        workers: int = 1,
+        stopping: Callable[[], bool] = lambda: False,
+    ) -> Outcome:
+        """Runs the episodes. The outcome is a pure function of the first five arguments.
+
+        genotypes: float64, shape (candidates, genotype_size). Raises `Interrupted` soon after
+        `stopping()` is true, and BotschoolError when the environment breaks down.
+        """
+
+    @abstractmethod
+    def play(
+        self,
+        policy: Policy,
+        genotype: np.ndarray,
+        normalisation: np.ndarray | None,
+        seed: int,
+        episode: int,
+        maxsteps: int,
+        render: bool = False,
+    ) -> Iterator[Moment]:
+        """Runs one episode, the same that `evaluate` runs, and yields every step.
+
+        With `render`, an environment in Python adds its pictures; those of native problems are
+        drawn from the state (botschool.render.scene).
+        """
+
+    def steps(self, maxsteps: int) -> int:
+        """Longest episode under an experiment's `maxsteps`."""
+        return maxsteps if self.limit is None else min(maxsteps, self.limit)
+
+    def broken(self, what: str, seed: int, episode: int) -> BotschoolError:
+        """The error for an environment that gives something that is no finite number."""
+        return BotschoolError(
+            f"{self.name} gave {what} in episode {episode} of seed {seed}: its simulation broke "
+            "down, so fitness cannot be measured; mend the environment or choose other bounds."
+        )
+
+    def close(self) -> None:
+        """Ends what evaluation has started (worker processes)."""

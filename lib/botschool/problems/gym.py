@@ -1,0 +1,193 @@
+"""Any Gymnasium environment as a problem: episodes run in Python, in worker processes with -w."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Iterator
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+
+from botschool.errors import BotschoolError
+from botschool.policy import Interface, Policy
+from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
+from botschool.problems.moment import Moment
+from botschool.problems.native import NATIVE
+
+SUPPORTED = (
+    "policies read flat observations (a Box of one dimension, Discrete, MultiDiscrete or "
+    "MultiBinary) and give Discrete actions or a Box of one dimension"
+)
+
+
+class GymProblem(Problem):
+    """A registered Gymnasium id (also `module:id`, which imports the module first)."""
+
+    native = False
+
+    def __init__(self, name: str) -> None:
+        self.name = self.dynamics = name
+        self._env = make_env(name)
+        self.limit = None if self._env.spec is None else self._env.spec.max_episode_steps
+        self.fps = self._env.metadata.get("render_fps") or 30
+        self._observation_space = self._env.observation_space
+        self.interface = self._interface()
+        self._pool = None
+
+    def _interface(self) -> Interface:
+        observed, acted = self._env.observation_space, self._env.action_space
+        if isinstance(observed, spaces.Box):
+            if len(observed.shape) != 1 or observed.dtype.kind not in "fiub":
+                kind = "images" if len(observed.shape) > 1 else f"{observed.dtype} values"
+                raise self._unsupported(f"observations are {kind} of shape {observed.shape}")
+        elif not isinstance(observed, (spaces.Discrete, spaces.MultiDiscrete, spaces.MultiBinary)):
+            raise self._unsupported(f"observations are a nested {type(observed).__name__} space")
+        size = spaces.flatdim(observed)
+        if isinstance(acted, spaces.Discrete):
+            return Interface(size, int(acted.n), discrete=True)
+        if not isinstance(acted, spaces.Box) or len(acted.shape) != 1:
+            raise self._unsupported(f"actions are {acted}")
+        low, high = np.unique(acted.low), np.unique(acted.high)
+        common = len(low) == len(high) == 1 and np.isfinite([low[0], high[0]]).all()
+        return Interface(
+            size,
+            acted.shape[0],
+            discrete=False,
+            low=float(low[0]) if common else None,
+            high=float(high[0]) if common else None,
+        )
+
+    def _unsupported(self, what: str) -> BotschoolError:
+        return BotschoolError(
+            f"{self.name} cannot be evolved: its {what}, but {SUPPORTED}; a gymnasium wrapper "
+            "can convert it."
+        )
+
+    def evaluate(
+        self,
+        policy: Policy,
+        genotypes: np.ndarray,
+        normalisation: np.ndarray | None,
+        episodes: Episodes,
+        maxsteps: int,
+        workers: int = 1,
+        stopping: Callable[[], bool] = lambda: False,
+    ) -> Outcome:
+        if workers > 1:
+            from botschool.problems.workers import Workers
+
+            if self._pool is None:
+                self._pool = Workers(self.name, policy.config, maxsteps, workers)
+            return self._pool.evaluate(genotypes, normalisation, episodes, stopping)
+        n, size = len(episodes), self.interface.observations
+        outcome = Outcome(np.zeros(n), np.zeros(n, dtype=np.int32))
+        if episodes.collect is not None:
+            outcome.moments = np.zeros((n, 2 * size))
+        for i in range(n):
+            if stopping():
+                raise Interrupted
+            policy.load(genotypes[episodes.candidate[i]], normalisation)
+            wanted = episodes.collect is not None and episodes.collect[i]
+            moments = outcome.moments[i] if wanted else None
+            seed, episode = int(episodes.seed[i]), int(episodes.episode[i])
+            for moment in self._episode(self._env, policy, seed, episode, maxsteps):
+                outcome.fitness[i] = moment.total
+                outcome.steps[i] = moment.step
+                if moments is not None:
+                    moments[:size] += moment.observation
+                    moments[size:] += moment.observation**2
+        return outcome
+
+    def play(
+        self,
+        policy: Policy,
+        genotype: np.ndarray,
+        normalisation: np.ndarray | None,
+        seed: int,
+        episode: int,
+        maxsteps: int,
+        render: bool = False,
+    ) -> Iterator[Moment]:
+        policy.load(genotype, normalisation)
+        env = make_env(self.name, render_mode="rgb_array") if render else self._env
+        for moment in self._episode(env, policy, seed, episode, maxsteps):
+            if render:
+                moment.frame = np.asarray(env.render())
+            yield moment
+        if render:
+            env.close()
+
+    def _episode(self, env, policy: Policy, seed: int, episode: int, maxsteps: int):
+        policy.reset(seed, episode)
+        start = int.from_bytes((seed + episode).to_bytes(9, "little")[:4], "little")
+        raw, _ = self._call(env.reset, "reset", seed=start)
+        total, space = 0.0, env.action_space
+        for step in range(1, self.steps(maxsteps) + 1):
+            observation = self._flat(raw, seed, episode)
+            action = policy.act(observation)
+            raw, reward, terminated, truncated, _ = self._call(
+                env.step, f"step {step}", _fitted(action, space)
+            )
+            reward = float(reward)
+            if not np.isfinite(reward):
+                raise self.broken(f"a reward of {reward} at step {step}", seed, episode)
+            total += reward
+            yield Moment(
+                step, reward, total, observation, np.atleast_1d(action), policy.network.activations
+            )
+            if terminated or truncated:
+                return
+
+    def _call(self, method, where: str, *arguments, **options):
+        try:
+            return method(*arguments, **options)
+        except Exception as error:
+            raise BotschoolError(
+                f"{self.name} raised {type(error).__name__} in {where}: {_sentence(error)}"
+            ) from error
+
+    def _flat(self, raw, seed: int, episode: int) -> np.ndarray:
+        observed = self._observation_space
+        flat = raw if isinstance(observed, spaces.Box) else spaces.flatten(observed, raw)
+        flat = np.asarray(flat, dtype=np.float32).astype(np.float64)
+        if not np.all(np.isfinite(flat)):
+            raise self.broken("an observation with NaN or infinity", seed, episode)
+        return flat
+
+    def close(self) -> None:
+        """Ends worker processes."""
+        if self._pool is not None:
+            self._pool.close()
+            self._pool = None
+
+
+def _fitted(action: np.ndarray | int, space):
+    """An action that the space contains: discrete ones start where it does, others are clipped."""
+    if isinstance(space, spaces.Discrete):
+        return space.start + action
+    return np.clip(np.nan_to_num(action), space.low, space.high).astype(space.dtype)
+
+
+def make_env(name: str, **options) -> gymnasium.Env:
+    """gymnasium.make with errors for learners."""
+    try:
+        return gymnasium.make(name, disable_env_checker=True, **options)
+    except gymnasium.error.DependencyNotInstalled as error:
+        raise BotschoolError(
+            f"{name} needs a package that is not installed: {_sentence(error)}"
+        ) from None
+    except (gymnasium.error.UnregisteredEnv, ModuleNotFoundError) as error:
+        if isinstance(error, ModuleNotFoundError) and ":" not in name:
+            raise BotschoolError(f"{name} needs a package: {_sentence(error)}") from None
+        known = [*NATIVE, *gymnasium.registry]
+        near = difflib.get_close_matches(name, known, n=1, cutoff=0.65)
+        hint = f"did you mean {near[0]}?" if near else "is the package that has it installed?"
+        raise BotschoolError(f"There is no environment '{name}'; {hint}") from None
+    except Exception as error:
+        raise BotschoolError(f"{name} cannot be made: {_sentence(error)}") from error
+
+
+def _sentence(error: Exception) -> str:
+    text = " ".join(str(error).split()) or type(error).__name__
+    return text if text.endswith(".") else text + "."

@@ -1,0 +1,123 @@
+"""Worker processes for problems whose episodes run in Python."""
+
+from __future__ import annotations
+
+import itertools
+import multiprocessing
+import signal
+from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+
+import numpy as np
+
+from botschool.config import PolicyConfig
+from botschool.errors import BotschoolError
+from botschool.problems.base import Episodes, Interrupted, Outcome
+
+# A batch is cut into this many chunks per worker: small enough to even out long episodes.
+CHUNKS = 4
+# How often the workers may die without finishing a single chunk.
+PATIENCE = 3
+
+
+class Workers:
+    """A pool of processes, each with its own environment and network.
+
+    A worker that dies is replaced and its episodes run again: they are pure functions of what was
+    sent, so the outcome is the same.
+    """
+
+    def __init__(self, name: str, config: PolicyConfig, maxsteps: int, workers: int) -> None:
+        self._name = name
+        self._arguments = (name, config, maxsteps)
+        self._workers = workers
+        self._pool: ProcessPoolExecutor | None = None
+
+    def evaluate(
+        self,
+        genotypes: np.ndarray,
+        normalisation: np.ndarray | None,
+        episodes: Episodes,
+        stopping: Callable[[], bool],
+    ) -> Outcome:
+        """See Problem.evaluate."""
+        count = min(len(episodes), self._workers * CHUNKS)
+        edges = np.linspace(0, len(episodes), count + 1).astype(int).tolist()
+        chunks = [slice(a, b) for a, b in itertools.pairwise(edges)]
+        done: dict[int, Outcome] = {}
+        deaths = 0
+        while len(done) < len(chunks):
+            before = len(done)
+            try:
+                self._run(chunks, done, genotypes, normalisation, episodes, stopping)
+            except BrokenProcessPool:
+                self.close()
+                deaths = 0 if len(done) > before else deaths + 1
+                if deaths == PATIENCE:
+                    raise BotschoolError(
+                        f"The worker processes of {self._name} died {PATIENCE} times in a row; "
+                        "run with -w 1 to see why, or with fewer workers if memory is short."
+                    ) from None
+        outcomes = [done[i] for i in range(len(chunks))]
+        moments = None
+        if episodes.collect is not None:
+            moments = np.concatenate([outcome.moments for outcome in outcomes])
+        return Outcome(
+            np.concatenate([outcome.fitness for outcome in outcomes]),
+            np.concatenate([outcome.steps for outcome in outcomes]),
+            moments,
+        )
+
+    def _run(self, chunks, done, genotypes, normalisation, episodes, stopping) -> None:
+        if self._pool is None:
+            self._pool = ProcessPoolExecutor(
+                self._workers,
+                mp_context=multiprocessing.get_context("spawn"),
+                initializer=_start,
+                initargs=self._arguments,
+            )
+        running = {}
+        for i, chunk in enumerate(chunks):
+            if i in done:
+                continue
+            part = episodes.part(chunk)
+            used, part.candidate = np.unique(part.candidate, return_inverse=True)
+            future = self._pool.submit(_evaluate, genotypes[used], normalisation, part)
+            running[future] = i
+        while running:
+            finished, _ = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)
+            for future in finished:
+                done[running.pop(future)] = future.result()
+            if stopping():
+                for future in running:
+                    future.cancel()
+                raise Interrupted
+
+    def close(self) -> None:
+        """Ends the processes without waiting for unfinished episodes."""
+        if self._pool is None:
+            return
+        processes = list((self._pool._processes or {}).values())
+        self._pool.shutdown(wait=False, cancel_futures=True)
+        for process in processes:
+            process.terminate()
+        self._pool = None
+
+
+_worker: tuple | None = None
+
+
+def _start(name: str, config: PolicyConfig, maxsteps: int) -> None:
+    global _worker
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the main process's affair
+    from botschool import problems
+    from botschool.policy import Policy
+
+    problem = problems.make(name)
+    _worker = (problem, Policy(name, problem.interface, config), maxsteps)
+
+
+def _evaluate(genotypes: np.ndarray, normalisation, episodes: Episodes) -> Outcome:
+    problem, policy, maxsteps = _worker
+    return problem.evaluate(policy, genotypes, normalisation, episodes, maxsteps)
