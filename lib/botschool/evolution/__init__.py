@@ -1,0 +1,1 @@
+"""Evolutionary algorithms: one readable file each, and the loop that runs them."""

@@ -1,0 +1,63 @@
+"""Checkpoints: everything a run needs to go on as if it had never stopped."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from pathlib import Path
+
+import numpy as np
+
+from botschool.config import Experiment, to_dict
+from botschool.errors import BotschoolError
+from botschool.output import save_npz
+
+FORMAT = 1
+FREE = {("algo", "maxmsteps"), ("algo", "saveeach")}
+"""Hyperparameters that may change between a run and its continuation."""
+
+
+def save(path: Path, experiment: Experiment, seed: int, state: dict[str, np.ndarray]) -> None:
+    """Writes a checkpoint atomically; state is arrays only."""
+    header = {"format": FORMAT, "seed": seed, "experiment": to_dict(experiment)}
+    save_npz(path, {"botschool": np.array(json.dumps(header)), **state})
+
+
+def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]:
+    """The state of a checkpoint of this experiment and seed.
+
+    Raises BotschoolError when the file is damaged or belongs to another experiment or seed.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            state = {name: file[name] for name in file.files}
+        header = json.loads(str(state.pop("botschool")))
+        saved = header["experiment"]
+        if header["format"] != FORMAT:
+            raise BotschoolError(
+                f"{path} was written by another version of botschool: use that one, or --force "
+                "to start anew."
+            )
+    except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
+        raise BotschoolError(
+            f"{path} is no complete checkpoint of botschool ({_reason(error)}): restore it from a "
+            "copy, or use --force to start anew."
+        ) from None
+    if header["seed"] != seed:
+        raise BotschoolError(f"{path} is a checkpoint of seed {header['seed']}, not of {seed}.")
+    now = to_dict(experiment)
+    for section, keys in now.items():
+        for key, value in keys.items():
+            before = saved.get(section, {}).get(key)
+            if (section, key) not in FREE and before != value:
+                raise BotschoolError(
+                    f"{path} belongs to an experiment with {key} = {before}, but {key} is now "
+                    f"{value}: change it back to resume, or use --force to start anew."
+                )
+    return state
+
+
+def _reason(error: Exception) -> str:
+    if isinstance(error, KeyError):
+        return "parts are missing"
+    return "it is damaged or of another kind"

@@ -1,0 +1,112 @@
+"""Who computes fitness: candidates in, mean returns out; and post-evaluation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool import _core
+from botschool.policy import Policy
+from botschool.problems import Episodes, Outcome, Problem
+
+POST_EVALUATION_SEED = 100_000
+"""Post-evaluation of a run with seed S uses seed S + 100000 and episodes 0, 1, ..."""
+COLLECTED = 0.01
+"""Share of the evaluation episodes in which normalisation data are collected."""
+
+
+@dataclass
+class Measured:
+    """Fitness of each candidate, and the steps that measuring took."""
+
+    fitness: np.ndarray
+    steps: int
+
+
+class Evaluator:
+    """Measures candidates of one policy on one problem.
+
+    Holds the normalisation: its statistics grow in post-evaluations only, and the vectors in use
+    change only in `refresh()`, once a generation (FACTS.md section 1).
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        policy: Policy,
+        seed: int,
+        workers: int = 1,
+        stopping: Callable[[], bool] = lambda: False,
+    ) -> None:
+        self.problem = problem
+        self.policy = policy
+        self.seed = seed
+        self._workers = workers
+        self._stopping = stopping
+        self._moments = _core.Moments(policy.spec.inputs) if policy.spec.normalize else None
+        self.normalisation = None
+        if self._moments is not None:
+            self.normalisation = np.repeat([0.0, 1.0], policy.spec.inputs)
+        self._owed = 0.0
+
+    def measure(self, candidates: np.ndarray, seeds: np.ndarray) -> Measured:
+        """Mean return of every candidate over `episodes` episodes; shape (candidates,)."""
+        episodes = self.policy.config.episodes
+        outcome = self._run(candidates, Episodes.of(seeds, episodes))
+        # summed episode by episode: the same bits on every machine
+        total = np.add.reduce(outcome.fitness.reshape(-1, episodes).T, axis=0)
+        self._owed += COLLECTED * len(outcome.fitness)
+        return Measured(total / episodes, int(outcome.steps.sum()))
+
+    def post_evaluate(self, genotype: np.ndarray) -> Measured:
+        """Return of one genotype in each of `pepisodes` fixed episodes; shape (pepisodes,).
+
+        The first of them also collect normalisation data while the share collected so far is
+        below 1 % of the evaluation episodes.
+        """
+        episodes = Episodes.of([self.seed + POST_EVALUATION_SEED], self.policy.config.pepisodes)
+        collecting = 0
+        if self._moments is not None:
+            collecting = min(int(np.ceil(self._owed - 1e-9)), len(episodes))
+            self._owed -= collecting
+            episodes.collect = (np.arange(len(episodes)) < collecting).astype(np.uint8)
+        outcome = self._run(genotype[None], episodes)
+        for i in range(collecting):
+            sums, squares = np.split(outcome.moments[i], 2)
+            self._moments.add(float(outcome.steps[i]), sums, squares)
+        return Measured(outcome.fitness, int(outcome.steps.sum()))
+
+    def refresh(self) -> None:
+        """Takes the statistics collected so far into use."""
+        if self._moments is not None:
+            self.normalisation = self._moments.vectors()
+
+    def _run(self, genotypes: np.ndarray, episodes: Episodes) -> Outcome:
+        return self.problem.evaluate(
+            self.policy,
+            genotypes,
+            self.normalisation,
+            episodes,
+            self.policy.config.maxsteps,
+            self._workers,
+            self._stopping,
+        )
+
+    def state(self) -> dict[str, np.ndarray]:
+        """What a checkpoint needs."""
+        if self._moments is None:
+            return {}
+        return {
+            "moments": self._moments.state,
+            "normalisation": self.normalisation,
+            "owed": np.array(self._owed),
+        }
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """The reverse of state()."""
+        if self._moments is not None:
+            self._moments.state = state["moments"]
+            self.normalisation = state["normalisation"]
+            self._owed = float(state["owed"])

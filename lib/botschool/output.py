@@ -1,0 +1,80 @@
+"""Output files: whole or absent, and one sentence when they cannot be written."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+
+
+def check_output(path: Path | str, suffixes: Sequence[str]) -> Path:
+    """The path, if a file of one of these kinds (lower-case, as ".png") can lie there.
+
+    Raises BotschoolError otherwise.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in suffixes:
+        raise BotschoolError(
+            f"{path} cannot be written: its name must end with one of {', '.join(suffixes)}."
+        )
+    if path.is_dir():
+        raise BotschoolError(f"{path} is a folder: name a file instead.")
+    if not path.parent.is_dir():
+        raise BotschoolError(
+            f"{path} cannot be written: there is no folder {path.parent}, so create it first."
+        )
+    if not os.access(path.parent, os.W_OK):
+        raise cannot_write(path, f"no permission to write in {path.parent}")
+    return path
+
+
+def cannot_write(path: Path | str, reason: str) -> BotschoolError:
+    """The exception that says so."""
+    return BotschoolError(
+        f"{path} cannot be written ({reason}): free some space or choose another folder."
+    )
+
+
+@contextmanager
+def written_whole(path: Path | str) -> Iterator[Path]:
+    """Gives a temporary path beside `path`; what is written there takes its name at the end.
+
+    When the block fails nothing is left behind, an earlier `path` stays as it was, and the
+    block's exception goes on. Raises BotschoolError if the file cannot be completed.
+    """
+    path = Path(path)
+    temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    try:
+        yield temporary
+        try:
+            with open(temporary, "rb+") as file:
+                os.fsync(file.fileno())
+            os.replace(temporary, path)
+        except OSError as error:
+            raise cannot_write(path, error.strerror or str(error)) from error
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def save_npy(path: Path, array: np.ndarray) -> None:
+    """np.save, whole or not at all. Raises BotschoolError."""
+    _save(path, lambda file: np.save(file, array, allow_pickle=False))
+
+
+def save_npz(path: Path, arrays: dict[str, np.ndarray]) -> None:
+    """np.savez, whole or not at all. Raises BotschoolError."""
+    _save(path, lambda file: np.savez(file, **arrays))
+
+
+def _save(path: Path, write: Callable[[BinaryIO], None]) -> None:
+    try:
+        with written_whole(path) as temporary, open(temporary, "wb") as file:
+            write(file)
+    except OSError as error:
+        raise cannot_write(path, error.strerror or str(error)) from error
