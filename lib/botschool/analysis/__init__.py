@@ -1,0 +1,1 @@
+"""Looking at the results of runs: their files, their curves, their averages."""

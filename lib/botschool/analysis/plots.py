@@ -1,0 +1,323 @@
+"""Pictures of results: learning curves and averages over replications."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from botschool.analysis.runs import (
+    BEST_POST,
+    GENERATION_AVERAGE,
+    GENERATION_BEST,
+    STEPS,
+    Warn,
+    read_curves,
+    read_fitness,
+    read_stat,
+    seed_of,
+    warn,
+)
+from botschool.errors import BotschoolError
+from botschool.output import cannot_write, check_output, written_whole
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+PICTURE_SUFFIXES = (".png", ".svg", ".pdf", ".jpg")
+MAX_POINTS = 1000
+"""Points of a curve that are drawn at most; longer curves are thinned."""
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+"""Okabe and Ito's palette: its colours differ for colour-blind readers too."""
+
+FITNESS = "fitness (mean return of an episode)"
+
+Curves = dict[int, np.ndarray]
+"""Seed -> (generations, 6)."""
+
+
+def plot_stat(
+    targets: Sequence[Path | str], output: Path | str | None = None, warn: Warn = warn
+) -> None:
+    """Draws fitness against steps for stat files and for all runs of folders.
+
+    One run gives three curves. The runs of one folder give the mean and a band of one standard
+    deviation, with the single runs as thin lines; several folders are told apart by colour.
+    Drawn on the screen, or to the picture file `output`. A damaged stat file is an error if it
+    was named and is left out with a warning if its folder was. Raises BotschoolError.
+    """
+    experiments = _read_targets(targets, warn)
+    with _figure(output) as figure:
+        axes = figure.add_subplot()
+        if len(experiments) > 1:
+            for (name, curves), colour in zip(experiments.items(), _cycle(), strict=False):
+                _draw_group(axes, curves, BEST_POST, colour, f"{name}, {_of_runs(curves)}")
+            _finish(axes, "best post-evaluated so far")
+            return
+        [(name, curves)] = experiments.items()
+        if len(curves) == 1:
+            [seed] = curves
+            _draw_run(axes, curves[seed])
+            _finish(axes, f"{name}, seed {seed}" if seed >= 0 else name)
+        else:
+            runs = _of_runs(curves)
+            _draw_mean(
+                axes, curves, GENERATION_AVERAGE, COLOURS[1], f"average of the generation, {runs}"
+            )
+            _draw_group(axes, curves, BEST_POST, COLOURS[0], f"best post-evaluated so far, {runs}")
+            _finish(axes, name)
+
+
+def plot_ave(
+    targets: Sequence[Path | str], output: Path | str | None = None, warn: Warn = warn
+) -> None:
+    """Prints and draws mean, standard deviation (n - 1) and n of the best post-evaluated fitness.
+
+    One row and one bar for each folder of runs, with a dot for each run. The table is printed
+    before the picture is tried. Raises BotschoolError.
+    """
+    folders = [Path(target) for target in targets]
+    if output is not None:
+        check_output(output, PICTURE_SUFFIXES)
+    fitness = {
+        name: np.array(list(read_fitness(folder, warn).values()))
+        for name, folder in _named(folders).items()
+    }
+    _print_table(fitness)
+    with _figure(output, height=max(5.0, 1.6 + 0.6 * len(fitness))) as figure:
+        _draw_bars(figure.add_subplot(), fitness)
+
+
+def _read_targets(targets: Sequence[Path | str], warn: Warn) -> dict[str, Curves]:
+    """Name -> curves, for each folder; the stat files named are grouped by their folder."""
+    curves: dict[Path, Curves] = {}
+    for target in map(Path, targets):
+        if target.is_dir() or target.suffix != ".npy":
+            curves.setdefault(target, {}).update(read_curves(target, warn))
+        else:
+            group = curves.setdefault(target.parent, {})
+            seed = seed_of(target)
+            group[-1 - len(group) if seed is None else seed] = read_stat(target)
+    return {name: curves[folder] for name, folder in _named(list(curves)).items()}
+
+
+def _named(folders: Sequence[Path]) -> dict[str, Path]:
+    """Shortest names that tell the folders apart: "acrobot", or "old/acrobot" if need be."""
+    if not folders:
+        raise BotschoolError("nothing to show: name at least one folder of runs.")
+    resolved = {folder.resolve(): folder for folder in folders}
+    for parts in range(1, max(len(folder.parts) for folder in resolved) + 1):
+        names = {"/".join(full.parts[-parts:]): folder for full, folder in resolved.items()}
+        if len(names) == len(resolved):
+            break
+    return names
+
+
+def _cycle() -> Iterator[str]:
+    while True:
+        yield from COLOURS
+
+
+def _layout(height: float) -> dict[str, object]:
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    engine = ConstrainedLayoutEngine(w_pad=0.12, h_pad=0.12)
+    return {"figsize": (8.0, height), "dpi": 100, "layout": engine}
+
+
+@contextmanager
+def _figure(output: Path | str | None, height: float = 5.0) -> Iterator[Figure]:
+    """A figure of 8 inches by `height`, shown or written when the block ends."""
+    if output is None:
+        with _shown_figure(height) as figure:
+            yield figure
+        return
+    from matplotlib.figure import Figure
+
+    output = check_output(output, PICTURE_SUFFIXES)
+    figure = Figure(**_layout(height))
+    yield figure
+    with written_whole(output) as temporary:
+        try:
+            figure.savefig(temporary, format=output.suffix[1:].lower())
+        except OSError as error:
+            raise cannot_write(output, error.strerror or str(error)) from error
+
+
+@contextmanager
+def _shown_figure(height: float) -> Iterator[Figure]:
+    import matplotlib
+    from matplotlib import pyplot
+
+    headless = BotschoolError(
+        "there is no display to show the picture on: write it to a file with `-o FILE.png`."
+    )
+    try:
+        figure = pyplot.figure(**_layout(height))
+    except Exception as error:  # each window toolkit raises its own kind
+        raise headless from error
+    try:
+        if matplotlib.get_backend().lower() in ("agg", "cairo", "pdf", "pgf", "ps", "svg"):
+            raise headless
+        yield figure
+        pyplot.show()
+    finally:
+        pyplot.close(figure)
+
+
+def _draw_run(axes: Axes, stat: np.ndarray) -> None:
+    stat = _thinned(stat)
+    marker = "o" if len(stat) == 1 else None
+    for column, colour, width, label in (
+        (GENERATION_BEST, "#BBBBBB", 0.8, "best of the generation"),
+        (GENERATION_AVERAGE, COLOURS[1], 1.1, "average of the generation"),
+        (BEST_POST, COLOURS[0], 2.2, "best post-evaluated so far"),
+    ):
+        fitness = _finite(stat[:, column])
+        axes.plot(stat[:, STEPS], fitness, color=colour, lw=width, marker=marker, label=label)
+
+
+def _draw_group(axes: Axes, curves: Curves, column: int, colour: str, label: str) -> None:
+    """The mean and band of several runs, and each of them as a thin line."""
+    single = len(curves) == 1
+    for stat in curves.values():
+        marker = "o" if len(stat) == 1 else None
+        stat = _thinned(stat)
+        axes.plot(
+            stat[:, STEPS],
+            _finite(stat[:, column]),
+            color=colour,
+            lw=2.2 if single else 0.7,
+            alpha=1.0 if single else 0.4,
+            marker=marker,
+            markersize=4,
+            label=label if single else None,
+        )
+    if not single:
+        _draw_mean(axes, curves, column, colour, label)
+
+
+def _draw_mean(axes: Axes, curves: Curves, column: int, colour: str, label: str) -> None:
+    steps, mean, sd = replication_mean(curves.values(), column)
+    axes.fill_between(steps, mean - sd, mean + sd, color=colour, alpha=0.18, lw=0)
+    axes.plot(steps, mean, color=colour, lw=2.2, label=label)
+
+
+def replication_mean(
+    stats: Sequence[np.ndarray], column: int, points: int = 500
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mean and standard deviation (n - 1) of one column over replications, on common steps.
+
+    Each run, (generations, 6), is interpolated linearly between its generations, and counts only
+    from its first to its last one. Returns steps, mean and sd, each (points,), NaN where fewer
+    than two runs, or than half of them, count.
+    """
+    stats = list(stats)
+    grid = np.linspace(
+        min(stat[0, STEPS] for stat in stats), max(stat[-1, STEPS] for stat in stats), points
+    )
+    values = np.full((len(stats), points), np.nan)
+    for row, stat in zip(values, stats, strict=True):
+        known = stat[np.isfinite(stat[:, column])]
+        if len(known):
+            row[:] = np.interp(grid, known[:, STEPS], known[:, column], left=np.nan, right=np.nan)
+    count = np.isfinite(values).sum(axis=0)
+    enough = count >= max(2, (len(stats) + 1) // 2)
+    mean, sd = np.full(points, np.nan), np.full(points, np.nan)
+    mean[enough] = np.nanmean(values[:, enough], axis=0)
+    sd[enough] = np.nanstd(values[:, enough], axis=0, ddof=1)
+    return grid, mean, sd
+
+
+def _of_runs(curves: Curves) -> str:
+    return "1 run" if len(curves) == 1 else f"mean \u00b1 sd of {len(curves)} runs"
+
+
+def _thinned(stat: np.ndarray) -> np.ndarray:
+    if len(stat) <= MAX_POINTS:
+        return stat
+    return stat[np.linspace(0, len(stat) - 1, MAX_POINTS).astype(int)]
+
+
+def _finite(fitness: np.ndarray) -> np.ndarray:
+    return np.where(np.isfinite(fitness), fitness, np.nan)
+
+
+def _finish(axes: Axes, title: str) -> None:
+    axes.set_title(title)
+    axes.set_xlabel("steps")
+    axes.set_ylabel(FITNESS)
+    axes.set_xlim(left=0.0)
+    axes.xaxis.set_major_formatter(lambda steps, _position: format_steps(steps))
+    axes.ticklabel_format(axis="y", useOffset=False)
+    axes.grid(color="#DDDDDD", lw=0.6)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)
+    handles, labels = axes.get_legend_handles_labels()
+    axes.legend(handles[::-1], labels[::-1], frameon=False)
+
+
+def format_steps(steps: float) -> str:
+    """1500 -> "1.5k", 2e6 -> "2M"."""
+    for unit, size in (("G", 1e9), ("M", 1e6), ("k", 1e3)):
+        if abs(steps) >= size:
+            return f"{steps / size:.6g}{unit}"
+    return f"{steps:.6g}"
+
+
+def _print_table(fitness: dict[str, np.ndarray]) -> None:
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title="best post-evaluated fitness", box=box.SIMPLE, title_justify="left")
+    table.add_column("experiment", overflow="fold")
+    for column in ("mean", "sd", "n", "min", "max"):
+        table.add_column(column, justify="right", no_wrap=True)
+    for name, values in fitness.items():
+        numbers = (values.mean(), _sd(values), len(values), values.min(), values.max())
+        table.add_row(name, *(_number(number) for number in numbers))
+    Console(highlight=False).print(table)
+
+
+def _sd(values: np.ndarray) -> float:
+    return float(values.std(ddof=1)) if len(values) > 1 else float("nan")
+
+
+def _number(value: float) -> str:
+    if isinstance(value, int):
+        return str(value)
+    if np.isnan(value):
+        return "-"
+    decimals = 1 if abs(value) >= 100 else 2 if abs(value) >= 1 else 4
+    return f"{value:.{decimals}f}"
+
+
+def _draw_bars(axes: Axes, fitness: dict[str, np.ndarray]) -> None:
+    labels = []
+    for row, ((name, values), colour) in enumerate(zip(fitness.items(), _cycle(), strict=False)):
+        mean, sd = values.mean(), _sd(values)
+        axes.barh(row, mean, height=0.6, color=colour, alpha=0.45)
+        spread = 0.2 * np.sin(1.0 + 2.4 * np.arange(len(values)))
+        axes.plot(values, row + spread, "o", color=colour, mec="white", mew=0.6, ms=6)
+        plus_minus = ""
+        if len(values) > 1:
+            axes.errorbar(mean, row, xerr=sd, color="black", capsize=6, lw=1.5, zorder=3)
+            plus_minus = f" \u00b1 {_number(sd)}"
+        labels.append(f"{name}\n{_number(mean)}{plus_minus}  (n = {len(values)})")
+    axes.set_yticks(range(len(labels)), labels)
+    margin = 0.9 if len(labels) == 1 else 0.5
+    axes.set_ylim(len(labels) - 1 + margin, -margin)
+    axes.axvline(0.0, color="black", lw=0.8)
+    axes.set_title("best post-evaluated fitness, mean \u00b1 sd over runs")
+    axes.set_xlabel(FITNESS)
+    axes.ticklabel_format(axis="x", useOffset=False)
+    axes.grid(axis="x", color="#DDDDDD", lw=0.6)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right", "left"]].set_visible(False)
+    axes.tick_params(axis="y", length=0)

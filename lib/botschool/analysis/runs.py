@@ -1,0 +1,215 @@
+"""Reading the files that runs leave in a folder."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+
+STEPS, BEST, BEST_POST, GENERATION_BEST, GENERATION_AVERAGE, PARAMETER_SIZE = range(6)
+"""Columns of a stat file."""
+
+_RUN_FILE = re.compile(r"(?:(?P<kind>bestg|best|stat)S?(?P<seed>\d+)\.npy|S?(?P<fit>\d+)\.fit)")
+_MAGIC = b"\x93NUMPY"
+
+Warn = Callable[[str], None]
+
+
+def warn(sentence: str) -> None:
+    """Prints a notice on stderr."""
+    print(sentence, file=sys.stderr)
+
+
+@dataclass
+class Run:
+    """The files of one run; a path is None where there is no such file."""
+
+    seed: int
+    folder: Path
+    stat: Path | None = None
+    best: Path | None = None
+    """Best evaluated genotype."""
+    bestg: Path | None = None
+    """Best post-evaluated genotype."""
+    fit: dict[str, float | str] = field(default_factory=dict)
+    """What the .fit file says; empty without one."""
+
+    def best_post_evaluated(self) -> float:
+        """Best post-evaluated fitness: the .fit file's `bestgfit`, else the stat file's last one.
+
+        Raises BotschoolError if neither file tells it.
+        """
+        fitness = float("nan")
+        if self.fit:
+            fitness = float(self.fit["bestgfit"])
+        elif self.stat:
+            fitness = float(read_stat(self.stat)[-1, BEST_POST])
+        if not np.isfinite(fitness):
+            raise BotschoolError(
+                f"the run with seed {self.seed} in {self.folder} has no post-evaluated fitness "
+                "yet: let it run for some generations more."
+            )
+        return fitness
+
+
+def read_stat(path: Path | str) -> np.ndarray:
+    """The learning curve of one run.
+
+    Returns float64 of shape (generations, 6); the columns are those that STEPS to
+    PARAMETER_SIZE number. Raises BotschoolError if the file is missing or is no stat file;
+    Python objects in it are never loaded.
+    """
+    path = Path(path)
+    try:
+        with open(path, "rb") as file:
+            if file.read(len(_MAGIC)) != _MAGIC:
+                raise BotschoolError(f"{path} is no stat file: it is not in numpy's .npy format.")
+            file.seek(0)
+            numbers = np.lib.format.read_array(file, allow_pickle=False)
+    except FileNotFoundError as error:
+        raise BotschoolError(
+            f"there is no file {path}: name the statS<seed>.npy of a run, or its folder."
+        ) from error
+    except OSError as error:
+        raise BotschoolError(f"{path} cannot be read ({error.strerror or error}).") from error
+    except (ValueError, EOFError, MemoryError) as error:
+        raise BotschoolError(
+            f"{path} is no stat file, or is damaged: run the experiment again with this seed."
+        ) from error
+    if numbers.dtype.kind not in "fiu" or numbers.ndim not in (1, 2):
+        raise BotschoolError(f"{path} is no stat file: it does not hold a row of plain numbers.")
+    if numbers.size == 0:
+        raise BotschoolError(f"{path} holds no generation yet: let the run go on for a while.")
+    if numbers.size % 6 or (numbers.ndim == 2 and numbers.shape[1] != 6):
+        raise BotschoolError(
+            f"{path} is no stat file, or is damaged: "
+            f"its {numbers.size} numbers are not 6 for each generation."
+        )
+    stat = numbers.astype(np.float64).reshape(-1, 6)
+    steps = stat[:, STEPS]
+    if not np.isfinite(steps).all() or steps[0] < 0 or (np.diff(steps) < 0).any():
+        raise BotschoolError(
+            f"{path} is no stat file: the first of every 6 numbers should be the steps so far, "
+            "which only grow."
+        )
+    return stat
+
+
+def read_fit(path: Path | str) -> dict[str, float | str]:
+    """The `key value` pairs of a run's .fit file, numbers as float, `bestgfit` among them.
+
+    A part in brackets, as `(42.0%)`, is left out. Raises BotschoolError if the file is missing
+    or is no .fit file.
+    """
+    path = Path(path)
+    try:
+        words = re.sub(r"\([^)]*\)", " ", path.read_text(encoding="utf-8")).split()
+    except FileNotFoundError as error:
+        raise BotschoolError(f"there is no file {path}: name the .fit file of a run.") from error
+    except OSError as error:
+        raise BotschoolError(f"{path} cannot be read ({error.strerror or error}).") from error
+    except UnicodeDecodeError as error:
+        raise BotschoolError(f"{path} is no .fit file: it is not a line of text.") from error
+    pairs = {key: _number(value) for key, value in zip(words[::2], words[1::2], strict=False)}
+    if len(words) % 2 or not isinstance(pairs.get("bestgfit"), float):
+        raise BotschoolError(
+            f"{path} is no .fit file, or is damaged: "
+            "it should be a line of 'key value' pairs with a number for bestgfit."
+        )
+    return pairs
+
+
+def _number(word: str) -> float | str:
+    try:
+        return float(word)
+    except ValueError:
+        return word
+
+
+def find_runs(folder: Path | str, warn: Warn = warn) -> list[Run]:
+    """The runs whose files lie in a folder, by seed.
+
+    The seed is that of the file names: `statS11.npy` (or `stat11.npy`) belongs to seed 11. A .fit
+    file that cannot be read is left out after `warn` was called with a sentence. Raises
+    BotschoolError if there is no such folder or no run in it.
+    """
+    folder = Path(folder)
+    try:
+        paths = sorted(folder.iterdir())
+    except FileNotFoundError as error:
+        raise BotschoolError(f"there is no folder {folder}: check its name.") from error
+    except OSError as error:
+        raise BotschoolError(f"{folder} cannot be read ({error.strerror or error}).") from error
+    runs: dict[int, Run] = {}
+    for path in paths:
+        match = _RUN_FILE.fullmatch(path.name)
+        if not match:
+            continue
+        seed = int(match["seed"] or match["fit"])
+        run = runs.setdefault(seed, Run(seed, folder))
+        if match["kind"]:
+            setattr(run, match["kind"], path)
+            continue
+        try:
+            run.fit = read_fit(path)
+        except BotschoolError as error:
+            warn(f"skipped: {error}")
+    if not runs:
+        raise BotschoolError(
+            f"there are no runs in {folder}: evolve some with `botschool es -f FILE.ini -s SEED`."
+        )
+    return [runs[seed] for seed in sorted(runs)]
+
+
+def read_curves(folder: Path | str, warn: Warn = warn) -> dict[int, np.ndarray]:
+    """The learning curves of all runs in a folder: seed -> (generations, 6), as `read_stat`.
+
+    A stat file that cannot be read is left out after `warn` was called with a sentence. Raises
+    BotschoolError if none is left.
+    """
+    curves = {}
+    for run in find_runs(folder, warn):
+        if run.stat is None:
+            continue
+        try:
+            curves[run.seed] = read_stat(run.stat)
+        except BotschoolError as error:
+            warn(f"skipped: {error}")
+    if not curves:
+        raise BotschoolError(
+            f"there is no readable stat file in {folder}: name a folder with statS<seed>.npy files."
+        )
+    return curves
+
+
+def read_fitness(folder: Path | str, warn: Warn = warn) -> dict[int, float]:
+    """Best post-evaluated fitness of each run in a folder: seed -> fitness.
+
+    A run that does not tell it is left out after `warn` was called with a sentence. Raises
+    BotschoolError if none is left.
+    """
+    fitness = {}
+    for run in find_runs(folder, warn):
+        if not run.fit and run.stat is None:
+            continue
+        try:
+            fitness[run.seed] = run.best_post_evaluated()
+        except BotschoolError as error:
+            warn(f"skipped: {error}")
+    if not fitness:
+        raise BotschoolError(
+            f"no run in {folder} has a post-evaluated fitness: let one run for a while first."
+        )
+    return fitness
+
+
+def seed_of(stat: Path | str) -> int | None:
+    """The seed in a stat file's name, or None if the name has none."""
+    match = _RUN_FILE.fullmatch(Path(stat).name)
+    return int(match["seed"]) if match and match["kind"] == "stat" else None
