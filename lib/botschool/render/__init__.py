@@ -1,0 +1,1 @@
+"""Showing robots: frames of episodes, to a window or a video file."""

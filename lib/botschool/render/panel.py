@@ -1,0 +1,160 @@
+"""What is written and drawn beside a frame: the neurons' activations, and a caption."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from botschool.problems.moment import Moment
+from botschool.render.canvas import BLACK, GREY, WHITE, blank, to_frame, write_text
+
+if TYPE_CHECKING:
+    import pygame
+
+PANEL_WIDTH = 240
+PANEL_MIN_HEIGHT = 240
+CAPTION_HEIGHT = 26
+POSITIVE = (213, 94, 0)
+NEGATIVE = (0, 114, 178)
+"""Orange and blue: different for colour-blind readers too."""
+
+_MARGIN = 12
+_LABEL = 22
+_SCALE_BAR = 62
+_LARGEST_CELL = 43
+_CELL_WITH_NUMBER = 34
+
+
+def with_activations(
+    frame: np.ndarray, activations: np.ndarray, ninputs: int, noutputs: int
+) -> np.ndarray:
+    """The frame with a panel at its right: one coloured cell for each neuron.
+
+    `frame` is (height, width, 3) uint8, `activations` (neurons,): inputs, hidden, outputs. White
+    is 0, orange +1 and beyond, blue -1 and beyond; a black border marks what is beyond. Cells with
+    room show their number. Returns a new frame; its sides are even, as video formats ask.
+    Raises ValueError if there are fewer neurons than inputs and outputs.
+    """
+    activations = np.asarray(activations, dtype=np.float64).ravel()
+    if len(activations) < ninputs + noutputs:
+        raise ValueError(
+            f"{len(activations)} activations for {ninputs} inputs and {noutputs} outputs"
+        )
+    hidden, outputs = ninputs, len(activations) - noutputs
+    groups = {
+        "inputs": activations[:hidden],
+        "hidden": activations[hidden:outputs],
+        "outputs": activations[outputs:],
+    }
+    height = _even(max(len(frame), PANEL_MIN_HEIGHT))
+    panel = blank(PANEL_WIDTH, height)
+    panel.fill(GREY, (0, 0, 1, height))
+    _draw_groups(panel, {name: group for name, group in groups.items() if len(group)})
+    _draw_scale(panel, height - _SCALE_BAR)
+    return np.hstack([_padded(frame, height), to_frame(panel)])
+
+
+def with_caption(frame: np.ndarray, episode: int, moment: Moment) -> np.ndarray:
+    """The frame with a line below: episode, step, reward and return.
+
+    `frame` is (height, width, 3) uint8. Returns a new frame; its sides are even.
+    """
+    frame = _padded(frame, _even(len(frame)))
+    width = frame.shape[1]
+    strip = blank(width, CAPTION_HEIGHT)
+    size = 20 if width >= 400 else 14
+    texts = caption(episode, moment)
+    for column, text in zip((0.0, 0.22, 0.42, 0.68), texts, strict=True):
+        write_text(strip, text, (8 + column * (width - 8), (CAPTION_HEIGHT - size) // 2 + 2), size)
+    return np.vstack([frame, to_frame(strip)])
+
+
+def caption(episode: int, moment: Moment) -> tuple[str, str, str, str]:
+    """What `with_caption` writes."""
+    return (
+        f"episode {episode}",
+        f"step {moment.step}",
+        f"reward {moment.reward:.2f}",
+        f"return {moment.total:.1f}",
+    )
+
+
+def _even(length: int) -> int:
+    return length + length % 2
+
+
+def _padded(frame: np.ndarray, height: int) -> np.ndarray:
+    """The frame on a white ground of this height and of even width."""
+    padding = height - len(frame), frame.shape[1] % 2
+    return np.pad(frame, [(0, padding[0]), (0, padding[1]), (0, 0)], constant_values=255)
+
+
+def _draw_groups(panel: pygame.Surface, groups: dict[str, np.ndarray]) -> None:
+    room = panel.get_height() - _SCALE_BAR - _MARGIN
+    cell = _cell_size([len(group) for group in groups.values()], room)
+    columns = _columns(cell)
+    top = _MARGIN // 2
+    for name, group in groups.items():
+        write_text(panel, f"{name} ({len(group)})", (_MARGIN, top + 4))
+        top += _LABEL
+        for neuron, activation in enumerate(group):
+            row, column = divmod(neuron, columns)
+            _draw_cell(panel, (_MARGIN + column * cell, top + row * cell), cell, activation)
+        top += -(-len(group) // columns) * cell
+
+
+def _columns(cell: int) -> int:
+    return (PANEL_WIDTH - 2 * _MARGIN) // cell
+
+
+def _cell_size(counts: list[int], room: int) -> int:
+    """The largest side of a cell, in pixels, with which all groups and their labels fit."""
+    for cell in range(_LARGEST_CELL, 1, -1):
+        rows = sum(-(-count // _columns(cell)) for count in counts)
+        if len(counts) * _LABEL + rows * cell <= room:
+            return cell
+    return 1
+
+
+def _draw_cell(
+    panel: pygame.Surface, left_top: tuple[int, int], cell: int, activation: float
+) -> None:
+    side = cell - 1 if cell > 3 else cell
+    box = (*left_top, side, side)
+    if not np.isfinite(activation):
+        panel.fill(BLACK, box)
+    elif abs(activation) > 1.0 and cell >= 6:
+        border = 1 if cell < 12 else 2
+        panel.fill(BLACK, box)
+        inner = side - 2 * border
+        panel.fill(
+            colour_of(activation), (left_top[0] + border, left_top[1] + border, inner, inner)
+        )
+    else:
+        if cell > 7:
+            panel.fill(GREY, box)
+            box = (left_top[0] + 1, left_top[1] + 1, side - 2, side - 2)
+        panel.fill(colour_of(activation), box)
+    if cell >= _CELL_WITH_NUMBER:
+        text = f"{activation:.1f}" if abs(activation) >= 10 else f"{activation:.2f}"
+        write_text(panel, text, (left_top[0] + 4, left_top[1] + cell // 2 - 6), 18)
+
+
+def colour_of(activation: float) -> tuple[int, int, int]:
+    """White for 0, through to NEGATIVE at -1 and POSITIVE at +1."""
+    share = min(abs(activation), 1.0)
+    end = POSITIVE if activation > 0 else NEGATIVE
+    return tuple(
+        round(white + share * (full - white)) for white, full in zip(WHITE, end, strict=True)
+    )
+
+
+def _draw_scale(panel: pygame.Surface, top: int) -> None:
+    width = PANEL_WIDTH - 2 * _MARGIN
+    for x in range(width):
+        panel.fill(colour_of(2.0 * x / (width - 1) - 1.0), (_MARGIN + x, top + 8, 1, 10))
+    write_text(panel, "-1", (_MARGIN, top + 24), 18)
+    write_text(panel, "0", (PANEL_WIDTH // 2 - 4, top + 24), 18)
+    write_text(panel, "+1", (PANEL_WIDTH - _MARGIN - 14, top + 24), 18)
+    write_text(panel, "black frame: beyond -1 or +1", (_MARGIN, top + 42), 17)

@@ -1,0 +1,131 @@
+"""Looking at one robot: post-evaluation with numbers, window, video and activations."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from botschool import problems
+from botschool.config import Experiment
+from botschool.errors import BotschoolError
+from botschool.evolution.evaluate import POST_EVALUATION_SEED
+from botschool.policy import Policy
+from botschool.problems.moment import Moment
+
+VIDEO_EPISODES = 3
+"""Episodes in a video, unless the user says how many."""
+
+
+def read_genotype(path: Path) -> np.ndarray:
+    """A saved genotype; raises BotschoolError."""
+    if not path.exists():
+        raise BotschoolError(
+            f"There is no genotype file {path}: a run with seed 11 saves bestgS11.npy, so give "
+            "the path to such a file."
+        )
+    try:
+        return np.load(path, allow_pickle=False)
+    except (OSError, ValueError, EOFError):
+        raise BotschoolError(
+            f"{path} is no genotype: it is damaged, or not a .npy file of numbers."
+        ) from None
+
+
+class PostEvaluation:
+    """Episodes of one robot, on the seeds that its run post-evaluated on.
+
+    Without a saved genotype the robot is the random one that evolution starts from.
+    """
+
+    def __init__(self, experiment: Experiment, seed: int, saved: np.ndarray | None = None) -> None:
+        self.problem = problems.make(experiment.exp.environment)
+        self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
+        self.seed = seed
+        self.maxsteps = experiment.policy.maxsteps
+        self.fitness: list[float] = []
+        self.steps: list[int] = []
+        if saved is None:
+            self._robot = (self.policy.initial(seed), None)
+        else:
+            self._robot = self.policy.split(saved)
+
+    def play(self, episode: int, render: bool = False) -> Iterator[Moment]:
+        """Plays one episode, then keeps its fitness and steps and prints them."""
+        seed = self.seed + POST_EVALUATION_SEED
+        moment = None
+        for moment in self.problem.play(
+            self.policy, *self._robot, seed, episode, self.maxsteps, render
+        ):
+            yield moment
+        if moment is not None:
+            self.fitness.append(moment.total)
+            self.steps.append(moment.step)
+            print(f"episode {episode + 1}  fitness {moment.total:.2f}  steps {moment.step}")
+
+    def frames(self, episodes: int, activations: bool) -> Iterator[np.ndarray]:
+        """Pictures of the first episodes with a caption, and with the neurons on request."""
+        from botschool.render.canvas import draw_offscreen
+        from botschool.render.panel import with_activations, with_caption
+        from botschool.render.scene import make_scene
+
+        draw_offscreen()
+        scene = make_scene(self.problem.dynamics) if self.problem.native else None
+        outputs = self.policy.spec.outputs * self.policy.spec.nbins
+        for episode in range(episodes):
+            for moment in self.play(episode, render=True):
+                frame = scene.draw(moment.state, moment.action) if scene else moment.frame
+                frame = with_caption(frame, episode + 1, moment)
+                if activations:
+                    frame = with_activations(
+                        frame, moment.activations, self.policy.spec.inputs, outputs
+                    )
+                yield frame
+
+    def print_summary(self) -> None:
+        """Mean and standard deviation over the episodes played."""
+        if self.fitness:
+            print(
+                f"mean {np.mean(self.fitness):.2f}  standard deviation {np.std(self.fitness):.2f}"
+                f"  steps {np.mean(self.steps):.1f}  episodes {len(self.fitness)}"
+            )
+
+
+def watch(
+    robot: PostEvaluation,
+    episodes: int,
+    window: bool,
+    video: Path | None,
+    activations: bool,
+) -> None:
+    """Plays and prints `episodes` episodes; to a window or a video file if wanted."""
+    title = f"botschool: {robot.problem.name}"
+    if video is not None:
+        from botschool.render.video import write_video
+
+        write_video(video, robot.frames(episodes, activations), robot.problem.fps)
+        print(f"video: {video}")
+    elif window:
+        from botschool.render.window import show
+
+        show(robot.frames(episodes, activations), robot.problem.fps, title)
+    else:
+        for episode in range(episodes):
+            for moment in robot.play(episode):
+                if activations:
+                    values = " ".join(f"{value:.3f}" for value in moment.activations)
+                    print(f"step {moment.step}  reward {moment.reward:.2f}  activations {values}")
+    robot.print_summary()
+    robot.problem.close()
+
+
+def has_display() -> bool:
+    """Whether a window can be expected to open."""
+    if os.environ.get("SDL_VIDEODRIVER") in ("dummy", "offscreen"):
+        return False
+    if sys.platform in ("win32", "darwin"):
+        return True
+    return any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))
