@@ -1,0 +1,5 @@
+"""python -m botschool"""
+
+from botschool.cli import main
+
+main()
