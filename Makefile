@@ -1,0 +1,63 @@
+# Every target sets up what it needs by itself, in .venv and build/, and again only when inputs change.
+# Another interpreter: PYTHON=python3.12 make test
+
+BIN := .venv/bin
+CPP := $(shell find lib tests -name '*.cpp' -o -name '*.hpp' -o -name '*.h' 2>/dev/null)
+CPP_INPUTS := $(filter lib/%,$(CPP)) $(shell find lib -name CMakeLists.txt -o -name '*.cmake')
+
+# Packages that another project put on the path (ROS, for one) would shadow the pinned ones.
+unexport PYTHONPATH PYTHONHOME
+.NOTPARALLEL:
+.PHONY: help demo build test test-long bench lint format sanitize clean FORCE
+
+help: ## list these targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
+
+DEMO := results/demo
+demo: .venv/.module ## evolve a policy for Acrobot, then draw its curve and film it
+	$(BIN)/botschool es -f data/experiments/acrobot.ini -s 1 -w 2 -o $(DEMO) --steps 3000000 --force
+	$(BIN)/botschool plotstat $(DEMO) -o $(DEMO)/curve.png
+	$(BIN)/botschool es -f data/experiments/acrobot.ini -s 1 -p -g $(DEMO)/bestgS1.npy \
+		--video $(DEMO)/acrobot.mp4
+	@echo "Curve: $(DEMO)/curve.png   Video: $(DEMO)/acrobot.mp4   Saved robot: $(DEMO)/bestgS1.npy"
+
+build: .venv/.module ## the Python environment and the C++ module
+
+test: .venv/.tests ## the tests that take seconds
+	@$(BIN)/python -m pytest -q
+
+test-long: .venv/.tests ## the tests that take minutes: whole runs, many seeds
+	@$(BIN)/python -m pytest -q -m long
+
+bench: .venv/.module ## the speed of evaluation beside Gymnasium's own loop
+	@$(BIN)/python tests/bench/run.py
+
+lint: .venv/.tests ## check style: ruff and clang-format
+	@$(BIN)/ruff check --quiet .
+	@$(BIN)/ruff format --check --quiet --diff .
+	@$(BIN)/clang-format --dry-run --Werror $(CPP)
+
+format: .venv/.tests ## put the style right where a tool can
+	@$(BIN)/ruff check --quiet --fix-only .
+	@$(BIN)/ruff format --quiet .
+	@$(BIN)/clang-format -i $(CPP)
+
+sanitize: .venv/.tools ## the C++ tests under address and undefined-behaviour sanitizers
+	@tools/setup.sh sanitize
+	@build/sanitize/core_tests
+
+clean: ## remove what the targets above set up; results stay
+	rm -rf .venv build .pytest_cache .ruff_cache .hypothesis
+
+# Each step below leaves its stamp only when it is complete.
+.venv/.made: FORCE
+	@tools/setup.sh venv
+
+.venv/.tools: .venv/.made pyproject.toml constraints.txt
+	@tools/setup.sh tools
+
+.venv/.module: .venv/.tools $(CPP_INPUTS)
+	@tools/setup.sh module
+
+.venv/.tests: .venv/.module
+	@tools/setup.sh tests

@@ -1,0 +1,159 @@
+#!/bin/sh
+# One step of what the Makefile sets up: tools/setup.sh venv|tools|module|tests|sanitize
+# Says in a line what it does; a tool's own output appears only when it fails.
+set -u
+
+log=.venv/setup.log
+python=.venv/bin/python
+
+say() { printf '%s\n' "$*"; }
+fail() { printf 'error: %s\n' "$*" >&2; exit 2; }
+have() { command -v "$1" >/dev/null 2>&1; }
+
+# How to install something here: remedy APT-NAMES DNF-NAMES MACOS-COMMAND OTHERWISE
+remedy() {
+    sudo='sudo '
+    [ "$(id -u)" = 0 ] && sudo=
+    if have apt-get && [ -n "$1" ]; then say "install it with '${sudo}apt-get install $1'"
+    elif have dnf; then say "install it with '${sudo}dnf install $2'"
+    elif [ "$(uname)" = Darwin ]; then say "install it with '$3'"
+    else say "install $4"
+    fi
+}
+any_system="it with 'curl -LsSf https://astral.sh/uv/install.sh | sh; ~/.local/bin/uv python install 3.12'"
+
+# PYTHON if it is set, else the first of the usual names that is new enough.
+find_python() {
+    if [ -n "${PYTHON:-}" ]; then set -- "$PYTHON"
+    else set -- python3 python3.13 python3.12 python3.11 python3.10 /usr/bin/python3 ~/.local/bin/python3.12
+    fi
+    old=
+    for candidate in "$@"; do
+        version=$("$candidate" -c 'import sys; print("%d.%d" % sys.version_info[:2])' 2>/dev/null) || continue
+        case $version in
+            2.*|3.?) old="${old:-$candidate is Python $version}" ;;
+            *) return ;;
+        esac
+    done
+    if [ -n "${PYTHON:-}" ]; then
+        fail "${old:-PYTHON=$PYTHON does not start a Python}: name Python 3.10 or newer, or leave PYTHON out"
+    elif [ -n "$old" ]; then
+        fail "Python 3.10 or newer is needed, but $old:" \
+            "$(remedy "" "python3.12 python3.12-devel" "brew install python@3.12" "$any_system")"
+    fi
+    fail "Python 3.10 or newer is needed and there is none:" \
+        "$(remedy "python3 python3-venv python3-dev" "python3 python3-devel" "brew install python@3.12" "$any_system")"
+}
+
+# What venv and the compiler need of an interpreter; Debian and Fedora package these apart.
+check_python() {
+    "$candidate" -c 'import venv, ensurepip' 2>/dev/null ||
+        fail "$candidate lacks its venv module:" \
+            "$(remedy "python$version-venv" "python$version" "brew reinstall python@$version" \
+                "your system's package of Python's venv and ensurepip modules")"
+    "$candidate" -c 'import os, sysconfig; os.stat(sysconfig.get_path("include") + "/Python.h")' 2>/dev/null ||
+        fail "$candidate lacks the header files that the C++ module needs:" \
+            "$(remedy "python$version-dev" "python$version-devel" "brew reinstall python@$version" \
+                "your system's package of Python's header files")"
+}
+
+# CXX if it is set, else the first of the usual names (a Python may bring another one's name along).
+check_compiler() {
+    if [ -n "${CXX:-}" ]; then
+        have "${CXX%% *}" && return
+        fail "CXX=$CXX names a C++ compiler that is not there: unset it or correct it"
+    elif [ "$(uname)" = Darwin ]; then xcode-select -p >/dev/null 2>&1 && return
+    else
+        for CXX in c++ g++ clang++; do
+            have "$CXX" && export CXX && return
+        done
+    fi
+    fail "a C++ compiler is needed and there is none:" \
+        "$(remedy g++ gcc-c++ "xcode-select --install" "your system's package of GCC or Clang")"
+}
+
+# quietly COMMAND...: its output goes to the log, and to the screen only if it fails
+quietly() {
+    "$@" >"$log" 2>&1 && return
+    grep -vE '^(Requirement already|Collecting|Processing|Looking) | (Downloading|Using cached|━)' "$log" >&2
+    if grep -qE 'connection broken|ConnectionError|name resolution|Read timed out' "$log"; then
+        fail "this step failed (its output is above): packages come from the network, is it there?"
+    fi
+    fail "this step failed (its output is above): run make again when the cause is mended"
+}
+
+pip_install() {
+    PIP_USER=0 quietly "$python" -m pip install --no-input --disable-pip-version-check \
+        -c constraints.txt "$@"
+}
+
+# Which interpreter .venv was made with, and where: a virtual environment cannot be moved.
+identity() {
+    "$1" -c 'import os, sys; print(sys.version.split()[0], sys.base_prefix, os.getcwd())' 2>/dev/null
+}
+
+# pip was stopped while it wrote packages: any of them may be half there.
+half_installed() {
+    grep -q '^Installing collected packages' "$log" 2>/dev/null && ! grep -q '^Successfully installed' "$log"
+}
+
+make_venv() {
+    if [ -f .venv/.made ] && ! half_installed && [ "$(identity "$python")" = "$(cat .venv/.made)" ]; then
+        [ -z "${PYTHON:-}" ] && return
+        [ "$(identity "$PYTHON")" = "$(cat .venv/.made)" ] && return
+    fi
+    rmdir .venv 2>/dev/null
+    if [ -e .venv ] && [ ! -f .venv/.ours ]; then
+        fail ".venv is here already and was not made by make; move it away with 'mv .venv my-venv'"
+    fi
+    find_python
+    check_python
+    check_compiler
+    say "Making .venv with $("$candidate" -V) (a few seconds)"
+    mkdir -p build && rm -rf build/old-venv
+    [ -e .venv ] && mv .venv build/old-venv
+    rm -rf build/old-venv
+    mkdir .venv && touch .venv/.ours && quietly "$candidate" -m venv .venv
+    identity "$python" >.venv/.made
+}
+
+install_tools() {
+    say "Installing the build tools (a few seconds)"
+    pip_install scikit-build-core nanobind
+    # cmake and ninja, where the system has none that is new enough
+    missing=$("$python" -c 'from scikit_build_core.build import get_requires_for_build_editable as requires
+print(*(r.replace(" ", "") for r in requires()))') || fail "pyproject.toml cannot be read by scikit-build-core"
+    # shellcheck disable=SC2086
+    [ -z "$missing" ] || pip_install $missing
+}
+
+build_module() {
+    check_compiler
+    if [ -f .venv/.module ]; then say "Compiling what changed of the C++ module (up to a minute)"
+    else
+        say "Installing packages and compiling the C++ module (one to three minutes)"
+        rm -rf build/editable
+    fi
+    pip_install --no-build-isolation -e .
+}
+
+install_tests() {
+    say "Installing what the tests need (up to a minute)"
+    pip_install 'botschool[all]'
+}
+
+build_sanitized() {
+    check_compiler
+    say "Compiling the C++ tests with sanitizers (up to a minute)"
+    PATH="$PWD/.venv/bin:$PATH"
+    quietly cmake -S lib -B build/sanitize -DBOTSCHOOL_SANITIZE=ON
+    quietly cmake --build build/sanitize --target core_tests
+}
+
+case $1 in
+    venv) make_venv ;;
+    tools) install_tools && touch .venv/.tools ;;
+    module) build_module && touch .venv/.module ;;
+    tests) install_tests && touch .venv/.tests ;;
+    sanitize) build_sanitized ;;
+esac
