@@ -1,8 +1,10 @@
 #include "engine.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include "cpu.hpp"
@@ -118,8 +120,9 @@ void Engine::run(const Jobs& jobs, Queue& queue, Recorder* recorder) const {
 
 void Engine::evaluate(const Jobs& jobs, std::size_t count, int threads) const {
   SharedQueue queue(count);
+  const int useful = static_cast<int>(std::min<std::size_t>(threads, count));
   std::vector<std::thread> others;
-  std::vector<std::exception_ptr> errors(threads);
+  std::vector<std::exception_ptr> errors(useful);
   const auto work = [&](int t) {
     try {
       run(jobs, queue, nullptr);
@@ -127,8 +130,11 @@ void Engine::evaluate(const Jobs& jobs, std::size_t count, int threads) const {
       errors[t] = std::current_exception();
     }
   };
-  const int useful = static_cast<int>(std::min<std::size_t>(threads, count));
-  for (int t = 1; t < useful; ++t) others.emplace_back(work, t);
+  try {
+    for (int t = 1; t < useful; ++t) others.emplace_back(work, t);
+  } catch (const std::system_error&) {
+    // the system gives no more threads: those that there are do all the work
+  }
   if (useful > 0) work(0);
   for (auto& thread : others) thread.join();
   for (const auto& error : errors)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <new>
 
 #include "../evonet/brain.hpp"
@@ -73,6 +74,8 @@ class Rollout {
 
   static void run(const Layout& layout, const Jobs& jobs, Queue& queue, Recorder* recorder,
                   void* workspace) {
+    // lanes that never get a job compute too: with zeros, as leftovers may be slow (denormal)
+    std::memset(workspace, 0, Rollout::workspace(layout));
     auto* bytes = static_cast<unsigned char*>(workspace);
     Memory memory;
     const std::size_t used = memory.carve(layout, reinterpret_cast<Real*>(bytes + kHeader));

@@ -77,7 +77,7 @@ class PolicyConfig:
         1,
         "output neurons per actuator; from 2 on the strongest picks the action",
         low=1,
-        high=10000,
+        high=1000,
     )
     architecture: int = hyper(
         0,

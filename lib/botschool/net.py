@@ -40,7 +40,7 @@ class NetworkSpec:
     winit: int = 0
     """Initial weights: 0 Xavier, 1 norm-incoming, 2 uniform."""
     clip: int = 0
-    """1: inputs are clamped to [-5, 5]."""
+    """1: normalised inputs are clamped to [-5, 5]."""
     normalize: int = 0
     """1: inputs are normalised by running means and deviations."""
     action_noise: int = 0
@@ -130,7 +130,9 @@ class Network:
         self._core.set_normalisation(_normalisation(values, self.spec.inputs))
 
     def seed(self, seed: int, episode: int = 0) -> None:
-        """Sets what drives initial weights and action noise."""
+        """Sets what drives initial weights and action noise, which starts anew."""
+        if not isinstance(episode, Integral) or not 0 <= episode < 2**32:
+            raise ValueError(f"An episode is a whole number from 0 to 2^32 - 1, not {episode!r}.")
         self._core.seed(_seed(seed), int(episode))
 
     def initialise(self, seed: int | None = None) -> np.ndarray:
@@ -141,7 +143,7 @@ class Network:
         return self._parameters
 
     def reset(self) -> None:
-        """Start of an episode: activations and memory are 0."""
+        """Start of an episode: activations and memory are 0; the action noise goes on."""
         self._core.reset()
         self._activations[:] = 0
         self._action[:] = 0
@@ -192,6 +194,7 @@ class PyEvonet:
                 f"nhiddens is the total of all layers here: {nhiddens} cannot be shared "
                 f"equally by {nlayers} layers."
             )
+        heterogeneous = _number("heterogeneous", heterogeneous, True)
         if heterogeneous not in (0, 1):
             raise ValueError(f"heterogeneous is {heterogeneous!r}, but must be 0 or 1.")
         self.spec = NetworkSpec(

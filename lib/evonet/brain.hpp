@@ -109,9 +109,9 @@ class Brain {
     const T* BOTSCHOOL_RESTRICT in = m_.inputs;
     if (!l_.spec.normalize) {
       for (int i = 0; i < n; ++i) out[i] = in[i];
-    } else {
-      for (int i = 0; i < n; ++i) out[i] = (in[i] - m_.mean[i]) / m_.deviation[i];
+      return;
     }
+    for (int i = 0; i < n; ++i) out[i] = (in[i] - m_.mean[i]) / m_.deviation[i];
     if (l_.spec.clip)
       for (int i = 0; i < n; ++i) out[i] = clamp(out[i], T(-5), T(5));
   }

@@ -37,7 +37,7 @@ void Moments::vectors(double* out) const {
 }
 
 Evonet::Evonet(const Spec& spec, int networks, bool heterogeneous)
-    : moments(spec.inputs),
+    : moments(make_layout(spec).spec.inputs),  // checked before anything is allocated
       layout_(make_layout(spec)),
       networks_(networks),
       heterogeneous_(heterogeneous) {
@@ -54,6 +54,7 @@ Evonet::Evonet(const Spec& spec, int networks, bool heterogeneous)
 void Evonet::seed(std::uint64_t seed, std::uint32_t episode) {
   seed_ = seed;
   episode_ = episode;
+  steps_ = 0;
 }
 
 void Evonet::initialise(double* parameters) const {
@@ -63,7 +64,6 @@ void Evonet::initialise(double* parameters) const {
 }
 
 void Evonet::reset() {
-  steps_ = 0;
   for (auto& memory : memory_) Brain<double, 1>(layout_, memory).clear(0);
 }
 

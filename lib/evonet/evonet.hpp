@@ -41,13 +41,14 @@ class Evonet {
   int actions() const { return layout_.spec.outputs * networks_; }
   int neurons() const { return layout_.neurons * networks_; }
 
+  /// What drives initial weights and action noise; the noise starts anew.
   void seed(std::uint64_t seed, std::uint32_t episode);
   /// Writes initial weights drawn from seed and episode into `parameters`.
   void initialise(double* parameters) const;
-  /// Start of an episode.
+  /// Start of an episode; the action noise goes on.
   void reset();
   /// One update of every network: reads `parameters` and `inputs`, writes `actions` and
-  /// `activations` (which also hold the networks' memory from step to step).
+  /// `activations`.
   void step(const double* parameters, const double* inputs, double* actions, double* activations);
 
   bool collecting = false;  ///< whether step() adds what it sees to `moments`

@@ -32,7 +32,7 @@ struct MountainCarContinuous {
       sine_cosine(3 * state[0][l], sine, cosine);
       double velocity = clamp(state[1][l] + (force * 0.0015 - 0.0025 * cosine), -0.07, 0.07);
       const double position = clamp(state[0][l] + velocity, -1.2, 0.6);
-      velocity = (position == -1.2) & (velocity < 0) ? 0.0 : velocity;
+      velocity = ((position == -1.2) & (velocity < 0)) ? 0.0 : velocity;
       ended[l] = (position >= 0.45) & (velocity >= 0);
       reward[l] = (ended[l] ? 100.0 : 0.0) - action[l] * action[l] * 0.1;
       state[0][l] = static_cast<float>(position);
