@@ -1,0 +1,6 @@
+"""Tests open no window: pygame and matplotlib draw in memory."""
+
+import os
+
+os.environ["SDL_VIDEODRIVER"] = "dummy"
+os.environ["MPLBACKEND"] = "Agg"

@@ -1,0 +1,175 @@
+"""The policy network of FACTS.md section 1, written for clarity: the C++ one is tested against it.
+
+Every array is float64 and every step allocates; nothing here is shared with `botschool.net` but the
+names of the hyperparameters (any object with the attributes of a NetworkSpec will do).
+"""
+
+import numpy as np
+
+FEEDFORWARD, RECURRENT, FULLY_RECURRENT, LSTM = range(4)
+
+
+def logistic(x):
+    small = np.exp(-np.abs(x))  # the same for both signs, so that nothing overflows
+    return np.where(x >= 0, 1, small) / (1 + small)
+
+
+ACTIVATIONS = {
+    1: logistic,
+    2: np.tanh,
+    3: lambda x: x,
+    4: lambda x: np.where(x >= 0.5, 1.0, -1.0),
+}
+
+
+def hidden_sizes(spec) -> list[int]:
+    """Neurons of each hidden layer."""
+    if spec.nhiddens == 0:
+        return []
+    if spec.nlayers == 2 and spec.nhiddens2 > 0:
+        return [2 * spec.nhiddens - spec.nhiddens2, spec.nhiddens2]
+    return [spec.nhiddens] * spec.nlayers
+
+
+def output_count(spec) -> int:
+    """Output neurons."""
+    return spec.outputs * spec.nbins
+
+
+def architecture_of(spec) -> int:
+    """An LSTM without units is a perceptron."""
+    return FEEDFORWARD if spec.architecture == LSTM and spec.nhiddens == 0 else spec.architecture
+
+
+def output_activation(spec) -> int:
+    """The read-out of an LSTM is linear."""
+    return 3 if architecture_of(spec) == LSTM else spec.out_type
+
+
+def matrices(spec) -> list[tuple[str, int, int]]:
+    """(name, receivers, senders) of each block of connections, in the order of the genotype."""
+    inputs, sizes, outputs = spec.inputs, hidden_sizes(spec), output_count(spec)
+    hidden = sum(sizes)
+    architecture = architecture_of(spec)
+    if architecture == FULLY_RECURRENT:
+        return [("all", hidden + outputs, inputs + hidden + outputs)]
+    if architecture == LSTM:
+        return [("gates", 4 * hidden, inputs + hidden), ("output", outputs, hidden)]
+    blocks = []
+    senders = inputs
+    for i, size in enumerate(sizes):
+        blocks.append((f"hidden{i}", size, senders))
+        if architecture == RECURRENT:
+            blocks.append((f"hidden{i} before", size, size))
+        senders = size
+    blocks.append(("output", outputs, senders))
+    if architecture == RECURRENT:
+        blocks.append(("output before", outputs, outputs))
+    return blocks
+
+
+def genotype_length(spec) -> int:
+    """Parameters of one network."""
+    count = sum(receivers * senders for _, receivers, senders in matrices(spec))
+    if spec.bias:
+        count += sum(hidden_sizes(spec)) + output_count(spec)
+    if spec.action_noise == 2:
+        count += spec.outputs
+    return count
+
+
+def parse(spec, genotype) -> dict[str, np.ndarray]:
+    """Biases ("hidden bias", "output bias"), matrices by name and "log deviation"."""
+    genotype = np.asarray(genotype, dtype=np.float64)
+    assert genotype.shape == (genotype_length(spec),)
+    hidden, outputs = sum(hidden_sizes(spec)), output_count(spec)
+    parts = {"hidden bias": np.zeros(hidden), "output bias": np.zeros(outputs)}
+    place = 0
+
+    def take(*shape):
+        nonlocal place
+        size = int(np.prod(shape))
+        place += size
+        return genotype[place - size : place].reshape(shape)
+
+    if spec.bias:
+        parts["hidden bias"] = take(hidden)
+        parts["output bias"] = take(outputs)
+    for name, receivers, senders in matrices(spec):
+        parts[name] = take(receivers, senders)
+    parts["log deviation"] = take(spec.outputs) if spec.action_noise == 2 else None
+    assert place == len(genotype)
+    return parts
+
+
+class ReferenceNetwork:
+    """One network; `step` returns (actions without noise, activations) of fresh arrays."""
+
+    def __init__(self, spec, genotype, normalisation=None):
+        self.spec = spec
+        self.parts = parse(spec, genotype)
+        self.mean, self.deviation = np.zeros(spec.inputs), np.ones(spec.inputs)
+        if normalisation is not None:
+            self.mean, self.deviation = np.split(np.asarray(normalisation, dtype=float), 2)
+        self.reset()
+
+    def reset(self):
+        self.hidden = np.zeros(sum(hidden_sizes(self.spec)))
+        self.output = np.zeros(output_count(self.spec))
+        self.state = np.zeros_like(self.hidden)
+
+    def step(self, observation):
+        inputs = np.array(observation, dtype=np.float64)
+        if self.spec.normalize:
+            inputs = (inputs - self.mean) / self.deviation
+        if self.spec.normalize and self.spec.clip:
+            inputs = np.clip(inputs, -5, 5)
+        update = (self.layered, self.layered, self.all_at_once, self.lstm)
+        self.hidden, net_output = update[architecture_of(self.spec)](inputs)
+        self.net_output = net_output
+        self.output = ACTIVATIONS[output_activation(self.spec)](net_output)
+        return self.action(), np.concatenate([inputs, self.hidden, self.output])
+
+    def layered(self, senders):
+        parts, sizes = self.parts, hidden_sizes(self.spec)
+        again = self.spec.architecture == RECURRENT
+        biases = np.split(parts["hidden bias"], np.cumsum(sizes)[:-1]) if sizes else []
+        before = np.split(self.hidden, np.cumsum(sizes)[:-1]) if sizes else []
+        layers = []
+        for i in range(len(sizes)):
+            net = biases[i] + parts[f"hidden{i}"] @ senders
+            if again:
+                net = net + parts[f"hidden{i} before"] @ before[i]
+            senders = ACTIVATIONS[self.spec.afunction](net)
+            layers.append(senders)
+        net = parts["output bias"] + parts["output"] @ senders
+        if again:
+            net = net + parts["output before"] @ self.output
+        return np.concatenate([*layers, []]), net
+
+    def all_at_once(self, inputs):
+        bias = np.concatenate([self.parts["hidden bias"], self.parts["output bias"]])
+        net = bias + self.parts["all"] @ np.concatenate([inputs, self.hidden, self.output])
+        hidden = len(self.hidden)
+        return ACTIVATIONS[self.spec.afunction](net[:hidden]), net[hidden:]
+
+    def lstm(self, inputs):
+        units = len(self.hidden)
+        z = np.concatenate([inputs, self.hidden])
+        gates = self.parts["gates"].reshape(units, 4, len(z)) @ z
+        forget, candidate = logistic(gates[:, 0] + 1), np.tanh(gates[:, 3])
+        self.state = self.state * forget + candidate * logistic(gates[:, 1])
+        hidden = np.tanh(self.state) * logistic(gates[:, 2])
+        return hidden, self.parts["output bias"] + self.parts["output"] @ hidden
+
+    def action(self):
+        return binned(self.spec, self.output)
+
+
+def binned(spec, outputs):
+    """What the actuators get when the output neurons have these activations."""
+    if spec.nbins == 1:
+        return np.array(outputs, dtype=float)
+    rows = np.asarray(outputs).reshape(spec.outputs, spec.nbins)
+    winner = np.array([list(row).index(max(row)) for row in rows])
+    return spec.low + (spec.high - spec.low) * winner / (spec.nbins - 1)

@@ -1,0 +1,202 @@
+"""The forward pass of policy networks against an independent one (reference_network.py)."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from botschool import problems
+from botschool.config import PolicyConfig
+from botschool.net import Network, NetworkSpec, PyEvonet
+from botschool.policy import Policy
+from reference_network import (
+    ACTIVATIONS,
+    ReferenceNetwork,
+    binned,
+    hidden_sizes,
+    output_activation,
+    output_count,
+)
+from strategies import (
+    REPEATABLE,
+    policy_choices,
+    random_genotype,
+    random_normalisation,
+    specs,
+)
+
+
+def assert_close(actual, expected, tolerance):
+    """Errors are relative to values above 1 and absolute below, as sums of such terms round."""
+    actual, expected = np.asarray(actual), np.asarray(expected)
+    error = np.abs(actual - expected) / np.maximum(1, np.abs(expected))
+    assert actual.shape == expected.shape
+    assert np.all(error <= tolerance), f"{error.max()} at {np.argmax(error)}"
+
+
+@REPEATABLE
+@given(specs(), st.integers(0, 2**32), st.sampled_from([0.3, 1.0, 1.5]))
+def test_network_agrees_with_the_reference(spec, seed, scale):
+    rng = np.random.default_rng(seed)
+    genotype, normalisation = random_genotype(spec, rng, scale), random_normalisation(spec, rng)
+    network = Network(spec)
+    network.parameters[:] = genotype
+    reference = ReferenceNetwork(spec, genotype, normalisation)
+    network.normalisation = normalisation
+    for _ in range(2):
+        network.reset()
+        reference.reset()
+        for observation in 4 * rng.standard_normal((6, spec.inputs)):
+            network.observation = observation
+            action, activations = reference.step(observation)
+            assert_close(network.step(), action, 1e-12)
+            assert_close(network.activations, activations, 1e-12)
+
+
+@REPEATABLE
+@given(specs(), st.integers(1, 4), st.booleans(), st.integers(0, 2**32))
+def test_several_networks_agree_with_the_reference(spec, count, heterogeneous, seed):
+    rng = np.random.default_rng(seed)
+    genotypes = [random_genotype(spec, rng) for _ in range(count if heterogeneous else 1)]
+    normalisation = random_normalisation(spec, rng)
+    together = py_evonet(spec, count, heterogeneous)
+    parameters = np.concatenate(genotypes)
+    inputs = np.empty(count * spec.inputs, np.float32)
+    outputs = np.empty(count * spec.outputs, np.float32)
+    neurons = spec.inputs + sum(hidden_sizes(spec)) + output_count(spec)
+    activations = np.empty(count * neurons)
+    assert together.computeParameters() == len(parameters)
+    together.copyGenotype(parameters)
+    together.copyInput(inputs)
+    together.copyOutput(outputs)
+    together.copyNeuronact(activations)
+    together.copyNormalization(normalisation)
+    together.setNormalizationVectors()
+    references = [
+        ReferenceNetwork(spec, genotypes[n if heterogeneous else 0], normalisation)
+        for n in range(count)
+    ]
+    together.resetNet()
+    assert not activations.any()
+    for _ in range(4):
+        inputs[:] = rng.standard_normal(len(inputs))
+        together.updateNet()
+        expected = [r.step(x) for r, x in zip(references, np.split(inputs, count), strict=True)]
+        assert_close(activations, np.concatenate([a for _, a in expected]), 1e-12)
+        # actions are single precision here
+        assert_close(outputs, np.concatenate([a for a, _ in expected]), 1e-7)
+
+
+def py_evonet(spec, count=1, heterogeneous=False):
+    """The original library's face of a spec: its nhiddens counts all layers."""
+    return PyEvonet(
+        count, int(heterogeneous), spec.inputs, spec.nhiddens * spec.nlayers, spec.outputs,
+        spec.nlayers, spec.nhiddens2, spec.bias, spec.architecture, spec.afunction, spec.out_type,
+        spec.winit, spec.clip, spec.normalize, spec.action_noise, spec.action_noise_range,
+        spec.wrange, spec.nbins, spec.low, spec.high,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("name", problems.names())
+@REPEATABLE
+@given(policy_choices(), st.sampled_from([1, 1, 2, 5]), st.integers(0, 2**32))
+def test_lanes_of_evolution_agree_with_the_reference(name, choices, nbins, seed):
+    rng = np.random.default_rng(seed)
+    problem = problems.make(name)
+    discrete = problem.interface.discrete
+    config = PolicyConfig(nrobots=1, nbins=1 if discrete else nbins, **choices)
+    policy = Policy(name, problem.interface, config)
+    spec = policy.spec
+    # memories fade at this scale, so what single precision loses does not grow over the steps
+    genotype, normalisation = random_genotype(spec, rng, 0.5), random_normalisation(spec, rng)
+    tape = problem.engine(policy).record(genotype, normalisation, seed, 3, 40)
+    reference = ReferenceNetwork(spec, genotype, normalisation)
+    assert 0 < len(tape["rewards"]) <= 40
+    for observation, action, activations in zip(
+        tape["observations"], tape["actions"], tape["activations"], strict=True
+    ):
+        _, expected = reference.step(observation)
+        if output_activation(spec) == 4 and np.any(np.abs(reference.net_output - 0.5) < 1e-4):
+            break  # single precision may decide otherwise, and then remember it
+        assert_close(activations, expected, 1e-4)
+        outputs = activations[-output_count(spec) :]
+        if discrete:
+            assert action == list(outputs).index(max(outputs))
+        else:
+            assert_close(action, binned(spec, outputs), 1e-6)
+
+
+@REPEATABLE
+@given(policy_choices(), st.integers(0, 2**32))
+def test_lanes_of_evolution_agree_with_the_network(choices, seed):
+    problem = problems.make("Pendulum-v1")
+    config = PolicyConfig(nrobots=1, action_noise=1, action_noise_range=0.3, **choices)
+    policy = Policy("Pendulum-v1", problem.interface, config)
+    rng = np.random.default_rng(seed)
+    genotype = random_genotype(policy.spec, rng, 0.5)
+    normalisation = random_normalisation(policy.spec, rng) if config.normalize else None
+    policy.load(genotype, normalisation)
+    policy.reset(seed, 7)
+    for moment in problem.play(policy, genotype, normalisation, seed, 7, 40):
+        action = policy.act(moment.observation)
+        if output_activation(policy.spec) == 4 and np.sum(np.abs(moment.action - action)) > 1:
+            break
+        assert_close(moment.action, action, 1e-4)
+
+
+@pytest.mark.parametrize("kind", ACTIVATIONS)
+def test_activations_at_their_edges(kind):
+    network = Network(NetworkSpec(inputs=1, outputs=1, nhiddens=0, out_type=kind))
+    network.parameters[:] = 1
+    for x in (0, 0.5, np.nextafter(0.5, 0), -0.5, 1e-300, 1e-9, 20, -20, 700, -700, 1e6, -1e6):
+        network.observation[:] = x
+        expected = float(ACTIVATIONS[kind](np.float64(x)))
+        # below 1e-300 our logistic is as good as 0
+        assert network.step()[0] == pytest.approx(expected, rel=1e-14, abs=1e-300)
+
+
+def test_the_first_bin_wins_ties():
+    spec = NetworkSpec(inputs=1, outputs=2, nhiddens=0, nbins=3, low=-2, high=4, bias=1, out_type=3)
+    network = Network(spec)
+    cases = {
+        (0, 0, 0): -2,
+        (1, 1, 0): -2,
+        (0, 1, 1): 1,
+        (0, 0, 2): 4,
+        (3, 1, 3): -2,
+        (-2, -1, -1): 1,
+    }
+    for left, action in cases.items():
+        for right, other in cases.items():
+            network.parameters[:6] = left + right
+            assert network.step().tolist() == [action, other]
+
+
+def test_clip_and_normalisation():
+    network = Network(NetworkSpec(inputs=2, outputs=1, nhiddens=0, normalize=1, clip=1))
+    network.normalisation = [1, -2, 0.5, 10]
+    for observation, seen in [
+        ((1, -2), (0, 0)),
+        ((2, 8), (2, 1)),
+        ((3.5, 48), (5, 5)),
+        ((3.6, 1e9), (5, 5)),
+        ((-1.6, -1e9), (-5, -5)),
+    ]:
+        network.observation = observation
+        network.step()
+        assert network.activations[:2] == pytest.approx(seen, abs=1e-15)
+
+
+def test_memory_ends_with_the_episode():
+    rng = np.random.default_rng(5)
+    for architecture in (1, 2, 3):
+        spec = NetworkSpec(inputs=2, outputs=2, nhiddens=3, architecture=architecture)
+        network = Network(spec)
+        network.parameters[:] = random_genotype(spec, rng)
+        network.observation = [1, 2]
+        first, second = network.step().copy(), network.step().copy()
+        assert not np.array_equal(first, second)
+        network.reset()
+        assert not network.activations.any() and not network.action.any()
+        assert np.array_equal(network.step(), first)
+        assert np.array_equal(network.step(), second)
