@@ -1,0 +1,271 @@
+"""Reading run files, learning curves and averages."""
+
+import pickle
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+from botschool.analysis import plots
+from botschool.analysis.runs import BEST_POST, find_runs, read_fit, read_fitness, read_stat
+from botschool.errors import BotschoolError
+
+
+def stat_of(generations, last=100.0, steps=1000):
+    """A run that improves linearly from 0 to `last`."""
+    fitness = np.linspace(0.0, last, generations) if generations > 1 else np.array([last])
+    steps = steps * np.arange(1.0, generations + 1)
+    columns = [steps, fitness + 2, fitness, fitness + 1, fitness - 1, 0 * fitness]
+    return np.stack(columns, axis=1)
+
+
+def save_run(folder, seed, stat):
+    folder.mkdir(exist_ok=True)
+    np.save(folder / f"statS{seed}.npy", stat.ravel())
+    (folder / f"S{seed}.fit").write_text(f"seed {seed} bestfit 1 bestgfit {stat[-1, BEST_POST]}\n")
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """The figures that were written, kept for a look at what is in them."""
+    from matplotlib.figure import Figure
+
+    figures = []
+    savefig = Figure.savefig
+
+    def keep(figure, *args, **kwargs):
+        figures.append(figure)
+        savefig(figure, *args, **kwargs)
+
+    monkeypatch.setattr(Figure, "savefig", keep)
+    return figures
+
+
+# runs.py
+
+
+def test_a_stat_file_gives_one_row_a_generation(tmp_path):
+    save_run(tmp_path, 11, stat_of(7))
+    np.testing.assert_array_equal(read_stat(tmp_path / "statS11.npy"), stat_of(7))
+
+
+class Bomb:
+    def __reduce__(self):
+        return (pytest.fail, ("the file was unpickled",))
+
+
+def refused_files():
+    good = stat_of(5).ravel()
+    backwards = stat_of(5)[::-1].ravel()
+    yield "words", "no stat file", lambda path: path.write_text("good morning")
+    yield "empty", "no stat file", lambda path: path.write_bytes(b"")
+    yield "pickle", "no stat file", lambda path: path.write_bytes(pickle.dumps(Bomb()))
+    yield "objects", "no stat file", lambda path: np.save(path, np.array([Bomb()], dtype=object))
+    yield "length", "6 for each generation", lambda path: np.save(path, good[:-1])
+    yield "nothing", "no generation", lambda path: np.save(path, good[:0])
+    yield "genotype", "steps", lambda path: np.save(path, backwards)
+    yield "text array", "plain numbers", lambda path: np.save(path, np.array(["a"] * 6))
+    yield "folder", "cannot be read", lambda path: path.mkdir()
+
+    def truncate(path):
+        np.save(path, good)
+        path.write_bytes(path.read_bytes()[:-20])
+
+    yield "truncated", "damaged", truncate
+
+
+@pytest.mark.parametrize(
+    ("message", "make"), [case[1:] for case in refused_files()], ids=[c[0] for c in refused_files()]
+)
+def test_what_is_no_stat_file_is_refused_in_a_sentence(tmp_path, message, make):
+    path = tmp_path / "statS1.npy"
+    make(path)
+    with pytest.raises(BotschoolError, match=message) as caught:
+        read_stat(path)
+    assert str(path) in str(caught.value)
+
+
+def test_a_missing_stat_file_is_named():
+    with pytest.raises(BotschoolError, match=r"there is no file .*statS3\.npy"):
+        read_stat("nowhere/statS3.npy")
+
+
+def test_a_fit_file_is_pairs(tmp_path):
+    path = tmp_path / "S1.fit"
+    path.write_text("seed 1 (42.0%) algo SSS bestgfit -66.25\n")
+    assert read_fit(path) == {"seed": 1.0, "algo": "SSS", "bestgfit": -66.25}
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"bestfit 3\n", b"bestgfit\n", b"bestgfit x", b"\xff\x00"]
+)
+def test_what_is_no_fit_file_is_refused(tmp_path, content):
+    path = tmp_path / "S1.fit"
+    path.write_bytes(content)
+    with pytest.raises(BotschoolError, match=r"S1\.fit is no \.fit file"):
+        read_fit(path)
+
+
+def test_runs_of_a_folder_are_found_by_the_seeds_in_file_names(tmp_path):
+    save_run(tmp_path, 11, stat_of(3))
+    save_run(tmp_path, 2, stat_of(3))
+    for name in ("bestS11.npy", "bestgS11.npy", "stat7.npy", "S2S.fit", "acrobot.ini"):
+        (tmp_path / name).touch()
+    runs = find_runs(tmp_path)
+    assert [run.seed for run in runs] == [2, 7, 11]
+    assert runs[2].stat == tmp_path / "statS11.npy"
+    assert runs[2].best == tmp_path / "bestS11.npy"
+    assert runs[2].bestg == tmp_path / "bestgS11.npy"
+    assert runs[2].fit["bestgfit"] == 100.0
+    assert (runs[1].best, runs[1].fit) == (None, {})
+
+
+def test_the_fitness_of_an_unfinished_run_comes_from_its_stat_file(tmp_path):
+    save_run(tmp_path, 1, stat_of(3, last=50.0))
+    (tmp_path / "S1.fit").unlink()
+    assert read_fitness(tmp_path) == {1: 50.0}
+
+
+def test_damaged_files_of_a_folder_are_skipped_and_named(tmp_path):
+    save_run(tmp_path, 1, stat_of(3))
+    save_run(tmp_path, 2, stat_of(3))
+    (tmp_path / "statS2.npy").write_bytes(b"junk")
+    (tmp_path / "S2.fit").write_bytes(b"junk")
+    notices = []
+    assert read_fitness(tmp_path, notices.append) == {1: 100.0}
+    assert [name for name in ("S2.fit", "statS2.npy") if any(name in n for n in notices)] == [
+        "S2.fit",
+        "statS2.npy",
+    ]
+
+
+def test_a_folder_without_runs_is_an_error(tmp_path):
+    with pytest.raises(BotschoolError, match="no runs"):
+        plots.plot_stat([tmp_path], tmp_path / "a.png")
+    with pytest.raises(BotschoolError, match="no folder"):
+        plots.plot_ave([tmp_path / "nowhere"])
+
+
+# plots.py
+
+
+def lines_of(figure):
+    return {line.get_label(): line.get_xydata() for line in figure.axes[0].lines}
+
+
+def test_the_curves_of_one_run(tmp_path, drawn):
+    stat = stat_of(5)
+    stat[0, BEST_POST] = -np.inf
+    save_run(tmp_path / "acrobot", 4, stat)
+    plots.plot_stat([tmp_path / "acrobot" / "statS4.npy"], tmp_path / "a.png")
+    lines = lines_of(drawn[0])
+    assert drawn[0].axes[0].get_title() == "acrobot, seed 4"
+    np.testing.assert_array_equal(lines["best post-evaluated so far"][1:], stat[1:, [0, 2]])
+    assert np.isnan(lines["best post-evaluated so far"][0, 1])
+    np.testing.assert_array_equal(lines["average of the generation"], stat[:, [0, 4]])
+    assert imread(tmp_path / "a.png").shape[:2] == (500, 800)
+
+
+def test_a_folder_gives_mean_and_band_over_its_runs(tmp_path, drawn):
+    for seed, last in enumerate((90.0, 100.0, 110.0)):
+        save_run(tmp_path, seed, stat_of(11, last))
+    plots.plot_stat([tmp_path], tmp_path / "a.png")
+    mean = lines_of(drawn[0])["best post-evaluated so far, mean ± sd of 3 runs"]
+    np.testing.assert_allclose(mean[-1], [11000.0, 100.0])
+    band = drawn[0].axes[0].collections[-1].get_paths()[0].vertices
+    assert band[:, 1].max() == pytest.approx(110.0)
+    assert len(drawn[0].axes[0].lines) == 5
+
+
+def test_replications_count_only_as_far_as_they_ran():
+    stats = [stat_of(21, 100.0), stat_of(21, 100.0), stat_of(11, 1000.0)]
+    steps, mean, sd = plots.replication_mean(stats, BEST_POST, points=21)
+    assert steps[-1] == 21000.0
+    assert mean[-1] == pytest.approx(100.0)
+    assert sd[-1] == pytest.approx(0.0)
+    assert mean[10] == pytest.approx((50.0 + 50.0 + 1000.0) / 3)
+    steps, mean, sd = plots.replication_mean([stats[0], stats[2]], BEST_POST, points=21)
+    assert np.isnan(mean[-1])
+
+
+def test_several_folders_are_told_apart(tmp_path, drawn):
+    for parent in ("old", "new"):
+        (tmp_path / parent).mkdir()
+        save_run(tmp_path / parent / "acrobot", 1, stat_of(5))
+    plots.plot_stat(
+        [tmp_path / "old" / "acrobot", tmp_path / "new" / "acrobot"], tmp_path / "a.png"
+    )
+    assert set(lines_of(drawn[0])) == {"old/acrobot, 1 run", "new/acrobot, 1 run"}
+
+
+@pytest.mark.parametrize("generations", [1, 2, 100_000])
+@pytest.mark.parametrize("last", [0.0, 500.0])
+def test_curves_of_any_length_are_drawn(tmp_path, drawn, generations, last):
+    save_run(tmp_path, 1, stat_of(generations, last))
+    plots.plot_stat([tmp_path], tmp_path / "a.png")
+    for line in lines_of(drawn[0]).values():
+        assert len(line) <= plots.MAX_POINTS
+        assert line[-1, 0] == 1000.0 * generations
+    assert imread(tmp_path / "a.png")[..., :3].std() > 0.01
+
+
+def test_a_damaged_file_is_an_error_if_it_was_named(tmp_path):
+    (tmp_path / "statS1.npy").write_bytes(b"junk")
+    with pytest.raises(BotschoolError, match="no stat file"):
+        plots.plot_stat([tmp_path / "statS1.npy"], tmp_path / "a.png")
+
+
+@pytest.mark.parametrize(
+    ("steps", "text"), [(0, "0"), (500, "500"), (1500, "1.5k"), (2e6, "2M"), (12.5e6, "12.5M")]
+)
+def test_steps_are_written_short(steps, text):
+    assert plots.format_steps(steps) == text
+
+
+def test_averages_are_printed_and_drawn(tmp_path, capsys, drawn):
+    for seed, last in enumerate((1.0, 2.0, 6.0)):
+        save_run(tmp_path / "acrobot", seed, stat_of(3, last))
+    save_run(tmp_path / "pendulum", 1, stat_of(3, -150.0))
+    plots.plot_ave([tmp_path / "acrobot", tmp_path / "pendulum"], tmp_path / "a.png")
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert ["acrobot", "3.00", "2.65", "3", "1.00", "6.00"] in rows
+    assert ["pendulum", "-150.0", "-", "1", "-150.0", "-150.0"] in rows
+    assert [bar.get_width() for bar in drawn[0].axes[0].patches] == [3.0, -150.0]
+
+
+def test_without_display_the_table_comes_before_the_advice(tmp_path, capsys):
+    save_run(tmp_path / "acrobot", 1, stat_of(3))
+    with pytest.raises(BotschoolError, match=r"-o FILE\.png"):
+        plots.plot_ave([tmp_path / "acrobot"])
+    assert "acrobot" in capsys.readouterr().out
+    with pytest.raises(BotschoolError, match=r"-o FILE\.png"):
+        plots.plot_stat([tmp_path / "acrobot"])
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [("a.xyz", r"must end with one of \.png"), ("no/a.png", "no folder"), ("run.png", "a folder")],
+)
+def test_pictures_that_cannot_be_written(tmp_path, name, message):
+    save_run(tmp_path, 1, stat_of(3))
+    (tmp_path / "run.png").mkdir()
+    for plot in (plots.plot_stat, plots.plot_ave):
+        with pytest.raises(BotschoolError, match=message):
+            plot([tmp_path], tmp_path / name)
+
+
+def test_an_interrupted_picture_leaves_the_old_one(tmp_path, monkeypatch):
+    from matplotlib.figure import Figure
+
+    save_run(tmp_path / "runs", 1, stat_of(3))
+    (tmp_path / "a.png").write_text("old")
+
+    def full_disk(figure, path, **kwargs):
+        path.write_text("half")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Figure, "savefig", full_disk)
+    with pytest.raises(BotschoolError, match="No space left"):
+        plots.plot_stat([tmp_path / "runs"], tmp_path / "a.png")
+    assert (tmp_path / "a.png").read_text() == "old"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "runs"]

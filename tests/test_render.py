@@ -1,0 +1,353 @@
+"""Frames, panels, videos and windows, all without a display."""
+
+import os
+import subprocess
+import sys
+
+import imageio.v3 as iio
+import numpy as np
+import pytest
+
+from botschool.errors import BotschoolError
+from botschool.problems.moment import Moment
+from botschool.render import panel, scene, video, window
+
+STATES = {
+    "CartPole-v0": [0.5, 0.0, 0.1, 0.0],
+    "CartPole-v1": [0.5, 0.0, 0.1, 0.0],
+    "Pendulum-v0": [0.5, 0.0],
+    "Pendulum-v1": [0.5, 0.0],
+    "Acrobot-v1": [0.3, 0.5, 0.0, 0.0],
+    "MountainCarContinuous-v0": [-0.5, 0.0],
+    "envSwingupCustom": [0.5, 0.0, 2.8, 0.0],
+    "ErDpole": [0.5, 0.0, 0.3, 0.0, -0.4, 0.0],
+}
+
+
+def frames(number, height=60, width=80):
+    for i in range(number):
+        frame = np.full((height, width, 3), 255, np.uint8)
+        frame[:, : 10 + i] = (200, 0, 0)
+        yield frame
+
+
+def where(frame, colour):
+    """Mean row and column of the pixels of a colour; fails if there are none."""
+    rows, columns = np.nonzero((frame == colour).all(axis=2))
+    assert len(rows) > 0
+    return rows.mean(), columns.mean()
+
+
+# scene.py
+
+
+@pytest.mark.parametrize("name", STATES)
+def test_every_native_problem_is_drawn_from_its_state(name):
+    drawn = scene.make_scene(name)
+    state = np.array(STATES[name])
+    frame = drawn.draw(state, np.array([0.5]))
+    assert frame.dtype == np.uint8
+    assert frame.ndim == 3 and frame.shape[2] == 3
+    assert drawn.fps > 0
+    moved = state.copy()
+    moved[0] += 0.3
+    assert (drawn.draw(moved, np.array([0.5])) != frame).any()
+    assert (drawn.draw(state, np.array([0.5])) == frame).all()
+
+
+@pytest.mark.parametrize("name", ["Pendulum-v1", "envSwingupCustom", "ErDpole"])
+def test_the_action_is_seen(name):
+    drawn = scene.make_scene(name)
+    left, none, right = (drawn.draw(np.array(STATES[name]), a) for a in ([-0.9], None, 0.9))
+    assert (left != none).any() and (right != none).any() and (left != right).any()
+
+
+def test_the_force_points_where_the_cart_is_pushed():
+    drawn = scene.make_scene("ErDpole")
+    cart = 300
+    left, right = (where(drawn.draw(np.zeros(6), a), scene.FORCE)[1] for a in (-1.0, 1.0))
+    assert left < cart - 25 and right > cart + 25
+
+
+def test_a_positive_angle_of_the_double_pole_leans_right():
+    frame = scene.make_scene("ErDpole").draw(np.array([0.0, 0.0, 0.5, 0.0, -0.5, 0.0]))
+    assert where(frame, scene.POLE)[1] > 310
+    assert where(frame, scene.SHORT_POLE)[1] < 295
+
+
+def test_a_push_to_the_right_lets_the_swingup_pole_lean_left():
+    drawn = scene.make_scene("envSwingupCustom")
+    assert where(drawn.draw(np.array([0.0, 0.0, 0.5, 0.0])), scene.POLE)[1] < 295
+
+
+def test_the_swingup_pole_hangs_at_pi():
+    drawn = scene.make_scene("envSwingupCustom")
+    up, down = (where(drawn.draw(np.array([0, 0, a, 0])), scene.POLE)[0] for a in (0.0, np.pi))
+    assert up < 190 and down > 210
+
+
+def test_numbers_that_cannot_be_drawn():
+    drawn = scene.make_scene("CartPole-v1")
+    with pytest.raises(BotschoolError, match="not finite"):
+        drawn.draw(np.array([np.nan, 0.0, 0.0, 0.0]))
+    with pytest.raises(ValueError, match="shape"):
+        drawn.draw(np.zeros(3))
+    far = scene.make_scene("ErDpole").draw(np.array([1e30, 0, 1e6, 0, -1e6, 0]), [np.nan])
+    assert far.shape == (400, 600, 3)
+
+
+def test_an_unknown_problem_has_no_scene():
+    with pytest.raises(BotschoolError, match=r"BipedalWalker-v3.*CartPole-v1"):
+        scene.make_scene("BipedalWalker-v3")
+
+
+HEADLESS = """
+import os
+from botschool.errors import BotschoolError
+from botschool.render import scene, window
+before = dict(os.environ)
+for name, size in (("CartPole-v1", 4), ("ErDpole", 6)):
+    frame = scene.make_scene(name).draw([0.0] * size)
+    assert (frame != 255).any()
+try:
+    window.show(iter([frame]), 30, "x")
+except BotschoolError as error:
+    print(error)
+scene.make_scene("CartPole-v1").draw([0.0] * 4)
+assert before == dict(os.environ)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems always have a display")
+def test_without_any_display_scenes_are_drawn_and_windows_refused():
+    hidden = ("SDL_VIDEODRIVER", "DISPLAY", "WAYLAND_DISPLAY")
+    environment = {name: value for name, value in os.environ.items() if name not in hidden}
+    environment["PYTHONPATH"] = os.pathsep.join(sys.path)
+    done = subprocess.run(
+        [sys.executable, "-c", HEADLESS], env=environment, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("\n") == 1 and "--video FILE.mp4" in done.stdout
+
+
+# panel.py
+
+
+@pytest.mark.parametrize("neurons", [2, 10, 200, 3000])
+@pytest.mark.parametrize("size", [(400, 600), (101, 151)])
+def test_the_panel_stands_at_the_right_and_sides_are_even(neurons, size):
+    frame = np.full((*size, 3), 7, np.uint8)
+    activations = np.linspace(-2.0, 2.0, neurons)
+    out = panel.with_activations(frame, activations, 1, 1)
+    assert out.shape[0] % 2 == 0 and out.shape[1] % 2 == 0
+    assert (out[: size[0], : size[1]] == 7).all()
+    above_the_scale = out[:-62, -panel.PANEL_WIDTH :]
+    for first_or_last in (panel.NEGATIVE, panel.POSITIVE):
+        assert (above_the_scale == first_or_last).all(axis=2).any()
+
+
+def test_colours_are_symmetric_around_zero():
+    assert panel.colour_of(0.0) == (255, 255, 255)
+    assert panel.colour_of(7.0) == panel.colour_of(1.0) == panel.POSITIVE
+    assert panel.colour_of(-7.0) == panel.colour_of(-1.0) == panel.NEGATIVE
+    assert panel.colour_of(0.5) != panel.colour_of(1.0)
+
+
+def test_an_activation_beyond_one_is_framed():
+    frame = np.zeros((400, 600, 3), np.uint8)
+
+    def black(activation):
+        neurons = np.full(40, activation)
+        return (panel.with_activations(frame, neurons, 3, 2)[:, 600:] == 0).all(axis=2).sum()
+
+    assert black(1.5) > black(1.0) + 40 * 20
+
+
+def test_activations_that_are_not_finite_do_not_stop_the_film():
+    frame = np.zeros((400, 600, 3), np.uint8)
+    panel.with_activations(frame, np.array([np.nan, np.inf, -np.inf, 0.0]), 1, 1)
+
+
+def test_groups_larger_than_the_network_are_refused():
+    with pytest.raises(ValueError, match="3 activations"):
+        panel.with_activations(np.zeros((400, 600, 3), np.uint8), np.zeros(3), 3, 1)
+
+
+def test_the_caption():
+    moment = Moment(120, 1.0, -120.0, np.zeros(1), np.zeros(1), np.zeros(1))
+    assert panel.caption(3, moment) == ("episode 3", "step 120", "reward 1.00", "return -120.0")
+    frame = np.full((61, 301, 3), 255, np.uint8)
+    out = panel.with_caption(frame, 3, moment)
+    assert out.shape == (62 + panel.CAPTION_HEIGHT, 302, 3)
+    assert (out[:62] == 255).all() and (out[62:] != 255).any()
+    assert (panel.with_caption(frame, 4, moment) != out).any()
+
+
+# video.py
+
+
+@pytest.mark.parametrize("suffix", video.VIDEO_SUFFIXES)
+def test_a_video_holds_all_frames_at_even_size(tmp_path, suffix):
+    path = tmp_path / f"a{suffix}"
+    video.write_video(path, frames(12, height=61, width=81), fps=25)
+    film = iio.imread(path)
+    even = (61, 81) if suffix == ".gif" else (62, 82)
+    assert film.shape == (12, *even, 3)
+    red, white = film[0, 30, 4].astype(int), film[0, 30, 60].astype(int)
+    assert red[0] > 150 and red[1] < 60 and white.min() > 230
+    assert [path.name for path in tmp_path.iterdir()] == [f"a{suffix}"]
+
+
+def test_an_mp4_plays_everywhere_at_the_asked_speed(tmp_path):
+    video.write_video(tmp_path / "a.mp4", frames(10), fps=50)
+    about = iio.immeta(tmp_path / "a.mp4")
+    assert about["codec"] == "h264"
+    assert about["pix_fmt"].startswith("yuv420p")
+    assert about["fps"] == 50
+
+
+def test_frames_are_streamed(tmp_path, monkeypatch):
+    class Pipe:
+        def __init__(self, pipe):
+            self.pipe, self.sent, self.close = pipe, 0, pipe.close
+
+        def write(self, data):
+            self.sent += 1
+            self.pipe.write(data)
+
+    start = video._start_encoder
+    pipes = []
+
+    def watched(*args):
+        encoder = start(*args)
+        encoder.stdin = Pipe(encoder.stdin)
+        pipes.append(encoder.stdin)
+        return encoder
+
+    def lazy():
+        for i, frame in enumerate(frames(5)):
+            assert i == 0 or pipes[0].sent == i
+            yield frame
+
+    monkeypatch.setattr(video, "_start_encoder", watched)
+    video.write_video(tmp_path / "a.mp4", lazy(), fps=25)
+    assert pipes[0].sent == 5
+
+
+@pytest.mark.parametrize(
+    ("name", "number", "message"),
+    [
+        ("a.avi", 3, r"must end with one of \.mp4"),
+        ("no/a.mp4", 3, "no folder"),
+        ("a.mp4", 0, "no frames"),
+    ],
+)
+def test_videos_that_cannot_be_written(tmp_path, name, number, message):
+    with pytest.raises(BotschoolError, match=message):
+        video.write_video(tmp_path / name, frames(number), fps=25)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("failure", [KeyboardInterrupt(), ConnectionResetError("worker died")])
+def test_a_failing_episode_leaves_the_old_video(tmp_path, failure):
+    (tmp_path / "a.mp4").write_text("old")
+
+    def broken():
+        yield from frames(3)
+        raise failure
+
+    with pytest.raises(type(failure)):
+        video.write_video(tmp_path / "a.mp4", broken(), fps=25)
+    assert [path.name for path in tmp_path.iterdir()] == ["a.mp4"]
+    assert (tmp_path / "a.mp4").read_text() == "old"
+
+
+def test_frames_of_another_size_are_refused(tmp_path):
+    def growing():
+        yield from frames(2)
+        yield from frames(2, height=90)
+
+    with pytest.raises(BotschoolError, match=r"shape \(90, 80, 3\)"):
+        video.write_video(tmp_path / "a.mp4", growing(), fps=25)
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")
+def test_a_full_disk_is_said_in_a_sentence(tmp_path, monkeypatch):
+    from pathlib import Path
+
+    start = video._start_encoder
+    monkeypatch.setattr(
+        video,
+        "_start_encoder",
+        lambda path, *args: (path.symlink_to("/dev/full"), start(Path(path), *args))[1],
+    )
+    noise = np.random.default_rng(0)
+    pixels = (noise.integers(0, 255, (120, 160, 3), dtype=np.uint8) for _ in range(60))
+    with pytest.raises(BotschoolError, match="No space left on device"):
+        video.write_video(tmp_path / "a.gif", pixels, fps=25)
+    assert list(tmp_path.iterdir()) == []
+
+
+# window.py
+
+
+def test_a_window_shows_all_frames():
+    shown = []
+
+    def watched():
+        for frame in frames(3):
+            yield frame
+            import pygame
+
+            shown.append(pygame.surfarray.array3d(pygame.display.get_surface()).swapaxes(0, 1))
+
+    assert window.show(watched(), fps=1000, title="test") is True
+    np.testing.assert_array_equal(shown, list(frames(3)))
+
+
+def pressing(after, *events):
+    """Ten frames; after the given number of them, these events happen."""
+    import pygame
+
+    for i, frame in enumerate(frames(10)):
+        if i == after:
+            for event in events:
+                pygame.event.post(event)
+        pressing.seen = i + 1
+        yield frame
+
+
+def key(name):
+    import pygame
+
+    return pygame.event.Event(pygame.KEYDOWN, key=pygame.key.key_code(name))
+
+
+@pytest.mark.parametrize("ending", ["escape", "q", "close"])
+def test_a_window_ends_when_asked(ending):
+    import pygame
+
+    pygame.display.init()
+    event = pygame.event.Event(pygame.QUIT) if ending == "close" else key(ending)
+    assert window.show(pressing(4, event), fps=1000, title="test") is False
+    assert pressing.seen == 5
+    assert not pygame.display.get_init()
+
+
+def test_space_pauses_and_goes_on(monkeypatch):
+    import pygame
+
+    pygame.display.init()
+    space = key("space")
+    waits = []
+
+    class Clock:
+        def tick(self, fps):
+            if fps == 30:
+                waits.append(fps)
+                if len(waits) == 3:
+                    pygame.event.post(space)
+
+    monkeypatch.setattr(pygame.time, "Clock", Clock)
+    assert window.show(pressing(2, space), fps=1000, title="test") is True
+    assert len(waits) == 3
