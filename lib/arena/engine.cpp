@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <stdexcept>
 #include <system_error>
@@ -120,9 +121,14 @@ void Engine::run(const Jobs& jobs, Queue& queue, Recorder* recorder) const {
 
 void Engine::evaluate(const Jobs& jobs, std::size_t count, int threads) const {
   SharedQueue queue(count);
-  const int useful = static_cast<int>(std::min<std::size_t>(threads, count));
+  // a thread's lanes cost the same whether they are used or not: fill them before using another;
+  // and a batch that takes no longer than starting a thread is done by one
+  const auto begin = std::chrono::steady_clock::now();
+  const std::size_t loads = (count + kernel_->lanes - 1) / kernel_->lanes;
+  const bool small = seconds_per_job_ * static_cast<double>(count) < 200e-6;
+  const int useful = small ? 1 : static_cast<int>(std::min<std::size_t>(threads, loads));
   std::vector<std::thread> others;
-  std::vector<std::exception_ptr> errors(useful);
+  std::vector<std::exception_ptr> errors(std::max(useful, 1));
   const auto work = [&](int t) {
     try {
       run(jobs, queue, nullptr);
@@ -135,10 +141,12 @@ void Engine::evaluate(const Jobs& jobs, std::size_t count, int threads) const {
   } catch (const std::system_error&) {
     // the system gives no more threads: those that there are do all the work
   }
-  if (useful > 0) work(0);
+  work(0);
   for (auto& thread : others) thread.join();
   for (const auto& error : errors)
     if (error) std::rethrow_exception(error);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  if (count > 0) seconds_per_job_ = took.count() * useful / static_cast<double>(count);
 }
 
 void Engine::record(const Jobs& jobs, Recorder& recorder) const {

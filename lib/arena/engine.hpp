@@ -1,6 +1,7 @@
 // Evaluates batches of episodes on all threads, with the best instruction set of this machine.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -35,6 +36,7 @@ class Engine {
 
   Layout layout_;
   const Kernel* kernel_;
+  mutable std::atomic<double> seconds_per_job_{1.0};  ///< of one thread, in the last batch
 };
 
 /// A native problem step by step, in double precision: for Gymnasium, for tests, for looking.

@@ -15,7 +15,7 @@ constexpr int kLanes = 16;
 template <template <int> class Problem>
 Kernel kernel() {
   using R = Rollout<Problem, kLanes>;
-  return {Problem<1>::info(), &R::workspace, &R::run};
+  return {Problem<1>::info(), kLanes, &R::workspace, &R::run};
 }
 
 template <template <int> class... Problem>

@@ -54,6 +54,7 @@ class Recorder {
 /// One problem's episodes, built for one instruction set.
 struct Kernel {
   Info info;
+  int lanes;                                ///< episodes in lockstep
   std::size_t (*workspace)(const Layout&);  ///< bytes that run() needs, 64-byte aligned
   void (*run)(const Layout&, const Jobs&, Queue&, Recorder*, void* workspace);
 };
