@@ -8,7 +8,7 @@ CPP_INPUTS := $(filter lib/%,$(CPP)) $(shell find lib -name CMakeLists.txt -o -n
 # Packages that another project put on the path (ROS, for one) would shadow the pinned ones.
 unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
-.PHONY: help demo build test test-long bench lint format sanitize clean FORCE
+.PHONY: help demo build test test-long bench results lint format sanitize clean FORCE
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -31,6 +31,9 @@ test-long: .venv/.tests ## the tests that take minutes: whole runs, many seeds
 
 bench: .venv/.module ## the speed of evaluation beside Gymnasium's own loop
 	@$(BIN)/python tests/bench/run.py
+
+results: .venv/.module ## what the experiments reach with 10 seeds each (some minutes)
+	@$(BIN)/python tests/bench/results.py
 
 lint: .venv/.tests ## check style: ruff and clang-format
 	@$(BIN)/ruff check --quiet .

@@ -1,0 +1,211 @@
+"""Measures what botschool promises about speed, memory and start-up: `make bench`.
+
+Nothing is written unless --json names a file. It is a measurement and no test: it always ends well,
+and the words PASS and FALLS SHORT say how each target fared.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tempfile
+from dataclasses import asdict
+from functools import partial
+from pathlib import Path
+
+from processes import Neighbours, help_seconds, peak_memory
+from report import Table, machine, rate, verdict
+from speed import (
+    CASES,
+    DATA,
+    Batch,
+    GymnasiumLoop,
+    best_call,
+    generations_in,
+    rates,
+    run_times,
+    undisturbed,
+)
+
+from botschool import _core
+
+EPISODES = 2000
+"""In a large batch."""
+TWO_WORKERS = 1.8
+MEMORY = 300
+HELP = 0.3
+
+
+def episodes_of_generation(experiment) -> int:
+    """How many episodes evaluate one generation."""
+    candidates = getattr(experiment.algo, "popsize", 0) or 2 * experiment.algo.samplesize
+    return candidates * experiment.policy.episodes
+
+
+def beside_gymnasium(seconds: float, repetitions: int) -> Table:
+    """Native evaluation and Gymnasium's own loop, one core."""
+    table = Table(
+        "Steps/s of the whole policy-plus-problem evaluation, one core",
+        f"Each experiment file's network with random initial genotypes; best of {repetitions} "
+        f"interleaved repetitions. Native: as many episodes as one generation has, and {EPISODES}; "
+        "the slower of the two counts. Gymnasium: a Python loop over gymnasium.make(id) with the "
+        "same network (double precision) and genotypes. Original library: published for another "
+        "machine of this kind, not measured here.",
+        [
+            "experiment",
+            "steps / episode",
+            "native, a generation",
+            f"native, {EPISODES} episodes",
+            "Gymnasium's loop",
+            "native / Gymnasium",
+            "target",
+            "",
+            "original library",
+        ],
+    )
+    for case in CASES:
+        experiment = case.load()
+        small = Batch(experiment, episodes_of_generation(experiment))
+        large = Batch(experiment, EPISODES)
+        contestants = [small.evaluate, large.evaluate]
+        if case.gymnasium:
+            contestants.append(GymnasiumLoop(large).evaluate)
+        best = [max(results) for results in rates(contestants, seconds, repetitions)]
+        native = min(best[:2])
+        table.add(
+            case.file,
+            f"{large.evaluate() / EPISODES:.0f}",
+            *(rate(r) for r in best[:2]),
+            rate(best[2]) if case.gymnasium else "-",
+            f"{native / best[2]:,.0f} x" if case.gymnasium else "-",
+            rate(case.target),
+            verdict(native >= case.target),
+            rate(case.original) if case.original else "-",
+        )
+    return table
+
+
+def instruction_sets(seconds: float, repetitions: int) -> Table:
+    """Native evaluation with every instruction set of this machine, one core."""
+    sets = _core.instruction_sets()
+    table = Table(
+        "Steps/s with each instruction set of this machine, one core",
+        f"Native evaluation of {EPISODES} episodes, as above. All give the same bits; a run takes "
+        "the last one.",
+        ["experiment", *sets],
+    )
+    for case in CASES:
+        batches = [Batch(case.load(), EPISODES, name) for name in sets]
+        measured = rates([batch.evaluate for batch in batches], seconds, repetitions)
+        table.add(case.file, *(rate(max(results)) for results in measured))
+    return table
+
+
+def two_workers_evaluating(repetitions: int) -> Table:
+    """Evaluation on one worker and on two."""
+    table = Table(
+        "Two workers against one: evaluation",
+        f"Steps/s of the native evaluation of {EPISODES} episodes; the fastest of {repetitions} "
+        f"calls each, taking turns. The target is {TWO_WORKERS} times one.",
+        ["experiment", "1 worker", "2 workers", "2 / 1", ""],
+    )
+    for case in CASES:
+        batch = Batch(case.load(), EPISODES)
+        one, two = best_call([partial(batch.evaluate, w) for w in (1, 2)], repetitions)
+        table.add(
+            case.file, rate(one), rate(two), f"{two / one:.2f}", verdict(two / one >= TWO_WORKERS)
+        )
+    return table
+
+
+def two_workers_running(seconds: float, repetitions: int) -> Table:
+    """Whole runs on one worker and on two."""
+    table = Table(
+        "Two workers against one: whole runs",
+        f"Steps/s of a run's first generations, about {seconds} s of them, the same on both sides; "
+        f"each generation's shortest time in {repetitions} repetitions that take turns; no files. "
+        "Evaluating: the share of one worker's time that a second can halve; the rest is the "
+        f"algorithm in numpy. At most: 2 / 1 if it were halved. The target is {TWO_WORKERS}.",
+        ["experiment", "1 worker", "evaluating", "2 workers", "2 / 1", "at most", ""],
+    )
+    for case in CASES:
+        experiment = case.load()
+        generations = generations_in(experiment, seconds)
+        pairs = [
+            [run_times(experiment, workers, generations) for workers in (1, 2)]
+            for _ in range(repetitions)
+        ]
+        one, two = (undisturbed(list(side)) for side in zip(*pairs, strict=True))
+        ratio = one.whole.sum() / two.whole.sum()
+        share = one.evaluating.sum() / one.whole.sum()
+        table.add(
+            case.file,
+            rate(one.steps.sum() / one.whole.sum()),
+            f"{100 * share:.0f} %",
+            rate(two.steps.sum() / two.whole.sum()),
+            f"{ratio:.2f}",
+            f"{1 / (1 - share / 2):.2f}",
+            verdict(ratio >= TWO_WORKERS),
+        )
+    return table
+
+
+def memory_and_start(seconds: float, repetitions: int) -> Table:
+    """Peak memory of runs, time of --help."""
+    table = Table(
+        "Memory and start-up of the command",
+        "Peak memory sums the peaks of all processes of a run, shared pages counted in each. "
+        f"--help: median of {repetitions}.",
+        ["what", "measured", "target", ""],
+    )
+    with tempfile.TemporaryDirectory() as folder:
+        general = Path(folder) / "general.ini"
+        text = (DATA / "acrobot.ini").read_text(encoding="utf-8")
+        general.write_text(text.replace("Acrobot-v1", "MountainCar-v0"), encoding="utf-8")
+        for name, file in (
+            ("acrobot.ini, 2 workers (threads)", DATA / "acrobot.ini"),
+            ("MountainCar-v0 in Gymnasium, 2 workers (processes)", general),
+        ):
+            arguments = ["es", "-f", str(file), "-w", "2", "-o", f"{folder}/{file.stem}"]
+            peak = peak_memory(arguments, seconds)
+            table.add(
+                f"peak memory, {name}",
+                f"{peak[0]:.0f} MiB, processes: {peak[1]}" if peak else "- (needs Linux)",
+                f"< {MEMORY} MiB",
+                verdict(peak[0] < MEMORY) if peak else "",
+            )
+    taken = help_seconds(repetitions)
+    table.add("botschool --help", f"{taken:.2f} s", f"< {HELP} s", verdict(taken < HELP))
+    return table
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Speed, memory and start-up of botschool.")
+    parser.add_argument("--quick", action="store_true", help="rougher, in about 20 s")
+    parser.add_argument("--markdown", action="store_true", help="tables for docs/results.md")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="also write all numbers there")
+    options = parser.parse_args()
+    quick = options.quick
+    print(f"Machine: {machine()}\n")
+    tables, neighbours = [], Neighbours()
+    for part, arguments in (
+        (beside_gymnasium, (0.1, 2) if quick else (0.3, 5)),
+        (instruction_sets, (0.05, 2) if quick else (0.15, 5)),
+        (two_workers_evaluating, (20,) if quick else (200,)),
+        (two_workers_running, (0.15, 2) if quick else (0.5, 7)),
+        (memory_and_start, (2, 3) if quick else (8, 10)),
+    ):
+        tables.append(part(*arguments))
+        tables[-1].show(options.markdown)
+    print(neighbours.sentence())
+    if options.json:
+        data = {
+            "machine": machine(),
+            "note": neighbours.sentence(),
+            "tables": [asdict(table) for table in tables],
+        }
+        options.json.write_text(json.dumps(data, indent=2) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,181 @@
+"""Steps per second: of native evaluation, of Gymnasium's own loop, and of whole runs."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+
+from botschool import config
+from botschool.config import Experiment
+from botschool.evolution.run import Run
+from botschool.policy import Policy
+from botschool.problems import Episodes
+from botschool.problems.native import NativeProblem
+
+DATA = Path(__file__).parents[2] / "data" / "experiments"
+SEED = 1
+
+
+@dataclass
+class Case:
+    """An experiment file, the speed asked for, and the original library's (steps/s)."""
+
+    file: str
+    target: float
+    original: float | None
+    gymnasium: bool = True
+
+    def load(self) -> Experiment:
+        """The experiment."""
+        return config.load(DATA / f"{self.file}.ini")
+
+
+CASES = [
+    Case("acrobot", 2e6, 23e3),
+    Case("cartpole", 4e6, 89e3),
+    Case("pendulum", 4e6, 77e3),
+    Case("mountaincarcontinuous", 4e6, 279e3),
+    Case("dpole", 4e6, 744e3, gymnasium=False),
+    Case("swingup", 4e6, None, gymnasium=False),
+]
+"""The original library's figures were published for another machine of this kind."""
+
+
+class Batch:
+    """Random policies of an experiment's initial distribution, one episode each."""
+
+    def __init__(self, experiment: Experiment, episodes: int, instruction_set: str = "") -> None:
+        self.experiment = experiment
+        self.problem = NativeProblem(experiment.exp.environment, instruction_set)
+        self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
+        self.genotypes = np.array([self.policy.initial(SEED, i) for i in range(episodes)])
+        self.episodes = Episodes.of(np.arange(episodes), 1)
+        self.normalisation = None
+        if experiment.policy.normalize:
+            self.normalisation = np.repeat([0.0, 1.0], self.problem.interface.observations)
+
+    def evaluate(self, workers: int = 1) -> int:
+        """Evaluates all natively; returns the steps done."""
+        outcome = self.problem.evaluate(
+            self.policy,
+            self.genotypes,
+            self.normalisation,
+            self.episodes,
+            self.experiment.policy.maxsteps,
+            workers,
+        )
+        return int(outcome.steps.sum())
+
+
+class GymnasiumLoop:
+    """The loop that everybody writes: env.step(policy(observation)), in Python.
+
+    The network is the stepwise one in double precision, the genotypes are those of a Batch.
+    """
+
+    def __init__(self, batch: Batch) -> None:
+        # no wrappers but Gymnasium's own time limit and order check: its fastest form
+        self.env = gymnasium.make(batch.problem.dynamics, disable_env_checker=True)
+        self.batch = batch
+        self._next = 0
+
+    def evaluate(self) -> int:
+        """One whole episode of the next genotype; returns its steps."""
+        batch, policy = self.batch, self.batch.policy
+        i = self._next
+        self._next = (i + 1) % len(batch.genotypes)
+        policy.load(batch.genotypes[i], batch.normalisation)
+        policy.reset(SEED, i)
+        observation, _ = self.env.reset(seed=i)
+        steps = 0
+        for _ in range(batch.problem.steps(batch.experiment.policy.maxsteps)):
+            observation, _, terminated, truncated, _ = self.env.step(policy.act(observation))
+            steps += 1
+            if terminated or truncated:
+                break
+        return steps
+
+
+def rates(
+    contestants: list[Callable[[], int]], seconds: float, repetitions: int
+) -> list[list[float]]:
+    """Steps per second of each contestant in each repetition.
+
+    A contestant is a function that does some work and returns its steps. They take turns, so
+    that whatever else the machine does disturbs all alike.
+    """
+    for contestant in contestants:
+        contestant()
+    measured = [[] for _ in contestants]
+    for _ in range(repetitions):
+        for contestant, results in zip(contestants, measured, strict=True):
+            steps, start = 0, time.perf_counter()
+            while (elapsed := time.perf_counter() - start) < seconds:
+                steps += contestant()
+            results.append(steps / elapsed)
+    return measured
+
+
+def best_call(contestants: list[Callable[[], int]], repetitions: int) -> list[float]:
+    """Steps per second of each contestant's fastest call; they take turns."""
+    best = [0.0] * len(contestants)
+    for _ in range(repetitions + 1):
+        for i, contestant in enumerate(contestants):
+            start = time.perf_counter()
+            steps = contestant()
+            best[i] = max(best[i], steps / (time.perf_counter() - start))
+    return best
+
+
+@dataclass
+class RunTimes:
+    """Where the seconds of a run's first generations went; one value a generation."""
+
+    steps: np.ndarray
+    whole: np.ndarray
+    evaluating: np.ndarray
+
+
+def run_times(experiment: Experiment, workers: int, generations: int) -> RunTimes:
+    """Times the first generations of a run: the same work whenever it is repeated."""
+    run = Run(experiment, SEED, workers)
+    evaluate = run.problem.evaluate
+    steps, whole, evaluating = np.zeros((3, generations))
+    generation = 0
+
+    def timed(*arguments):
+        start = time.perf_counter()
+        outcome = evaluate(*arguments)
+        evaluating[generation] += time.perf_counter() - start
+        return outcome
+
+    run.problem.evaluate = timed
+    for generation in range(generations):
+        start, before = time.perf_counter(), run.record.steps
+        run.advance()
+        whole[generation] = time.perf_counter() - start
+        steps[generation] = run.record.steps - before
+    return RunTimes(steps, whole, evaluating)
+
+
+def undisturbed(repeated: list[RunTimes]) -> RunTimes:
+    """Each generation's shortest time: what other programs cost is left out."""
+    return RunTimes(
+        repeated[0].steps,
+        np.min([times.whole for times in repeated], axis=0),
+        np.min([times.evaluating for times in repeated], axis=0),
+    )
+
+
+def generations_in(experiment: Experiment, seconds: float) -> int:
+    """About how many generations one worker does in that time."""
+    run, start, count = Run(experiment, SEED), time.perf_counter(), 0
+    while time.perf_counter() - start < seconds:
+        run.advance()
+        count += 1
+    return count
