@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from botschool.errors import BotschoolError
+
+UsageError = typer.BadParameter.__base__
 
 app = typer.Typer(
     help="Train robots in simulation by evolution and by reinforcement learning.",
@@ -31,6 +36,18 @@ Folders = Annotated[
 ]
 
 
+Submission = Annotated[
+    str | None,
+    typer.Option(help="Grade another folder; `solutions` is the reference.", metavar="FOLDER"),
+]
+GradingWorkers = Annotated[
+    int | None,
+    typer.Option(
+        "-w", "--workers", min=1, max=1024, help="Submissions at a time.", show_default="all cores"
+    ),
+]
+
+
 @app.callback()
 def botschool() -> None:
     pass
@@ -41,7 +58,10 @@ def es(
     file: Experiment = None,
     seed: Annotated[int, typer.Option("-s", "--seed", min=0, max=2**62, help="Seed.")] = 1,
     replications: Annotated[
-        int, typer.Option("-n", "--replications", min=1, help="Runs, with consecutive seeds.")
+        int,
+        typer.Option(
+            "-n", "--replications", min=1, max=100_000, help="Runs, with consecutive seeds."
+        ),
     ] = 1,
     workers: Annotated[
         int, typer.Option("-w", "--workers", min=1, max=1024, help="Cores to use.")
@@ -110,6 +130,93 @@ def plotave(folders: Folders = None, output: Picture = None) -> None:
     plot_ave(folders or [Path(".")], output)
 
 
+@app.command(epilog="Example: botschool grade 3, or botschool grade 3.2 for one task")
+def grade(
+    what: Annotated[str, typer.Argument(help="Exercise N or task N.T.", metavar="N[.T]")],
+    submission: Submission = None,
+    json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+    debug: Annotated[
+        bool, typer.Option(help="One task in this process, without points, for breakpoints.")
+    ] = False,
+) -> None:
+    """Grade your solution of an exercise, or of one task."""
+    from botschool.grading.commands import grade_command
+
+    if not grade_command(what, submission, json, debug):
+        raise typer.Exit(1)
+
+
+@app.command(epilog="Example: botschool hint 3.2")
+def hint(
+    task: Annotated[str, typer.Argument(help="Task N.T.", metavar="N.T")],
+) -> None:
+    """Show one more hint for a task, each time it is called."""
+    from botschool.grading.commands import hint_command
+
+    hint_command(task)
+
+
+@app.command(epilog="Example: botschool progress")
+def progress(workers: GradingWorkers = None) -> None:
+    """Show your points in all exercises, and what comes next."""
+    from botschool.grading.commands import progress_command
+
+    progress_command(workers)
+
+
+@app.command(epilog="Example: botschool watch 3, or botschool watch 3.2 for one task")
+def watch(
+    what: Annotated[str, typer.Argument(help="Exercise N or task N.T.", metavar="N[.T]")],
+    submission: Submission = None,
+) -> None:
+    """Grade again whenever you save; Ctrl-C ends."""
+    from botschool.grading.commands import watch_command
+
+    watch_command(what, submission)
+
+
+@app.command(epilog="Example: botschool release ../course-for-students")
+def release(
+    folder: Annotated[Path, typer.Argument(help="A new folder.", metavar="FOLDER")],
+) -> None:
+    """For instructors: make a copy of the repository for students, without solutions."""
+    from botschool.grading.commands import release_command
+
+    release_command(folder)
+
+
+@app.command("grade-all", epilog="Example: botschool grade-all submissions --exercise 3 -o grades")
+def grade_all(
+    folder: Annotated[
+        Path, typer.Argument(help="Holds a sub-folder per student.", metavar="FOLDER")
+    ],
+    exercise: Annotated[
+        str, typer.Option("-e", "--exercise", help="A number, or all.", metavar="N")
+    ] = "all",
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="Folder of table and feedback.", metavar="FOLDER")
+    ] = Path("results/grades"),
+    workers: GradingWorkers = None,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", help="Grade again what has not changed since.")
+    ] = False,
+) -> None:
+    """For instructors: grade a class into a table and a page of feedback per student."""
+    from botschool.grading.commands import grade_all_command
+
+    grade_all_command(folder, output, exercise, workers, fresh)
+
+
+@app.command()
+def skeletons() -> None:
+    """Generate the exercises' skeletons from the solutions (edited files are left alone)."""
+    from botschool.grading.exercise import course_root
+    from botschool.grading.skeleton import write_skeletons
+
+    for path in write_skeletons(course_root()):
+        print(f"left alone, because it was edited: {path}")
+
+
 def _list_hyperparameters() -> None:
     from rich.console import Console
     from rich.table import Table
@@ -150,13 +257,46 @@ def _watch(experiment, seed, genotype, neurons, render, video, episodes) -> None
 
 def main() -> None:
     """Runs the command; errors for learners are one sentence and exit code 2."""
+    with suppress(AttributeError):  # in a notebook
+        sys.stdout.reconfigure(errors="backslashreplace")  # names that the terminal cannot show
     try:
-        app()
+        code = app(standalone_mode=False) or 0
+        sys.stdout.flush()
     except BotschoolError as error:
-        print(f"error: {error}", file=sys.stderr)
-        sys.exit(2)
-    except KeyboardInterrupt:
-        sys.exit(130)
+        code = _refuse(str(error))
+    except UsageError as error:
+        message = " ".join(error.format_message().split()).rstrip(".")
+        command = error.ctx.command_path.removeprefix("python -m ") if error.ctx else "botschool"
+        code = _refuse(f"{message}: see {command} --help.") if message else 2
+    except MemoryError:
+        code = _refuse(
+            "There is not enough memory: lower samplesize, popsize, nhiddens or the number of "
+            "workers (-w)."
+        )
+    except (KeyboardInterrupt, typer.Abort):
+        code = 130
     except BrokenPipeError:
-        sys.stderr.close()
-        sys.exit(1)
+        code = _silence(1)
+    except OSError as error:
+        place = error.filename or "Standard output"
+        code = _refuse(
+            f"{place} cannot be read or written ({error.strerror or error}): free some space or "
+            "choose another place."
+        )
+        code = _silence(code)
+    if code == 130:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # impatience is no error
+    sys.exit(code)
+
+
+def _refuse(sentence: str) -> int:
+    print(f"error: {sentence}", file=sys.stderr)
+    return 2
+
+
+def _silence(code: int) -> int:
+    """Drops what the interpreter would still print to a broken standard output at its end."""
+    with suppress(OSError):
+        sys.stdout.flush()
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return code

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from io import BytesIO
 from pathlib import Path
-from typing import BinaryIO
 
 import numpy as np
 
@@ -49,7 +49,7 @@ def written_whole(path: Path | str) -> Iterator[Path]:
     block's exception goes on. Raises BotschoolError if the file cannot be completed.
     """
     path = Path(path)
-    temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    temporary = _temporary(path, os.getpid())
     try:
         yield temporary
         try:
@@ -59,22 +59,39 @@ def written_whole(path: Path | str) -> Iterator[Path]:
         except OSError as error:
             raise cannot_write(path, error.strerror or str(error)) from error
     finally:
-        temporary.unlink(missing_ok=True)
+        with suppress(OSError):
+            temporary.unlink()
+
+
+def remove_leftovers(path: Path) -> None:
+    """Removes what killed processes left of unfinished versions of `path`."""
+    for temporary in path.parent.glob(_temporary(path, "*").name):
+        with suppress(OSError):
+            temporary.unlink()
+
+
+def _temporary(path: Path, process: object) -> Path:
+    return path.with_name(f".{path.stem}.{process}{path.suffix}")
 
 
 def save_npy(path: Path, array: np.ndarray) -> None:
     """np.save, whole or not at all. Raises BotschoolError."""
-    _save(path, lambda file: np.save(file, array, allow_pickle=False))
+    buffer = BytesIO()
+    np.save(buffer, array, allow_pickle=False)
+    save_bytes(path, buffer.getvalue())
 
 
 def save_npz(path: Path, arrays: dict[str, np.ndarray]) -> None:
     """np.savez, whole or not at all. Raises BotschoolError."""
-    _save(path, lambda file: np.savez(file, **arrays))
+    buffer = BytesIO()
+    np.savez(buffer, **arrays)
+    save_bytes(path, buffer.getvalue())
 
 
-def _save(path: Path, write: Callable[[BinaryIO], None]) -> None:
+def save_bytes(path: Path, content: bytes) -> None:
+    """A file with this content, whole or not at all. Raises BotschoolError."""
     try:
-        with written_whole(path) as temporary, open(temporary, "wb") as file:
-            write(file)
+        with written_whole(path) as temporary:
+            temporary.write_bytes(content)
     except OSError as error:
         raise cannot_write(path, error.strerror or str(error)) from error

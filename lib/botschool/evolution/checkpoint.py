@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -32,19 +31,23 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
         with np.load(path, allow_pickle=False) as file:
             state = {name: file[name] for name in file.files}
         header = json.loads(str(state.pop("botschool")))
-        saved = header["experiment"]
-        if header["format"] != FORMAT:
-            raise BotschoolError(
-                f"{path} was written by another version of botschool: use that one, or --force "
-                "to start anew."
-            )
-    except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
+        version, owner = header["format"], header["seed"]
+        saved = {section: dict(keys) for section, keys in header["experiment"].items()}
+    except Exception as error:  # a damaged file can fail in any way
         raise BotschoolError(
             f"{path} is no complete checkpoint of botschool ({_reason(error)}): restore it from a "
             "copy, or use --force to start anew."
         ) from None
-    if header["seed"] != seed:
-        raise BotschoolError(f"{path} is a checkpoint of seed {header['seed']}, not of {seed}.")
+    if version != FORMAT:
+        raise BotschoolError(
+            f"{path} was written by another version of botschool: use that one, or --force "
+            "to start anew."
+        )
+    if owner != seed:
+        raise BotschoolError(
+            f"{path} is a checkpoint of seed {owner}, not of {seed}: give "
+            "that seed with -s, or use --force to start anew."
+        )
     now = to_dict(experiment)
     for section, keys in now.items():
         for key, value in keys.items():
@@ -60,4 +63,6 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
 def _reason(error: Exception) -> str:
     if isinstance(error, KeyError):
         return "parts are missing"
+    if isinstance(error, OSError) and error.strerror:
+        return error.strerror
     return "it is damaged or of another kind"

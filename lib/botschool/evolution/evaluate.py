@@ -28,8 +28,9 @@ class Measured:
 class Evaluator:
     """Measures candidates of one policy on one problem.
 
-    Holds the normalisation: its statistics grow in post-evaluations only, and the vectors in use
-    change only in `refresh()`, once a generation (FACTS.md section 1).
+    Holds the normalisation: its data are collected in post-evaluations only, and everything that
+    lasts changes only in `refresh()`, once a generation (FACTS.md section 1). A generation that
+    breaks off before leaves no trace.
     """
 
     def __init__(
@@ -49,15 +50,16 @@ class Evaluator:
         self.normalisation = None
         if self._moments is not None:
             self.normalisation = np.repeat([0.0, 1.0], policy.spec.inputs)
-        self._owed = 0.0
+        self._owed = self._owed_next = 0.0
+        self._collected: list[tuple[float, np.ndarray, np.ndarray]] = []
 
     def measure(self, candidates: np.ndarray, seeds: np.ndarray) -> Measured:
-        """Mean return of every candidate over `episodes` episodes; shape (candidates,)."""
+        """Starts a generation: mean return of every candidate over `episodes` episodes."""
         episodes = self.policy.config.episodes
         outcome = self._run(candidates, Episodes.of(seeds, episodes))
         # summed episode by episode: the same bits on every machine
         total = np.add.reduce(outcome.fitness.reshape(-1, episodes).T, axis=0)
-        self._owed += COLLECTED * len(outcome.fitness)
+        self._owed_next = self._owed + COLLECTED * len(outcome.fitness)
         return Measured(total / episodes, int(outcome.steps.sum()))
 
     def post_evaluate(self, genotype: np.ndarray) -> Measured:
@@ -69,19 +71,23 @@ class Evaluator:
         episodes = Episodes.of([self.seed + POST_EVALUATION_SEED], self.policy.config.pepisodes)
         collecting = 0
         if self._moments is not None:
-            collecting = min(int(np.ceil(self._owed - 1e-9)), len(episodes))
-            self._owed -= collecting
+            collecting = min(int(np.ceil(self._owed_next - 1e-9)), len(episodes))
+            self._owed_next -= collecting
             episodes.collect = (np.arange(len(episodes)) < collecting).astype(np.uint8)
         outcome = self._run(genotype[None], episodes)
-        for i in range(collecting):
-            sums, squares = np.split(outcome.moments[i], 2)
-            self._moments.add(float(outcome.steps[i]), sums, squares)
+        self._collected = [
+            (float(outcome.steps[i]), *np.split(outcome.moments[i], 2)) for i in range(collecting)
+        ]
         return Measured(outcome.fitness, int(outcome.steps.sum()))
 
     def refresh(self) -> None:
-        """Takes the statistics collected so far into use."""
+        """Ends a generation: takes the data that its post-evaluation collected into use."""
+        self._owed = self._owed_next
         if self._moments is not None:
+            for steps, sums, squares in self._collected:
+                self._moments.add(steps, sums, squares)
             self.normalisation = self._moments.vectors()
+        self._collected = []
 
     def _run(self, genotypes: np.ndarray, episodes: Episodes) -> Outcome:
         return self.problem.evaluate(

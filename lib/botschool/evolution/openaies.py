@@ -51,7 +51,6 @@ class OpenAIES:
     def tell(self, fitness: np.ndarray) -> None:
         """Moves the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
         config = self.config
-        self.generation += 1
 
         # rank the candidates: utilities from -0.5 (worst) to 0.5 (best)
         utilities = np.empty(len(fitness))
@@ -68,11 +67,12 @@ class OpenAIES:
             descent += DECAY * self.centre
         elif config.wdecay == 2:
             descent += DECAY * np.sign(self.centre)
-        t = self.generation
+        t = self.generation + 1
         step = config.stepsize * np.sqrt(1 - BETA2**t) / (1 - BETA1**t)
-        self.m = BETA1 * self.m + (1 - BETA1) * descent
-        self.v = BETA2 * self.v + (1 - BETA2) * descent**2
-        self.centre = self.centre - step * self.m / (np.sqrt(self.v) + EPSILON)
+        m = BETA1 * self.m + (1 - BETA1) * descent
+        v = BETA2 * self.v + (1 - BETA2) * descent**2
+        self.centre = self.centre - step * m / (np.sqrt(v) + EPSILON)
+        self.m, self.v, self.generation = m, v, t
 
     def average_parameter(self) -> float:
         """Average absolute parameter of the centre."""

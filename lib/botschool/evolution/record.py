@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from botschool.output import save_npy, written_whole
+from botschool.output import save_bytes, save_npy
 
 STAT = (
     "steps",
@@ -56,10 +56,13 @@ class RunFiles:
         """Folder of the TensorBoard event file."""
         return self.folder / f"tensorboardS{self.seed}"
 
+    def all(self) -> list[Path]:
+        """Every one of them."""
+        return [self.stat, self.best, self.bestg, self.fit, self.checkpoint, self.events]
+
     def existing(self) -> list[Path]:
         """Those that exist."""
-        files = [self.stat, self.best, self.bestg, self.fit, self.checkpoint, self.events]
-        return [file for file in files if file.exists()]
+        return [file for file in self.all() if file.exists()]
 
 
 class Record:
@@ -111,8 +114,8 @@ class Record:
             "bestfit": self.best_fitness,
             "bestgfit": self.bestg_fitness,
         }
-        with written_whole(files.fit) as temporary:
-            temporary.write_text(" ".join(f"{key} {value}" for key, value in values.items()) + "\n")
+        line = " ".join(f"{key} {value}" for key, value in values.items())
+        save_bytes(files.fit, f"{line}\n".encode())
 
     def state(self) -> dict[str, np.ndarray]:
         """What a checkpoint needs."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from botschool.evolution.events import Events
 from botschool.evolution.openaies import OpenAIES
 from botschool.evolution.record import Record, RunFiles
 from botschool.evolution.sss import SSS
-from botschool.output import cannot_write
+from botschool.output import cannot_write, remove_leftovers
 from botschool.policy import Policy
 from botschool.problems import Interrupted
 
@@ -58,10 +59,10 @@ class Run:
     @property
     def max_steps(self) -> int:
         """The budget, in steps."""
-        return round(self.experiment.algo.maxmsteps * 1e6)
+        return max(1, round(self.experiment.algo.maxmsteps * 1e6))
 
     def advance(self) -> None:
-        """One generation. Raises Interrupted (the generation is dropped) on request."""
+        """One generation. Raises Interrupted on request; a generation that fails is dropped."""
         candidates, seeds = self.algorithm.ask()
         measured = self.evaluator.measure(candidates, seeds)
 
@@ -89,7 +90,11 @@ class Run:
         }
 
     def restore(self, state: dict) -> None:
-        """The reverse of state()."""
+        """The reverse of state(). Raises KeyError or ValueError for that of another run."""
+        for name, value in self.state().items():
+            fixed = name.startswith(("algorithm.", "evaluator."))
+            if state[name].dtype != value.dtype or (fixed and state[name].shape != value.shape):
+                raise ValueError(f"{name} has another type or shape")
         for part in ("algorithm", "evaluator", "record"):
             prefix = part + "."
             values = {k.removeprefix(prefix): v for k, v in state.items() if k.startswith(prefix)}
@@ -115,8 +120,8 @@ def evolve(
             run.restore(checkpoint.load(path, run.experiment, run.seed))
         except (KeyError, ValueError, IndexError, TypeError):
             raise BotschoolError(
-                f"{path} lacks parts of the run: restore it from a copy, or use --force to start "
-                "anew."
+                f"{path} does not fit this run (the environment has changed, or parts are "
+                "missing): restore it from a copy, or use --force to start anew."
             ) from None
     budget = run.max_steps if steps is None else min(steps, run.max_steps)
     events = Events(files.events, budget)
@@ -138,7 +143,7 @@ def evolve(
     try:
         while run.record.steps < budget:
             if run.stopping():
-                return False
+                raise Interrupted
             run.advance()
             report(run)
             now = time.monotonic()
@@ -148,10 +153,15 @@ def evolve(
             elif now - recorded >= EVENT_SECONDS:
                 log()
                 recorded = time.monotonic()
-    except Interrupted:
-        return False
-    finally:
         save()
+    except Interrupted:
+        save()
+        return False
+    except Exception:
+        with suppress(BotschoolError):
+            save()
+        raise
+    finally:
         run.problem.close()
     return True
 
@@ -163,8 +173,12 @@ def claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        _claim(folder, seeds, resume, force)
     except OSError as error:
         raise cannot_write(folder, error.strerror or str(error)) from error
+
+
+def _claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:
     for seed in seeds:
         files = RunFiles(folder, seed)
         existing = files.existing()
@@ -180,6 +194,7 @@ def claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:
                 f"{existing[0]} exists: use --resume to continue that run, another seed (-s) or "
                 "folder (-o) to keep it, or --force to overwrite it."
             )
-    if force and not resume:
-        for path in [path for seed in seeds for path in RunFiles(folder, seed).existing()]:
+    for path in [path for seed in seeds for path in RunFiles(folder, seed).all()]:
+        remove_leftovers(path)
+        if force and path.exists():
             shutil.rmtree(path) if path.is_dir() else path.unlink()

@@ -2,21 +2,33 @@
 
 from __future__ import annotations
 
+import os
 import signal
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 
+SHOW_CURSOR = b"\x1b[?25h\n"
+"""What a terminal needs after a progress bar that was broken off."""
+
+
 @contextmanager
 def stoppable() -> Iterator[Callable[[], bool]]:
-    """Gives a function that tells whether the user has asked to stop."""
+    """Gives a function that tells whether the user has asked to stop.
+
+    Nothing is tidied up after a second request: like after a kill, files are whole and --resume
+    goes on from the last ones, and worker processes end with this one.
+    """
     requested = False
     before = {}
 
     def stop(number: int, frame: object) -> None:
         nonlocal requested
         if requested:
-            raise KeyboardInterrupt
+            if sys.stdout.isatty():
+                os.write(sys.stdout.fileno(), SHOW_CURSOR)
+            os._exit(130)
         requested = True
 
     for number in (signal.SIGINT, signal.SIGTERM):

@@ -111,10 +111,11 @@ class Problem(ABC):
         return maxsteps if self.limit is None else min(maxsteps, self.limit)
 
     def broken(self, what: str, seed: int, episode: int) -> BotschoolError:
-        """The error for an environment that gives something that is no finite number."""
+        """The error for an environment that gives something that cannot be used."""
         return BotschoolError(
-            f"{self.name} gave {what} in episode {episode} of seed {seed}: its simulation broke "
-            "down, so fitness cannot be measured; mend the environment or choose other bounds."
+            f"{self.name} gave {what} in episode {episode} of seed {seed}, so fitness cannot be "
+            "measured: mend the environment, or lower stepsize, noiseStdDev or mutrate if the "
+            "actions have grown without bound."
         )
 
     def close(self) -> None:

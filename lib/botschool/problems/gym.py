@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import warnings
 from collections.abc import Callable, Iterator
 
 import gymnasium
@@ -10,6 +11,7 @@ import numpy as np
 from gymnasium import spaces
 
 from botschool.errors import BotschoolError
+from botschool.inifile import shown
 from botschool.policy import Interface, Policy
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.moment import Moment
@@ -109,29 +111,32 @@ class GymProblem(Problem):
         maxsteps: int,
         render: bool = False,
     ) -> Iterator[Moment]:
+        if render and "rgb_array" not in (self._env.metadata.get("render_modes") or ()):
+            raise self._unseen()
         policy.load(genotype, normalisation)
         env = make_env(self.name, render_mode="rgb_array") if render else self._env
-        for moment in self._episode(env, policy, seed, episode, maxsteps):
+        try:
+            for moment in self._episode(env, policy, seed, episode, maxsteps):
+                if render:
+                    moment.frame = self._picture(env)
+                yield moment
+        finally:
             if render:
-                moment.frame = np.asarray(env.render())
-            yield moment
-        if render:
-            env.close()
+                env.close()
 
     def _episode(self, env, policy: Policy, seed: int, episode: int, maxsteps: int):
         policy.reset(seed, episode)
-        start = int.from_bytes((seed + episode).to_bytes(9, "little")[:4], "little")
-        raw, _ = self._call(env.reset, "reset", seed=start)
+        start = (seed + episode) % 2**32
+        where = f"episode {episode} of seed {seed}"
+        raw, _ = self._call(env.reset, f"reset of {where}", seed=start)
         total, space = 0.0, env.action_space
         for step in range(1, self.steps(maxsteps) + 1):
             observation = self._flat(raw, seed, episode)
             action = policy.act(observation)
             raw, reward, terminated, truncated, _ = self._call(
-                env.step, f"step {step}", _fitted(action, space)
+                env.step, f"step {step} of {where}", _fitted(action, space)
             )
-            reward = float(reward)
-            if not np.isfinite(reward):
-                raise self.broken(f"a reward of {reward} at step {step}", seed, episode)
+            reward = self._number(reward, step, seed, episode)
             total += reward
             yield Moment(
                 step, reward, total, observation, np.atleast_1d(action), policy.network.activations
@@ -142,18 +147,46 @@ class GymProblem(Problem):
     def _call(self, method, where: str, *arguments, **options):
         try:
             return method(*arguments, **options)
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise BotschoolError(
-                f"{self.name} raised {type(error).__name__} in {where}: {_sentence(error)}"
+                f"{self.name} raised {type(error).__name__} in {where} ({_sentence(error)[:-1]}): "
+                "mend the environment."
             ) from error
 
     def _flat(self, raw, seed: int, episode: int) -> np.ndarray:
         observed = self._observation_space
-        flat = raw if isinstance(observed, spaces.Box) else spaces.flatten(observed, raw)
-        flat = np.asarray(flat, dtype=np.float32).astype(np.float64)
+        try:
+            flat = raw if isinstance(observed, spaces.Box) else spaces.flatten(observed, raw)
+            flat = np.asarray(flat, dtype=np.float32).astype(np.float64)
+        except (TypeError, ValueError, LookupError):
+            flat = np.zeros(0)
+        if flat.shape != (self.interface.observations,):
+            what = f"an observation {shown(raw)}, which its observation_space does not contain,"
+            raise self.broken(what, seed, episode)
         if not np.all(np.isfinite(flat)):
             raise self.broken("an observation with NaN or infinity", seed, episode)
         return flat
+
+    def _number(self, reward, step: int, seed: int, episode: int) -> float:
+        try:
+            number = float(reward)
+        except (TypeError, ValueError):
+            number = np.nan
+        if not np.isfinite(number):
+            raise self.broken(f"a reward of {shown(reward)} at step {step}", seed, episode)
+        return number
+
+    def _picture(self, env) -> np.ndarray:
+        frame = np.asarray(self._call(env.render, "render"))
+        if frame.ndim != 3 or frame.shape[2] != 3:
+            raise self._unseen()
+        return frame.astype(np.uint8)
+
+    def _unseen(self) -> BotschoolError:
+        return BotschoolError(
+            f"{self.name} draws no pictures (render_mode rgb_array): leave out --video, and add "
+            "--render none."
+        )
 
     def close(self) -> None:
         """Ends worker processes."""
@@ -172,17 +205,20 @@ def _fitted(action: np.ndarray | int, space):
 def make_env(name: str, **options) -> gymnasium.Env:
     """gymnasium.make with errors for learners."""
     try:
-        return gymnasium.make(name, disable_env_checker=True, **options)
-    except gymnasium.error.DependencyNotInstalled as error:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)  # errors say it in a sentence
+            return gymnasium.make(name, disable_env_checker=True, **options)
+    except (gymnasium.error.DependencyNotInstalled, ModuleNotFoundError) as error:
         raise BotschoolError(
             f"{name} needs a package that is not installed: {_sentence(error)}"
         ) from None
-    except (gymnasium.error.UnregisteredEnv, ModuleNotFoundError) as error:
-        if isinstance(error, ModuleNotFoundError) and ":" not in name:
-            raise BotschoolError(f"{name} needs a package: {_sentence(error)}") from None
+    except gymnasium.error.UnregisteredEnv:
+        module, colon, own = name.rpartition(":")
         known = [*NATIVE, *gymnasium.registry]
-        near = difflib.get_close_matches(name, known, n=1, cutoff=0.65)
-        hint = f"did you mean {near[0]}?" if near else "is the package that has it installed?"
+        near = difflib.get_close_matches(own, known, n=1, cutoff=0.65)
+        hint = "is the package that has it installed?"
+        if near:
+            hint = f"did you mean {module}{colon}{near[0]}?"
         raise BotschoolError(f"There is no environment '{name}'; {hint}") from None
     except Exception as error:
         raise BotschoolError(f"{name} cannot be made: {_sentence(error)}") from error

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import itertools
 import multiprocessing
+import os
 import signal
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 
 import numpy as np
 
@@ -83,15 +86,15 @@ class Workers:
                 continue
             part = episodes.part(chunk)
             used, part.candidate = np.unique(part.candidate, return_inverse=True)
-            future = self._pool.submit(_evaluate, genotypes[used], normalisation, part)
+            with _unheard(signal.SIGINT):  # Ctrl-C is the main process's affair
+                future = self._pool.submit(_evaluate, genotypes[used], normalisation, part)
             running[future] = i
         while running:
             finished, _ = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)
             for future in finished:
                 done[running.pop(future)] = future.result()
             if stopping():
-                for future in running:
-                    future.cancel()
+                self.close()
                 raise Interrupted
 
     def close(self) -> None:
@@ -105,19 +108,43 @@ class Workers:
         self._pool = None
 
 
-_worker: tuple | None = None
+_worker: tuple | BotschoolError | None = None
 
 
 def _start(name: str, config: PolicyConfig, maxsteps: int) -> None:
     global _worker
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the main process's affair
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
     from botschool import problems
     from botschool.policy import Policy
 
-    problem = problems.make(name)
-    _worker = (problem, Policy(name, problem.interface, config), maxsteps)
+    try:
+        problem = problems.make(name)
+        _worker = (problem, Policy(name, problem.interface, config), maxsteps)
+    except BotschoolError as error:  # told by the first evaluation
+        _worker = error
+
+
+def _end_with_parent() -> None:
+    multiprocessing.parent_process().join()
+    os._exit(1)
+
+
+@contextmanager
+def _unheard(number: int) -> Iterator[None]:
+    """Processes that start meanwhile never get this signal; here it comes at the end."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {number})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _evaluate(genotypes: np.ndarray, normalisation, episodes: Episodes) -> Outcome:
+    if isinstance(_worker, BotschoolError):
+        raise _worker
     problem, policy, maxsteps = _worker
     return problem.evaluate(policy, genotypes, normalisation, episodes, maxsteps)

@@ -29,7 +29,7 @@ def read_genotype(path: Path) -> np.ndarray:
         )
     try:
         return np.load(path, allow_pickle=False)
-    except (OSError, ValueError, EOFError):
+    except Exception:  # a damaged file can fail in any way
         raise BotschoolError(
             f"{path} is no genotype: it is damaged, or not a .npy file of numbers."
         ) from None
