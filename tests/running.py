@@ -1,0 +1,89 @@
+"""For tests of whole runs: experiment files, the command, and what a run has left in its folder."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from botschool import config
+from botschool.evolution.replicate import replicate
+
+TESTS = Path(__file__).parent
+ALGORITHMS = ("SSS", "OpenAI-ES")
+POPULATION = {"SSS": {"popsize": 6, "mutrate": 0.2}, "OpenAI-ES": {"samplesize": 3}}
+
+
+def write_experiment(folder, environment="CartPole-v1", algo="SSS", policy=None, **algorithm):
+    """Writes FOLDER/own.ini: a very small experiment, changed by the arguments. Gives its path."""
+    policy = {"episodes": 2, "pepisodes": 3, "maxsteps": 60, "nhiddens": 3} | (policy or {})
+    algorithm = {"maxmsteps": 0.005, "saveeach": 0} | POPULATION[algo] | algorithm
+    lines = ["[EXP]", f"environment = {environment}", f"algo = {algo}", "[POLICY]"]
+    lines += [f"{key} = {value}" for key, value in policy.items()]
+    lines += ["[ALGO]", *(f"{key} = {value}" for key, value in algorithm.items())]
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / "own.ini"
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def experiment(folder, *arguments, **options):
+    """The same, read."""
+    return config.load(write_experiment(folder, *arguments, **options))
+
+
+def run_seeds(experiment, folder, seeds=(1,), workers=1, steps=None, resume=False, force=False):
+    """What `botschool es` does after reading the file; True if the runs were finished."""
+    folder.mkdir(parents=True, exist_ok=True)
+    return replicate(experiment, list(seeds), folder, workers, steps, resume, force, False)
+
+
+def contents(folder):
+    """All that runs have left in a folder, but for event files: {name: bytes}.
+
+    A checkpoint is taken apart: an entry for each of its arrays.
+    """
+    found = {}
+    for path in sorted(folder.iterdir()):
+        if path.name.startswith("tensorboard") or path.suffix in (".ini", ".npz"):
+            continue
+        found[path.name] = path.read_bytes()
+    for path in folder.glob("*.npz"):
+        with np.load(path, allow_pickle=False) as arrays:
+            for name, array in arrays.items():
+                found[f"{path.name}:{name}"] = array.tobytes() + str(array.dtype).encode()
+    return found
+
+
+def same(folder, other):
+    """Whether two folders hold the same results, bit for bit; says which files differ."""
+    one, two = contents(folder), contents(other)
+    differing = [name for name in sorted(one.keys() | two.keys()) if one.get(name) != two.get(name)]
+    assert one and not differing, f"{differing} differ between {folder} and {other}"
+    return True
+
+
+def environment_of_command(**variables):
+    """Variables of the command's process: it finds tiny_envs, whatever the working directory."""
+    paths = [str(TESTS), *filter(None, [os.environ.get("PYTHONPATH")])]
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(paths), **variables}
+
+
+def start(*arguments, **options):
+    """`python -m botschool ARGUMENTS` as a process of its own, its outputs as pipes of text."""
+    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
+    options.setdefault("env", environment_of_command())
+    command = [sys.executable, "-m", "botschool", *map(str, arguments)]
+    return subprocess.Popen(command, **options)
+
+
+def finish(process, timeout=120):
+    """Waits for its end: (exit code, standard output, standard error)."""
+    out, errors = process.communicate(timeout=timeout)
+    return process.returncode, out, errors
+
+
+def call(*arguments, **options):
+    """Runs the command: (exit code, standard output, standard error)."""
+    return finish(start(*arguments, **options))

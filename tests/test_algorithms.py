@@ -1,0 +1,184 @@
+"""SSS and OpenAI-ES against small implementations of FACTS.md section 3 in plain Python."""
+
+import math
+
+import numpy as np
+import pytest
+
+from botschool.config import OpenAIESConfig, SSSConfig
+from botschool.evolution.openaies import OpenAIES
+from botschool.evolution.sss import SSS
+from running import ALGORITHMS, experiment, run_seeds
+
+SIZE = 7
+
+
+def initial(index):
+    return np.random.default_rng(index).normal(size=SIZE)
+
+
+def numbers(seed, generation, shape):
+    """Gaussian numbers of a generation: Philox keyed by (seed, generation), as DESIGN.md says."""
+    philox = np.random.Philox(key=np.array([seed, generation], dtype=np.uint64))
+    return np.random.Generator(philox).standard_normal(shape)
+
+
+def fitness_of(candidates, ties=False):
+    """Some fitness: nearness to a point, in steps if there are to be ties."""
+    values = -np.abs(np.asarray(candidates) - 0.3).sum(axis=1)
+    return np.round(values) if ties else values
+
+
+@pytest.mark.parametrize("ties", [False, True])
+def test_sss_overwrites_the_worst_half_with_mutants_of_the_best(ties):
+    sss = SSS(SSSConfig(popsize=8, mutrate=0.1), initial, seed=5)
+    expected = [initial(i) for i in range(8)]
+    for generation in range(4):
+        population, seeds = sss.ask()
+        assert np.array_equal(population, expected)
+        assert seeds.tolist() == [5 + generation] * 8
+        fitness = fitness_of(population, ties)
+        ranking = sorted(range(8), key=lambda i: -fitness[i])
+        noise = numbers(5, generation, (4, SIZE))
+        for k in range(4):
+            expected[ranking[4 + k]] = expected[ranking[k]] + 0.1 * noise[k]
+        before = population.copy()
+        sss.tell(fitness)
+        assert np.array_equal(population, before), "what ask() gave has been overwritten"
+    assert sss.average_parameter() == pytest.approx(
+        sum(abs(x) for row in expected for x in row) / (8 * SIZE)
+    )
+
+
+def test_sss_keeps_the_elite():
+    sss = SSS(SSSConfig(popsize=6, mutrate=0.5), initial, seed=1)
+    best = -math.inf
+    for _ in range(20):
+        population, _ = sss.ask()
+        fitness = fitness_of(population)
+        assert fitness.max() >= best
+        best = fitness.max()
+        sss.tell(fitness)
+
+
+class PlainOpenAIES:
+    """The same algorithm, number by number."""
+
+    def __init__(self, config, centre, seed):
+        self.c, self.centre, self.seed = config, list(centre), seed
+        self.m, self.v, self.t = [0.0] * SIZE, [0.0] * SIZE, 0
+
+    def candidates(self):
+        self.e = numbers(self.seed, self.t, (self.c.samplesize, SIZE))
+        for e in self.e:
+            for sign in (1, -1):
+                yield [
+                    x + sign * self.c.noiseStdDev * d for x, d in zip(self.centre, e, strict=True)
+                ]
+
+    def learn(self, fitness):
+        n = len(fitness)
+        utility = [0.0] * n
+        for rank, i in enumerate(sorted(range(n), key=lambda i: fitness[i])):
+            utility[i] = rank / (n - 1) - 0.5
+        self.t += 1
+        for j in range(SIZE):
+            g = sum((utility[2 * b] - utility[2 * b + 1]) * self.e[b][j] for b in range(n // 2)) / n
+            g = -g
+            if self.c.wdecay == 1:
+                g += 0.005 * self.centre[j]
+            if self.c.wdecay == 2:
+                g += 0.005 * math.copysign(1, self.centre[j])
+            self.m[j] = 0.9 * self.m[j] + 0.1 * g
+            self.v[j] = 0.999 * self.v[j] + 0.001 * g * g
+            m, v = self.m[j] / (1 - 0.9**self.t), self.v[j] / (1 - 0.999**self.t)
+            # epsilon belongs to the uncorrected v, as in section 2 of Kingma and Ba
+            epsilon = 1e-8 / math.sqrt(1 - 0.999**self.t)
+            self.centre[j] -= self.c.stepsize * m / (math.sqrt(v) + epsilon)
+
+
+@pytest.mark.parametrize("symseed", [0, 1])
+@pytest.mark.parametrize("wdecay", [0, 1, 2])
+def test_openai_es_agrees_with_plain_python(wdecay, symseed):
+    config = OpenAIESConfig(
+        samplesize=5, stepsize=0.03, noiseStdDev=0.2, wdecay=wdecay, symseed=symseed
+    )
+    es, plain = OpenAIES(config, initial, seed=9), PlainOpenAIES(config, initial(0), 9)
+    used = set()
+    for generation in range(5):
+        candidates, seeds = es.ask()
+        np.testing.assert_allclose(candidates, list(plain.candidates()), rtol=1e-12, atol=1e-14)
+        assert np.array_equal(seeds[0::2], seeds[1::2]) == bool(symseed)
+        assert len(set(seeds.tolist())) == (5 if symseed else 10)
+        assert not used & set(seeds.tolist()), "generations meet the same conditions"
+        used |= set(seeds.tolist())
+        fitness = fitness_of(candidates, ties=generation % 2)
+        es.tell(fitness)
+        plain.learn(fitness.tolist())
+        np.testing.assert_allclose(es.centre, plain.centre, rtol=1e-11)
+        assert es.average_parameter() == pytest.approx(np.mean(np.abs(plain.centre)))
+
+
+def test_the_first_step_of_adam_has_the_size_of_the_step():
+    """Without bias correction it would be a tenth of that or three times as long."""
+    config = OpenAIESConfig(samplesize=4, stepsize=0.02, noiseStdDev=0.1)
+    es = OpenAIES(config, initial, seed=2)
+    before = es.centre
+    candidates, _ = es.ask()
+    es.tell(fitness_of(candidates))
+    np.testing.assert_allclose(np.abs(es.centre - before), 0.02, rtol=1e-3)
+
+
+@pytest.mark.parametrize("wdecay", [1, 2])
+def test_decay_pulls_the_centre_towards_zero(wdecay):
+    """All candidates alike but for ranks that cancel out: what is left is the decay."""
+    es = OpenAIES(OpenAIESConfig(samplesize=2, wdecay=wdecay), initial, seed=4)
+    before = np.abs(es.centre)
+    for _ in range(10):
+        es.ask()
+        es.samples = np.zeros_like(es.samples)
+        es.tell(np.arange(4.0))
+    assert np.all(np.abs(es.centre) < before)
+
+
+@pytest.mark.parametrize("algo", ALGORITHMS)
+def test_state_goes_out_and_in(algo):
+    config = {"SSS": SSSConfig(popsize=6), "OpenAI-ES": OpenAIESConfig(samplesize=3)}[algo]
+    make = {"SSS": SSS, "OpenAI-ES": OpenAIES}[algo]
+    one, two = make(config, initial, 3), make(config, initial, 3)
+    for _ in range(3):
+        one.tell(fitness_of(one.ask()[0]))
+    two.restore({name: value.copy() for name, value in one.state().items()})
+    for _ in range(3):
+        assert np.array_equal(one.ask()[0], two.ask()[0])
+        one.tell(fitness_of(one.ask()[0]))
+        two.tell(fitness_of(two.ask()[0]))
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("algo", ALGORITHMS)
+def test_both_solve_cartpole(algo, seed, tmp_path):
+    """A trivial task; 500 is the best that CartPole-v1 gives."""
+    policy = {"episodes": 3, "pepisodes": 20, "maxsteps": 500, "nhiddens": 5, "bias": 1}
+    options = {
+        "SSS": {"popsize": 20, "mutrate": 0.1},
+        "OpenAI-ES": {"samplesize": 20, "stepsize": 0.05, "noiseStdDev": 0.1},
+    }[algo]
+    own = experiment(tmp_path, "CartPole-v1", algo, policy, maxmsteps=3, saveeach=60, **options)
+    assert run_seeds(own, tmp_path, [seed])
+    words = (tmp_path / f"S{seed}.fit").read_text().split()
+    assert float(words[words.index("bestgfit") + 1]) == 500
+
+
+@pytest.mark.parametrize("algo", ALGORITHMS)
+def test_both_push_the_point_to_the_middle(algo, tmp_path):
+    """The Python path learns too: a random policy gets about 5 of 12."""
+    options = {"SSS": {}, "OpenAI-ES": {"stepsize": 0.1, "noiseStdDev": 0.1, "samplesize": 6}}
+    own = experiment(
+        tmp_path, "tiny_envs:Tiny-v0", algo, {"nhiddens": 0}, maxmsteps=0.03, **options[algo]
+    )
+    own.algo.saveeach = 60
+    assert run_seeds(own, tmp_path)
+    stat = np.load(tmp_path / "statS1.npy").reshape(-1, 6)
+    assert stat[-1, 2] > 9
+    assert stat[-1, 2] > stat[0, 2]

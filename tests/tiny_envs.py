@@ -1,0 +1,110 @@
+"""Gymnasium environments for the tests: a quick one that works, and one for every way to fail.
+
+The ids are `tiny_envs:Tiny-v0` and `tiny_envs:Tiny<fault>-v0`. A fault shows in the episodes that
+start from a seed of FAULTY_SEED or above, so that a run with a small seed breaks in the middle.
+"""
+
+import os
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+
+FAULTY_SEED = 4
+POST_EVALUATION = 100_000
+DIE_ONCE = "TINY_DIE_ONCE"
+"""Environment variable with the path of a file; the process that removes it dies at once."""
+
+
+class Tiny(gymnasium.Env):
+    """A point on a line is pushed towards 0: reward 1 - |x| a step, lost past |x| = 1."""
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 10}  # noqa: RUF012
+    observation_space = spaces.Box(-2, 2, (2,), np.float32)
+    action_space = spaces.Box(-0.4, 0.4, (1,), np.float32)
+
+    def __init__(self, fault=None, render_mode=None):
+        self.fault = fault
+        self.render_mode = render_mode
+        if fault == "discrete":
+            self.action_space = spaces.Discrete(3, start=-1)
+        if fault == "images":
+            self.observation_space = spaces.Box(0, 255, (8, 8, 3), np.uint8)
+        if fault == "nested":
+            self.observation_space = spaces.Dict({"x": spaces.Discrete(2)})
+        if fault == "sequence":
+            self.action_space = spaces.MultiBinary(3)
+        if fault == "makes":
+            raise RuntimeError("no licence")
+        if fault == "package":
+            import a_package_that_is_not_there  # noqa: F401
+
+    def reset(self, seed=None, options=None):
+        super().reset(seed=seed)
+        self.broken = self.fault is not None and FAULTY_SEED <= seed < POST_EVALUATION
+        self.x, self.speed = self.np_random.uniform(-0.5, 0.5, 2)
+        if self.broken and self.fault == "resets":
+            raise ValueError("cannot\nstart")
+        return self._observation(), {}
+
+    def step(self, action):
+        if self.fault == "discrete":
+            action = [0.4 * action]
+        self._die_once()
+        self.speed += 0.3 * float(action[0]) + 0.02 * self.np_random.normal()
+        self.x += 0.3 * self.speed
+        reward = 1 - abs(self.x)
+        result = self._observation(), reward, bool(abs(self.x) > 1), False, {}
+        return self._faulty(result) if self.broken else result
+
+    def render(self):
+        return np.full((32, 48, 3), 200, dtype=np.uint8)
+
+    def _observation(self):
+        return np.array([self.x, self.speed], dtype=np.float32)
+
+    def _faulty(self, result):
+        observation, _, ended, _, info = result
+        faults = {
+            "nan": (observation, np.nan, ended, False, info),
+            "inf": (observation * np.inf, 0.0, ended, False, info),
+            "none": (observation, None, ended, False, info),
+            "vector": (observation, np.zeros(2), ended, False, info),
+            "shape": (np.zeros(3), 0.0, ended, False, info),
+            "text": ("left", 0.0, ended, False, info),
+            "old": (observation, 0.0, ended, info),
+        }
+        if self.fault == "raises":
+            raise RuntimeError("the motor\n  is broken")
+        if self.fault == "exits":
+            raise SystemExit("good bye")
+        if self.fault == "dies":
+            os._exit(3)
+        return faults.get(self.fault, result)
+
+    def _die_once(self):
+        if DIE_ONCE in os.environ:
+            try:
+                Path(os.environ[DIE_ONCE]).unlink()
+            except FileNotFoundError:
+                return
+            os._exit(3)
+
+
+FAULTS = [
+    *("nan", "inf", "none", "vector", "shape", "text", "old", "raises", "exits", "dies"),
+    *("resets", "makes", "package", "images", "nested", "sequence", "discrete"),
+]
+
+for fault in [None, *FAULTS]:
+    gymnasium.register(f"Tiny{fault or ''}-v0", Tiny, kwargs={"fault": fault}, max_episode_steps=12)
+
+
+class Blind(Tiny):
+    """Draws nothing."""
+
+    metadata = {"render_modes": []}  # noqa: RUF012
+
+
+gymnasium.register("Blind-v0", Blind, max_episode_steps=12)
