@@ -164,7 +164,7 @@ def test_both_solve_cartpole(algo, seed, tmp_path):
         "SSS": {"popsize": 20, "mutrate": 0.1},
         "OpenAI-ES": {"samplesize": 20, "stepsize": 0.05, "noiseStdDev": 0.1},
     }[algo]
-    own = experiment(tmp_path, "CartPole-v1", algo, policy, maxmsteps=3, saveeach=60, **options)
+    own = experiment(tmp_path, "CartPole-v1", algo, policy, maxmsteps=3, **options)
     assert run_seeds(own, tmp_path, [seed])
     words = (tmp_path / f"S{seed}.fit").read_text().split()
     assert float(words[words.index("bestgfit") + 1]) == 500
@@ -177,7 +177,6 @@ def test_both_push_the_point_to_the_middle(algo, tmp_path):
     own = experiment(
         tmp_path, "tiny_envs:Tiny-v0", algo, {"nhiddens": 0}, maxmsteps=0.03, **options[algo]
     )
-    own.algo.saveeach = 60
     assert run_seeds(own, tmp_path)
     stat = np.load(tmp_path / "statS1.npy").reshape(-1, 6)
     assert stat[-1, 2] > 9

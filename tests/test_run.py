@@ -22,7 +22,7 @@ every = pytest.mark.parametrize(("environment", "algo"), EVERY)
 def small(folder, environment="CartPole-v1", algo="SSS", normalize=1, **options):
     maxmsteps = 0.01 if environment == "CartPole-v1" else 0.004
     policy = {"normalize": normalize, "clip": normalize, "episodes": 3, "pepisodes": 4}
-    options = {"maxmsteps": maxmsteps, "saveeach": 60} | options
+    options = {"maxmsteps": maxmsteps} | options
     return experiment(folder, environment, algo, policy, **options)
 
 

@@ -28,7 +28,7 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
     Raises BotschoolError when the file is damaged or belongs to another experiment or seed.
     """
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with open(path, "rb") as stream, np.load(stream, allow_pickle=False) as file:
             state = {name: file[name] for name in file.files}
         header = json.loads(str(state.pop("botschool")))
         version, owner = header["format"], header["seed"]

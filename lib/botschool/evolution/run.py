@@ -92,8 +92,11 @@ class Run:
     def restore(self, state: dict) -> None:
         """The reverse of state(). Raises KeyError or ValueError for that of another run."""
         for name, value in self.state().items():
-            fixed = name.startswith(("algorithm.", "evaluator."))
-            if state[name].dtype != value.dtype or (fixed and state[name].shape != value.shape):
+            given = state[name]
+            free = 1 if name.startswith("record.") else 0  # dimensions that grow with the run
+            if (given.dtype, given.ndim) != (value.dtype, value.ndim) or (
+                given.shape[free:] != value.shape[free:]
+            ):
                 raise ValueError(f"{name} has another type or shape")
         for part in ("algorithm", "evaluator", "record"):
             prefix = part + "."

@@ -8,7 +8,6 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-
 SHOW_CURSOR = b"\x1b[?25h\n"
 """What a terminal needs after a progress bar that was broken off."""
 

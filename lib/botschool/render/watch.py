@@ -28,7 +28,8 @@ def read_genotype(path: Path) -> np.ndarray:
             "the path to such a file."
         )
     try:
-        return np.load(path, allow_pickle=False)
+        with open(path, "rb") as stream:
+            return np.load(stream, allow_pickle=False)
     except Exception:  # a damaged file can fail in any way
         raise BotschoolError(
             f"{path} is no genotype: it is damaged, or not a .npy file of numbers."

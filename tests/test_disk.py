@@ -1,0 +1,226 @@
+"""Folders that cannot be written and disks that fill up: one sentence, and nothing is lost."""
+
+import os
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from botschool.errors import BotschoolError
+from botschool.evolution.record import RunFiles
+from botschool.output import check_output, save_npy, save_npz, written_whole
+from running import call, contents, experiment, finish, run_seeds, same, start
+from test_faults import one_sentence
+
+POLICY = {"normalize": 1}
+linux = pytest.mark.skipif(sys.platform != "linux", reason="Linux only")
+posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such limit")
+
+
+@pytest.fixture
+def own(tmp_path):
+    """The experiment in tmp_path/own.ini, saved each generation; about 20 generations."""
+    return experiment(tmp_path, "CartPole-v1", "SSS", POLICY, maxmsteps=0.004, saveeach=0)
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """A file system of 200 kB; only root can make one."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=200k", "tmpfs", str(disk)]
+    if not hasattr(os, "geteuid") or os.geteuid() != 0 or not shutil.which("mount"):
+        pytest.skip("only root can mount a small disk")
+    if subprocess.run(mount, capture_output=True).returncode:
+        pytest.skip("mounting is not allowed here")
+    yield disk
+    subprocess.run(["umount", "-l", str(disk)], check=True)
+
+
+def readable(folder, seed=1):
+    """Whether the files of a run are whole; gives its generations."""
+    files = RunFiles(folder, seed)
+    assert not [path for path in folder.iterdir() if path.name.startswith(".")]
+    for path in (files.best, files.bestg):
+        assert np.isfinite(np.load(path)).all()
+    words = files.fit.read_text().split()
+    assert words[0::2] == ["seed", "gen", "steps", "bestfit", "bestgfit"]
+    np.load(files.checkpoint)
+    return len(np.load(files.stat)) // 6
+
+
+# full disks
+
+
+@posix
+def test_files_that_may_not_grow(own, tmp_path):
+    """A limit on the size of files is met in the middle of the run, at the checkpoint."""
+    import resource
+
+    assert run_seeds(own, tmp_path / "whole")
+    limit = (tmp_path / "whole" / "checkpointS1.npz").stat().st_size - 400
+
+    def limited():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    folder = tmp_path / "limited"
+    process = start("es", "-f", tmp_path / "own.ini", "-o", folder, preexec_fn=limited)
+    code, _, errors = finish(process)
+    one_sentence(code, errors, [folder / "checkpointS1.npz", "cannot be written", "free some"])
+    assert readable(folder) > 1
+    before = contents(folder)
+    process = start(
+        *("es", "-f", tmp_path / "own.ini", "-o", folder, "--resume"), preexec_fn=limited
+    )
+    code, _, errors = finish(process)
+    one_sentence(code, errors, "checkpointS1.npz")
+    assert contents(folder) == before
+    assert run_seeds(own, folder, resume=True)
+    assert same(tmp_path / "whole", folder)
+
+
+@linux
+def test_a_disk_that_is_full(own, small_disk, tmp_path):
+    assert run_seeds(own, tmp_path / "whole")
+    for spare in (0, 9_000, 15_000, 20_000, 30_000, 40_000):
+        folder = small_disk / "results"
+        (small_disk / "ballast").write_bytes(bytes(180_000 - spare))
+        ini = tmp_path / "own.ini"
+        code, _, errors = call("es", "-f", ini, "-o", folder, "--steps", 1500)
+        if code:
+            one_sentence(code, errors, [folder, "No space left on device", "free some space"])
+            assert not list(folder.glob(".*"))
+        (small_disk / "ballast").unlink()
+        assert run_seeds(own, folder, resume=True)
+        assert same(tmp_path / "whole", folder)
+        shutil.rmtree(folder)
+
+
+@linux
+def test_a_disk_that_fills_up_while_a_run_goes_on(own, small_disk, tmp_path):
+    assert run_seeds(own, tmp_path / "whole")
+    folder = small_disk / "results"
+    ini = tmp_path / "own.ini"
+    assert call("es", "-f", ini, "-o", folder, "--steps", 1000)[0] == 0
+    before = contents(folder)
+    with open(small_disk / "ballast", "wb", buffering=0) as ballast:
+        try:
+            while True:
+                ballast.write(bytes(4096))
+        except OSError:
+            pass
+    code, _, errors = call("es", "-f", ini, "-o", folder, "--resume")
+    one_sentence(code, errors, [folder, "No space left on device", "free some space"])
+    assert contents(folder) == before
+    (small_disk / "ballast").unlink()
+    assert run_seeds(own, folder, resume=True)
+    assert same(tmp_path / "whole", folder)
+
+
+@linux
+def test_output_to_a_full_disk(own, tmp_path):
+    """botschool es ... > FILE, where the disk of FILE is full: what was done is saved."""
+    with open("/dev/full", "w") as full:
+        process = start("es", "-f", tmp_path / "own.ini", "-o", tmp_path / "results", stdout=full)
+        code, _, errors = finish(process)
+    one_sentence(code, errors, ["Standard output", "No space left on device"])
+    assert readable(tmp_path / "results") == 1
+    assert run_seeds(own, tmp_path / "results", resume=True)
+    assert run_seeds(own, tmp_path / "whole")
+    assert same(tmp_path / "whole", tmp_path / "results")
+
+
+# folders
+
+
+@linux
+def test_a_folder_that_nobody_can_write(own, tmp_path):
+    code, _, errors = call("es", "-f", tmp_path / "own.ini", "-o", "/proc/self")
+    one_sentence(code, errors, ["/proc/self", "cannot be written", "another folder"])
+
+
+@linux
+def test_a_folder_on_a_read_only_disk(own, small_disk, tmp_path):
+    ini, folder = tmp_path / "own.ini", small_disk / "results"
+    assert run_seeds(own, folder)
+    before = contents(folder)
+    subprocess.run(["mount", "-o", "remount,ro", str(small_disk)], check=True)
+    for flags in (["--force"], ["--resume"], ["-s", 2], ["-o", small_disk / "new"]):
+        code, _, errors = call("es", "-f", ini, "-o", folder, *flags)
+        one_sentence(code, errors, [small_disk, "Read-only file system", "another folder"])
+    assert contents(folder) == before
+
+
+@posix
+@pytest.mark.parametrize(("mode", "says"), [(0o555, "Permission denied"), (0o000, "readable")])
+def test_a_folder_without_permission(mode, says, own, tmp_path):
+    folder = tmp_path / "results"
+    folder.mkdir()
+    folder.chmod(mode)
+    try:
+        if os.access(folder, os.W_OK):
+            pytest.skip("root may write everywhere")
+        code, _, errors = call("es", "-f", tmp_path / "own.ini", "-o", folder)
+        one_sentence(code, errors, [folder, says])
+    finally:
+        folder.chmod(0o755)
+    assert not list(folder.iterdir())
+
+
+def test_a_folder_that_is_a_file(own, tmp_path):
+    (tmp_path / "results").write_text("precious")
+    for folder in (tmp_path / "results", tmp_path / "results" / "deeper"):
+        for flag in ("--force", "--resume"):
+            code, _, errors = call("es", "-f", tmp_path / "own.ini", "-o", folder, flag)
+            one_sentence(code, errors, [folder, "cannot be written", "another folder"])
+    assert (tmp_path / "results").read_text() == "precious"
+
+
+def test_folders_are_made(own, tmp_path):
+    folder = tmp_path / "über" / "a b" / "c"
+    code, out, errors = call("es", "-f", tmp_path / "own.ini", "-o", folder, "--steps", 1)
+    assert (code, errors) == (0, "")
+    assert folder.name in out and readable(folder) == 1
+
+
+# the functions beneath
+
+
+def test_a_file_is_replaced_whole_or_not_at_all(tmp_path, monkeypatch):
+    path = tmp_path / "numbers.npy"
+    save_npy(path, np.arange(3.0))
+
+    def fails(*arguments):
+        raise OSError(28, "No space left on device")
+
+    for function in ("fsync", "replace"):
+        with monkeypatch.context() as patch:
+            patch.setattr(os, function, fails)
+            with pytest.raises(BotschoolError, match=r"numbers.npy cannot be .*No space left"):
+                save_npy(path, np.arange(4.0))
+            with pytest.raises(BotschoolError, match=r"new.npz cannot be written"):
+                save_npz(tmp_path / "new.npz", {"a": np.arange(3)})
+        assert np.load(path).tolist() == [0, 1, 2]
+        assert [file.name for file in tmp_path.iterdir()] == ["numbers.npy"]
+    save_npy(path, np.arange(4.0))
+    assert len(np.load(path)) == 4
+
+
+def test_a_block_that_fails_leaves_nothing(tmp_path):
+    path = tmp_path / "text.txt"
+    path.write_text("before")
+    with pytest.raises(ZeroDivisionError), written_whole(path) as temporary:
+        temporary.write_text("half of it")
+        _ = 1 / 0
+    assert path.read_text() == "before"
+    assert [file.name for file in tmp_path.iterdir()] == ["text.txt"]
+
+
+def test_names_are_checked_before_work_starts(tmp_path):
+    (tmp_path / "folder.png").mkdir()
+    for name in ("x.jpg", "x", "missing/x.png", "folder.png"):
+        with pytest.raises(BotschoolError, match=r"(cannot be written|is a folder).*[.]$"):
+            check_output(tmp_path / name, [".png"])
+    assert check_output(tmp_path / "X.PNG", [".png"]) == tmp_path / "X.PNG"
