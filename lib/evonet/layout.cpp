@@ -45,7 +45,8 @@ void check_spec(const Spec& s) {
     if (s.nlayers != 2)
       throw std::invalid_argument("nhiddens2 needs nlayers = 2; set it to 0 otherwise.");
     if (s.nhiddens == 0)
-      throw std::invalid_argument("nhiddens2 needs hidden neurons: set nhiddens, or nhiddens2 = 0.");
+      throw std::invalid_argument(
+          "nhiddens2 needs hidden neurons: set nhiddens, or nhiddens2 = 0.");
     check("nhiddens2", s.nhiddens2, 1, 2.0 * s.nhiddens - 1);
   }
   if (s.architecture != feedforward && s.nhiddens > 0 && s.nlayers > 1)
