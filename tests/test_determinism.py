@@ -4,6 +4,7 @@ not show in its files. Compared are all files, bit for bit, but for TensorBoard'
 import os
 import random
 import signal
+import subprocess
 import sys
 
 import numpy as np
@@ -275,6 +276,24 @@ def test_ctrl_c_while_workers_start_is_quiet(tmp_path):
 
 
 @posix
+def test_workers_never_hear_ctrl_c(tmp_path):
+    """Not even while they start, when Python's own handler would end them with a traceback."""
+    write_experiment(tmp_path, TINY, "SSS", maxmsteps=0.005)
+    process = start(*command_of(tmp_path / "own.ini", tmp_path / "results", "-w", 2))
+    main = psutil.Process(process.pid)
+    while len(main.children()) < 3:
+        assert process.poll() is None
+    workers = main.children()
+    for _ in range(20):
+        for worker in workers:
+            worker.send_signal(signal.SIGINT)
+    assert process.stdout.readline().startswith("seed 3  generation 1")
+    assert all(worker.is_running() for worker in workers)
+    code, _, errors = finish(process)
+    assert (code, errors) == (0, "")
+
+
+@posix
 def test_a_second_ctrl_c_ends_at_once_and_harms_nothing(tmp_path):
     own = experiment(tmp_path, TINY, "SSS", NORMALISED, maxmsteps=1, saveeach=0)
     process = start(*command_of(tmp_path / "own.ini", tmp_path / "stopped"))
@@ -289,6 +308,20 @@ def test_a_second_ctrl_c_ends_at_once_and_harms_nothing(tmp_path):
     assert run_seeds(own, tmp_path / "stopped", [3], steps=steps, resume=True)
     assert run_seeds(own, tmp_path / "undisturbed", [3], steps=steps)
     assert same(tmp_path / "undisturbed", tmp_path / "stopped")
+
+
+@posix
+def test_a_second_request_is_not_discussed():
+    program = (
+        "import os, signal\nfrom botschool.evolution.signals import stoppable\n"
+        "with stoppable() as stopping:\n"
+        "    os.kill(os.getpid(), signal.SIGTERM)\n"
+        "    print(stopping(), flush=True)\n"
+        "    os.kill(os.getpid(), signal.SIGINT)\n"
+        "    print('still here', flush=True)\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (130, "True\n", "")
 
 
 @posix

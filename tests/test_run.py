@@ -1,5 +1,6 @@
 """The run loop: what it computes, and what its files say (FACTS.md sections 1 and 2)."""
 
+import math
 from itertools import pairwise
 
 import numpy as np
@@ -87,10 +88,11 @@ def test_the_stat_file_says_what_happened(environment, algo, tmp_path):
     assert len(stat) == len(generations) > 3
     steps, best, bestg = 0, -np.inf, -np.inf
     for row, (measured, post) in zip(stat, generations, strict=True):
-        fitness = [sum(returns) / 3 for returns in measured[3].fitness.reshape(-1, 3).tolist()]
+        returns = measured[3].fitness.reshape(-1, 3).tolist()
+        fitness = [math.fsum(three) / 3 for three in returns]
         steps += int(measured[3].steps.sum()) + int(post[3].steps.sum())
         best = max(best, max(fitness))
-        bestg = max(bestg, sum(post[3].fitness.tolist()) / 4)
+        bestg = max(bestg, math.fsum(post[3].fitness.tolist()) / 4)
         assert row[:4].tolist() == [steps, best, bestg, max(fitness)]
         assert row[4] == pytest.approx(sum(fitness) / len(fitness), rel=1e-14)
         # the generation's best is what is post-evaluated
@@ -131,7 +133,7 @@ def test_saved_robots_have_the_fitness_that_was_recorded(environment, algo, norm
         outcome = problem.evaluate(
             policy, genotype[None], vectors, Episodes.of([seed], episodes), 60
         )
-        return sum(outcome.fitness.tolist()) / episodes
+        return math.fsum(outcome.fitness.tolist()) / episodes
 
     assert fitness("bestgS7.npy", 7 + 100_000, 4) == stat[-1, 2]
     generation = int(np.argmax(stat[:, 3]))

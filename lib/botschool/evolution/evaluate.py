@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -23,6 +24,11 @@ class Measured:
 
     fitness: np.ndarray
     steps: int
+
+
+def mean(values: np.ndarray) -> float:
+    """Mean by an exact sum: the same bits on every machine and Python, in any order."""
+    return math.fsum(values.tolist()) / len(values)
 
 
 class Evaluator:
@@ -57,10 +63,9 @@ class Evaluator:
         """Starts a generation: mean return of every candidate over `episodes` episodes."""
         episodes = self.policy.config.episodes
         outcome = self._run(candidates, Episodes.of(seeds, episodes))
-        # summed episode by episode: the same bits on every machine
-        total = np.add.reduce(outcome.fitness.reshape(-1, episodes).T, axis=0)
         self._owed_next = self._owed + COLLECTED * len(outcome.fitness)
-        return Measured(total / episodes, int(outcome.steps.sum()))
+        fitness = [mean(returns) for returns in outcome.fitness.reshape(-1, episodes)]
+        return Measured(np.array(fitness), int(outcome.steps.sum()))
 
     def post_evaluate(self, genotype: np.ndarray) -> Measured:
         """Return of one genotype in each of `pepisodes` fixed episodes; shape (pepisodes,).

@@ -13,7 +13,7 @@ from botschool import problems
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution import checkpoint
-from botschool.evolution.evaluate import Evaluator
+from botschool.evolution.evaluate import Evaluator, mean
 from botschool.evolution.events import Events
 from botschool.evolution.openaies import OpenAIES
 from botschool.evolution.record import Record, RunFiles
@@ -69,7 +69,7 @@ class Run:
         best = int(measured.fitness.argmax())
         post = self.evaluator.post_evaluate(candidates[best])
         saved = self.policy.join(candidates[best], self.evaluator.normalisation)
-        post_fitness = sum(post.fitness.tolist()) / len(post.fitness)
+        post_fitness = mean(post.fitness)
 
         self.algorithm.tell(measured.fitness)
         self.evaluator.refresh()
@@ -77,7 +77,7 @@ class Run:
         self.record.offer(saved, float(measured.fitness[best]), post_fitness)
         self.record.add(
             float(measured.fitness[best]),
-            sum(measured.fitness.tolist()) / len(measured.fitness),
+            mean(measured.fitness),
             self.algorithm.average_parameter(),
         )
 
