@@ -1,6 +1,7 @@
 """For tests of whole runs: experiment files, the command, and what a run has left in its folder."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +11,7 @@ import numpy as np
 from botschool import config
 from botschool.evolution.replicate import replicate
 
+SENTENCE = re.compile(r"error: \S[^\n]*[.?]\n")
 TESTS = Path(__file__).parent
 ALGORITHMS = ("SSS", "OpenAI-ES")
 POPULATION = {"SSS": {"popsize": 6, "mutrate": 0.2}, "OpenAI-ES": {"samplesize": 3}}
@@ -37,6 +39,13 @@ def run_seeds(experiment, folder, seeds=(1,), workers=1, steps=None, resume=Fals
     """What `botschool es` does after reading the file; True if the runs were finished."""
     folder.mkdir(parents=True, exist_ok=True)
     return replicate(experiment, list(seeds), folder, workers, steps, resume, force, False)
+
+
+def finished_run(folder, environment="CartPole-v1", algo="SSS", normalize=1, **options):
+    """A run with seed 1 in FOLDER/results, of FOLDER/own.ini."""
+    own = experiment(folder, environment, algo, {"normalize": normalize}, **options)
+    assert run_seeds(own, folder / "results")
+    return folder / "own.ini", folder / "results"
 
 
 def contents(folder):
@@ -87,3 +96,11 @@ def finish(process, timeout=120):
 def call(*arguments, **options):
     """Runs the command: (exit code, standard output, standard error)."""
     return finish(start(*arguments, **options))
+
+
+def one_sentence(code, errors, says=()):
+    """Asserts that the command refused in one sentence on stderr, which holds these words."""
+    assert code == 2, errors
+    assert SENTENCE.fullmatch(errors), errors
+    for word in [says] if isinstance(says, str) else says:
+        assert str(word) in errors

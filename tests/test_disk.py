@@ -11,8 +11,7 @@ import pytest
 from botschool.errors import BotschoolError
 from botschool.evolution.record import RunFiles
 from botschool.output import check_output, save_npy, save_npz, written_whole
-from running import call, contents, experiment, finish, run_seeds, same, start
-from test_faults import one_sentence
+from running import call, contents, experiment, finish, one_sentence, run_seeds, same, start
 
 POLICY = {"normalize": 1}
 linux = pytest.mark.skipif(sys.platform != "linux", reason="Linux only")

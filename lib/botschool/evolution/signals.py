@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM ask a run to stop; a second one ends the program at once."""
+"""Ctrl-C, SIGTERM and a closed terminal ask a run to stop; a second time ends it at once."""
 
 from __future__ import annotations
 
@@ -10,6 +10,11 @@ from contextlib import contextmanager
 
 SHOW_CURSOR = b"\x1b[?25h\n"
 """What a terminal needs after a progress bar that was broken off."""
+
+
+SIGNALS = [
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
+]
 
 
 @contextmanager
@@ -30,7 +35,7 @@ def stoppable() -> Iterator[Callable[[], bool]]:
             os._exit(130)
         requested = True
 
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in SIGNALS:
         before[number] = signal.signal(number, stop)
     try:
         yield lambda: requested

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import difflib
+import os
+import sys
 import warnings
 from collections.abc import Callable, Iterator
 
@@ -203,7 +205,9 @@ def _fitted(action: np.ndarray | int, space):
 
 
 def make_env(name: str, **options) -> gymnasium.Env:
-    """gymnasium.make with errors for learners."""
+    """gymnasium.make with errors for learners; a `module:` may lie in the present folder."""
+    if ":" in name and os.getcwd() not in sys.path:
+        sys.path.insert(0, os.getcwd())
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # errors say it in a sentence
