@@ -8,10 +8,11 @@ CPP_INPUTS := $(filter lib/%,$(CPP)) $(shell find lib -name CMakeLists.txt -o -n
 # Packages that another project put on the path (ROS, for one) would shadow the pinned ones.
 unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
-.PHONY: help demo build test test-long bench results lint format sanitize clean FORCE
+.PHONY: help demo build test test-long check-course nbgrader skeletons bench results lint format \
+	sanitize clean FORCE
 
 help: ## list these targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z%-]+:.*## / { sub("%", "N", $$1); printf "make %-14s %s\n", $$1, $$2 }' Makefile
 
 DEMO := results/demo
 demo: .venv/.module ## evolve a policy for Acrobot, then draw its curve and film it
@@ -28,6 +29,23 @@ test: .venv/.tests ## the tests that take seconds
 
 test-long: .venv/.tests ## the tests that take minutes: whole runs, many seeds
 	@$(BIN)/python -m pytest -q -m long
+
+# The student's own file, or SUBMISSION=FOLDER (SUBMISSION=solutions is the reference).
+export SUBMISSION
+test-ex%: .venv/.module FORCE ## grade exercise N; SUBMISSION=FOLDER grades another folder
+	@$(BIN)/botschool grade $* $(if $(SUBMISSION),--submission "$$SUBMISSION")
+
+solution-ex%: .venv/.module FORCE ## run the solution of exercise N in results/exNN
+	@$(BIN)/python -m botschool.grading.solution $*
+
+skeletons: .venv/.module ## generate the exercises' files from the solutions
+	@$(BIN)/botschool skeletons
+
+nbgrader: .venv/.tests ## a course folder for nbgrader in results/nbgrader
+	@$(BIN)/botschool nbgrader results/nbgrader
+
+check-course: .venv/.tests ## prove that exercises and grading work (some minutes)
+	@$(BIN)/python -m pytest -q -m course tests/course
 
 bench: .venv/.module ## the speed of evaluation beside Gymnasium's own loop
 	@$(BIN)/python tests/bench/run.py

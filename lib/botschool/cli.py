@@ -96,6 +96,8 @@ def es(
 ) -> None:
     """Evolve robots, or look at an evolved one (-p). Without -f: list all hyperparameters."""
     if file is None:
+        if post or genotype or video or resume or force:
+            raise BotschoolError("Say which experiment: add -f FILE.ini.")
         _list_hyperparameters()
         return
     from botschool import config
@@ -205,6 +207,18 @@ def grade_all(
     from botschool.grading.commands import grade_all_command
 
     grade_all_command(folder, output, exercise, workers, fresh)
+
+
+@app.command(epilog="Example: botschool nbgrader results/nbgrader")
+def nbgrader(
+    folder: Annotated[
+        Path, typer.Argument(help="The course folder to make or bring up to date.", metavar="DIR")
+    ] = Path("results/nbgrader"),
+) -> None:
+    """For instructors: make a course folder for nbgrader, with the exercises as notebooks."""
+    from botschool.grading.nbgrader import nbgrader_command
+
+    nbgrader_command(folder)
 
 
 @app.command()

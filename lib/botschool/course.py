@@ -1,0 +1,312 @@
+"""What exercises are given ready-made: robots to evaluate, curves to draw, films."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from botschool import problems
+from botschool.config import PolicyConfig
+from botschool.config import load as load_experiment
+from botschool.policy import Policy
+from botschool.problems import Episodes
+
+
+class Robot:
+    """A network with tanh hidden neurons in an environment, ready to be evaluated.
+
+    The parameters are the biases, then the weights (FACTS.md section 1, feed-forward).
+    """
+
+    def __init__(self, environment: str, nhiddens: int = 10, out_type: int = 3) -> None:
+        """out_type: activation of the outputs, 2 tanh, 3 linear."""
+        self.environment = environment
+        self._problem = problems.make(environment)
+        config = PolicyConfig(nhiddens=nhiddens, bias=1, out_type=out_type)
+        self.policy = Policy(environment, self._problem.interface, config)
+        self.nbiases = nhiddens + self.policy.spec.outputs
+        self.nweights = self.policy.genotype_size - self.nbiases
+
+    def evaluate(
+        self, population: np.ndarray, seed: int, episodes: int = 5, maxsteps: int = 1000
+    ) -> np.ndarray:
+        """Mean return of each row over the same `episodes` episodes; shape (individuals,)."""
+        population = np.ascontiguousarray(population, dtype=np.float64)
+        if population.ndim != 2 or population.shape[1] != self.policy.genotype_size:
+            raise ValueError(
+                f"population has shape {population.shape}, but needs (individuals, "
+                f"{self.policy.genotype_size})."
+            )
+        batch = Episodes.of(np.full(len(population), seed, dtype=np.uint64), episodes)
+        outcome = self._problem.evaluate(self.policy, population, None, batch, maxsteps)
+        return outcome.fitness.reshape(-1, episodes).mean(axis=1)
+
+    def play(self, parameters: np.ndarray, seed: int, maxsteps: int = 1000):
+        """One episode, step by step: yields botschool.problems.moment.Moment objects."""
+        parameters = np.ascontiguousarray(parameters, dtype=np.float64)
+        return self._problem.play(self.policy, parameters, None, seed, 0, maxsteps)
+
+
+def draw_curves(
+    file: str | Path,
+    mean: np.ndarray,
+    deviation: np.ndarray,
+    title: str = "",
+    labels: tuple[str, str] = ("generation", "fitness"),
+) -> None:
+    """A mean curve with its band of one standard deviation, as a picture file."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(8, 5), layout="constrained")
+    axes = figure.subplots()
+    mean, deviation = np.asarray(mean), np.asarray(deviation)
+    generations = np.arange(1, len(mean) + 1)
+    axes.fill_between(generations, mean - deviation, mean + deviation, alpha=0.25, color="#0072b2")
+    axes.plot(generations, mean, color="#0072b2", linewidth=2)
+    axes.set(xlabel=labels[0], ylabel=labels[1], title=title)
+    axes.grid(alpha=0.3)
+    axes.spines[["top", "right"]].set_visible(False)
+    figure.savefig(file, dpi=100)
+    print(f"picture: {file}")
+
+
+def film(file: str | Path, environment: str, parameters: np.ndarray, seed: int = 1) -> None:
+    """A film of one episode of a `Robot` in a native environment."""
+    from botschool.problems.native import NATIVE
+    from botschool.render.canvas import draw_offscreen
+    from botschool.render.panel import with_caption
+    from botschool.render.scene import make_scene
+    from botschool.render.video import write_video
+
+    draw_offscreen()
+    scene = make_scene(NATIVE[environment][0])
+    frames = (
+        with_caption(scene.draw(moment.state, moment.action), 1, moment)
+        for moment in Robot(environment).play(parameters, seed)
+    )
+    write_video(Path(file), frames, scene.fps)
+    print(f"film: {file}")
+
+
+def draw_distributions(
+    file: str | Path, values: dict[str, np.ndarray], title: str = "", label: str = "return"
+) -> None:
+    """A row of histograms, one for each Gymnasium environment, with its picture on top.
+
+    values: environment id -> numbers, of any count.
+    """
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
+
+    figure = Figure(figsize=(2.8 * len(values), 5.2), layout="constrained")
+    grid = figure.subplots(2, len(values), squeeze=False, height_ratios=(1, 1.1))
+    for (environment, numbers), picture, axes in zip(values.items(), *grid, strict=True):
+        frame = _first_frame(environment)
+        picture.imshow(frame)
+        height, width = frame.shape[:2]
+        margin = max(0.0, 0.75 * height - 0.5 * width)  # all as wide as 3 : 2
+        picture.set(xlim=(-margin, width + margin))
+        picture.set_title(environment, fontsize=11)
+        picture.axis("off")
+        mean, alike = float(np.mean(numbers)), np.ptp(numbers) == 0
+        span = (mean - 10, mean + 10) if alike else None
+        axes.hist(numbers, bins=21, range=span, color="#0072b2", alpha=0.85)
+        axes.axvline(mean, color="#d55e00", linewidth=2)
+        axes.set_title(f"mean {mean:.1f}, best {np.max(numbers):.1f}", fontsize=10)
+        axes.set_xlabel(label)
+        axes.xaxis.set_major_locator(MaxNLocator(4))
+        axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
+        axes.spines[["top", "right"]].set_visible(False)
+    grid[1, 0].set_ylabel("how many")
+    figure.suptitle(title)
+    figure.savefig(file, dpi=100)
+    print(f"picture: {file}")
+
+
+def film_agent(
+    file: str | Path, environment: str, act, episodes: int = 1, seed: int = 1, maxsteps: int = 200
+) -> None:
+    """A film of episodes in any Gymnasium environment; act(observation) returns the action."""
+    from botschool.problems.gym import make_env
+    from botschool.render.canvas import draw_offscreen
+    from botschool.render.video import write_video
+
+    draw_offscreen()
+    env = make_env(environment, render_mode="rgb_array")
+    try:
+        frames = _frames(env, act, episodes, seed, maxsteps)
+        write_video(Path(file), frames, env.metadata.get("render_fps") or 30)
+    finally:
+        env.close()
+    print(f"film: {file}")
+
+
+def _frames(env, act, episodes: int, seed: int, maxsteps: int):
+    from botschool.problems.moment import Moment
+    from botschool.render.panel import with_caption
+
+    for episode in range(episodes):
+        observation, _ = env.reset(seed=seed + episode)
+        total = 0.0
+        for step in range(1, maxsteps + 1):
+            action = act(observation)
+            following, reward, terminated, truncated, _ = env.step(action)
+            total += float(reward)
+            moment = Moment(
+                step, float(reward), total, observation, np.atleast_1d(action), np.zeros(0)
+            )
+            yield with_caption(env.render(), episode + 1, moment)
+            observation = following
+            if terminated or truncated:
+                break
+
+
+def _first_frame(environment: str) -> np.ndarray:
+    from botschool.problems.gym import make_env
+    from botschool.render.canvas import draw_offscreen
+
+    draw_offscreen()
+    env = make_env(environment, render_mode="rgb_array")
+    env.reset(seed=1)
+    frame = env.render()
+    env.close()
+    return frame
+
+
+def controller_of(robot: Robot, parameters: np.ndarray):
+    """The controller with these parameters: a function from an observation to the action."""
+    policy = Policy(robot.environment, robot.policy.interface, robot.policy.config)
+    policy.load(np.asarray(parameters, dtype=np.float64), None)
+    policy.reset(0, 0)
+    return policy.act
+
+
+def draw_verdicts(
+    file: str | Path,
+    panels: dict[str, list[tuple[np.ndarray, dict]]],
+    columns: int,
+) -> None:
+    """Fitness curves, coloured by how stable they are, with the largest fall of each marked.
+
+    panels: title -> (curve, verdict) of each replication, where a verdict is a dict with "drop",
+    "peak", "bottom" and "verdict" ("monotonic", "mild regressions" or "severe regressions").
+    """
+    from matplotlib.figure import Figure
+
+    colours = {
+        "monotonic": "#0072b2",
+        "mild regressions": "#e69f00",
+        "severe regressions": "#c1272d",
+    }
+    rows = -(-len(panels) // columns)
+    figure = Figure(figsize=(4.6 * columns, 3.0 * rows + 0.5), layout="constrained")
+    grid = figure.subplots(rows, columns, squeeze=False, sharey="row").ravel()
+    for (title, curves), axes in zip(panels.items(), grid, strict=False):
+        for curve, found in curves:
+            colour = colours[found["verdict"]]
+            axes.plot(curve, color=colour, linewidth=1.6)
+            if found["verdict"] != "monotonic":
+                peak, bottom = found["peak"], found["bottom"]
+                axes.plot(
+                    [peak, bottom], [curve[peak], curve[bottom]], "--o", color=colour, markersize=4
+                )
+                axes.annotate(
+                    f"{-100 * found['drop']:.0f} %",
+                    (bottom, curve[bottom]),
+                    xytext=(4, -10),
+                    textcoords="offset points",
+                    color=colour,
+                    fontsize=9,
+                )
+        axes.set_title(title, fontsize=10)
+        axes.grid(alpha=0.3)
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.margins(y=0.12)
+    for axes in grid[(rows - 1) * columns :]:
+        axes.set_xlabel("generation")
+    for axes in grid[::columns]:
+        axes.set_ylabel("mean fitness")
+    lines = [figure.axes[0].plot([], [], color=colour)[0] for colour in colours.values()]
+    figure.legend(lines, colours, loc="outside upper center", ncols=3, frameon=False)
+    figure.savefig(file, dpi=100)
+    print(f"picture: {file}")
+
+
+def experiment_file(name: str) -> Path:
+    """An experiment file of the course, as "acrobot.ini". Raises BotschoolError."""
+    from botschool.grading.exercise import course_root
+
+    return course_root() / "data" / "experiments" / name
+
+
+class SavedRobot:
+    """A robot that the tool has evolved and saved, ready to be evaluated."""
+
+    def __init__(self, experiment_file: str | Path, genotype: np.ndarray) -> None:
+        """genotype: what np.load gives of a file bestS<seed>.npy or bestgS<seed>.npy."""
+        experiment = load_experiment(experiment_file)
+        self.environment = experiment.exp.environment
+        self._problem = problems.make(self.environment)
+        self._policy = Policy(self.environment, self._problem.interface, experiment.policy)
+        self._genotype, self._normalisation = self._policy.split(genotype)
+
+    def evaluate(self, seed: int, episodes: int) -> np.ndarray:
+        """The return of each of `episodes` episodes; shape (episodes,). The seed decides them."""
+        batch = Episodes.of(np.array([seed], dtype=np.uint64), episodes)
+        maxsteps = self._policy.config.maxsteps
+        return self._problem.evaluate(
+            self._policy, self._genotype[None], self._normalisation, batch, maxsteps
+        ).fitness
+
+    def film(self, file: str | Path, seed: int = 1, episodes: int = 1) -> None:
+        """A film of some episodes, in a native environment."""
+        from botschool.problems.native import NATIVE
+        from botschool.render.canvas import draw_offscreen
+        from botschool.render.panel import with_caption
+        from botschool.render.scene import make_scene
+        from botschool.render.video import write_video
+
+        draw_offscreen()
+        scene = make_scene(NATIVE[self.environment][0])
+        frames = (
+            with_caption(scene.draw(moment.state, moment.action), episode + 1, moment)
+            for episode in range(episodes)
+            for moment in self._problem.play(
+                self._policy, self._genotype, self._normalisation, seed, episode,
+                self._policy.config.maxsteps,
+            )
+        )  # fmt: skip
+        write_video(Path(file), frames, scene.fps)
+        print(f"film: {file}")
+
+
+def draw_bands(
+    file: str | Path,
+    x: np.ndarray,
+    curves: dict[str, tuple[np.ndarray, np.ndarray]],
+    title: str = "",
+    labels: tuple[str, str] = ("million steps", "fitness"),
+    logarithmic: bool = False,
+) -> None:
+    """Mean curves, each with its band of one standard deviation.
+
+    curves: name -> (mean, deviation), arrays as long as x. logarithmic: the x axis.
+    """
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(8, 5), layout="constrained")
+    axes = figure.subplots()
+    colours = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")
+    for colour, (name, (mean, deviation)) in zip(colours, curves.items(), strict=False):
+        axes.fill_between(x, mean - deviation, mean + deviation, alpha=0.2, color=colour, lw=0)
+        axes.plot(x, mean, color=colour, linewidth=2, label=name)
+    axes.set(xlabel=labels[0], ylabel=labels[1], title=title)
+    axes.grid(alpha=0.3)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False)
+    if logarithmic:
+        axes.set_xscale("log")
+        axes.xaxis.set_major_formatter("{x:g}")
+    figure.savefig(file, dpi=100)
+    print(f"picture: {file}")

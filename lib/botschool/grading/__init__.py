@@ -1,0 +1,16 @@
+"""Grading: exercises, the isolated runner, scores. A grader file needs only what is named here."""
+
+from botschool.grading.checks import Wrong, expect, expect_array, expect_close, show
+from botschool.grading.exercise import Exercise, Task
+from botschool.grading.student import Student
+
+__all__ = [
+    "Exercise",
+    "Student",
+    "Task",
+    "Wrong",
+    "expect",
+    "expect_array",
+    "expect_close",
+    "show",
+]

@@ -1,0 +1,224 @@
+"""Grading in processes of their own, many at a time, with results kept by content.
+
+A submission that breaks or holds up its grader's process harms no other one. What was graded
+before is not graded again until the submission, the grader or botschool changes.
+"""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import functools
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from botschool.errors import BotschoolError
+from botschool.grading.checks import Wrong
+from botschool.grading.exercise import Exercise, Result, folder_of, grade, load_exercise
+from botschool.grading.process import interpreter, package
+from botschool.grading.scratch import remove_tree, submission_files
+from botschool.output import save_bytes
+
+STATE = ".botschool"
+"""In the course folder: what the commands remember."""
+SPARE_SECONDS = 60
+"""What a grader's process may take beyond the limits of its tasks and 5 seconds for each."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """A submission's file, of an exercise."""
+
+    number: int
+    file: Path
+
+
+class Grades:
+    """Grades submissions of the course in a folder, and remembers their results.
+
+    A result is a dict: exercise, title, points, max_points, tasks (with what they printed),
+    pictures ([name, base64]), missing, and problem (why there is none; "").
+    """
+
+    def __init__(self, root: Path, fresh: bool = False) -> None:
+        """fresh: grade again what was graded before."""
+        self._root = root
+        self._fresh = fresh
+        self._cache = root / STATE / "grades"
+        self._exercises: dict[int, Exercise] = {}
+        self._running: set[subprocess.Popen] = set()
+        self._stopped = threading.Event()
+
+    def exercise(self, number: int) -> Exercise:
+        """The exercise as its grader declares it."""
+        if number not in self._exercises:
+            self._exercises[number] = load_exercise(number, self._root)
+        return self._exercises[number]
+
+    def of(
+        self,
+        jobs: Iterable[Job],
+        workers: int,
+        report: Callable[[Job, dict], None] = lambda job, result: None,
+    ) -> dict[Job, dict[str, Any]]:
+        """The results of all jobs; reports each as soon as it is there."""
+        results = {}
+        with ThreadPoolExecutor(workers) as pool:
+            try:
+                futures = {pool.submit(self._result, job): job for job in dict.fromkeys(jobs)}
+                for future in as_completed(futures):
+                    job = futures[future]
+                    results[job] = future.result()
+                    report(job, results[job])
+            except BaseException:
+                self._stopped.set()
+                for process in list(self._running):
+                    process.kill()
+                pool.shutdown(cancel_futures=True)
+                raise
+        return results
+
+    def _result(self, job: Job) -> dict[str, Any]:
+        try:
+            key = self._key(job)
+        except Wrong as error:
+            return self.nothing(job.number, str(error))
+        place = self._cache / f"{key}.json"
+        if not self._fresh:
+            with contextlib.suppress(OSError, ValueError):
+                return json.loads(place.read_bytes())
+        result = self._grade(job)
+        if not result["problem"] and not self._stopped.is_set():
+            with contextlib.suppress(OSError, BotschoolError):
+                make_state(self._root)
+                self._cache.mkdir(exist_ok=True)
+                save_bytes(place, json.dumps(result).encode())
+        return result
+
+    def _grade(self, job: Job) -> dict[str, Any]:
+        exercise = self.exercise(job.number)
+        limit = sum(task.seconds + 5 for task in exercise.tasks) + SPARE_SECONDS
+        temporary = Path(tempfile.mkdtemp(prefix="botschool-"))
+        command = interpreter("botschool.grading.apart", str(job.number), str(job.file))
+        environment = os.environ | {"TMPDIR": str(temporary), "BOTSCHOOL_COURSE": str(self._root)}
+        try:
+            process = subprocess.Popen(
+                command,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                start_new_session=True,
+            )
+            self._running.add(process)
+            if self._stopped.is_set():
+                process.kill()
+            try:
+                out, errors = process.communicate(timeout=limit)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
+                return self.nothing(
+                    job.number, f"The grading took longer than {limit:.0f} seconds."
+                )
+            finally:
+                self._running.discard(process)
+            if process.returncode == 0:
+                return json.loads(out)
+            lines = errors.decode(errors="replace").strip().splitlines()
+            reason = lines[-1] if lines else f"exit code {process.returncode}"
+            return self.nothing(job.number, f"The grader failed: {reason}.")
+        finally:
+            remove_tree(temporary)
+
+    def nothing(self, number: int, problem: str) -> dict[str, Any]:
+        """The result of a submission that cannot be graded."""
+        exercise = self.exercise(number)
+        tasks = [
+            {"id": t.id, "title": t.title, "points": 0, "max_points": t.max_points, "message": "",
+             "printed": ""}
+            for t in exercise.tasks
+        ]  # fmt: skip
+        maximum = sum(task.max_points for task in exercise.tasks)
+        return {
+            "exercise": number, "title": exercise.title, "points": 0, "max_points": maximum,
+            "tasks": tasks, "pictures": [], "missing": [], "problem": problem,
+        }  # fmt: skip
+
+    def _key(self, job: Job) -> str:
+        digest = hashlib.sha256(_versions(self._root, job.number).encode())
+        for path in submission_files(job.file):
+            name = str(path.relative_to(job.file.parent)).encode(errors="surrogateescape")
+            digest.update(hashlib.sha256(name).digest())
+            try:
+                digest.update(hashlib.sha256(path.read_bytes()).digest())
+            except OSError as error:
+                raise Wrong(f"{path.name} cannot be read ({error.strerror}).") from None
+        return digest.hexdigest()
+
+
+def to_record(result: Result) -> dict[str, Any]:
+    """A result as plain data, without pictures that come twice."""
+    tasks = [asdict(task) for task in result.tasks]
+    pictures = {}
+    for task in tasks:
+        del task["missing"]
+        for name, content in task.pop("pictures"):
+            pictures.setdefault(content, name)
+    return {
+        "exercise": result.exercise,
+        "title": result.title,
+        "points": result.points,
+        "max_points": result.max_points,
+        "tasks": tasks,
+        "pictures": [[name, base64.b64encode(c).decode()] for c, name in pictures.items()],
+        "missing": result.missing,
+        "problem": "",
+    }
+
+
+@functools.lru_cache(maxsize=64)
+def _versions(root: Path, number: int) -> str:
+    """What a result depends on beside the submission."""
+    stamps = [sys.version, os.environ.get("BOTSCHOOL_GRADING_SEED", ""), str(number)]
+    places = [package(), folder_of(number, root)]
+    for top in places:
+        for path in sorted(top.rglob("*") if top == package() else top.glob("test_*.py")):
+            if path.suffix in (".py", ".so", ".pyd"):
+                status = path.stat()
+                stamps.append(f"{path} {status.st_size} {status.st_mtime_ns}")
+    return "\n".join(stamps)
+
+
+def make_state(root: Path) -> Path:
+    """The folder of what the commands remember. Raises OSError where it cannot be written to."""
+    folder = root / STATE
+    if not folder.is_dir():
+        folder.mkdir()
+        (folder / ".gitignore").write_text("*\n")
+    if not os.access(folder, os.W_OK):
+        raise PermissionError(f"no permission to write in {folder}")
+    return folder
+
+
+def main() -> None:
+    """Grades a file (argument 2) of an exercise (argument 1); the result goes to stdout as JSON."""
+    number, file = int(sys.argv[1]), Path(sys.argv[2])
+    out = os.dup(1)
+    os.dup2(2, 1)  # whatever a grader prints is no part of the result
+    try:
+        record = to_record(grade(load_exercise(number), file))
+    except BotschoolError as error:
+        sys.exit(str(error))
+    with open(out, "w", encoding="ascii") as stream:
+        json.dump(record, stream)

@@ -1,0 +1,193 @@
+"""What the subcommands of grading do."""
+
+from __future__ import annotations
+
+import json
+import os
+import traceback
+from pathlib import Path
+
+from rich.console import Console
+
+from botschool.errors import BotschoolError
+from botschool.grading.apart import Grades, Job
+from botschool.grading.checks import Wrong
+from botschool.grading.debug import DirectStudent
+from botschool.grading.exercise import (
+    EXERCISES,
+    Exercise,
+    Result,
+    course_root,
+    exercise_numbers,
+    folder_of,
+    grade,
+    grade_task,
+    load_exercise,
+    submission_file,
+)
+from botschool.grading.report import Screen, counting, notice
+
+
+def grade_command(what: str, submission: str | None, as_json: bool, debug: bool) -> bool:
+    """Grades exercise "3" or task "3.2" and prints the report; True for full marks."""
+    number, task = _named(what)
+    exercise = load_exercise(number)
+    if task:
+        exercise.find(what)
+    file = submission_file(number, submission)
+    if debug:
+        if not task:
+            raise BotschoolError(f"--debug runs one task: say which, as botschool grade {number}.1")
+        return debug_task(exercise, what, file)
+    screen = Screen()
+    report = (lambda result: None) if as_json else screen.task
+    if not as_json:
+        screen.start(exercise.number, exercise.title, file)
+    if task:
+        result = Result(exercise.number, exercise.title, [grade_task(exercise.find(what), file)])
+        report(result.tasks[0])
+    else:
+        result = grade(exercise, file, report)
+    if as_json:
+        print(json.dumps(result.to_json(), indent=1))
+    else:
+        screen.end(result, whole=not task)
+    return result.points == result.max_points
+
+
+def debug_task(exercise: Exercise, id: str, file: Path) -> bool:
+    """Runs a task's checks in this process, without limits and points."""
+    task = exercise.find(id)
+    student = DirectStudent(file)
+    for _, name, check in task.checks:
+        try:
+            check(student)
+            print(f"passed: {name}")
+        except Wrong as error:
+            print(f"failed: {name}: {error}")
+        except Exception:
+            print(f"failed: {name}:")
+            traceback.print_exc()
+    return False
+
+
+def hint_command(what: str) -> None:
+    """Prints the hints of a task that were shown before, and the next one."""
+    from rich.markdown import Markdown
+    from rich.padding import Padding
+
+    from botschool.grading.hints import next_hints
+
+    number, task = _named(what)
+    if not task:
+        raise BotschoolError(f"Hints are given for a task: say which, as botschool hint {number}.1")
+    exercise = load_exercise(number)
+    title = exercise.find(what).title
+    hints, many, new = next_hints(what, course_root())
+    console = Console(highlight=False)
+    for index, hint in enumerate(hints, 1):
+        latest = index == len(hints)
+        console.print(
+            f"Hint {index} of {many} for task {what}, {title}" if latest else f"Hint {index}",
+            style="bold" if latest else "dim",
+            markup=False,
+        )
+        console.print(Padding(Markdown(hint), (0, 0, 0, 3)), style="" if latest else "dim")
+    if not new:
+        console.print(f"[bold]There are no more hints for task {what}.[/]")
+    elif len(hints) == many:
+        console.print("[dim]This was the last one.[/]")
+    else:
+        console.print(f"[dim]One more: botschool hint {what}[/]")
+
+
+def progress_command(workers: int | None) -> None:
+    """Prints the table of all exercises."""
+    from botschool.grading.progress import summary, table
+
+    root = course_root()
+    jobs, missing = {}, {}
+    grades = Grades(root)
+    for number in exercise_numbers(root):
+        try:
+            jobs[Job(number, submission_file(number, None, root))] = number
+        except BotschoolError as error:
+            missing[number] = grades.nothing(number, str(error))
+    console = Console(highlight=False)
+    with counting("Grading", console) as (start, step):
+        start(len(jobs))
+        found = grades.of(jobs, _workers(workers), lambda job, result: step())
+    results = {job.number: result for job, result in found.items()} | missing
+    console.print(table(results))
+    console.print(summary(results))
+    _notice(console, list(results.values()))
+
+
+def watch_command(what: str, submission: str | None) -> None:
+    """Grades after every save, until Ctrl-C."""
+    from botschool.grading.watching import watch
+
+    number, task = _named(what)
+    exercise = load_exercise(number)
+    tasks = [exercise.find(what)] if task else exercise.tasks
+    file = submission_file(number, submission)
+    try:
+        watch(exercise, file, tasks, Screen())
+    except KeyboardInterrupt:
+        print()
+
+
+def release_command(folder: Path) -> None:
+    """Makes the students' copy."""
+    from botschool.grading.release import release
+
+    count = release(course_root(), folder)
+    print(f"{folder}: {count} files for students, without solutions.")
+
+
+def grade_all_command(
+    folder: Path, output: Path, exercise: str, workers: int | None, fresh: bool
+) -> None:
+    """Grades a class and says where the results are."""
+    from botschool.grading.grade_all import PAGES, TABLE, grade_all
+
+    root = course_root()
+    numbers = exercise_numbers(root) if exercise == "all" else [_named(exercise)[0]]
+    for number in numbers:
+        folder_of(number, root)
+    console = Console(highlight=False)
+    with counting("Grading", console) as (start, step):
+        table = grade_all(folder, output, numbers, root, _workers(workers), fresh, start, step)
+    results = [result for _, all_of in table for result in all_of]
+    totals = [sum(result["points"] for result in all_of) for _, all_of in table]
+    problems = [(one, r) for one, all_of in table for r in all_of if r["problem"]]
+    maximum = sum(result["max_points"] for result in table[0][1])
+    mean = sum(totals) / len(totals)
+    console.print(f"{len(totals)} submissions, {mean:.1f} of {maximum} points on average.")
+    if problems:
+        names = list(dict.fromkeys(one.student for one, _ in problems))
+        shown = ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
+        console.print(f"Not all could be graded, see the notes in the table: {shown}", markup=False)
+    console.print(f"Table: {output / TABLE}   Feedback: {output / PAGES}", markup=False)
+    _notice(console, results)
+
+
+def _named(what: str) -> tuple[int, str]:
+    """ "3.2" -> (3, "2"); "3" -> (3, ""). Raises BotschoolError."""
+    number, dot, task = what.partition(".")
+    good = [part.isascii() and part.isdigit() and len(part) < 4 for part in (number, task)]
+    if not good[0] or (dot and not good[1]) or not 1 <= int(number) <= EXERCISES:
+        raise BotschoolError(
+            f"'{what[:30]}' names no exercise: give its number, as 3, or a task, as 3.2."
+        )
+    return int(number), task
+
+
+def _workers(given: int | None) -> int:
+    return given or os.cpu_count() or 1
+
+
+def _notice(console: Console, results: list[dict]) -> None:
+    missing = list(dict.fromkeys(each for result in results for each in result["missing"]))
+    if missing:
+        console.print(f"[yellow]{notice(missing)}[/]")

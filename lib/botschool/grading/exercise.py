@@ -1,0 +1,242 @@
+"""Exercises, their tasks and checks; finding and grading them."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.grading.checks import Wrong, plain
+from botschool.grading.student import Student
+
+POINTS = 100
+"""What every exercise is worth."""
+EXERCISES = 15
+
+
+@dataclass
+class Task:
+    """A numbered task of an exercise: its checks are run one after another in one child."""
+
+    id: str
+    title: str
+    seconds: float
+    memory: int
+    checks: list[tuple[int, str, Callable[[Student], None]]] = field(default_factory=list)
+
+    def check(self, points: int) -> Callable:
+        """Decorates a check: a function of a Student that raises Wrong when it is not passed."""
+
+        def keep(function: Callable[[Student], None]) -> Callable[[Student], None]:
+            self.checks.append((points, function.__name__, function))
+            return function
+
+        return keep
+
+    @property
+    def max_points(self) -> int:
+        return sum(points for points, _, _ in self.checks)
+
+
+@dataclass
+class TaskResult:
+    """What a submission got for a task."""
+
+    id: str
+    title: str
+    points: int
+    max_points: int
+    message: str
+    """Why points are missing, in sentences; empty for full marks."""
+    printed: str = ""
+    """The beginning of what the submission printed."""
+    missing: list[str] = field(default_factory=list)
+    """What this system could not confine, in words."""
+    pictures: list[tuple[str, bytes]] = field(default_factory=list)
+    """(name, PNG) of those beside the submission's file after the task."""
+
+
+class Exercise:
+    """An exercise as its grader file declares it.
+
+    exercise = Exercise(3, "Evolution strategy", file="evolution_strategy.py")
+    population = exercise.task("3.1", "The initial population")
+
+    @population.check(10)
+    def has_the_right_shape(student): ...
+    """
+
+    def __init__(self, number: int, title: str, file: str) -> None:
+        self.number = number
+        self.title = title
+        self.file = file
+        self.tasks: list[Task] = []
+
+    def task(self, id: str, title: str, seconds: float = 20, memory: int = 4096) -> Task:
+        """Adds a task; seconds: wall time for all its checks; memory: MB of address space."""
+        self.tasks.append(Task(id, title, seconds, memory))
+        return self.tasks[-1]
+
+    def seed(self, index: int) -> int:
+        """A grading seed; they follow from BOTSCHOOL_GRADING_SEED, an instructor's secret."""
+        secret = os.environ.get("BOTSCHOOL_GRADING_SEED", "botschool")
+        digest = hashlib.sha256(f"{secret}:{self.number}:{index}".encode()).digest()
+        return int.from_bytes(digest[:4], "little") % 2**31
+
+    def find(self, task: str) -> Task:
+        """The task with that id. Raises BotschoolError."""
+        for each in self.tasks:
+            if each.id == task:
+                return each
+        known = ", ".join(each.id for each in self.tasks)
+        raise BotschoolError(f"Exercise {self.number} has no task {task}; its tasks are {known}.")
+
+
+def grade_task(task: Task, file: Path) -> TaskResult:
+    """Runs a task's checks on a submission's file, in a child of its own."""
+    result = TaskResult(task.id, task.title, 0, task.max_points, "")
+    problems: list[str] = []
+    student = None
+    try:
+        student = Student(file, task.seconds, task.memory)
+        for worth, _, check in task.checks:
+            problem = _problem(check, student)
+            if problem is None:
+                result.points += worth
+            else:
+                problems.append(problem)
+        student.stop()
+        result.printed, result.missing = plain(student.printed), student.missing
+        result.pictures = student.pictures()
+    except Wrong as error:
+        problems.append(str(error))
+    finally:
+        if student is not None:
+            student.close()
+    result.message = plain("\n".join(dict.fromkeys(problems)))
+    return result
+
+
+def _problem(check: Callable[[Student], None], student: Student) -> str | None:
+    """Why a check is not passed, in a sentence; None when it is."""
+    try:
+        check(student)
+    except Wrong as error:
+        return str(error)
+    except BotschoolError:
+        raise  # the grader's own trouble, not the submission's
+    except Exception as error:
+        return (
+            f"{student.said} returned something that cannot be judged "
+            f"({type(error).__name__}: {str(error)[:200]})."
+        )
+    return None
+
+
+@dataclass
+class Result:
+    """What a submission got for an exercise."""
+
+    exercise: int
+    title: str
+    tasks: list[TaskResult]
+
+    @property
+    def points(self) -> int:
+        return sum(task.points for task in self.tasks)
+
+    @property
+    def max_points(self) -> int:
+        return sum(task.max_points for task in self.tasks)
+
+    @property
+    def missing(self) -> list[str]:
+        """What this system could not confine, in words."""
+        return list(dict.fromkeys(each for task in self.tasks for each in task.missing))
+
+    def to_json(self) -> dict:
+        """The form of `botschool grade --json`."""
+        shown = ("id", "title", "points", "max_points", "message")
+        tasks = [{name: getattr(task, name) for name in shown} for task in self.tasks]
+        return {
+            "exercise": self.exercise,
+            "points": self.points,
+            "max_points": self.max_points,
+            "tasks": tasks,
+        }
+
+
+def grade(
+    exercise: Exercise, file: Path, report: Callable[[TaskResult], None] = lambda result: None
+) -> Result:
+    """Grades a submission's file; reports each task as soon as it is judged."""
+    results = []
+    for task in exercise.tasks:
+        results.append(grade_task(task, file))
+        report(results[-1])
+    return Result(exercise.number, exercise.title, results)
+
+
+def course_root() -> Path:
+    """The folder that holds exercises/; looked for from the present folder upwards."""
+    given = os.environ.get("BOTSCHOOL_COURSE")
+    here = Path(given) if given else Path.cwd()
+    for folder in (here, *here.resolve().parents):
+        if (folder / "exercises").is_dir():
+            return folder
+    raise BotschoolError(
+        "There is no course here: go to the folder that holds exercises/, or name it in "
+        "BOTSCHOOL_COURSE."
+    )
+
+
+def folder_of(number: int, root: Path | None = None) -> Path:
+    """exercises/exNN_name. Raises BotschoolError."""
+    root = root or course_root()
+    found = sorted((root / "exercises").glob(f"ex{number:02d}_*"))
+    if not found:
+        have = ", ".join(map(str, exercise_numbers(root)))
+        raise BotschoolError(f"There is no exercise {number} yet; there are {have}.")
+    return found[0]
+
+
+def exercise_numbers(root: Path) -> list[int]:
+    """The exercises that are there: those with a grader."""
+    graders = (root / "exercises").glob("ex[0-9][0-9]_*/test_*.py")
+    return sorted({int(path.parent.name[2:4]) for path in graders})
+
+
+def load_exercise(number: int, root: Path | None = None) -> Exercise:
+    """What the exercise's grader file declares."""
+    folder = folder_of(number, root)
+    graders = sorted(folder.glob("test_*.py"))
+    if not graders:
+        raise BotschoolError(f"{folder} holds no grader file test_*.py: restore it.")
+    spec = importlib.util.spec_from_file_location(f"grader_{number}", graders[0])
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.exercise
+
+
+def submission_file(number: int, submission: str | None, root: Path | None = None) -> Path:
+    """The file to grade: the student's own, the reference (`solutions`), or in another folder."""
+    root = root or course_root()
+    folder, exercise = folder_of(number, root), load_exercise(number, root)
+    if submission is None:
+        places = [folder]
+    else:
+        base = Path(submission)
+        if submission == "solutions" and not base.is_dir():
+            base = root / "solutions"
+        places = [base / folder.name, base]
+    for place in places:
+        if (place / exercise.file).is_file():
+            return place / exercise.file
+    raise BotschoolError(
+        f"There is no {exercise.file} in {' or '.join(map(str, places))}: "
+        "name the folder with SUBMISSION=FOLDER."
+    )

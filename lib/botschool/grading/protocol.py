@@ -1,0 +1,166 @@
+"""Plain data between the grader and a submission: no pickles, no live objects.
+
+A message is two lengths of 8 bytes, UTF-8 JSON, and the bytes of the arrays one after another.
+Numbers, strings, booleans, None, lists (tuples become lists), dicts with string keys and numpy
+arrays of numbers can be sent; in the JSON an array is {"__array__": [type, shape]}. What arrives
+may have been made up by a submission: it is bounded, and nothing but plain data comes of it.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import re
+import selectors
+import time
+from typing import Any
+
+import numpy as np
+
+LARGEST_TEXT = 8 * 2**20
+"""Bytes of JSON in a message; Python objects made of it take some ten times as much."""
+LARGEST = 64 * 2**20
+"""Bytes of the arrays in a message."""
+DEEPEST = 50
+"""Levels of lists in lists."""
+LONGEST_NUMBER = 300
+"""Digits."""
+_HEAD = 16
+_KIND = re.compile(r"[<>|=]?[biuf][1248]")
+
+
+class NotPlain(Exception):
+    """Something that cannot be sent; the message says what it is."""
+
+
+def pack(value: Any) -> bytes:
+    """A message. Raises NotPlain."""
+    blobs: list[bytes] = []
+    text = json.dumps(_simple(value, blobs, 0)).encode()
+    data = b"".join(blobs)
+    if len(text) > LARGEST_TEXT or len(data) > LARGEST:
+        raise NotPlain(f"{(len(text) + len(data)) / 2**20:.0f} MB of data, which is too much")
+    return len(text).to_bytes(8, "little") + len(data).to_bytes(8, "little") + text + data
+
+
+def unpack(message: bytes) -> Any:
+    """The value of a message. Raises ValueError if it is damaged."""
+    try:
+        length = int.from_bytes(message[:8], "little")
+        text, data = message[_HEAD : _HEAD + length], message[_HEAD + length :]
+        restored = _Restored(data)
+        value = restored.of(json.loads(text.decode(), parse_int=_integer), 0)
+    except (ValueError, KeyError, TypeError, RecursionError, MemoryError, OverflowError) as error:
+        raise ValueError("damaged message") from error
+    if restored.used != len(data):
+        raise ValueError("damaged message")
+    return value
+
+
+def receive(fd: int, seconds: float) -> bytes | None:
+    """The next message from a pipe; None at its end. Raises TimeoutError and ValueError."""
+    deadline = time.monotonic() + seconds
+    head = _read(fd, _HEAD, deadline)
+    if head is None:
+        return None
+    text, data = int.from_bytes(head[:8], "little"), int.from_bytes(head[8:], "little")
+    if text > LARGEST_TEXT or data > LARGEST:
+        raise ValueError("a message is too long")
+    rest = _read(fd, text + data, deadline)
+    return None if rest is None else head + rest
+
+
+def send(fd: int, message: bytes, seconds: float) -> None:
+    """Writes to a pipe that does not block. Raises TimeoutError and BrokenPipeError."""
+    deadline = time.monotonic() + seconds
+    left = memoryview(message)
+    with selectors.DefaultSelector() as selector:
+        selector.register(fd, selectors.EVENT_WRITE)
+        while left:
+            if not selector.select(max(0.0, deadline - time.monotonic())):
+                raise TimeoutError
+            try:
+                left = left[os.write(fd, left) :]
+            except BlockingIOError:
+                continue
+
+
+def _read(fd: int, count: int, deadline: float) -> bytes | None:
+    parts = bytearray()
+    with selectors.DefaultSelector() as selector:
+        selector.register(fd, selectors.EVENT_READ)
+        while len(parts) < count:
+            left = deadline - time.monotonic()
+            if left <= 0 or not selector.select(left):
+                raise TimeoutError
+            part = os.read(fd, min(count - len(parts), 2**20))
+            if not part:
+                return None
+            parts += part
+    return bytes(parts)
+
+
+def _simple(value: Any, blobs: list[bytes], depth: int) -> Any:
+    if depth > DEEPEST:
+        raise NotPlain("lists nested too deeply")
+    if type(value) is int and value.bit_length() > 3 * LONGEST_NUMBER:
+        raise NotPlain("an integer with hundreds of digits")
+    if value is None or type(value) in (bool, int, float, str):
+        return value
+    if isinstance(value, np.generic) and _KIND.fullmatch(value.dtype.str):
+        return value.item()
+    if isinstance(value, np.ndarray):
+        if not _KIND.fullmatch(value.dtype.str):
+            raise NotPlain(f"an array of {value.dtype}")
+        if value.nbytes > LARGEST:
+            raise NotPlain(f"an array of {value.nbytes // 2**20} MB")
+        blobs.append(value.tobytes())
+        return {"__array__": [value.dtype.str, list(value.shape)]}
+    if isinstance(value, (list, tuple)):
+        return [_simple(item, blobs, depth + 1) for item in value]
+    if isinstance(value, dict):
+        simple = {}
+        for key, item in value.items():
+            if type(key) not in (str, int):
+                raise NotPlain(f"a dict with a {type(key).__name__} as key")
+            simple[str(key)] = _simple(item, blobs, depth + 1)
+        return simple
+    raise NotPlain(f"an object of type {type(value).__name__}")
+
+
+class _Restored:
+    """Values from JSON and the arrays' bytes."""
+
+    def __init__(self, data: bytes) -> None:
+        self._data = data
+        self.used = 0
+
+    def of(self, value: Any, depth: int) -> Any:
+        if depth > 2 * DEEPEST:
+            raise ValueError("too deep")
+        if isinstance(value, str):
+            return value.encode("utf-8", "replace").decode()
+        if isinstance(value, list):
+            return [self.of(item, depth + 1) for item in value]
+        if not isinstance(value, dict):
+            return value
+        if "__array__" in value:
+            return self._array(*value["__array__"])
+        return {self.of(key, depth): self.of(item, depth + 1) for key, item in value.items()}
+
+    def _array(self, kind: str, shape: list[int]) -> np.ndarray:
+        if not _KIND.fullmatch(kind) or any(type(n) is not int or n < 0 for n in shape):
+            raise ValueError("an array that is not numbers")
+        dtype = np.dtype(kind)
+        start = self.used
+        self.used += math.prod(shape) * dtype.itemsize
+        if self.used > len(self._data):
+            raise ValueError("an array without its numbers")
+        return np.frombuffer(self._data[start : self.used], dtype).reshape(shape).copy()
+
+
+def _integer(digits: str) -> int:
+    if len(digits) > LONGEST_NUMBER + 1:
+        raise ValueError("too long a number")
+    return int(digits)

@@ -1,0 +1,118 @@
+"""Shuts the present process in: what a submission may use of the machine.
+
+On Linux Landlock confines files, a seccomp filter (seccomp.py) processes, network, signals and
+what Landlock leaves open, and capabilities are dropped: plain system calls, without privileges or
+packages. Resource limits hold wherever Python's `resource` does. `shut_in` says what could not
+be had.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import platform
+import signal
+import struct
+import sys
+from pathlib import Path
+
+from botschool.grading import seccomp
+
+# see linux/landlock.h
+_LANDLOCK_CREATE, _LANDLOCK_ADD, _LANDLOCK_RESTRICT = 444, 445, 446
+_READ = 0b1101  # execute, read file, read directory
+_ON_FILES = 0b1100_0000_0000_0111  # what can be allowed on a file
+_NEVER = 0b1000_1010_0100_0000  # device nodes, sockets, control of devices
+_RIGHTS_OF_VERSION = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16}
+
+_PR_SET_PDEATHSIG, _PR_SET_NO_NEW_PRIVS = 1, 38
+_CAP_DAC_READ_SEARCH = 2
+
+
+def limit(seconds: float, memory: int, file_size: int) -> None:
+    """CPU seconds, bytes of address space and of a file."""
+    with contextlib.suppress(OSError):  # when memory runs out it is this process that goes
+        Path("/proc/self/oom_score_adj").write_text("1000")
+    cpu = 2 * int(seconds) + 2  # the grader watches wall time; this holds if it has gone
+    for name, value in (
+        ("RLIMIT_CPU", cpu),
+        ("RLIMIT_AS", memory),
+        ("RLIMIT_FSIZE", file_size),
+        ("RLIMIT_CORE", 0),
+        ("RLIMIT_NOFILE", 256),
+        ("RLIMIT_MEMLOCK", 0),
+    ):
+        _set(name, value)
+
+
+def _set(name: str, value: int) -> None:
+    try:
+        import resource
+
+        which = getattr(resource, name)
+        hard = resource.getrlimit(which)[1]
+        value = value if hard == resource.RLIM_INFINITY else min(value, hard)
+        resource.setrlimit(which, (value, value))
+    except (ImportError, AttributeError, ValueError, OSError):
+        pass
+
+
+def shut_in(readable: list[Path], writable: list[Path]) -> list[str]:
+    """Confines this process for good; returns what this system could not confine, in words."""
+    everything = ["files", "processes", "network"]
+    if sys.platform != "linux":
+        _set("RLIMIT_NPROC", 0)
+        return everything
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.syscall.restype = ctypes.c_long
+    libc.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+    if libc.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0:
+        return everything
+    missing = [] if _landlock(libc, readable, writable) else ["files"]
+    _drop_capabilities(libc)
+    code = seccomp.program(platform.machine(), os.getpid())
+    if code is None or not seccomp.install(libc, code):
+        missing += ["processes", "network"]
+        _set("RLIMIT_NPROC", 0)  # no more processes or threads, except for root
+    return missing
+
+
+def _drop_capabilities(libc: ctypes.CDLL) -> None:
+    """What root may do beyond others, but for reading; without effect for others."""
+    header = struct.pack("Ii", 0x20080522, 0)  # version 3, this thread
+    held = ctypes.create_string_buffer(24)
+    if libc.capget(header, held) != 0:
+        return
+    keep = struct.unpack("6I", held.raw)[1] & (1 << _CAP_DAC_READ_SEARCH)
+    libc.capset(header, struct.pack("6I", keep, keep, 0, 0, 0, 0))
+
+
+def _landlock(libc: ctypes.CDLL, readable: list[Path], writable: list[Path]) -> bool:
+    version = libc.syscall(_LANDLOCK_CREATE, None, 0, 1)
+    if version < 1:
+        return False
+    handled = (1 << _RIGHTS_OF_VERSION.get(version, 16)) - 1
+    attributes = struct.pack("Q", handled)
+    if version >= 4:
+        attributes = struct.pack("QQ", handled, 0b11)  # TCP bind and connect
+    if version >= 6:
+        attributes = struct.pack("QQQ", handled, 0b11, 0b11)  # abstract sockets, signals
+    rules = libc.syscall(_LANDLOCK_CREATE, attributes, len(attributes), 0)
+    if rules < 0:
+        return False
+    for paths, access in ((readable, _READ), (writable, handled & ~_NEVER)):
+        for path in paths:
+            try:
+                fd = os.open(path, os.O_PATH | os.O_CLOEXEC)
+            except OSError:
+                continue
+            allowed = access & handled & (-1 if path.is_dir() else _ON_FILES)
+            rule = struct.pack("=Qi", allowed, fd)
+            added = libc.syscall(_LANDLOCK_ADD, rules, 1, rule, 0)
+            os.close(fd)
+            if added != 0:
+                return False
+    confined = libc.syscall(_LANDLOCK_RESTRICT, rules, 0) == 0
+    os.close(rules)
+    return confined

@@ -1,0 +1,136 @@
+"""A submission, in a child process of its own: calls in, plain data out."""
+
+from __future__ import annotations
+
+import inspect
+import textwrap
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from botschool.grading.checks import NotDone, Wrong, plain, show
+from botschool.grading.process import Child
+from botschool.grading.scratch import Scratch
+
+
+class Student:
+    """The file of a submission, ready to be called.
+
+    Every call is limited by what is left of `seconds` (wall time; the first start of the child
+    does not count). A child that died, hung or was killed is replaced at the next call, so that
+    later checks are judged on their own.
+    """
+
+    def __init__(self, file: Path, seconds: float = 20, memory: int = 4096) -> None:
+        """memory: MB of address space. Raises Wrong when the submission is too large."""
+        self._file = Path(file)
+        self._memory = memory * 2**20
+        self._seconds = seconds
+        self._deadline: float | None = None
+        self._child: Child | None = None
+        self._printed = ""
+        self.missing: list[str] = []
+        """What this system could not confine, in words."""
+        self.said = "your file"
+        """The last call, as the learner would write it."""
+        self._scratch = Scratch(self._file)
+
+    def call(self, name: str, *arguments: Any, **options: Any) -> Any:
+        """Calls a function of the submission; what it returns, as plain data.
+
+        Raises Wrong with a sentence when it fails, hangs or returns something else.
+        """
+        shown = [*map(_argument, arguments), *(f"{k}={_argument(v)}" for k, v in options.items())]
+        self.said = f"{name}({', '.join(shown)})"
+        return self._request({"name": name, "arguments": arguments, "options": options})
+
+    def run(self, driver: Callable[..., Any], *arguments: Any, said: str | None = None) -> Any:
+        """Runs a function of the grader's inside the child, as driver(student_module, ...).
+
+        The driver must import what it needs itself. What it reports is no more trustworthy than
+        the submission: check it again.
+        """
+        self.said = said or f"{driver.__name__}(...)"
+        source = textwrap.dedent(inspect.getsource(driver))
+        request = {"driver": source, "name": driver.__name__, "arguments": arguments}
+        return self._request(request)
+
+    @property
+    def printed(self) -> str:
+        """The beginning of what the submission has printed."""
+        return self._printed + (self._child.printed() if self._child else "")
+
+    @property
+    def seconds_left(self) -> float:
+        """Wall time left."""
+        return self._seconds if self._deadline is None else self._deadline - time.monotonic()
+
+    def scratch(self, name: str) -> Path:
+        """A file that the submission has written beside its own, as a copy that stays as it is."""
+        try:
+            return self._scratch.copy(name)
+        except OSError:
+            raise Wrong(f"{self.said} should have written the file {name}, but has not.") from None
+
+    def pictures(self) -> list[tuple[str, bytes]]:
+        """(name, content) of the PNG files beside the submission's file; few and small ones."""
+        return self._scratch.pictures()
+
+    def stop(self) -> None:
+        """Kills the child, if there is one; the next call starts another."""
+        if self._child is not None:
+            self._child.kill()
+            self._printed = self.printed
+            self._child = None
+
+    def close(self) -> None:
+        """Kills the child and removes the scratch copy."""
+        self.stop()
+        self._scratch.remove()
+
+    def _request(self, request: dict[str, Any]) -> Any:
+        if self.seconds_left <= 0:
+            raise Wrong("the task's time was used up by the checks before.")
+        if self._child is None:
+            self._child = Child(self._file, self._scratch, self.seconds_left, self._memory)
+            self.missing = self._child.missing
+            if self._deadline is None:
+                self._deadline = time.monotonic() + self._seconds
+        try:
+            answer = self._child.ask(request, self.seconds_left)
+        except TimeoutError:
+            self.stop()
+            raise Wrong(
+                f"{self.said} did not return within the task's {self._seconds:g} seconds."
+            ) from None
+        except ValueError:
+            self.stop()
+            raise Wrong(f"{self.said} sent back something that is no plain data.") from None
+        if answer is None:
+            reason = self._child.ending()
+            self.stop()
+            raise Wrong(f"The program ended while {self.said} was running: {reason}.")
+        return _value(answer, self.said)
+
+
+def _value(answer: dict[str, Any], said: str) -> Any:
+    if "error" not in answer:
+        if "value" not in answer:
+            raise Wrong(f"{said} sent back something that is no plain data.")
+        return answer["value"]
+    kind, text, line = (plain(str(answer.get(key))[:500]) for key in ("error", "text", "line"))
+    where = f" in line {line}" if line.isdigit() else ""
+    text = f": {text}" if text else ""
+    if kind == "NotPlain":
+        raise Wrong(f"{said} returned{text[1:]}, but numbers, lists or arrays are needed.")
+    if kind == "NotImplementedError" and not answer.get("loading"):
+        raise NotDone(f"not done yet{text}")
+    if answer.get("loading"):
+        raise Wrong(f"Your file cannot be loaded: {kind}{where}{text}")
+    raise Wrong(f"{said} raised {kind}{where}{text}")
+
+
+def _argument(value: Any) -> str:
+    shape = getattr(value, "shape", None)
+    return show(value, 30) if shape is None or value.size <= 4 else f"<array {shape}>"

@@ -1,0 +1,61 @@
+"""Grading again whenever the student saves."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from botschool.grading.exercise import Exercise, Result, TaskResult, grade_task
+from botschool.grading.report import Screen
+
+LOOK_EACH = 0.3
+"""Seconds."""
+
+
+class Saved(Exception):
+    """The file was saved while it was being graded."""
+
+
+def stamp(folder: Path) -> tuple:
+    """Changes when one of the Python files in a folder is saved."""
+    found = []
+    for path in sorted(folder.glob("*.py")):
+        try:
+            status = path.stat()
+            found.append((path.name, status.st_mtime_ns, status.st_size))
+        except OSError:  # an editor is replacing it
+            continue
+    return tuple(found)
+
+
+def watch(
+    exercise: Exercise,
+    file: Path,
+    tasks: list,
+    screen: Screen,
+    wait: Callable[[float], None] = time.sleep,
+) -> None:
+    """Grades now and after every save, for ever; `wait` is called between two looks."""
+    while True:
+        seen = stamp(file.parent)
+        try:
+            _once(exercise, file, tasks, screen, seen)
+        except Saved:
+            continue
+        screen.console.print("[dim]Waiting for the next save; Ctrl-C ends.[/]")
+        while stamp(file.parent) == seen or not file.is_file():
+            wait(LOOK_EACH)
+
+
+def _once(exercise: Exercise, file: Path, tasks: list, screen: Screen, seen: tuple) -> None:
+    screen.console.clear()
+    screen.start(exercise.number, exercise.title, file)
+    results: list[TaskResult] = []
+    for task in tasks:
+        results.append(grade_task(task, file))
+        if stamp(file.parent) != seen:
+            raise Saved
+        screen.task(results[-1])
+    whole = len(tasks) == len(exercise.tasks)
+    screen.end(Result(exercise.number, exercise.title, results), whole)

@@ -1,0 +1,389 @@
+"""Grading: submissions in their child process, skeletons, hints, and what is shown."""
+
+import io
+import json
+import os
+import stat
+import sys
+import time
+
+import psutil
+import pytest
+from rich.console import Console
+
+from botschool.grading import exercise as exercises
+from botschool.grading import process, scratch
+from botschool.grading.checks import NotDone, Wrong, expect_array, plain, show
+from botschool.grading.exercise import grade, grade_task, load_exercise
+from botschool.grading.hints import next_hints, read_hints
+from botschool.grading.report import Screen, notice
+from botschool.grading.skeleton import skeleton, write_skeletons
+from botschool.grading.student import Student
+from tiny_course import FILE, FOLDER, HINTS, SOLUTION, make_course, submit
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    root = make_course(tmp_path / "course")
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(root))
+    return root
+
+
+@pytest.fixture
+def graded(course, tmp_path):
+    """Grades a submission with this text."""
+
+    def grade_text(text):
+        return grade(load_exercise(3, course), submit(tmp_path / "one", text))
+
+    return grade_text
+
+
+@pytest.fixture
+def student(tmp_path):
+    made = []
+
+    def make(text, seconds=5):
+        made.append(Student(submit(tmp_path / f"student{len(made)}", text), seconds))
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.close()
+
+
+# --- points
+
+
+def test_solution_and_skeleton(graded, course, tmp_path):
+    assert graded(SOLUTION).points == 100
+    untouched = grade(load_exercise(3, course), course / "exercises" / FOLDER / FILE)
+    assert [task.message for task in untouched.tasks] == [
+        "not done yet: task 3.1: double the numbers",
+        "not done yet: task 3.2: add the numbers up",
+    ]
+
+
+def test_partial_credit_and_where_it_went_wrong(graded):
+    result = graded("def double(x):\n    assert x.ndim == 1\n    return 2 * x\n")
+    assert [task.points for task in result.tasks] == [40, 0]
+    assert "raised AssertionError in line 2" in result.tasks[0].message
+    assert "there is no function total" in result.tasks[1].message
+
+
+HOSTILE = {
+    "exits": ("import sys\ndef double(x): sys.exit(0)", "raised SystemExit"),
+    "ends": ("import os\ndef double(x): os._exit(0)", "program ended"),
+    "equals everything": (
+        "class E(list):\n    __eq__ = lambda *a: True\ndef double(x): return E()",
+        "shape",
+    ),
+    "nan": ("def double(x): return x * float('nan')", "NaN"),
+    "strings": ("def double(x): return [str(2 * v) for v in x]", "no array of numbers"),
+    "object": ("def double(x): return object()", "object of type object"),
+    "broken": ("def double(x) return x", "cannot be loaded: SyntaxError in line 1"),
+    "exits when loaded": ("raise SystemExit(0)", "cannot be loaded: SystemExit in line 1"),
+}
+
+
+@pytest.mark.parametrize("kind", HOSTILE)
+def test_hostile(graded, kind):
+    text, sentence = HOSTILE[kind]
+    add = "\ndef total(x): return float(sum(x))\n" if text.startswith(("import", "class")) else ""
+    result = graded(text + add)
+    assert result.tasks[0].points == 0
+    assert sentence in result.tasks[0].message
+    assert result.tasks[1].points == (40 if add else 0)
+
+
+def test_time_is_bounded(graded):
+    start = time.monotonic()
+    result = graded("def double(x):\n    while True: pass\ndef total(x): return float(sum(x))\n")
+    assert time.monotonic() - start < 2 + 5
+    assert "did not return within the task's 2 seconds" in result.tasks[0].message
+    assert result.tasks[1].points == 40
+
+
+def test_nothing_is_left(graded, tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
+    (tmp_path / "temporary").mkdir()
+    graded(
+        "import os, threading, time\nos.mkdir('closed', 0)\nopen('x', 'w').close()\n"
+        "threading.Thread(target=time.sleep, args=(1000,)).start()\ndef double(x): return x\n"
+    )
+    assert not list((tmp_path / "temporary").iterdir())
+    assert not psutil.Process().children(recursive=True)
+
+
+# --- what a submission can reach
+
+
+def test_answers_are_out_of_reach(student, course):
+    one = student("def read(path):\n    return open(path).read()\n")
+    one.call("read", os.devnull)
+    if one.missing:
+        pytest.skip(f"this system cannot confine a submission's {', '.join(one.missing)}")
+    for path in (
+        course / "solutions" / FOLDER / FILE, course / "exercises" / FOLDER / "test_tiny.py",
+        one._file, f"/proc/{os.getpid()}/environ", __file__, "/etc/shadow",
+    ):  # fmt: skip
+        with pytest.raises(Wrong, match="PermissionError"):
+            one.call("read", str(path))
+    with pytest.raises(Wrong, match="raised PermissionError"):
+        student("import socket\ndef go(): socket.socket()").call("go")
+    with pytest.raises(Wrong, match="raised PermissionError"):
+        student("import os\ndef go(): os.fork()").call("go")
+
+
+def test_course_below_a_readable_folder(tmp_path, monkeypatch):
+    """As in /usr/local/course: neither the course nor other submissions can be read."""
+    root = make_course(tmp_path / "share" / "course")
+    own = submit(tmp_path / "share" / "handed-in" / "ada", SOLUTION)
+    (tmp_path / "share" / "fonts").mkdir()
+    monkeypatch.setattr(process, "_SYSTEM", (str(tmp_path),))
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(root))
+    allowed = process.readable(own)
+    assert tmp_path / "share" / "fonts" in allowed
+    for hidden in (root / "solutions", root / "exercises" / FOLDER, root / ".git", own.parent):
+        assert not any(hidden.is_relative_to(p) or p.is_relative_to(hidden) for p in allowed)
+    for needed in (process.package(), sys.prefix):
+        assert any(os.path.samefile(needed, place) for place in allowed)
+
+
+def test_graders_links_and_hidden_files_are_not_copied(tmp_path):
+    file = submit(tmp_path / "own", SOLUTION)
+    (tmp_path / "secret.txt").write_text("secret")
+    for name in ("test_tiny.py", ".hidden", "helper.py", "data/test_numbers.npy"):
+        place = file.parent / name
+        place.parent.mkdir(exist_ok=True)
+        place.write_text("")
+    (file.parent / "link.txt").symlink_to(tmp_path / "secret.txt")
+    (file.parent / "folder").symlink_to(tmp_path)
+    os.mkfifo(file.parent / "pipe")
+    names = [str(path.relative_to(file.parent)) for path in scratch.submission_files(file)]
+    assert names == ["data/test_numbers.npy", "helper.py", FILE]
+    linked = submit(tmp_path / "linked", "")
+    linked.unlink()
+    linked.symlink_to(file)
+    with pytest.raises(Wrong, match="is a link"):
+        scratch.submission_files(linked)
+
+
+def test_submissions_are_bounded(tmp_path, monkeypatch):
+    file = submit(tmp_path, SOLUTION)
+    with open(file.parent / "large.bin", "wb") as large:
+        large.truncate(60 * 2**20)
+    with pytest.raises(Wrong, match="50 MB"):
+        scratch.submission_files(file)
+    (file.parent / "large.bin").unlink()
+    monkeypatch.setattr(scratch, "MOST_FILES", 3)
+    for number in range(5):
+        (file.parent / f"{number}.txt").touch()
+    with pytest.raises(Wrong, match="3 files"):
+        scratch.submission_files(file)
+
+
+def test_scratch_files_are_copies(student):
+    one = student(
+        "import os\ndef write():\n    open('best.txt', 'w').write('1')\n"
+        "    os.symlink('/etc/passwd', 'link.txt')\n    os.mkfifo('pipe.txt')\n"
+    )
+    one.call("write")
+    place = one.scratch("best.txt")
+    assert place.read_text() == "1"
+    assert not place.is_relative_to(one._scratch.root)
+    for name in ("link.txt", "pipe.txt", "absent.txt", "../../../../etc/passwd"):
+        with pytest.raises(Wrong, match="should have written"):
+            one.scratch(name)
+
+
+def test_what_was_written_is_bounded(student, monkeypatch):
+    monkeypatch.setattr(scratch, "MOST_WRITTEN_FILES", 50)
+    many = student("def write():\n    for n in range(10**6): open(f'{n}', 'w').close()\n")
+    with pytest.raises(Wrong, match="more than 50 files"):
+        many.call("write")
+    large = student("def write():\n    open('x', 'wb').write(b'1' * 70 * 2**20)\n")
+    with pytest.raises(Wrong, match="OSError"):
+        large.call("write")
+
+
+def test_output_is_bounded(student):
+    one = student("def talk():\n    while True: print('x' * 100_000)\n", seconds=20)
+    start = time.monotonic()
+    with pytest.raises(Wrong, match="printed more than 16 MB"):
+        one.call("talk")
+    assert time.monotonic() - start < 10
+    assert len(one.printed) < process.OUTPUT_KEPT + 100
+
+
+def test_deep_and_closed_folders_are_removed(tmp_path):
+    base = tmp_path / "base"
+    base.mkdir()
+    here = os.open(base, os.O_RDONLY)
+    for _ in range(1100):
+        os.mkdir("d" * 100, dir_fd=here)
+        inner = os.open("d" * 100, os.O_RDONLY, dir_fd=here)
+        os.close(here)
+        here = inner
+    os.close(here)
+    (base / "closed" / "inside").mkdir(parents=True)
+    (base / "closed").chmod(0)
+    scratch.remove_tree(base)
+    assert not base.exists()
+
+
+def test_pictures_are_few_and_small(student, tmp_path):
+    one = student("")
+    header = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"
+    size = (10).to_bytes(4, "big")
+    for number in range(6):
+        (one._scratch.folder / f"{number}.png").write_bytes(header + size * 2 + bytes(20))
+    (one._scratch.folder / "0.png").write_bytes(header + b"\xff" * 30)
+    (one._scratch.folder / "1.png").write_bytes(b"<svg>")
+    (one._scratch.folder / "2.png").write_bytes(header + size * 2 + bytes(700_000))
+    (one._scratch.folder / "a.png").symlink_to("/etc/passwd")
+    assert [name for name, _ in one.pictures()] == ["3.png", "4.png", "5.png"]
+
+
+def test_a_child_that_does_not_start_is_the_graders_trouble(course, monkeypatch):
+    from botschool.errors import BotschoolError
+
+    monkeypatch.setattr(sys, "executable", "/bin/false")
+    with pytest.raises(BotschoolError, match="child process did not start"):
+        grade(load_exercise(3, course), course / "exercises" / FOLDER / FILE)
+    monkeypatch.delattr(os, "killpg")
+    with pytest.raises(BotschoolError, match="WSL"):
+        grade(load_exercise(3, course), course / "exercises" / FOLDER / FILE)
+
+
+# --- skeletons
+
+
+def test_skeleton_replaces_every_region():
+    text = skeleton(SOLUTION)
+    assert text.count("raise NotImplementedError") == 2
+    assert '    raise NotImplementedError("task 3.2: add the numbers up")' in text
+    assert "SOLUTION" not in text and "np.sum" not in text
+    assert skeleton(text) == text
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "### BEGIN SOLUTION task 3.1: x\n",
+        "### END SOLUTION\n",
+        "### BEGIN SOLUTION\n### END SOLUTION\n",
+        "### BEGIN SOLUTION task 3.1: x\n### BEGIN SOLUTION task 3.2: x\n### END SOLUTION\n",
+    ],
+)
+def test_damaged_regions_are_refused(text):
+    with pytest.raises(ValueError, match=r"line|closed"):
+        skeleton(text)
+
+
+def test_an_edited_file_is_never_overwritten(course):
+    file = course / "exercises" / FOLDER / FILE
+    solution = course / "solutions" / FOLDER / FILE
+    assert write_skeletons(course) == []
+    file.write_text(file.read_text() + "# my work\n")
+    mine = file.read_text()
+    solution.write_text(SOLUTION.replace("twice as large", "two times as large"))
+    assert write_skeletons(course) == [file]
+    assert file.read_text() == mine
+    assert write_skeletons(course) == [file]
+    file.unlink()
+    assert write_skeletons(course) == []
+    assert "two times" in file.read_text()
+    solution.write_text(SOLUTION)
+    assert write_skeletons(course) == []
+    assert file.read_text() == skeleton(SOLUTION)
+
+
+# --- hints
+
+
+def test_hints_are_read():
+    hints = read_hints(HINTS)
+    assert list(hints) == ["3.1", "3.2"]
+    assert len(hints["3.1"]) == 2
+    assert "```python\n# 1. not a hint" in hints["3.1"][1]
+
+
+def test_one_more_hint_each_time(course):
+    assert next_hints("3.1", course)[0] == ["Look at `*`."]
+    assert [len(next_hints("3.1", course)[0]) for _ in range(3)] == [2, 2, 2]
+    assert next_hints("3.2", course) == (["Look at `np.sum`."], 1, True)
+    assert next_hints("3.2", course) == (["Look at `np.sum`."], 1, False)
+    state = course / ".botschool" / "hints.json"
+    assert json.loads(state.read_text()) == {"3.1": 2, "3.2": 1}
+    assert (course / ".botschool" / ".gitignore").read_text() == "*\n"
+    for damaged in ("{", "[1]", '{"3.2": "x"}', '{"3.2": -5}'):
+        state.write_text(damaged)
+        assert next_hints("3.2", course) == (["Look at `np.sum`."], 1, True)
+
+
+# --- what is shown
+
+
+def shown(action, width=80):
+    console = Console(file=io.StringIO(), width=width, highlight=False)
+    action(Screen(console))
+    return console.file.getvalue()
+
+
+def test_report_fits_and_says_what_is_next(course):
+    result = grade(load_exercise(3, course), course / "exercises" / FOLDER / FILE)
+
+    def report(screen):
+        screen.start(3, "Tiny", "tiny.py")
+        for task in result.tasks:
+            screen.task(task)
+        screen.end(result)
+
+    text = shown(report)
+    assert "0 of 100 points" in text
+    assert "Next: task 3.1." in text and "botschool hint 3.1" in text
+    assert len(text.splitlines()) < 10
+
+
+def test_students_text_is_no_markup(graded):
+    result = graded(
+        "print('[bold]\\x1b[2J[/nothing]')\ndef double(x): raise ValueError('[/]\\x07')\n"
+    )
+    text = shown(lambda screen: [screen.task(task) for task in result.tasks])
+    assert "[bold]" in text and "\x1b" not in text and "\x07" not in text
+
+
+def test_notice_once(course):
+    result = grade(load_exercise(3, course), course / "exercises" / FOLDER / FILE)
+    for task in result.tasks:
+        task.missing = ["files", "processes", "network"]
+    text = " ".join(shown(lambda screen: screen.end(result)).split())
+    assert text.count("Notice:") == 1 and "files, processes and network" in text
+    assert notice([]) == ""
+
+
+def test_values_in_words():
+    assert show([1] * 100).endswith("...") and len(show("x" * 1000)) == 60
+    assert plain("a\x1b[1m\u202eb\n\tc") == "a\ufffd[1m\ufffdb\n\tc"
+    for value in (None, "1", ["1"], [None], [[1], [1, 2]], {"a": 1}, [10**400], float("nan")):
+        with pytest.raises(Wrong):
+            expect_array("f()", value, (1,))
+    assert expect_array("f()", [True], (1,)) == [1.0]
+    assert issubclass(NotDone, Wrong)
+
+
+def test_debugging_runs_here(course, capsys, monkeypatch):
+    from botschool.grading.commands import grade_command
+
+    (course / "exercises" / FOLDER / FILE).write_text(SOLUTION)
+    assert grade_command("3.1", None, False, True) is False
+    assert capsys.readouterr().out == "passed: doubles\npassed: doubles_many\n"
+
+
+def test_a_single_task(course):
+    exercise = load_exercise(3, course)
+    result = grade_task(exercise.find("3.2"), course / "solutions" / FOLDER / FILE)
+    assert (result.points, result.max_points) == (40, 40)
+    assert exercises.exercise_numbers(course) == [3]
+    assert stat.S_IMODE((course / "exercises").stat().st_mode) & 0o700

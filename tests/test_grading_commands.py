@@ -1,0 +1,362 @@
+"""The commands of grading: what they print and write, and how they refuse."""
+
+import base64
+import csv
+import ctypes
+import json
+import os
+import platform
+import signal
+import subprocess
+import sys
+import time
+from html.parser import HTMLParser
+
+import pytest
+
+from botschool.errors import BotschoolError
+from botschool.grading import apart, seccomp
+from botschool.grading.exercise import load_exercise
+from botschool.grading.grade_all import grade_all, page_names
+from botschool.grading.release import find_leaks, release
+from botschool.grading.report import Screen
+from botschool.grading.solution import run_solution
+from botschool.grading.watching import watch
+from running import call, environment_of_command, finish, start
+from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
+
+PNG = base64.b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
+)
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    root = make_course(tmp_path / "course")
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(root))
+    return root
+
+
+def test_grade(course):
+    code, out, errors = call("grade", "3")
+    assert (code, errors) == (1, "") and "0 of 100 points" in out and "Next: task 3.1" in out
+    code, out, _ = call("grade", "3", "--submission", "solutions", "--json", cwd=course)
+    assert code == 0
+    assert json.loads(out) == {
+        "exercise": 3,
+        "points": 100,
+        "max_points": 100,
+        "tasks": [
+            {"id": "3.1", "title": "Doubling", "points": 60, "max_points": 60, "message": ""},
+            {"id": "3.2", "title": "Adding", "points": 40, "max_points": 40, "message": ""},
+        ],
+    }
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["grade", "x"], "names no exercise"),
+        (["grade", "3."], "names no exercise"),
+        (["grade", "16"], "names no exercise"),
+        (["grade", "³"], "names no exercise"),
+        (["grade", "4"], "There is no exercise 4 yet; there are 3."),
+        (["grade", "3.9"], "its tasks are 3.1, 3.2"),
+        (["grade", "3", "--debug"], "--debug runs one task"),
+        (["grade", "3", "--submission", "nowhere"], "There is no tiny.py in"),
+        (["hint", "3"], "botschool hint 3.1"),
+        (["hint", "3.9"], "its tasks are 3.1, 3.2"),
+        (["watch", "5"], "There is no exercise 5"),
+        (["release", "course"], "not empty"),
+        (["grade-all", "nowhere"], "nowhere cannot be read"),
+        (["grade-all", "course/solutions", "-e", "7"], "There is no exercise 7"),
+    ],
+)
+def test_refusals(course, arguments, sentence):
+    code, out, errors = call(*arguments, cwd=course.parent)
+    assert (code, out) == (2, "")
+    assert errors.startswith("error: ") and sentence in " ".join(errors.split())
+    assert "Traceback" not in errors
+
+
+def test_outside_a_course(tmp_path):
+    environment = environment_of_command()
+    environment.pop("BOTSCHOOL_COURSE", None)
+    code, _, errors = call("progress", cwd=tmp_path, env=environment)
+    assert code == 2 and "There is no course here" in errors
+
+
+def test_hint(course):
+    assert "Hint 1 of 2 for task 3.1" in call("hint", "3.1")[1]
+    out = call("hint", "3.1")[1]
+    assert "Hint 2 of 2" in out and "3 * array" in out and "last one" in out
+    assert "no more hints" in call("hint", "3.1")[1]
+
+
+def test_progress(course):
+    (course / "exercises" / FOLDER / FILE).write_text(
+        SOLUTION.replace("float(np.sum", "str(np.sum")
+    )
+    code, out, _ = call("progress")
+    assert code == 0 and len(out.splitlines()) <= 22
+    lines = {line.split()[0]: line for line in out.splitlines()}
+    assert "1/2" in lines["3"] and " 60 " in lines["3"] and "3.2 Adding" in lines["3"]
+    assert "Master tournament" in lines["15"] and "not there yet" in lines["15"]
+    assert "60 of 100 points" in out
+    assert all(len(line) <= 80 for line in out.splitlines())
+
+
+def test_results_are_kept_by_content(course, tmp_path, monkeypatch):
+    file = submit(tmp_path / "one", SOLUTION)
+    job = apart.Job(3, file)
+    first = apart.Grades(course).of([job], 1)[job]
+    assert first["points"] == 100 and len(list((course / ".botschool/grades").iterdir())) == 1
+    monkeypatch.setattr(apart, "interpreter", lambda *a: ["/bin/false"])
+    assert apart.Grades(course).of([job], 1)[job] == first
+    assert "The grader failed" in apart.Grades(course, fresh=True).of([job], 1)[job]["problem"]
+    file.write_text(SOLUTION + "\n")
+    assert apart.Grades(course).of([job], 1)[job]["points"] == 0
+    monkeypatch.setattr(apart, "interpreter", lambda *a: ["sleep", "100"])
+    monkeypatch.setattr(apart, "SPARE_SECONDS", -14)
+    assert "took longer" in apart.Grades(course).of([job], 1)[job]["problem"]
+
+
+def test_watch_grades_after_each_save(course):
+    file = course / "exercises" / FOLDER / FILE
+    exercise = load_exercise(3, course)
+    seen = []
+
+    class Recorder(Screen):
+        def start(self, *arguments):
+            pass
+
+        def task(self, result):
+            seen.append(result.points)
+
+        def end(self, result, whole):
+            pass
+
+    def wait(seconds):
+        if len(seen) >= 2:
+            raise KeyboardInterrupt
+        file.write_text(SOLUTION)
+
+    with pytest.raises(KeyboardInterrupt):
+        watch(exercise, file, exercise.tasks[:1], Recorder(), wait)
+    assert seen == [0, 60]
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGINT"), reason="needs signals")
+def test_watch_ends_with_ctrl_c(course):
+    process = start("watch", "3.1")
+    time.sleep(3)
+    process.send_signal(signal.SIGINT)
+    code, out, errors = finish(process, 20)
+    assert code == 0 and "Ctrl-C ends" in out and "Traceback" not in errors
+
+
+# --- a copy for students
+
+
+def test_release(course, tmp_path):
+    (course / "exercises" / FOLDER / FILE).write_text(SOLUTION)
+    (course / "lib" / "x.so").touch()
+    (course / "exercises" / FOLDER / ".notes.py").touch()
+    count = release(course, tmp_path / "copy")
+    names = {
+        path.relative_to(tmp_path / "copy").as_posix()
+        for path in (tmp_path / "copy").rglob("*")
+        if path.is_file()
+    }
+    assert names == {
+        "Makefile", "lib/code.py", "docs/results.md", "tests/test_open.py",
+        *(f"exercises/{FOLDER}/{n}" for n in (FILE, "test_tiny.py", "HINTS.md", "README.md")),
+    }  # fmt: skip
+    assert count == len(names)
+    assert "NotImplementedError" in (tmp_path / "copy" / "exercises" / FOLDER / FILE).read_text()
+    with pytest.raises(BotschoolError, match="student's copy already"):
+        release(tmp_path / "copy", tmp_path / "again")
+
+
+@pytest.mark.parametrize("place", ["lib/code.py", "docs/results.md", f"exercises/{FOLDER}/mine.py"])
+@pytest.mark.parametrize("what", ["region", "line", "answer"])
+def test_release_stops_at_a_leak(course, tmp_path, place, what):
+    leak = {
+        "region": SOLUTION.split("double the numbers\n")[1].split("    ###")[0],
+        "line": next(line for line in SOLUTION.splitlines() if "np.sum" in line),
+        "answer": (course / "solutions" / FOLDER / "README.md").read_text(),
+    }[what]
+    (course / place).write_text(f"# a note\n\n      {leak}\n")
+    assert find_leaks(course, [course / place])
+    with pytest.raises(BotschoolError, match="tells a part of a solution"):
+        release(course, tmp_path / "copy")
+    assert not list(tmp_path.glob("*copy*"))
+
+
+def test_release_needs_a_place_of_its_own(course, tmp_path):
+    for place in ("lib/copy", "exercises", "solutions/copy"):
+        with pytest.raises(BotschoolError):
+            release(course, course / place)
+    (tmp_path / "file").touch()
+    with pytest.raises(BotschoolError, match="no folder"):
+        release(course, tmp_path / "file")
+    (tmp_path / "empty").mkdir()
+    assert release(course, tmp_path / "empty") > 0
+
+
+def test_solution_is_run_in_results(course):
+    made = run_solution(3, course)
+    assert made == [course.resolve() / "results" / "ex03" / "picture.txt"]
+    (course / "solutions" / FOLDER / FILE).unlink()
+    with pytest.raises(BotschoolError, match="no solution of exercise 3"):
+        run_solution(3, course)
+
+
+# --- a class
+
+SCRIPT = "<script>alert(1)</script>"
+
+
+@pytest.fixture
+def class_(tmp_path):
+    folder = tmp_path / "class"
+    good = submit(folder / "ada", SOLUTION)
+    (good.parent / "curve.png").write_bytes(PNG)
+    submit(folder / "bob & <i>", f"print({SCRIPT!r})\ndef double(x): raise ValueError({SCRIPT!r})")
+    submit(folder / "=1+1", "import os; os._exit(0)")
+    submit(folder / "new\nline", "this is no Python")
+    submit(folder / "con", "")
+    (folder / "empty").mkdir()
+    (folder / "flat").mkdir()
+    (folder / "flat" / FILE).write_text(SOLUTION)
+    (folder / "copied").mkdir()
+    submit(folder / "copied" / "exercises", SOLUTION)
+    (folder / "linked").symlink_to(folder / "ada")
+    (folder / "sly").mkdir()
+    (folder / "sly" / FOLDER).symlink_to(folder / "ada" / FOLDER)
+    (folder / ".hidden").mkdir()
+    (folder / "notes.txt").touch()
+    return folder
+
+
+class Page(HTMLParser):
+    """Tags and attributes of a page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.sources = [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append(tag)
+        self.sources += [value for name, value in attributes if name in ("src", "href")]
+
+
+def test_grade_all(course, class_, tmp_path):
+    output = tmp_path / "out"
+    code, out, errors = call("grade-all", class_, "-e", "3", "-o", output, "-w", "2")
+    assert (code, errors) == (0, "") and "10 submissions" in out
+    with open(output / "grades.csv", encoding="utf-8-sig", newline="") as file:
+        rows = {row["student"]: row for row in csv.DictReader(file)}
+    totals = {student: int(row["total"]) for student, row in rows.items()}
+    assert totals == {
+        "ada": 100, "bob & <i>": 0, "'=1+1": 0, "new line": 0, "con": 0, "empty": 0, "flat": 100,
+        "copied": 100, "linked": 0, "sly": 0,
+    }  # fmt: skip
+    assert rows["ada"]["3.1"] == "60" and rows["ada"]["exercise 3"] == "100"
+    for student, note in (("linked", "a link"), ("sly", "a link"), ("empty", "no tiny.py")):
+        assert note in rows[student]["notes"]
+    for row in rows.values():
+        page = Page((output / row["feedback"].lstrip("'")).read_text(encoding="utf-8"))
+        assert "script" not in page.tags and "i" not in page.tags[page.tags.index("h1") :][1:3]
+        assert all(source.startswith("data:image/png;base64,") for source in page.sources)
+    assert "data:image/png" in (output / rows["ada"]["feedback"]).read_text()
+    assert "&lt;script&gt;" in (output / rows["bob & <i>"]["feedback"]).read_text()
+    assert len(list((output / "feedback").iterdir())) == 10
+
+
+def test_grade_all_overwrites_only_its_own(course, class_, tmp_path):
+    output = tmp_path / "out"
+    grade_all(class_, output, [3], course, 2, False)
+    (output / "mine.txt").write_text("mine")
+    before = (output / "grades.csv").read_bytes()
+    grade_all(class_, output, [3], course, 2, False)
+    assert (output / "grades.csv").read_bytes() == before
+    assert (output / "mine.txt").read_text() == "mine"
+    (output / "grades.csv").write_text("my own table")
+    with pytest.raises(BotschoolError, match="not made by grade-all"):
+        grade_all(class_, output, [3], course, 2, False)
+    (output / "grades.csv").unlink()
+    (output / "feedback" / "ada.html").write_text("my letter to Ada")
+    with pytest.raises(BotschoolError, match="not made by grade-all"):
+        grade_all(class_, output, [3], course, 2, False)
+    assert (output / "feedback" / "ada.html").read_text() == "my letter to Ada"
+
+
+def test_page_names():
+    folders = [
+        "Ada",
+        "ada",
+        "a/b",
+        "..",
+        "...",
+        "",
+        "con",
+        "Jo\u00e3o",
+        "x" * 300,
+        "\udcff",
+        "a\nb",
+        "nul.txt",
+    ]
+    names = page_names(folders)
+    assert names[0] == "Ada.html" and names[7] == "Jo\u00e3o.html"
+    assert len({name.casefold() for name in names}) == len(folders)
+    for name in names:
+        assert "/" not in name and "\n" not in name and not name.startswith(".") and len(name) < 110
+        name.encode()
+
+
+# --- a system that cannot confine
+
+
+def without(*numbers):
+    """A filter under which these system calls seem not to exist, for child processes too."""
+    answer = (0x06, 0, 0, 0x00050000 | 38)  # ENOSYS
+    code = [(0x20, 0, 0, 0)]
+    for number in numbers:
+        code += [(0x15, 0, 1, number), answer]
+    return [*code, (0x06, 0, 0, 0x7FFF0000)]
+
+
+@pytest.mark.skipif(
+    platform.machine() != "x86_64" or sys.platform != "linux", reason="Linux, x86-64"
+)
+@pytest.mark.parametrize(
+    ("absent", "words"),
+    [((444, 445, 446), "submission's files"), ((317, 157), "files, processes and network")],
+)
+def test_grading_goes_on_without_confinement(course, absent, words):
+    def before():
+        libc = ctypes.CDLL(None)
+        libc.prctl(38, 1, 0, 0, 0)
+        seccomp.install(libc, without(*absent))
+
+    process = subprocess.run(
+        [sys.executable, "-m", "botschool", "grade", "3", "--submission", "solutions"],
+        cwd=course, env=environment_of_command(), preexec_fn=before,
+        capture_output=True, text=True, timeout=60,
+    )  # fmt: skip
+    assert process.returncode == 0, process.stderr
+    out = " ".join(process.stdout.split())
+    assert "100 of 100 points" in out
+    assert out.count("Notice:") == 1 and words in out
+
+
+def test_filters_of_both_machines():
+    for machine in ("x86_64", "aarch64"):
+        code = seccomp.program(machine, os.getpid())
+        assert len(code) < 4096
+        for at, (operation, yes, no, _) in enumerate(code):
+            if operation in (0x15, 0x35, 0x45):
+                assert at + 1 + max(yes, no) < len(code)
+    assert seccomp.program("riscv64", 1) is None
