@@ -1,0 +1,215 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Exercise 1. Gymnasium
+#
+# The background is in `README.md`. Fill in the functions below one after another, and run
+# `make test-ex1` (or `botschool grade 1.1` for one task) as often as you like.
+
+# %%
+"""Exercise 1: environments, episodes and rewards."""
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+
+# %% [markdown]
+# ## Task 1.1. What an agent sees and does
+#
+# `env = gymnasium.make("CartPole-v1")` makes an environment. It carries two *spaces*: the possible
+# observations, `env.observation_space`, and the possible actions, `env.action_space`. We meet two
+# kinds of space:
+#
+# - `spaces.Box`: a list of real numbers, each between its own limits `space.low` and `space.high`
+#   (a limit may be infinite);
+# - `spaces.Discrete`: one whole number out of `space.n` choices; they start with `space.start`,
+#   which is nearly always 0.
+#
+# `env.spec.max_episode_steps` is the time limit of an episode, or None if there is none.
+#
+# Look at them first: `print(env.observation_space, env.action_space)`.
+
+
+# %%
+def describe(environment_id: str) -> dict:
+    """The spaces and the time limit of an environment, as plain Python data.
+
+    Returns a dict with
+    - "observation" and "action": a dict for each of the two spaces. For a Box
+      {"kind": "Box", "size": how many numbers, "low": [...], "high": [...]}, where low and high
+      are lists of `size` floats; for a Discrete
+      {"kind": "Discrete", "choices": how many, "first": the lowest choice};
+    - "maxsteps": the time limit in steps, or None.
+
+    It works for every environment with such spaces, not only for those that you know.
+    """
+    raise NotImplementedError("task 1.1: describe the spaces")
+
+
+# %% [markdown]
+# ## Task 1.2. A random episode
+#
+# An *episode* is one life of the agent:
+#
+# - `observation, info = env.reset(seed=seed)` puts it at the start. The seed decides where, so
+#   that the same episode can be played again;
+# - `observation, reward, terminated, truncated, info = env.step(action)` does one step.
+#
+# An episode ends in one of two ways. `terminated`: the task itself came to an end (the pole fell,
+# the goal was reached). `truncated`: it did not, but the environment's time limit is over.
+#
+# `env.action_space.sample()` draws a random action. The space has random numbers of its own, which
+# `env.action_space.seed(seed)` sets.
+
+
+# %%
+def random_episode(environment_id: str, seed: int, maxsteps: int) -> dict:
+    """What happens to an agent that acts at random, from the reset to the end.
+
+    Both the reset and, before the first action, the action space are seeded with `seed`; each
+    action is then one `sample()`. The episode stops when it is terminated or truncated, and at the
+    latest after `maxsteps` steps.
+
+    Returns a dict with
+    - "observations": an array of shape (steps + 1, size), the one of the reset first;
+    - "actions": a list of the `steps` actions, as they were drawn;
+    - "rewards": a list of the `steps` rewards;
+    - "terminated", "truncated": True or False, as the last step said. Both are False when only
+      `maxsteps` stopped the episode.
+    """
+    raise NotImplementedError("task 1.2: run a random episode")
+
+
+# %% [markdown]
+# ## Task 1.3. The reward of CartPole
+#
+# CartPole's observation holds four numbers: the position of the cart (in metres, 0 is the middle),
+# its speed, the angle of the pole (in radians, 0 is upright) and the speed of the angle. The
+# episode is terminated as soon as the cart is more than 2.4 metres from the middle or the pole
+# leans more than 12 degrees, to either side.
+#
+# The reward is 1 for every step that *begins* with the pole up, the step in which it falls
+# included. If you go on after the fall, Gymnasium warns you and gives 0.
+
+
+# %%
+def fallen(observation: np.ndarray) -> bool:
+    """Whether CartPole terminates the episode in this state.
+
+    True if the cart is beyond 2.4 metres or the pole beyond 12 degrees, on either side.
+    """
+    raise NotImplementedError("task 1.3: say when CartPole is over")
+
+
+def cartpole_reward(observation: np.ndarray, action: int) -> float:
+    """The reward of a CartPole step that begins with this observation, shape (4,)."""
+    raise NotImplementedError("task 1.3: compute the reward of CartPole")
+
+
+# %% [markdown]
+# ## Task 1.4. The reward of Pendulum
+#
+# Pendulum is a rod on a motor that is too weak to lift it at once. Its observation is
+# $(\cos\theta, \sin\theta, \dot\theta)$: the angle $\theta$ (0 is upright, $\pi$ is hanging down)
+# through its cosine and sine, and the speed of the angle. The action is an array with one number,
+# the torque $u$ of the motor. The reward of a step is
+#
+# $$r = -(\theta^2 + 0.1\,\dot\theta^2 + 0.001\,u^2)$$
+#
+# with $\theta$ between $-\pi$ and $\pi$: the best reward is 0, standing upright without any motion
+# or effort. $\theta$ and $\dot\theta$ are those at the *beginning* of the step. The motor cannot do
+# more than 2 in either direction: a larger torque is cut to that before anything else happens.
+
+
+# %%
+def pendulum_reward(observation: np.ndarray, action: np.ndarray) -> float:
+    """The reward of a Pendulum step that begins with this observation, as a single number.
+
+    observation has shape (3,), action has shape (1,) and may exceed the limits of the motor.
+    """
+    raise NotImplementedError("task 1.4: compute the reward of Pendulum")
+
+
+# %% [markdown]
+# ## Task 1.5. Balance the pole
+#
+# Action 0 pushes the cart to the left, action 1 to the right. A positive angle means that the pole
+# leans to the right. Random actions keep it up for some 22 steps; a rule of one line that you
+# think up yourself keeps it up for as long as you like.
+
+
+# %%
+def balance(observation: np.ndarray) -> int:
+    """The action, 0 or 1, that keeps CartPole's pole up. It depends on the observation alone.
+
+    Asked for: at least 195 of 200 steps, on average over 20 episodes.
+    """
+    raise NotImplementedError("task 1.5: balance the pole")
+
+
+# %% [markdown]
+# ## Task 1.6. Random agents compared
+#
+# The *return* of an episode is the sum of its rewards. One random episode says little, so play
+# several and write down their mean return and how much they differ. With the returns $R_1$ to
+# $R_n$ and their mean $\bar R$, the standard deviation is
+#
+# $$s = \sqrt{\frac{1}{n-1} \sum_{i=1}^{n} (R_i - \bar R)^2}$$
+
+
+# %%
+def compare(environment_ids: list[str], episodes: int, seed: int) -> list[dict]:
+    """A table of random agents, with one row for each environment in the order given.
+
+    Episode i (from 0) of every environment is the random episode of task 1.2 with seed + i, and
+    goes on until it is terminated or truncated.
+
+    Each row is a dict with
+    - "environment": the id;
+    - "mean": the mean return over the episodes;
+    - "deviation": the standard deviation of the returns, dividing by the number of episodes minus
+      one (0 when there is a single one);
+    - "length": the mean number of steps of an episode.
+    """
+    raise NotImplementedError("task 1.6: compare random agents")
+
+
+# %% [markdown]
+# ## The picture
+#
+# `make solution-ex1` (or running this file once all tasks are done) prints the table of random
+# agents, draws how their returns are spread, and films two episodes of your rule.
+
+# %%
+if __name__ == "__main__":
+    from botschool.course import draw_distributions, film_agent
+
+    classic = [
+        "CartPole-v1",
+        "Pendulum-v1",
+        "Acrobot-v1",
+        "MountainCar-v0",
+        "MountainCarContinuous-v0",
+    ]
+    print(f"{'environment':<26} {'mean':>9} {'deviation':>10} {'steps':>7}")
+    for row in compare(classic, episodes=30, seed=1):
+        print(
+            f"{row['environment']:<26} {row['mean']:>9.2f} {row['deviation']:>10.2f} "
+            f"{row['length']:>7.1f}"
+        )
+    returns = {
+        name: np.array([sum(random_episode(name, seed, 1000)["rewards"]) for seed in range(1, 61)])
+        for name in classic
+    }
+    draw_distributions("random_agents.png", returns, "60 episodes of random agents")
+    film_agent("balance.mp4", "CartPole-v1", balance, episodes=2)

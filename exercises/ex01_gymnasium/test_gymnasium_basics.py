@@ -1,0 +1,509 @@
+"""Grader of exercise 1; run it with `make test-ex1`.
+
+Stochastic check (task 1.5): a mean of at least 195 steps over 20 unseen episodes of at most 200
+(grading seed 40). The solution reaches 200.0 in each of 20 such sets of 20 episodes, so its margin
+is 5 steps. A rule that looks at the angle's speed alone reaches 172 to 190, at the angle alone 40
+to 46, random actions 22. Everything else is recomputed exactly.
+"""
+
+import warnings
+
+import gymnasium
+import numpy as np
+
+from botschool.grading import Exercise, Student, Wrong, expect, expect_array, expect_close, show
+
+exercise = Exercise(1, "Gymnasium", file="gymnasium_basics.py")
+
+
+def fields(said: str, value: object, *keys: str) -> list:
+    """The values of these keys of a dict, which may have others."""
+    expect(isinstance(value, dict), f"{said} must be a dict, not {show(value)}.")
+    for key in keys:
+        expect(key in value, f"{said} is a dict without {key!r}.")
+    return [value[key] for key in keys]
+
+
+# ------------------------------------------------------------------- 1.1
+description = exercise.task("1.1", "What an agent sees and does")
+
+
+def probe(module, observed, acted, maxsteps):
+    """Describes an environment that no student has met: spaces as drawn by the grader."""
+    import gymnasium
+    import numpy
+
+    def space_of(plain):
+        if "choices" in plain:
+            return gymnasium.spaces.Discrete(plain["choices"], start=plain["first"])
+        low, high = (numpy.array(plain[side], dtype=numpy.float32) for side in ("low", "high"))
+        return gymnasium.spaces.Box(low, high)
+
+    class Probe(gymnasium.Env):
+        observation_space, action_space = space_of(observed), space_of(acted)
+
+    name = f"Probe{len(gymnasium.registry)}-v0"
+    gymnasium.register(
+        name, entry_point=Probe, max_episode_steps=maxsteps, disable_env_checker=True
+    )
+    return module.describe(name)
+
+
+def expect_space(said: str, got: object, space: gymnasium.Space) -> None:
+    if isinstance(space, gymnasium.spaces.Discrete):
+        kind, choices, first = fields(said, got, "kind", "choices", "first")
+        expect(kind == "Discrete", f"{said}: kind is {show(kind)}, but the space is Discrete.")
+        expect_close(f"{said}: choices", choices, space.n)
+        expect_close(f"{said}: first", first, space.start)
+        return
+    kind, size, low, high = fields(said, got, "kind", "size", "low", "high")
+    expect(kind == "Box", f"{said}: kind is {show(kind)}, but the space is a Box.")
+    expect_close(f"{said}: size", size, space.low.size)
+    for name, bounds, wanted in (("low", low, space.low), ("high", high, space.high)):
+        expect(
+            isinstance(bounds, list) and len(bounds) == wanted.size,
+            f"{said}: {name} is {show(bounds)}, but a flat list of {wanted.size} numbers is "
+            "needed.",
+        )
+        expect(
+            all(type(bound) in (int, float) for bound in bounds)
+            and np.allclose(bounds, wanted.ravel(), rtol=1e-6, atol=0),
+            f"{said}: {name} is {show(bounds)}, but {show(wanted.ravel().tolist())} was expected.",
+        )
+
+
+def probed(student: Student, index: int):
+    """The student's description of random spaces, these spaces, and their time limit."""
+    rng = np.random.default_rng(exercise.seed(index))
+    size, choices, first = (int(rng.integers(2, 9)) for _ in range(3))
+    low, high = rng.normal(size=size) - 5, rng.normal(size=size) + 5
+    low[0], high[1] = -np.inf, np.inf
+    box = {"low": low.tolist(), "high": high.tolist()}
+    discrete = {"choices": choices, "first": first}
+    maxsteps = int(rng.integers(50, 5000)) if index % 2 else None
+    observed, acted = (box, discrete) if index % 2 else (discrete, box)
+    said = "describe(environment_id) of an environment that the grader made up"
+    answer = student.run(probe, observed, acted, maxsteps, said=said)
+    spaces = [
+        gymnasium.spaces.Box(low.astype(np.float32), high.astype(np.float32)),
+        gymnasium.spaces.Discrete(choices, start=first),
+    ]
+    return answer, spaces if index % 2 else spaces[::-1], maxsteps
+
+
+def expect_spaces(student: Student, which: str) -> None:
+    """The student's description of one side, of environments known and unknown."""
+    for name in ("CartPole-v1", "Pendulum-v1", "Acrobot-v1", "MountainCarContinuous-v0"):
+        (got,) = fields(student.said, student.call("describe", name), which)
+        with gymnasium.make(name) as env:
+            expect_space(f"{student.said}: {which}", got, getattr(env, f"{which}_space"))
+    for index in (1, 2):
+        answer, spaces, _ = probed(student, index)
+        (got,) = fields(student.said, answer, which)
+        expect_space(f"{student.said}: {which}", got, spaces[which == "action"])
+
+
+@description.check(6)
+def observations(student: Student):
+    expect_spaces(student, "observation")
+
+
+@description.check(6)
+def actions(student: Student):
+    expect_spaces(student, "action")
+
+
+@description.check(3)
+def time_limit(student: Student):
+    for name in ("CartPole-v1", "Acrobot-v1"):
+        (maxsteps,) = fields(student.said, student.call("describe", name), "maxsteps")
+        expect_close(f"{student.said}: maxsteps", maxsteps, gymnasium.spec(name).max_episode_steps)
+    for index in (3, 4):
+        answer, _, wanted = probed(student, index)
+        (maxsteps,) = fields(student.said, answer, "maxsteps")
+        expect(
+            type(maxsteps) in (int, type(None)) and maxsteps == wanted,
+            f"{student.said}: maxsteps is {show(maxsteps)}, but {wanted} was expected.",
+        )
+
+
+# ------------------------------------------------------------------- 1.2
+episode = exercise.task("1.2", "A random episode")
+CASES = (
+    ("CartPole-v1", 1000),
+    ("Pendulum-v1", 1000),
+    ("MountainCarContinuous-v0", 40),
+    ("Acrobot-v1", 60),
+    ("CartPole-v1", 4),
+)
+"""Environment and maxsteps: one ends by itself, one at its time limit, three at maxsteps."""
+KEYS = ("observations", "actions", "rewards", "terminated", "truncated")
+
+
+def lived(name: str, seed: int, maxsteps: int) -> dict:
+    """The random episode as task 1.2 defines it."""
+    with gymnasium.make(name) as env:
+        observation, _ = env.reset(seed=seed)
+        env.action_space.seed(seed)
+        observations, actions, rewards, ends = [observation], [], [], [False, False]
+        while len(actions) < maxsteps and not any(ends):
+            actions.append(env.action_space.sample())
+            observation, reward, *ends, _ = env.step(actions[-1])
+            observations.append(observation)
+            rewards.append(float(reward))
+    values = np.array(observations), np.array(actions), rewards, *map(bool, ends)
+    return dict(zip(KEYS, values, strict=True))
+
+
+def belongs(action: np.ndarray, space: gymnasium.Space) -> bool:
+    """Whether a space has this action; it comes as float64."""
+    if isinstance(space, gymnasium.spaces.Discrete):
+        return float(action).is_integer() and space.start <= action < space.start + space.n
+    return bool(np.all((space.low <= action) & (action <= space.high)))
+
+
+def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
+    """What the student reports, the actions in it, and the same actions in a fresh environment."""
+    name, maxsteps = CASES[case]
+    seed = exercise.seed(10 + case)
+    report = student.call("random_episode", name, seed=seed, maxsteps=maxsteps)
+    _, actions, *_ = fields(student.said, report, *KEYS)
+    expect(
+        isinstance(actions, (list, np.ndarray)) and 0 < len(actions) <= maxsteps,
+        f"{student.said}: actions must be a list of 1 to {maxsteps} actions, not {show(actions)}.",
+    )
+    with gymnasium.make(name) as env:
+        observations, rewards, ends = [env.reset(seed=seed)[0]], [], [False, False]
+        actions = expect_array(
+            f"{student.said}: actions", actions, (len(actions), *env.action_space.shape)
+        )
+        for step, action in enumerate(actions):
+            expect(
+                not any(ends),
+                f"{student.said}: the episode was over after {step} steps, but {len(actions)} "
+                "actions are reported.",
+            )
+            expect(
+                belongs(action, env.action_space),
+                f"{student.said}: {show(action)} is no action of {name}.",
+            )
+            fitting = env.action_space.dtype.type(action)
+            observation, reward, *ends, _ = env.step(fitting)
+            observations.append(observation)
+            rewards.append(float(reward))
+    values = np.array(observations), actions, rewards, *map(bool, ends)
+    return report, actions, dict(zip(KEYS, values, strict=True))
+
+
+@episode.check(8)
+def observations_and_rewards_follow_from_the_actions(student: Student):
+    for case in range(3):
+        report, actions, replay = told(student, case)
+        expect(
+            len(actions) > 3,
+            f"{student.said} did only {len(actions)} steps: go on to the end of the episode.",
+        )
+        for key in ("observations", "rewards"):
+            expect_close(
+                f"{student.said}: {key} (against its actions, replayed)",
+                report[key], replay[key], 1e-6,
+            )  # fmt: skip
+
+
+@episode.check(6)
+def every_action_is_drawn_from_the_seeded_space(student: Student):
+    for case in (1, 3, 2):
+        name, maxsteps = CASES[case]
+        _, actions, _ = told(student, case)
+        wanted = lived(name, exercise.seed(10 + case), maxsteps)["actions"]
+        together = min(len(actions), len(wanted), 30)
+        expect(together > 3, f"{student.said} did only {len(actions)} steps.")
+        expect(
+            np.array_equal(actions[:together], wanted[:together]),
+            f"{student.said}: the actions are not those that env.action_space.sample() gives "
+            "after env.action_space.seed(seed).",
+        )
+
+
+@episode.check(4)
+def goes_on_to_the_end(student: Student):
+    for case, (name, maxsteps) in enumerate(CASES):
+        _, actions, replay = told(student, case)
+        over = replay["terminated"] or replay["truncated"]
+        expect(
+            over or len(actions) == maxsteps,
+            f"{student.said} stopped after {len(actions)} steps, but {name} was not over.",
+        )
+
+
+@episode.check(7)
+def tells_the_two_ends_apart(student: Student):
+    for case, (name, maxsteps) in enumerate(CASES):
+        report, actions, replay = told(student, case)
+        expect(
+            replay["terminated"] or replay["truncated"] or len(actions) == maxsteps,
+            f"{student.said} stopped after {len(actions)} steps, but {name} was not over.",
+        )
+        for end in ("terminated", "truncated"):
+            expect(
+                isinstance(report[end], bool) and report[end] == replay[end],
+                f"{student.said}: {end} is {show(report[end])}, but in the last of its "
+                f"{len(actions)} steps {name} said {replay[end]}.",
+            )
+
+
+# ------------------------------------------------------------------- 1.3
+cartpole = exercise.task("1.3", "The reward of CartPole")
+
+
+def answers(module, name, observations, actions):
+    """The student's answer to each of many observations (and actions)."""
+    function = getattr(module, name)
+    if actions is None:
+        return [function(observation) for observation in observations]
+    return [function(*pair) for pair in zip(observations, actions, strict=True)]
+
+
+def single_numbers(said: str, values: object, count: int) -> np.ndarray:
+    """One plain number for each question."""
+    expect(isinstance(values, list) and len(values) == count, f"{said} gave no answers.")
+    for value in values:
+        if not isinstance(value, (bool, int, float)):
+            raise Wrong(f"{said} returned {show(value)}, but a single number is needed.")
+    return expect_array(said, values, (count,))
+
+
+def cartpole_steps(index: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Observations before steps, actions, rewards and the state's end, beyond the fall too."""
+    rng = np.random.default_rng(exercise.seed(index))
+    env = gymnasium.make("CartPole-v1").unwrapped
+    steps = []
+    for side in (0, -1, 1, 0, -1, 1):
+        env.reset(seed=int(rng.integers(2**31)))
+        env.state = (
+            env.state + np.array([2.3, 1.0, 0.0, 0.0]) * side
+        )  # leaves by the side, or falls
+        observation = env.state.astype(np.float32)
+        over, beyond, right = False, 0, rng.uniform(0.1, 0.9)
+        while beyond < 8:
+            action = int(rng.random() < right)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of steps beyond the end, which are wanted here
+                following, reward, terminated, _, _ = env.step(action)
+            steps.append((observation, action, reward, over))
+            observation, over = following, terminated
+            beyond += over
+    return tuple(map(np.array, zip(*steps, strict=True)))
+
+
+@cartpole.check(5)
+def knows_when_gymnasium_terminates(student: Student):
+    observations, _, _, over = cartpole_steps(20)
+    got = student.run(answers, "fallen", observations, None, said="fallen(observation)")
+    got = single_numbers(student.said, got, len(over))
+    for observation, value, wanted in zip(observations, got, over, strict=True):
+        expect(
+            value == wanted,
+            f"fallen({show(observation)}) returned {bool(value)}, but Gymnasium says {wanted}.",
+        )
+
+
+@cartpole.check(3)
+def knows_both_limits(student: Student):
+    rng = np.random.default_rng(exercise.seed(21))
+    observations = rng.uniform((-2.3, -3, -0.2, -3), (2.3, 3, 0.2, 3), size=(40, 4))
+    wanted = np.arange(40) % 2 == 1
+    for i, observation in enumerate(observations):
+        entry, limit = ((0, 2.4), (2, np.deg2rad(12)))[i // 2 % 2]
+        size = limit * rng.uniform(1.005, 1.1) if wanted[i] else limit * rng.uniform(0.97, 0.995)
+        observation[entry] = size * (1 if i % 8 < 4 else -1)
+    got = student.run(answers, "fallen", observations, None, said="fallen(observation)")
+    got = single_numbers(student.said, got, len(wanted))
+    for observation, value, over in zip(observations, got, wanted, strict=True):
+        expect(
+            value == over,
+            f"fallen({show(observation)}) returned {bool(value)}: compare with 2.4 metres and 12 "
+            f"degrees (0.20944 radians).",
+        )
+
+
+@cartpole.check(6)
+def gives_the_rewards_of_gymnasium(student: Student):
+    observations, actions, rewards, _ = cartpole_steps(22)
+    got = student.run(
+        answers, "cartpole_reward", observations, actions, said="cartpole_reward(observation, ...)"
+    )
+    got = single_numbers(student.said, got, len(rewards))
+    for observation, value, wanted in zip(observations, got, rewards, strict=True):
+        expect(
+            abs(value - wanted) < 1e-6,
+            f"cartpole_reward({show(observation)}, ...) returned {value:g}, but Gymnasium gave "
+            f"{wanted:g} for a step that began so.",
+        )
+
+
+# ------------------------------------------------------------------- 1.4
+pendulum = exercise.task("1.4", "The reward of Pendulum")
+
+
+def expect_rewards(student: Student, index: int, torque) -> None:
+    """Compares with transitions of Gymnasium; torque(rng) is the action of a step."""
+    rng = np.random.default_rng(exercise.seed(index))
+    env = gymnasium.make("Pendulum-v1").unwrapped
+    steps = []
+    for _ in range(12):
+        env.reset(seed=int(rng.integers(2**31)))
+        angle, speed = env.state = rng.uniform((-9, -7), (9, 7))
+        observation = np.array([np.cos(angle), np.sin(angle), speed], dtype=np.float32)
+        for _ in range(10):
+            action = np.array([torque(rng)], dtype=np.float32)
+            following, reward, *_ = env.step(action)
+            steps.append((observation, action, float(reward)))
+            observation = following
+    observations, actions, rewards = map(np.array, zip(*steps, strict=True))
+    got = student.run(
+        answers, "pendulum_reward", observations, actions, said="pendulum_reward(observation, ...)"
+    )
+    got = single_numbers(student.said, got, len(rewards))
+    for observation, action, value, wanted in zip(observations, actions, got, rewards, strict=True):
+        expect(
+            abs(value - wanted) < 1e-4 * (1 + abs(wanted)),
+            f"pendulum_reward({show(observation)}, {show(action)}) returned {value:.5f}, but "
+            f"Gymnasium gave {wanted:.5f} for a step that began so.",
+        )
+
+
+@pendulum.check(6)
+def knows_angle_and_speed(student: Student):
+    expect_rewards(student, 30, lambda rng: 0.0)
+
+
+@pendulum.check(4)
+def knows_the_torque(student: Student):
+    expect_rewards(student, 31, lambda rng: rng.uniform(-2, 2))
+
+
+@pendulum.check(4)
+def cuts_the_torque(student: Student):
+    expect_rewards(student, 32, lambda rng: rng.choice([-1, 1]) * rng.uniform(5, 40))
+
+
+# ------------------------------------------------------------------- 1.5
+balancing = exercise.task("1.5", "Balance the pole")
+EPISODES, STEPS = 20, 200
+
+
+def actions_for(student: Student, observations: np.ndarray) -> list[int]:
+    """The student's action for each observation."""
+    got = student.run(answers, "balance", observations, None, said="balance(observation)")
+    got = single_numbers(student.said, got, len(observations))
+    for value in got:
+        expect(value in (0, 1), f"{student.said} returned {value:g}, but 0 or 1 is needed.")
+    return [int(value) for value in got]
+
+
+def mean_steps(student: Student) -> float:
+    """Mean length of 20 episodes that the student's process never sees, only its observations."""
+    envs = [gymnasium.make("CartPole-v1").unwrapped for _ in range(EPISODES)]
+    starts = np.random.default_rng(exercise.seed(40)).integers(2**31, size=EPISODES)
+    observations = [env.reset(seed=int(seed))[0] for env, seed in zip(envs, starts, strict=True)]
+    steps, up = np.zeros(EPISODES), list(range(EPISODES))
+    for _ in range(STEPS):
+        actions = actions_for(student, np.array([observations[i] for i in up]))
+        standing = []
+        for i, action in zip(up, actions, strict=True):
+            observations[i], _, terminated, _, _ = envs[i].step(action)
+            steps[i] += 1
+            if not terminated:
+                standing.append(i)
+        up = standing
+        if not up:
+            break
+    return float(steps.mean())
+
+
+@balancing.check(4)
+def pushes_to_where_the_pole_falls(student: Student):
+    rng = np.random.default_rng(exercise.seed(41))
+    sides = rng.permutation([0, 1] * 10)
+    observations = np.zeros((20, 4), dtype=np.float32)
+    observations[:, 2:] = rng.uniform(0.1, 0.2, size=(20, 2)) * [1, 5] * (2 * sides - 1)[:, None]
+    for observation, action, side in zip(
+        observations, actions_for(student, observations), sides, strict=True
+    ):
+        expect(
+            action == side,
+            f"balance({show(observation)}) returned {action}: the pole falls to the "
+            f"{('left', 'right')[side]}, so bring the cart there, with action {side}.",
+        )
+
+
+@balancing.check(6)
+def balances_for_half_of_the_time(student: Student):
+    mean = mean_steps(student)
+    expect(
+        mean >= 100,
+        f"{student.said}: the pole stays up for {mean:.1f} steps on average over {EPISODES} "
+        "episodes; 100 give points, 195 full marks.",
+    )
+
+
+@balancing.check(8)
+def balances(student: Student):
+    mean = mean_steps(student)
+    expect(
+        mean >= 195,
+        f"{student.said}: the pole stays up for {mean:.1f} steps on average over {EPISODES} "
+        "episodes, but 195 of 200 are asked for.",
+    )
+
+
+# ------------------------------------------------------------------- 1.6
+comparison = exercise.task("1.6", "Random agents compared", seconds=30)
+TABLES = (
+    (["Pendulum-v1", "CartPole-v1", "MountainCar-v0"], 4),
+    (["CartPole-v1", "MountainCarContinuous-v0"], 3),
+    (["CartPole-v1", "Acrobot-v1"], 1),
+)
+
+
+def expect_column(student: Student, column: str, wanted_of) -> None:
+    """Compares a column of the student's tables with random episodes of the grader's own."""
+    for index, (names, episodes) in enumerate(TABLES):
+        seed = exercise.seed(50 + index)
+        table = student.call("compare", names, episodes=episodes, seed=seed)
+        expect(
+            isinstance(table, list) and len(table) == len(names),
+            f"{student.said} returned {show(table)}, but a list of {len(names)} rows is needed.",
+        )
+        for name, row in zip(names, table, strict=True):
+            environment, value = fields(f"{student.said}: a row", row, "environment", column)
+            expect(
+                environment == name,
+                f"{student.said}: the row of {name} is about {show(environment)}.",
+            )
+            runs = [lived(name, seed + i, 10_000) for i in range(episodes)]
+            expect_close(f"{student.said}: {column} of {name}", value, wanted_of(runs), 1e-6)
+
+
+def returns_of(runs: list[dict]) -> list[float]:
+    return [sum(run["rewards"]) for run in runs]
+
+
+@comparison.check(6)
+def mean_return(student: Student):
+    expect_column(student, "mean", lambda runs: np.mean(returns_of(runs)))
+
+
+@comparison.check(4)
+def deviation_of_returns(student: Student):
+    expect_column(
+        student,
+        "deviation",
+        lambda runs: np.std(returns_of(runs), ddof=1) if len(runs) > 1 else 0.0,
+    )
+
+
+@comparison.check(4)
+def mean_length(student: Student):
+    expect_column(student, "length", lambda runs: np.mean([len(run["rewards"]) for run in runs]))

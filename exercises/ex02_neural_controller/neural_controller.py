@@ -1,0 +1,211 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Exercise 2. A neural controller
+#
+# The background is in `README.md`. Fill in the functions below one after another, and run
+# `make test-ex2` (or `botschool grade 2.1` for one task) as often as you like.
+
+# %%
+"""Exercise 2: a neural network that controls a robot in any Gymnasium environment."""
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+
+# %% [markdown]
+# ## Task 2.1. The parameters
+#
+# The network has three layers: inputs (what the robot observes), hidden neurons, and outputs (what
+# it does). Every input is connected to every hidden neuron, and every hidden neuron to every
+# output; each connection has a *weight*. Each hidden neuron and each output also has a *bias*, a
+# constant that is added to what comes in.
+#
+# We keep them in a dict of four arrays. `W1[h, i]` is the weight from input i to hidden neuron h,
+# `W2[o, h]` the weight from hidden neuron h to output o; `b1` and `b2` are the biases.
+
+
+# %%
+def parameters(ninputs: int, nhiddens: int, noutputs: int, seed: int) -> dict:
+    """Random parameters of a network.
+
+    All weights are Gaussian random numbers with mean 0.0 and standard deviation 0.1, each drawn
+    on its own; all biases are 0. The same seed gives the same parameters, another one others.
+
+    Returns a dict of arrays: "W1" of shape (nhiddens, ninputs), "b1" of shape (nhiddens,), "W2" of
+    shape (noutputs, nhiddens), "b2" of shape (noutputs,).
+    """
+    raise NotImplementedError("task 2.1: draw the parameters")
+
+
+# %% [markdown]
+# ## Task 2.2. From observation to outputs
+#
+# A neuron adds up what comes in, each input times its weight, then its bias, and squeezes the sum
+# into the range from -1 to 1 with the function $\tanh$ (hyperbolic tangent). For the observation
+# $x$, the hidden neurons $h$ and the outputs $y$:
+#
+# $$h = \tanh(W_1 x + b_1), \qquad y = \tanh(W_2 h + b_2)$$
+#
+# $W_1 x$ is a matrix times a vector: its entry number $j$ is the sum of row $j$ of $W_1$ times $x$,
+# number by number. In NumPy: `W1 @ x`.
+
+
+# %%
+def forward(network: dict, observation: np.ndarray) -> np.ndarray:
+    """The outputs, shape (noutputs,), of a network as in task 2.1 for an observation (ninputs,).
+
+    Hidden neurons and outputs use tanh. The biases may have any values.
+    """
+    raise NotImplementedError("task 2.2: compute the outputs")
+
+
+# %% [markdown]
+# ## Task 2.3. As many neurons as the environment needs
+#
+# One input for each number of the observation. If the actions are a `spaces.Box`, one output for
+# each number of the action; if they are `spaces.Discrete`, one output for each choice.
+
+
+# %%
+def sizes(environment_id: str) -> tuple[int, int]:
+    """(number of inputs, number of outputs) of a network for this environment.
+
+    Its observations are a one-dimensional Box, its actions a one-dimensional Box or Discrete.
+    """
+    raise NotImplementedError("task 2.3: count inputs and outputs")
+
+
+# %% [markdown]
+# ## Task 2.4. From outputs to an action
+#
+# - Discrete actions: the most active output decides. The choices of the space begin with
+#   `space.start` (nearly always 0), which stands for output 0.
+# - A Box: every output lies between -1 and 1, and every number of the action between its limits
+#   $l$ and $u$, `space.low` and `space.high`. We stretch one range over the other, so that the
+#   network can use all of its motor: $a = l + \frac{y + 1}{2} (u - l)$. An output of -1 gives $l$,
+#   0 gives the middle, 1 gives $u$.
+
+
+# %%
+def act(outputs: np.ndarray, action_space: spaces.Space) -> int | np.ndarray:
+    """The action that the outputs, shape (noutputs,), stand for.
+
+    For a Discrete space an int: its first choice plus the number of the most active output (of
+    equals, the lowest). For a Box an array of shape (noutputs,): the outputs stretched from
+    [-1, 1] to the limits of the space, number by number. All limits are finite.
+    """
+    raise NotImplementedError("task 2.4: choose the action")
+
+
+# %% [markdown]
+# ## Task 2.5. An episode
+#
+# Now the network gets its body: observe, compute, act, and again, until the episode is terminated
+# or truncated (exercise 1), or `maxsteps` are done.
+
+
+# %%
+def run_episode(environment_id: str, network: dict, seed: int, maxsteps: int = 200) -> dict:
+    """One episode of a robot with this network; the environment is reset with `seed`.
+
+    Returns a dict with "actions", the list of all actions, and "return", the sum of all rewards.
+    """
+    raise NotImplementedError("task 2.5: run an episode")
+
+
+# %% [markdown]
+# ## Task 2.6. Fitness
+#
+# The start of an episode is random, so one episode may be good or bad luck. The *fitness* of a
+# network is its mean return over several episodes; we take 10 of them as a rule.
+
+
+# %%
+def fitness(environment_id: str, network: dict, seeds: list[int], maxsteps: int = 200) -> float:
+    """The mean return of the network over one episode, of at most maxsteps, for each seed."""
+    raise NotImplementedError("task 2.6: compute the fitness")
+
+
+# %% [markdown]
+# ## Task 2.7. Many networks at once
+#
+# Evolution works with populations of networks. Calling `forward` for each of them in a Python loop
+# spends nearly all of its time on the loop. NumPy can do the same for all networks in a single
+# operation: stack their weights in an array with one more dimension in front, and use `@` on
+# stacks of matrices, or `np.einsum`. For network $n$,
+#
+# $$h_{nj} = \tanh\Big(\sum_i W_{1,nji}\, x_{ni} + b_{1,nj}\Big)$$
+
+
+# %%
+def forward_batch(networks: dict, observations: np.ndarray) -> np.ndarray:
+    """What forward gives for n networks, each with an observation of its own, without a loop.
+
+    networks holds "W1" of shape (n, nhiddens, ninputs), "b1" (n, nhiddens), "W2"
+    (n, noutputs, nhiddens), "b2" (n, noutputs); observations has shape (n, ninputs).
+
+    Returns an array of shape (n, noutputs).
+    """
+    raise NotImplementedError("task 2.7: compute the outputs of many networks")
+
+
+# %% [markdown]
+# ## Task 2.8. The luckiest network
+#
+# The simplest way to find a good controller: try many random ones and keep the best. All of them
+# meet the same episodes, so that none has an easier start than another.
+
+
+# %%
+def random_search(environment_id: str, nnetworks: int, nhiddens: int, seed: int) -> dict:
+    """Tries random networks in an environment, whichever it is.
+
+    Network i (from 0) has the parameters of task 2.1 with seed + i. The fitness of each is that of
+    task 2.6 with the 10 seeds from seed to seed + 9, and at most 200 steps.
+
+    Returns a dict with "networks", the list of all networks; "fitness", the list of their fitness;
+    and "best", the number of the best network (of equals, the lowest).
+    """
+    raise NotImplementedError("task 2.8: search at random")
+
+
+# %% [markdown]
+# ## The picture
+#
+# `make solution-ex2` (or running this file once all tasks are done) draws how the fitness of 200
+# random networks is spread in four environments, and films the best one of CartPole. It takes a
+# minute or two.
+
+# %%
+if __name__ == "__main__":
+    from botschool.course import draw_distributions, film_agent
+
+    found = {}
+    for name in ("CartPole-v1", "Pendulum-v1", "Acrobot-v1", "MountainCarContinuous-v0"):
+        found[name] = random_search(name, nnetworks=200, nhiddens=5, seed=1)
+        print(f"{name}: the best of 200 random networks reaches {max(found[name]['fitness']):.1f}")
+    draw_distributions(
+        "random_networks.png",
+        {name: search["fitness"] for name, search in found.items()},
+        "200 random networks",
+        label="fitness",
+    )
+    search = found["CartPole-v1"]
+    network = search["networks"][search["best"]]
+    film_agent(
+        "luckiest.mp4",
+        "CartPole-v1",
+        lambda observation: act(forward(network, observation), spaces.Discrete(2)),
+        episodes=3,
+    )

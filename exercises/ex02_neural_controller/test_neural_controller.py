@@ -1,0 +1,592 @@
+"""Grader of exercise 2; run it with `make test-ex2`.
+
+Task 2.7 is timed: 20000 networks, three times the best of, against a Python loop that the grader
+measures on the same machine just before; less than half of the loop's time is asked for. The
+solution needs 1/12 of it or less (20 measurements, two busy processes beside it); a loop in the
+submission needs all of it. Everything else is recomputed or replayed; tolerances are far above what
+the order of sums and single precision can do.
+"""
+
+import time
+
+import gymnasium
+import numpy as np
+
+from botschool.grading import Exercise, Student, expect, expect_array, expect_close, show
+
+exercise = Exercise(2, "A neural controller", file="neural_controller.py")
+PROBLEMS = ("CartPole-v1", "Pendulum-v1", "Acrobot-v1", "MountainCarContinuous-v0")
+
+
+def fields(said: str, value: object, *keys: str) -> list:
+    """The values of these keys of a dict, which may have others."""
+    expect(isinstance(value, dict), f"{said} must be a dict, not {show(value)}.")
+    for key in keys:
+        expect(key in value, f"{said} is a dict without {key!r}.")
+    return [value[key] for key in keys]
+
+
+def shapes(ninputs: int, nhiddens: int, noutputs: int) -> dict[str, tuple[int, ...]]:
+    return {
+        "W1": (nhiddens, ninputs),
+        "b1": (nhiddens,),
+        "W2": (noutputs, nhiddens),
+        "b2": (noutputs,),
+    }
+
+
+def expect_network(said: str, network: object, *layers: int) -> dict[str, np.ndarray]:
+    """A dict of the four arrays, in their shapes."""
+    values = fields(said, network, *shapes(*layers))
+    return {
+        key: expect_array(f"{said}: {key}", value, shape)
+        for value, (key, shape) in zip(values, shapes(*layers).items(), strict=True)
+    }
+
+
+def drawn(rng: np.random.Generator, *layers: int, many: tuple[int, ...] = ()) -> dict:
+    """A network of the grader's, with biases that matter."""
+    return {key: 0.6 * rng.normal(size=many + shape) for key, shape in shapes(*layers).items()}
+
+
+def outputs_of(network: dict, values: np.ndarray) -> np.ndarray:
+    for layer in "12":
+        values = np.tanh(network["b" + layer] + network["W" + layer].dot(values))
+    return values
+
+
+def layers_of(env: gymnasium.Env, nhiddens: int) -> tuple[int, int, int]:
+    actions = env.action_space
+    discrete = isinstance(actions, gymnasium.spaces.Discrete)
+    return (
+        len(env.observation_space.low),
+        nhiddens,
+        int(actions.n) if discrete else len(actions.low),
+    )
+
+
+def action_of(outputs: np.ndarray, space: gymnasium.Space) -> int | np.ndarray:
+    if isinstance(space, gymnasium.spaces.Discrete):
+        return int(space.start + outputs.argmax())
+    return (space.low + (outputs + 1) / 2 * (space.high - space.low)).astype(np.float32)
+
+
+def return_of(env: gymnasium.Env, network: dict, seed: int, maxsteps: int) -> float:
+    """Return of an episode with the grader's own network."""
+    observation, _ = env.reset(seed=seed)
+    total = 0.0
+    for _ in range(maxsteps):
+        action = action_of(outputs_of(network, observation), env.action_space)
+        observation, reward, terminated, truncated, _ = env.step(action)
+        total += float(reward)
+        if terminated or truncated:
+            break
+    return total
+
+
+# ------------------------------------------------------------------- 2.1
+drawing = exercise.task("2.1", "The parameters")
+
+
+def parameters_of(student: Student, layers: tuple[int, int, int], index: int) -> dict:
+    network = student.call("parameters", *layers, seed=exercise.seed(index))
+    return expect_network(student.said, network, *layers)
+
+
+@drawing.check(4)
+def have_the_right_shapes(student: Student):
+    for layers in ((4, 5, 2), (3, 10, 1), (7, 1, 4)):
+        parameters_of(student, layers, 1)
+
+
+@drawing.check(3)
+def biases_are_zero(student: Student):
+    network = parameters_of(student, (6, 8, 3), 2)
+    for key in ("b1", "b2"):
+        expect(bool(np.all(network[key] == 0)), f"{student.said}: {key} must be all zeros.")
+    for key in ("W1", "W2"):
+        expect(bool(np.all(network[key] != 0)), f"{student.said}: {key} has weights that are 0.")
+
+
+@drawing.check(4)
+def weights_are_gaussian(student: Student):
+    network = parameters_of(student, (120, 100, 120), 3)
+    for key in ("W1", "W2"):
+        weights = network[key]
+        expect(
+            abs(weights.mean()) < 0.005 and abs(weights.std() - 0.1) < 0.004,
+            f"{student.said}: {key} has mean {weights.mean():.3f} and standard deviation "
+            f"{weights.std():.3f}, but 0 and 0.1 are asked for.",
+        )
+        beyond = float(np.mean(np.abs(weights) > 0.2))
+        expect(
+            0.03 < beyond < 0.06,
+            f"{student.said}: {100 * beyond:.1f} % of {key} are beyond 0.2, but of Gaussian "
+            "numbers with deviation 0.1 it is 4.6 %.",
+        )
+
+
+@drawing.check(3)
+def every_weight_is_drawn_and_the_seed_decides(student: Student):
+    one = parameters_of(student, (5, 6, 5), 4)
+    again = parameters_of(student, (5, 6, 5), 4)
+    other = parameters_of(student, (5, 6, 5), 5)
+    for key in ("W1", "W2"):
+        expect(
+            np.array_equal(one[key], again[key]),
+            f"{student.said} gives other numbers when it is called again with the same seed.",
+        )
+        expect(
+            not np.any(one[key] == other[key]),
+            f"{student.said} gives weights that another seed gave too.",
+        )
+    weights = np.concatenate([one["W1"].ravel(), one["W2"].ravel()])
+    expect(
+        len(np.unique(weights)) == len(weights),
+        f"{student.said}: some weights are equal to others, but each must be drawn on its own.",
+    )
+
+
+# ------------------------------------------------------------------- 2.2
+passing = exercise.task("2.2", "From observation to outputs")
+
+
+def forwarded(student: Student, network: dict, observation: np.ndarray, size: str) -> np.ndarray:
+    outputs = student.run(
+        forward_of, network, observation, said=f"forward(network, observation) for {size}"
+    )
+    return expect_array(student.said, outputs, network["b2"].shape)
+
+
+def forward_of(module, network, observation):
+    return module.forward(network, observation)
+
+
+def compare_outputs(student: Student, index: int, change) -> None:
+    """The student's outputs against the formula, for networks altered by change(network)."""
+    rng = np.random.default_rng(exercise.seed(index))
+    for layers in ((4, 5, 2), (3, 10, 1), (1, 1, 3), (6, 20, 6)):
+        network = drawn(rng, *layers)
+        change(network)
+        observation = rng.normal(size=layers[0]).astype(np.float32)
+        got = forwarded(
+            student, network, observation, "{} inputs, {} hidden, {} outputs".format(*layers)
+        )
+        wanted = outputs_of(network, observation)
+        expect(
+            np.allclose(got, wanted, rtol=0, atol=1e-6),
+            f"{student.said} returned {show(got)}, but {show(wanted)} was expected.",
+        )
+
+
+@passing.check(6)
+def weights_and_tanh(student: Student):
+    compare_outputs(
+        student, 10, lambda network: network.update(b1=0 * network["b1"], b2=0 * network["b2"])
+    )
+
+
+@passing.check(5)
+def biases_count(student: Student):
+    compare_outputs(student, 11, lambda network: None)
+
+
+@passing.check(5)
+def large_sums_saturate(student: Student):
+    compare_outputs(
+        student, 12, lambda network: network.update(W1=8 * network["W1"], W2=8 * network["W2"])
+    )
+
+
+# ------------------------------------------------------------------- 2.3
+counting = exercise.task("2.3", "As many neurons as the environment needs")
+
+
+def probe(module, ninputs, noutputs, discrete):
+    """Counts in an environment that no student has met."""
+    import gymnasium
+
+    class Probe(gymnasium.Env):
+        observation_space = gymnasium.spaces.Box(-1, 1, (ninputs,))
+        action_space = (
+            gymnasium.spaces.Discrete(noutputs)
+            if discrete
+            else gymnasium.spaces.Box(-1, 1, (noutputs,))
+        )
+
+    name = f"Probe{len(gymnasium.registry)}-v0"
+    gymnasium.register(name, entry_point=Probe, disable_env_checker=True)
+    return module.sizes(name)
+
+
+def expect_sizes(student: Student, discrete: bool) -> None:
+    rng = np.random.default_rng(exercise.seed(20 + discrete))
+    for name in PROBLEMS:
+        with gymnasium.make(name) as env:
+            if isinstance(env.action_space, gymnasium.spaces.Discrete) != discrete:
+                continue
+            wanted = layers_of(env, 1)[::2]
+        answer = student.call("sizes", name)
+        expect_close(student.said, answer, wanted)
+    for _ in range(3):
+        wanted = rng.integers(2, 30, size=2).tolist()
+        kind = f"Discrete({wanted[1]})" if discrete else f"a Box of {wanted[1]}"
+        said = f"sizes(...) for {wanted[0]} observed numbers and actions that are {kind}"
+        expect_close(said, student.run(probe, *wanted, discrete, said=said), wanted)
+
+
+@counting.check(4)
+def counts_discrete_actions(student: Student):
+    expect_sizes(student, True)
+
+
+@counting.check(4)
+def counts_continuous_actions(student: Student):
+    expect_sizes(student, False)
+
+
+# ------------------------------------------------------------------- 2.4
+acting = exercise.task("2.4", "From outputs to an action")
+
+
+def chosen(module, outputs, space):
+    """The student's action in a space that the grader describes."""
+    import gymnasium
+    import numpy
+
+    if "choices" in space:
+        made = gymnasium.spaces.Discrete(space["choices"], start=space["first"])
+    else:
+        low, high = (numpy.array(space[side], dtype=numpy.float32) for side in ("low", "high"))
+        made = gymnasium.spaces.Box(low, high)
+    return [module.act(each, made) for each in outputs]
+
+
+def expect_choices(student: Student, outputs: np.ndarray, first: int) -> None:
+    choices = outputs.shape[1]
+    space = f"Discrete({choices}, start={first})" if first else f"Discrete({choices})"
+    said = f"act(outputs, {space})"
+    got = student.run(chosen, outputs, {"choices": choices, "first": first}, said=said)
+    expect(isinstance(got, list) and len(got) == len(outputs), f"{said} gave no answers.")
+    for each, action in zip(outputs, got, strict=True):
+        wanted = first + int(each.argmax())
+        expect(
+            type(action) is int and action == wanted,
+            f"act({show(each)}, {space}) returned {show(action)}, but {wanted} was expected.",
+        )
+
+
+@acting.check(5)
+def most_active_output_decides(student: Student):
+    rng = np.random.default_rng(exercise.seed(30))
+    for choices in (2, 3, 6):
+        outputs = rng.uniform(-1, 1, size=(20, choices))
+        outputs[0] = 0.25  # all equal: the lowest
+        outputs[1] = -np.abs(outputs[1])
+        expect_choices(student, outputs, 0)
+
+
+@acting.check(2)
+def choices_may_start_elsewhere(student: Student):
+    rng = np.random.default_rng(exercise.seed(31))
+    for first in (1, -2, 10):
+        expect_choices(student, rng.uniform(-1, 1, size=(10, 4)), first)
+
+
+def expect_stretched(student: Student, outputs: np.ndarray, low: np.ndarray, high: np.ndarray):
+    space = f"Box({show(low)}, {show(high)})"
+    said = f"act(outputs, {space})"
+    bounds = {"low": low.tolist(), "high": high.tolist()}
+    got = student.run(chosen, outputs, bounds, said=said)
+    expect(isinstance(got, list) and len(got) == len(outputs), f"{said} gave no answers.")
+    for each, action in zip(outputs, got, strict=True):
+        call = f"act({show(each)}, {space})"
+        action, wanted = expect_array(call, action, low.shape), low + (each + 1) / 2 * (high - low)
+        expect(
+            np.allclose(action, wanted, rtol=1e-5, atol=1e-5),
+            f"{call} returned {show(action)}, but {show(wanted)} was expected.",
+        )
+
+
+@acting.check(4)
+def outputs_are_stretched(student: Student):
+    rng = np.random.default_rng(exercise.seed(32))
+    for limit in (2.0, 0.4):
+        outputs = np.vstack([[[-1.0], [0.0], [1.0]], rng.uniform(-1, 1, size=(10, 1))])
+        expect_stretched(student, outputs, np.array([-limit]), np.array([limit]))
+
+
+@acting.check(3)
+def each_number_has_its_own_limits(student: Student):
+    rng = np.random.default_rng(exercise.seed(33))
+    for size in (2, 5):
+        low, width = rng.uniform(-3, 3, size=size).round(2), rng.uniform(1, 5, size=size).round(2)
+        expect_stretched(student, rng.uniform(-1, 1, size=(10, size)), low, low + width)
+
+
+# ------------------------------------------------------------------- 2.5
+episodes = exercise.task("2.5", "An episode")
+
+
+def lived(module, name, network, seed, maxsteps):
+    return module.run_episode(name, network, seed, maxsteps)
+
+
+def replay(student: Student, name: str, index: int, maxsteps: int) -> tuple[float, float]:
+    """Follows the student's actions in a fresh environment: (return reported, return found).
+
+    Every action must be the one of the network at that moment, and there must be as many as the
+    episode is long.
+    """
+    seed = exercise.seed(index)
+    with gymnasium.make(name) as env:
+        network = drawn(np.random.default_rng(seed), *layers_of(env, 5))
+        said = f"run_episode({name!r}, network, seed={seed}, maxsteps={maxsteps})"
+        answer = student.run(lived, name, network, seed, maxsteps, said=said)
+        actions, total = fields(said, answer, "actions", "return")
+        expect(
+            isinstance(actions, (list, np.ndarray)) and 0 < len(actions) <= maxsteps,
+            f"{said}: actions must be a list of 1 to {maxsteps} actions, not {show(actions)}.",
+        )
+        space = env.action_space
+        actions = expect_array(f"{said}: actions", actions, (len(actions), *space.shape))
+        observation, _ = env.reset(seed=seed)
+        rewards, over = 0.0, False
+        for step, action in enumerate(actions):
+            expect(
+                not over,
+                f"{said}: the episode was over after {step} steps, but {len(actions)} actions are "
+                "reported.",
+            )
+            outputs = outputs_of(network, observation)
+            wanted = action_of(outputs, space)
+            expect(
+                _draw(outputs, space) or np.allclose(action, wanted, rtol=1e-4, atol=1e-4),
+                f"{said}: action {step} is {show(action)}, but after these actions the network "
+                f"chooses {show(wanted)}.",
+            )
+            fitting = int(action) if space.shape == () else action.astype(np.float32)
+            observation, reward, terminated, truncated, _ = env.step(fitting)
+            rewards += float(reward)
+            over = terminated or truncated
+    expect(
+        over or len(actions) == maxsteps,
+        f"{said} stopped after {len(actions)} steps, but the episode was not over.",
+    )
+    return float(expect_array(f"{said}: return", total, ())), rewards
+
+
+def _draw(outputs: np.ndarray, space: gymnasium.Space) -> bool:
+    """Whether rounding may decide between two choices."""
+    return space.shape == () and bool(np.diff(np.sort(outputs))[-1] < 1e-6)
+
+
+CASES = (
+    ("CartPole-v1", 200),
+    ("Pendulum-v1", 300),
+    ("Acrobot-v1", 80),
+    ("MountainCarContinuous-v0", 50),
+)
+"""Environment and maxsteps: ended by itself, by its time limit, by maxsteps."""
+
+
+@episodes.check(6)
+def discrete_actions(student: Student):
+    for case in (0, 2):
+        replay(student, CASES[case][0], 40 + case, CASES[case][1])
+
+
+@episodes.check(5)
+def continuous_actions(student: Student):
+    for case in (1, 3):
+        replay(student, CASES[case][0], 40 + case, CASES[case][1])
+
+
+@episodes.check(5)
+def sums_the_rewards(student: Student):
+    for case, (name, maxsteps) in enumerate(CASES):
+        reported, found = replay(student, name, 50 + case, maxsteps)
+        expect(
+            abs(reported - found) <= 1e-3 * abs(found) + 1e-6,
+            f"{student.said}: return is {reported:.4f}, but the rewards of these actions sum up "
+            f"to {found:.4f}.",
+        )
+
+
+# ------------------------------------------------------------------- 2.6
+measuring = exercise.task("2.6", "Fitness", seconds=30)
+
+
+def measured(module, name, network, seeds, maxsteps):
+    if maxsteps is None:
+        return module.fitness(name, network, seeds)
+    return module.fitness(name, network, seeds, maxsteps)
+
+
+def expect_fitness(said: str, value: object, name: str, network: dict, seeds, maxsteps: int):
+    """The mean return as the grader finds it, for any network."""
+    got = float(expect_array(said, value, ()))
+    with gymnasium.make(name) as env:
+        wanted = float(np.mean([return_of(env, network, seed, maxsteps) for seed in seeds]))
+    expect(
+        abs(got - wanted) <= 1e-3 * abs(wanted) + 1e-6,
+        f"{said} returned {got:.4f}, but the mean over {len(seeds)} episodes is {wanted:.4f}.",
+    )
+
+
+def check_fitness(student: Student, name: str, index: int, episodes: int, maxsteps: int | None):
+    rng = np.random.default_rng(exercise.seed(index))
+    with gymnasium.make(name) as env:
+        network = drawn(rng, *layers_of(env, 6))
+    seeds = [int(seed) for seed in rng.integers(2**31, size=episodes)]
+    limit = "" if maxsteps is None else f", maxsteps={maxsteps}"
+    said = f"fitness({name!r}, network, {episodes} seeds{limit})"
+    value = student.run(measured, name, network, seeds, maxsteps, said=said)
+    expect_fitness(said, value, name, network, seeds, 200 if maxsteps is None else maxsteps)
+
+
+@measuring.check(6)
+def mean_over_ten_episodes(student: Student):
+    for case, name in enumerate(PROBLEMS):
+        check_fitness(student, name, 60 + case, 10, None)
+
+
+@measuring.check(4)
+def any_seeds_and_steps(student: Student):
+    check_fitness(student, "Pendulum-v1", 70, 3, 60)
+    check_fitness(student, "Pendulum-v1", 73, 2, 260)
+    check_fitness(student, "CartPole-v1", 71, 7, 12)
+    check_fitness(student, "Acrobot-v1", 72, 1, 30)
+
+
+# ------------------------------------------------------------------- 2.7
+batching = exercise.task("2.7", "Many networks at once")
+
+
+def batched(module, networks, observations):
+    return module.forward_batch(networks, observations)
+
+
+def timed(module, n, seed):
+    """Many networks, drawn here because they would be too many to send."""
+    import numpy
+
+    rng = numpy.random.default_rng(seed)
+    shapes = {"W1": (n, 5, 4), "b1": (n, 5), "W2": (n, 2, 5), "b2": (n, 2)}
+    networks = {key: rng.random(shape, dtype=numpy.float32) for key, shape in shapes.items()}
+    observations = rng.random((n, 4), dtype=numpy.float32)
+    return module.forward_batch(networks, observations)
+
+
+def expect_batch(student: Student, index: int, sizes: tuple) -> None:
+    rng = np.random.default_rng(exercise.seed(index))
+    for n, *layers in sizes:
+        networks = drawn(rng, *layers, many=(n,))
+        observations = rng.normal(size=(n, layers[0]))
+        said = f"forward_batch(...) for {n} networks of {layers} neurons"
+        got = student.run(batched, networks, observations, said=said)
+        got = expect_array(said, got, (n, layers[2]))
+        for i in range(n):
+            network = {key: stack[i] for key, stack in networks.items()}
+            wanted = outputs_of(network, observations[i])
+            expect(
+                np.allclose(got[i], wanted, rtol=0, atol=1e-6),
+                f"{said}: network {i} gives {show(got[i])}, but {show(wanted)} when it is alone.",
+            )
+
+
+@batching.check(7)
+def equals_each_network_alone(student: Student):
+    expect_batch(student, 80, ((7, 4, 5, 2), (50, 3, 10, 1), (300, 6, 5, 3)))
+
+
+@batching.check(2)
+def few_and_square(student: Student):
+    expect_batch(student, 81, ((1, 4, 5, 2), (4, 4, 4, 4), (5, 1, 1, 1)))
+
+
+@batching.check(3)
+def is_quicker_than_a_loop(student: Student):
+    n = 20000
+    said = f"forward_batch(...) for {n} networks"
+    loop = batch = np.inf
+    for repeat in range(3):
+        seed = exercise.seed(82 + repeat)
+        rng = np.random.default_rng(seed)
+        stacks = {
+            key: rng.random((n, *shape), dtype=np.float32) for key, shape in shapes(4, 5, 2).items()
+        }
+        observations = rng.random((n, 4), dtype=np.float32)
+        begun = time.perf_counter()
+        wanted = [
+            outputs_of({key: stack[i] for key, stack in stacks.items()}, observations[i])
+            for i in range(n)
+        ]
+        loop = min(loop, time.perf_counter() - begun)
+        begun = time.perf_counter()
+        got = student.run(timed, n, seed, said=said)
+        batch = min(batch, time.perf_counter() - begun)
+        got = expect_array(said, got, (n, 2))
+        expect(np.allclose(got, wanted, rtol=0, atol=1e-5), f"{said}: some outputs are wrong.")
+    expect(
+        batch < loop / 2,
+        f"{said} took {batch:.2f} s; a Python loop over the networks takes {loop:.2f} s, and one "
+        "NumPy operation for all of them a small part of that.",
+    )
+
+
+# ------------------------------------------------------------------- 2.8
+searching = exercise.task("2.8", "The luckiest network", seconds=40)
+
+
+def searched(student: Student, name: str, index: int, nnetworks: int, nhiddens: int):
+    """What the student reports: networks, their fitness, the best, and the seeds to check with."""
+    seed = exercise.seed(index)
+    report = student.call("random_search", name, nnetworks, nhiddens, seed=seed)
+    networks, values, best = fields(student.said, report, "networks", "fitness", "best")
+    expect(
+        isinstance(networks, list) and len(networks) == nnetworks,
+        f"{student.said}: networks must be a list of {nnetworks} networks, not {show(networks)}.",
+    )
+    with gymnasium.make(name) as env:
+        layers = layers_of(env, nhiddens)
+    networks = [expect_network(f"{student.said}: a network", each, *layers) for each in networks]
+    weights = np.array([network["W1"].ravel()[0] for network in networks])
+    expect(
+        len(np.unique(weights)) == nnetworks,
+        f"{student.said}: some networks are the same, but each has a seed of its own.",
+    )
+    values = expect_array(f"{student.said}: fitness", values, (nnetworks,))
+    return networks, values, best, range(seed, seed + 10)
+
+
+@searching.check(6)
+def measures_every_network_in_every_problem(student: Student):
+    for case, name in enumerate(PROBLEMS):
+        networks, values, _, seeds = searched(student, name, 90 + case, 3, 4 + case)
+        for i, network in enumerate(networks):
+            said = f"{student.said}: fitness of network {i}"
+            expect_fitness(said, float(values[i]), name, network, seeds, 200)
+
+
+@searching.check(4)
+def finds_the_best(student: Student):
+    for case, (name, nnetworks) in enumerate((("CartPole-v1", 25), ("Pendulum-v1", 4))):
+        networks, values, best, seeds = searched(student, name, 95 + case, nnetworks, 5)
+        for i in {0, int(values.argmax())}:
+            said = f"{student.said}: fitness of network {i}"
+            expect_fitness(said, float(values[i]), name, networks[i], seeds, 200)
+        expect(
+            type(best) is int and best == int(values.argmax()),
+            f"{student.said}: best is {show(best)}, but network {int(values.argmax())} has the "
+            "highest fitness.",
+        )
+    first = student.call("random_search", "CartPole-v1", 2, 5, seed=100)
+    second = student.call("random_search", "CartPole-v1", 1, 5, seed=101)
+    said = "random_search('CartPole-v1', 2, 5, seed=100)"
+    one = expect_network(f"{said}: network 1", fields(said, first, "networks")[0][1], 4, 5, 2)
+    same = expect_network("network 0", fields(said, second, "networks")[0][0], 4, 5, 2)
+    expect(
+        np.array_equal(one["W1"], same["W1"]),
+        f"{said}: network 1 differs from network 0 of seed 101, but network i has seed + i.",
+    )
