@@ -1,0 +1,7 @@
+"""Reads address 0."""
+
+import ctypes
+
+
+def hostile(*arguments, **options):
+    return ctypes.string_at(0)

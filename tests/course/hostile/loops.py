@@ -1,0 +1,6 @@
+"""Never comes back."""
+
+
+def hostile(*arguments, **options):
+    while True:
+        pass

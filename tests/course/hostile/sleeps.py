@@ -1,0 +1,7 @@
+"""Sleeps for a day."""
+
+import time
+
+
+def hostile(*arguments, **options):
+    time.sleep(86400)

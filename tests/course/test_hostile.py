@@ -1,0 +1,218 @@
+"""Hostile submissions: hostile/*.py, each with a function `hostile` that replaces students' ones.
+
+It finds COURSE (a copy of the course with solutions), HOME, TEMPORARY (with somebody else's files),
+FRIEND (an address that listens) and KNOWN (the files with the answers) to attack. What is
+"LEAKED" it prints.
+"""
+
+import ctypes
+import hashlib
+import os
+import platform
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+import psutil
+import pytest
+
+import building
+from botschool.grading import seccomp
+from botschool.grading.exercise import grade_task
+
+pytestmark = pytest.mark.course
+
+KINDS = sorted(path.stem for path in (building.HERE / "hostile").glob("*.py"))
+EXERCISES = [number for number in (3, 1, 8, 2, 7, 4) if number in building.GRADED][:3]
+SECONDS = 1.5
+"""A task's limit here; every submission must be judged within it and 5 seconds more."""
+
+
+class Trap:
+    """A small world to attack, and what it looked like before."""
+
+    def __init__(self, base: Path) -> None:
+        self.course, self.home, self.temporary = base / "course", base / "home", base / "tmp"
+        for name in ("exercises", "solutions"):
+            shutil.copytree(building.ROOT / name, self.course / name)
+        for folder in (self.home, self.temporary / "neighbour", self.course / "tests"):
+            folder.mkdir(parents=True)
+            (folder / "precious.txt").write_text("precious")
+        for folder in (self.home, self.course / "solutions"):
+            (folder / "precious.txt").write_text("precious")
+        self.watched = [base, Path(building.ROOT / "lib" / "botschool" / "grading")]
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.visitors = 0
+        threading.Thread(target=self._listen, daemon=True).start()
+        self.before = self.snapshot()
+
+    def _listen(self) -> None:
+        while True:
+            self.listener.accept()[0].sendall(b"1.0")
+            self.visitors += 1
+
+    def snapshot(self) -> dict[str, tuple]:
+        found = {}
+        for top in self.watched:
+            for path in [top, *top.rglob("*")]:
+                if "__pycache__" in path.parts or "submissions" in path.parts:
+                    continue
+                if path.parent == self.temporary or path == self.temporary:
+                    found[str(path)] = (path.lstat().st_mode,)
+                    continue
+                status = path.lstat()
+                digest = hashlib.md5(path.read_bytes()).hexdigest() if path.is_file() else ""
+                found[str(path)] = (status.st_mode, status.st_uid, status.st_mtime_ns, digest)
+        return found
+
+    def attack(self, number: int, kind: str) -> str:
+        """What is added to a submission: the hostile function and what it attacks."""
+        text = (building.HERE / "hostile" / f"{kind}.py").read_text(encoding="utf-8")
+        one = building.source(number)
+        known = [
+            str(building.ROOT / "solutions" / one.folder / one.file),
+            *map(str, (building.ROOT / "exercises" / one.folder).glob("test_*.py")),
+            str(self.course / "solutions" / one.folder / one.file),
+            str(self.temporary / "neighbour" / "precious.txt"),
+        ]
+        names = {
+            "COURSE": str(self.course), "HOME": str(self.home), "KNOWN": known,
+            "TEMPORARY": str(self.temporary), "FRIEND": self.listener.getsockname(),
+        }  # fmt: skip
+        return "\n".join(f"{name} = {value!r}" for name, value in names.items()) + f"\n\n{text}"
+
+
+@pytest.fixture(scope="module")
+def trap(tmp_path_factory):
+    return Trap(tmp_path_factory.mktemp("trap"))
+
+
+@pytest.fixture(autouse=True)
+def confined(trap, monkeypatch, tmp_path):
+    """Only where the system confines submissions; afterwards nothing has changed."""
+    monkeypatch.setattr(tempfile, "tempdir", str(trap.temporary))
+    monkeypatch.setenv("HOME", str(trap.home))
+    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "another secret")
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(trap.course))
+    probe = building.write(tmp_path / "probe", EXERCISES[0], "")
+    missing = grade_task(building.exercise(EXERCISES[0], SECONDS).tasks[0], probe).missing
+    if missing:
+        pytest.skip(f"this system cannot confine a submission's {', '.join(missing)}")
+    before = trap.snapshot()
+    priority = os.getpriority(os.PRIO_PROCESS, 0), os.sched_getaffinity(0), os.sched_getscheduler(0)
+    yield
+    assert trap.snapshot() == before == trap.before
+    assert priority == (
+        os.getpriority(os.PRIO_PROCESS, 0), os.sched_getaffinity(0), os.sched_getscheduler(0)
+    )  # fmt: skip
+    assert not psutil.Process().children(recursive=True)
+    assert not trap.visitors
+    assert (
+        not Path("/hostile_was_here.py").exists() and not Path("/etc/hostile_was_here.py").exists()
+    )
+
+
+def judged(task, file):
+    """A task's result; that it comes in time, is told safely, and tells nothing hidden."""
+    start = time.monotonic()
+    result = grade_task(task, file)
+    elapsed = time.monotonic() - start
+    assert elapsed < task.seconds + 5, f"task {task.id} took {elapsed:.1f} s"
+    assert "LEAKED" not in result.printed
+    assert all(c.isprintable() or c in "\n\t" for c in result.printed + result.message)
+    (result.printed + result.message).encode()
+    assert len(result.message) < 10_000
+    assert all(name.endswith(".png") for name, _ in result.pictures)
+    return result, elapsed
+
+
+@pytest.mark.parametrize("number", EXERCISES)
+@pytest.mark.parametrize("kind", KINDS)
+def test_earns_nothing(trap, tmp_path, kind, number):
+    """In the place of every function that students write."""
+    one = building.source(number)
+    names = [name for functions in one.functions.values() for name in functions]
+    replace = f"{' = '.join(names)} = hostile"
+    text = building.inserted(one.skeleton, f"{trap.attack(number, kind)}\n\n{replace}")
+    file = building.write(tmp_path / "submissions", number, text)
+    slow = 0
+    for task in building.exercise(number, SECONDS).tasks:
+        result, elapsed = judged(task, file)
+        assert result.points == 0, f"{task.id}: {result}"
+        assert result.message
+        slow += elapsed > SECONDS
+        if slow == 2:
+            break
+
+
+@pytest.mark.parametrize("number", EXERCISES)
+@pytest.mark.parametrize("kind", KINDS)
+def test_next_task_is_graded(trap, tmp_path, kind, number):
+    """In a solution, in the place of one task's functions: another task keeps its points."""
+    one, loaded = building.source(number), building.exercise(number)
+    alone = [
+        task
+        for task in loaded.tasks[1:]
+        if one.functions.get(task.id) and not one.used_by_others & set(one.functions[task.id])
+    ]
+    names = one.functions[alone[0].id]
+    text = building.inserted(
+        one.solution, f"{trap.attack(number, kind)}\n\n{' = '.join(names)} = hostile"
+    )
+    file = building.write(tmp_path / "submissions", number, text)
+    alone[0].seconds = SECONDS
+    result, _ = judged(alone[0], file)
+    assert result.points == 0, result
+    assert grade_task(loaded.tasks[0], file).points == loaded.tasks[0].max_points
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_while_the_file_is_loaded(trap, tmp_path, kind):
+    one = building.source(EXERCISES[0])
+    text = building.inserted(one.skeleton, f"{trap.attack(one.number, kind)}\n\nhostile()")
+    file = building.write(tmp_path / "submissions", one.number, text)
+    result, _ = judged(building.exercise(one.number, SECONDS).tasks[0], file)
+    assert result.points == 0, result
+
+
+def no_confinement():
+    """As on a kernel without Landlock and seccomp, for the process and its children."""
+    libc = ctypes.CDLL(None)
+    libc.prctl(38, 1, 0, 0, 0)
+    absent = (0x06, 0, 0, 0x00050000 | 38)  # ENOSYS
+    code = [(0x20, 0, 0, 0)]
+    for number in (444, 445, 446, 317, 157):  # Landlock, seccomp, prctl
+        code += [(0x15, 0, 1, number), absent]
+    seccomp.install(libc, [*code, (0x06, 0, 0, 0x7FFF0000)])
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="numbers of x86-64")
+@pytest.mark.parametrize(
+    "kind", ["changes_modes", "reads_processes", "reads_solutions", "truncates", "uses_the_network"]
+)
+def test_attacks_are_real(tmp_path, kind):
+    """Unconfined they do succeed (only those that harm nothing but the trap)."""
+    trap, number = Trap(tmp_path / "trap"), EXERCISES[0]
+    one = building.source(number)
+    names = [name for functions in one.functions.values() for name in functions]
+    replace = f"{' = '.join(names)} = hostile"
+    text = building.inserted(one.skeleton, f"{trap.attack(number, kind)}\n\n{replace}")
+    file = building.write(tmp_path / "submissions", number, text)
+    done = subprocess.run(
+        [sys.executable, "-m", "botschool", "grade", f"{number}.2", "--submission", file.parent],
+        env=os.environ | {"TMPDIR": str(trap.temporary), "BOTSCHOOL_COURSE": str(trap.course)},
+        preexec_fn=no_confinement, capture_output=True, text=True,
+    )  # fmt: skip
+    assert "Notice:" in done.stdout, done.stderr
+    changed = trap.snapshot() != trap.before
+    stolen = " 0 of " not in done.stdout
+    assert changed or trap.visitors or stolen or "LEAKED" in done.stdout, done.stdout
+
+
+def test_there_are_enough():
+    assert len(KINDS) >= 28

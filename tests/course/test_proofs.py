@@ -1,0 +1,178 @@
+"""What is promised of every exercise: skeleton 0 points, solution 100, mutants lose what they name.
+
+A mutant is a file in mutants/exNN/: its first line `# loses: N.2, N.4` names the tasks that lose
+points, its second says in words what is wrong, and the rest redefines functions of the solution.
+"""
+
+import ast
+import re
+
+import pytest
+
+import building
+from botschool.errors import BotschoolError
+from botschool.grading.apart import Grades, Job
+from botschool.grading.exercise import grade
+from botschool.grading.hints import read_hints
+from botschool.grading.release import find_leaks, release, released_files
+from botschool.grading.skeleton import pairs
+
+pytestmark = pytest.mark.course
+
+MUTANTS = sorted((building.HERE / "mutants").glob("ex[0-9][0-9]/*.py"))
+STOCHASTIC = re.compile(r"\b(margin|20 seeds|twenty seeds)\b", re.IGNORECASE)
+for_each_exercise = pytest.mark.parametrize("number", building.NUMBERS)
+
+
+def text_of(number, name):
+    folder = building.ROOT / "exercises" / building.source(number).folder
+    return (folder / name).read_text(encoding="utf-8")
+
+
+@for_each_exercise
+def test_skeleton_gets_nothing(number, tmp_path):
+    file = building.write(tmp_path, number, building.source(number).skeleton)
+    result = grade(building.exercise(number), file)
+    assert result.points == 0
+    for task in result.tasks:
+        assert task.message.startswith("not done yet"), task
+
+
+@for_each_exercise
+def test_solution_gets_everything(number, tmp_path):
+    file = building.write(tmp_path, number, building.source(number).solution)
+    result = grade(building.exercise(number), file)
+    assert result.points == 100, [task for task in result.tasks if task.message]
+    assert not any(task.message for task in result.tasks)
+
+
+@for_each_exercise
+def test_committed_skeleton_is_the_generators(number):
+    one = building.source(number)
+    assert text_of(number, one.file) == one.skeleton
+
+
+def test_every_skeleton_belongs_to_a_solution():
+    made = {path for _, path in pairs(building.ROOT)}
+    for folder in (building.ROOT / "exercises").glob("ex[0-9][0-9]_*"):
+        own = {path for path in folder.glob("*.py") if not path.name.startswith("test_")}
+        assert own <= made
+
+
+@for_each_exercise
+def test_points_and_tasks(number):
+    loaded, one = building.exercise(number), building.source(number)
+    assert loaded.number == number
+    assert sum(task.max_points for task in loaded.tasks) == 100
+    assert all(task.max_points > 0 for task in loaded.tasks)
+    assert [task.id for task in loaded.tasks] == [
+        f"{number}.{i + 1}" for i in range(len(loaded.tasks))
+    ]
+    assert set(one.functions) == {task.id for task in loaded.tasks}
+
+
+@for_each_exercise
+def test_hints_for_every_task(number):
+    hints = read_hints(text_of(number, "HINTS.md"))
+    assert list(hints) == [task.id for task in building.exercise(number).tasks]
+    for task, found in hints.items():
+        assert 2 <= len(found) <= 4, f"task {task} has {len(found)} hints"
+        assert all(len(hint) > 20 for hint in found)
+
+
+@for_each_exercise
+def test_text_names_tasks_and_times(number):
+    text = text_of(number, "README.md")
+    for task in building.exercise(number).tasks:
+        lines = [
+            line for line in text.splitlines() if re.search(rf"\b{re.escape(task.id)}\b", line)
+        ]
+        assert lines, f"README.md does not name task {task.id}"
+        assert any(re.search(r"\d+ *min", line) for line in lines), f"no time for task {task.id}"
+    assert f"make test-ex{number}" in text
+    assert f"make solution-ex{number}" in text
+    assert (building.ROOT / "solutions" / building.source(number).folder / "README.md").is_file()
+
+
+@for_each_exercise
+def test_margins_are_stated(number):
+    """Where a threshold decides on something learnt, the grader's docstring gives the margin."""
+    folder = building.ROOT / "exercises" / building.source(number).folder
+    text = next(folder.glob("test_*.py")).read_text(encoding="utf-8")
+    docstring = ast.get_docstring(ast.parse(text)) or ""
+    if re.search(r"stochastic|threshold", text, re.IGNORECASE):
+        assert STOCHASTIC.search(docstring), "state the margin over 20 seeds"
+
+
+@for_each_exercise
+def test_there_are_mutants(number):
+    own = [path for path in MUTANTS if path.parent.name == f"ex{number:02d}"]
+    assert len(own) >= 5
+    assert len({path.read_text() for path in own}) == len(own)
+
+
+@pytest.mark.parametrize(
+    "mutant", MUTANTS, ids=[f"{path.parent.name}-{path.stem}" for path in MUTANTS]
+)
+def test_mutant_loses_what_it_names(mutant, tmp_path):
+    number, text = int(mutant.parent.name[2:]), mutant.read_text(encoding="utf-8")
+    first, second, *_ = text.splitlines()
+    assert re.fullmatch(r"# loses: \d+\.\d+(, \d+\.\d+)*", first)
+    assert re.match(r"# \w", second), "the second line says what is wrong"
+    named = re.findall(r"\d+\.\d+", first)
+    file = building.write(
+        tmp_path, number, building.inserted(building.source(number).solution, text)
+    )
+    result = grade(building.exercise(number), file)
+    lost = [task.id for task in result.tasks if task.points < task.max_points]
+    assert lost == sorted(named, key=lambda id: int(id.split(".")[1])), [
+        (task.id, task.message) for task in result.tasks if task.message
+    ]
+    assert all(task.message for task in result.tasks if task.id in lost)
+
+
+def test_graded_apart_alike(tmp_path):
+    """Many at a time in processes of their own, and here: the same points and messages."""
+    jobs, here = [], {}
+    for number in building.GRADED[:2]:
+        for name in ("skeleton", "solution"):
+            file = building.write(tmp_path / name, number, getattr(building.source(number), name))
+            jobs.append(Job(number, file))
+            here[jobs[-1]] = grade(building.exercise(number), file).to_json()
+    grades = Grades(tmp_path)
+    grades._root = building.ROOT  # its exercises, but a cache of our own
+    for job, result in grades.of(jobs, 2).items():
+        tasks = [{**task} for task in result["tasks"]]
+        for task in tasks:
+            task.pop("printed")
+        assert {**here[job], "tasks": tasks} == here[job]
+        assert result["points"] == here[job]["points"]
+
+
+def test_release_tells_no_answers(tmp_path):
+    release(building.ROOT, tmp_path / "copy")
+    files = [path for path in (tmp_path / "copy").rglob("*") if path.is_file()]
+    assert not find_leaks(building.ROOT, files)
+    names = {path.relative_to(tmp_path / "copy").as_posix() for path in files}
+    for needed in ("Makefile", "tools/setup.sh", "pyproject.toml", "constraints.txt", "README.md",
+                   "LICENSE", "lib/CMakeLists.txt", "lib/botschool/cli.py"):  # fmt: skip
+        assert needed in names
+    assert not [
+        name for name in names if re.search(r"solutions/|tests/course|mutants|\.git/", name)
+    ]
+    for number in building.NUMBERS:
+        one = building.source(number)
+        place = tmp_path / "copy" / "exercises" / one.folder / one.file
+        assert place.read_text(encoding="utf-8") == one.skeleton
+    with pytest.raises(BotschoolError, match="not empty"):
+        release(building.ROOT, tmp_path / "copy")
+
+
+def test_leaks_are_found(tmp_path):
+    """The whole solution, or a part of it in another file, does not get through."""
+    assert released_files(building.ROOT)
+    for number in building.GRADED:
+        solution = building.source(number).solution
+        place = tmp_path / f"{number}.py"
+        place.write_text("\n".join("    " + line for line in solution.splitlines()[30:]))
+        assert find_leaks(building.ROOT, [place])
