@@ -1,0 +1,470 @@
+"""Grader of exercise 4; run it with `make test-ex4`.
+
+Nothing here is a matter of luck: runs are the same to the last bit whenever they have the same
+experiment and seed, so each answer is compared with what the grader computes itself. The
+experiments are short ones of its own, with seeds that nobody knows before, and the saved robots of
+task 4.6 are made up for it.
+"""
+
+import secrets
+import tempfile
+import warnings
+from functools import lru_cache
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+
+from botschool import config
+from botschool.course import SavedRobot
+from botschool.evolution.run import Run, evolve
+from botschool.grading import Exercise, Student, Wrong, expect, expect_array, expect_close, show
+
+exercise = Exercise(4, "The tool", file="acrobot.py")
+COLUMNS = (
+    "steps",
+    "best fitness",
+    "best post-evaluated",
+    "best of generation",
+    "average",
+    "average parameter",
+)
+
+
+def rng_of(index: int) -> np.random.Generator:
+    return np.random.default_rng(exercise.seed(index))
+
+
+def answers(module, name, questions):
+    """The student's answer to each of many questions."""
+    return [getattr(module, name)(question) for question in questions]
+
+
+def asked(student: Student, name: str, questions: list) -> list:
+    given = student.run(answers, name, questions, said=f"{name}(...)")
+    expect(isinstance(given, list) and len(given) == len(questions), f"{name} gave no answers.")
+    return given
+
+
+def number(said: str, value: object) -> float:
+    """A plain, finite number."""
+    expect(isinstance(value, (int, float)), f"{said}: one number is needed, not {show(value)}.")
+    return float(expect_array(said, value, ()))
+
+
+def fields(said: str, value: object, *keys: str) -> list:
+    """The values of these keys of a dict, which may have others."""
+    expect(isinstance(value, dict), f"{said} returned {show(value)}, but a dict is needed.")
+    for key in keys:
+        expect(key in value, f"{said} returned a dict without {key!r}.")
+    return [value[key] for key in keys]
+
+
+@lru_cache
+def moves(index: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """States before and observations and rewards after steps of Gymnasium's Acrobot."""
+    rng = rng_of(index)
+    env = gymnasium.make("Acrobot-v1").unwrapped
+    env.reset(seed=1)
+    states, observations, rewards = [], [], []
+    while len(states) < 200:
+        env.state = rng.uniform(-1, 1, 4) * (np.pi, np.pi, 4, 8)
+        observation, reward, _, _, _ = env.step(int(rng.integers(3)))
+        if abs(height_of(env.state) - 1) > 1e-3:
+            states.append(np.array(env.state))
+            observations.append(observation.astype(np.float64))
+            rewards.append(reward)
+    return np.array(states), np.array(observations), np.array(rewards)
+
+
+def height_of(state: np.ndarray) -> float:
+    return float(-np.cos(state[0]) - np.cos(state[0] + state[1]))
+
+
+def shown(observation: np.ndarray) -> list[float]:
+    return np.round(observation, 3).tolist()
+
+
+def expect_near(said: list[str], values: list, wanted: np.ndarray) -> None:
+    """Answers computed from float32 observations; the worst one is reported."""
+    values = [number(*each) for each in zip(said, values, strict=True)]
+    wrong = np.abs(np.subtract(values, wanted))
+    worst = int(wrong.argmax())
+    expect(
+        wrong[worst] < 1e-4,
+        f"{said[worst]} should be {wanted[worst]:.4f}, but is {values[worst]:.4f}.",
+    )
+
+
+# ------------------------------------------------------------------- 4.1
+observation_task = exercise.task("4.1", "What Acrobot observes")
+
+
+def expect_decoded(student: Student, index: int, keys: tuple[str, str], columns: slice) -> None:
+    states, observations, _ = moves(index)
+    given = [
+        fields(f"decode({shown(observation)})", answer, *keys)
+        for observation, answer in zip(
+            observations, asked(student, "decode", list(observations)), strict=True
+        )
+    ]
+    for position, key in enumerate(keys):
+        said = [f"decode({shown(observation)}): {key}" for observation in observations]
+        expect_near(said, [values[position] for values in given], states[:, columns][:, position])
+
+
+@observation_task.check(9)
+def angles(student: Student):
+    expect_decoded(student, 1, ("angle1", "angle2"), slice(0, 2))
+
+
+@observation_task.check(4)
+def speeds(student: Student):
+    expect_decoded(student, 2, ("speed1", "speed2"), slice(2, 4))
+
+
+# ------------------------------------------------------------------- 4.2
+rules = exercise.task("4.2", "What Acrobot does, and what for")
+
+
+@rules.check(4)
+def torque(student: Student):
+    for action in (2, 0, 1, 2):
+        value = number(f"torque({action})", student.call("torque", action))
+        expect_close(f"torque({action})", value, (-1.0, 0.0, 1.0)[action])
+
+
+@rules.check(7)
+def height(student: Student):
+    states, observations, _ = moves(3)
+    given = asked(student, "height", list(observations))
+    said = [
+        f"height({shown(observation)}), with the angles {state[0]:.2f} and {state[1]:.2f},"
+        for state, observation in zip(states, observations, strict=True)
+    ]
+    expect_near(said, given, np.array([height_of(state) for state in states]))
+
+
+@rules.check(6)
+def reward(student: Student):
+    states, observations, rewards = moves(4)
+    given = asked(student, "reward", list(observations))
+    for state, observation, value, wanted in zip(states, observations, given, rewards, strict=True):
+        said = f"reward({shown(observation)})"
+        expect(
+            number(said, value) == wanted,
+            f"{said} returned {value:g}, but Gymnasium gives {wanted:g}: the free end is at "
+            f"{height_of(state):.2f}.",
+        )
+
+
+# ------------------------------------------------------------------- 4.3
+replications = exercise.task("4.3", "Replications with the tool", seconds=40)
+
+ACROBOT = """\
+[EXP]
+environment = Acrobot-v1
+[POLICY]
+pepisodes = 3
+maxsteps = 300
+nhiddens = 6
+bias = 1
+out_type = 3
+winit = 1
+[ALGO]
+maxmsteps = 1
+samplesize = 8
+"""
+PENDULUM = """\
+[EXP]
+environment = Pendulum-v1
+algo = SSS
+[POLICY]
+pepisodes = 2
+nhiddens = 4
+[ALGO]
+maxmsteps = 0.02
+popsize = 6
+"""
+
+
+def replicate(module, text, seeds, folder, steps):
+    """Writes the experiment file, then runs the student's function."""
+    import pathlib
+
+    pathlib.Path("trial.ini").write_text(text)
+    fitness = module.run_replications("trial.ini", seeds, folder, steps)
+    return [list(fitness.keys()), list(fitness.values())] if type(fitness) is dict else fitness
+
+
+@lru_cache
+def files_of(text: str, seed: int, steps: int | None) -> dict[str, object]:
+    """The files of a run, as the tool writes them, and its best post-evaluated fitness."""
+    with tempfile.TemporaryDirectory() as place:
+        file = Path(place) / "trial.ini"
+        file.write_text(text)
+        run = Run(config.load(file), seed)
+        evolve(run, Path(place), steps)
+        names = [f"{kind}S{seed}.npy" for kind in ("stat", "best", "bestg")]
+        arrays = {name: np.load(Path(place) / name) for name in names}
+        fit = (Path(place) / f"S{seed}.fit").read_bytes()
+    return {**arrays, "fit": fit, "fitness": run.record.bestg_fitness}
+
+
+class Trial:
+    """An experiment that the student has run, with seeds that are new in every grading.
+
+    So no files that were made beforehand can pass; what is right does not depend on the seeds.
+    """
+
+    def __init__(self, student: Student, text: str, folder: str, steps: int | None):
+        self.student, self.text, self.folder, self.steps = student, text, folder, steps
+        low, high = sorted(secrets.randbelow(999_000) + 1 for _ in range(2))
+        self.seeds = [high + 2, low]
+        self.answer = student.run(
+            replicate, text, self.seeds, folder, steps,
+            said=f"run_replications('trial.ini', {self.seeds}, '{folder}', {steps})",
+        )  # fmt: skip
+        self.said = student.said
+
+    def expect_files(self, *kinds: str) -> None:
+        """The files are those which the tool makes for this experiment and seed."""
+        for seed in self.seeds:
+            wanted = files_of(self.text, seed, self.steps)
+            for name in (f"{kind}S{seed}.npy" for kind in kinds):
+                array = load_array(self.student, f"{self.folder}/{name}")
+                self._expect_same(f"{self.said}: {self.folder}/{name}", array, wanted[name])
+            fit = self.student.scratch(f"{self.folder}/S{seed}.fit").read_bytes()
+            expect(
+                fit == wanted["fit"],
+                f"{self.said}: {self.folder}/S{seed}.fit is not what the tool writes for this "
+                "experiment, seed and number of steps.",
+            )
+
+    def _expect_same(self, said: str, array: np.ndarray, wanted: np.ndarray) -> None:
+        if array.shape != wanted.shape and array.ndim == 1 and "/stat" in said:
+            raise Wrong(
+                f"{said} holds {array.size // 6} generations, but the run that was asked for has "
+                f"{wanted.size // 6}."
+            )
+        expect_array(said, array, wanted.shape)
+        expect(
+            np.array_equal(array, wanted),
+            f"{said} is not what the tool writes for this experiment, seed and number of steps.",
+        )
+
+
+def load_array(student: Student, name: str) -> np.ndarray:
+    """An array that the submission has saved; nothing but numbers is read."""
+    path = student.scratch(name)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return np.load(path, allow_pickle=False)
+    except Exception:
+        raise Wrong(f"{student.said}: {name} is no file of numbers.") from None
+
+
+@replications.check(8)
+def curves_are_saved(student: Student):
+    Trial(student, ACROBOT, "runs", 60_000).expect_files("stat")
+
+
+@replications.check(6)
+def robots_are_saved(student: Student):
+    Trial(student, ACROBOT, "robots", 50_000).expect_files("best", "bestg")
+
+
+@replications.check(6)
+def any_experiment_in_any_folder(student: Student):
+    trial = Trial(student, PENDULUM, "results/pendulum", None)
+    trial.expect_files("stat", "best", "bestg")
+
+
+@replications.check(4)
+def tells_the_fitness_of_each_run(student: Student):
+    trial = Trial(student, ACROBOT, "fitness", 40_000)
+    answer = trial.answer
+    expect(
+        isinstance(answer, list) and len(answer) == 2 and all(isinstance(a, list) for a in answer),
+        f"{trial.said} returned {show(answer)}, but a dict is needed.",
+    )
+    expect(
+        answer[0] == trial.seeds,
+        f"{trial.said} returned a dict with the keys {show(answer[0])}, but the seeds were "
+        "expected.",
+    )
+    wanted = [files_of(ACROBOT, seed, 40_000)["fitness"] for seed in trial.seeds]
+    expect_close(f"{trial.said}: the fitness of the runs", answer[1], wanted)
+
+
+# ------------------------------------------------------------------- 4.4
+reading = exercise.task("4.4", "The stat file")
+
+
+def read_saved(module, numbers):
+    """Saves numbers as the tool does, and has them read."""
+    import numpy
+
+    numpy.save("statS1.npy", numbers)
+    return module.read_stat("statS1.npy")
+
+
+def expect_columns(student: Student, generations: int, columns: tuple[str, ...]) -> None:
+    table = rng_of(20 + generations).normal(size=(generations, 6)).round(3)
+    said = f"read_stat(file of {generations} generation{'s' * (generations > 1)})"
+    stat = student.run(read_saved, table.ravel(), said=said)
+    for name, values in zip(columns, fields(said, stat, *columns), strict=True):
+        expect_close(f"{said}: {name}", values, table[:, COLUMNS.index(name)])
+
+
+@reading.check(8)
+def columns_are_told_apart(student: Student):
+    for generations in (4, 25):
+        expect_columns(student, generations, COLUMNS)
+
+
+@reading.check(3)
+def any_number_of_generations(student: Student):
+    for generations in (2, 6, 611):
+        expect_columns(student, generations, ("steps", "average parameter"))
+
+
+@reading.check(2)
+def a_single_generation(student: Student):
+    expect_columns(student, 1, COLUMNS)
+
+
+# ------------------------------------------------------------------- 4.5
+spread = exercise.task("4.5", "Mean and spread at equal steps")
+
+
+def made_up_stats(index: int, runs: int) -> list[dict[str, np.ndarray]]:
+    """Curves of runs with generations of different number and length."""
+    rng = rng_of(index)
+    stats = []
+    for _ in range(runs):
+        generations = int(rng.integers(20, 60))
+        table = rng.normal(size=(generations, 6)).cumsum(axis=0)
+        table[:, 0] = rng.integers(500, 2000, generations).cumsum()
+        stats.append({name: table[:, column] for column, name in enumerate(COLUMNS)})
+    return stats
+
+
+def wanted_curves(stats: list[dict], column: str, budgets: np.ndarray):
+    values = [
+        [stat[column][np.flatnonzero(stat["steps"] <= budget)[-1]] for budget in budgets]
+        for stat in stats
+    ]
+    return np.mean(values, axis=0), np.std(values, axis=0, ddof=1)
+
+
+def expect_curves(student: Student, stats, column: str, budgets, key: str) -> None:
+    answer = student.call("curves", stats, column, budgets)
+    said = f"curves(stats of {len(stats)} runs, '{column}', {len(budgets)} budgets)"
+    (values,) = fields(said, answer, key)
+    wanted = dict(zip(("mean", "deviation"), wanted_curves(stats, column, budgets), strict=True))
+    expect_close(f"{said}: {key}", values, wanted[key])
+
+
+@spread.check(6)
+def mean_at_equal_steps(student: Student):
+    for index, column in ((30, "best post-evaluated"), (31, "average")):
+        stats = made_up_stats(index, 5)
+        budgets = np.linspace(2100, max(stat["steps"][-1] for stat in stats) + 500, 40)
+        expect_curves(student, stats, column, budgets, "mean")
+
+
+@spread.check(5)
+def deviation_at_equal_steps(student: Student):
+    for index, runs in ((32, 4), (33, 2)):
+        stats = made_up_stats(index, runs)
+        budgets = np.linspace(2100, min(stat["steps"][-1] for stat in stats), 30)
+        expect_curves(student, stats, "best fitness", budgets, "deviation")
+
+
+@spread.check(4)
+def a_budget_met_exactly(student: Student):
+    stats = made_up_stats(34, 3)
+    budgets = np.sort([steps for stat in stats for steps in stat["steps"][2:12]])
+    expect_curves(student, stats, "best of generation", budgets[budgets > 2000], "mean")
+
+
+# ------------------------------------------------------------------- 4.6
+worth = exercise.task("4.6", "What the robots are worth", seconds=30)
+
+
+def compare_saved(module, text, files, folder, seeds, episodes, test_seed):
+    """Writes an experiment file and the files of runs, then runs the student's function."""
+    import pathlib
+
+    import numpy
+
+    pathlib.Path("trial.ini").write_text(text)
+    pathlib.Path(folder).mkdir(exist_ok=True)
+    for name, numbers in files.items():
+        numpy.save(pathlib.Path(folder) / name, numbers)
+    return module.compare("trial.ini", folder, seeds, episodes, test_seed)
+
+
+@lru_cache
+def made_up_runs(text: str, index: int):
+    """Seeds and files of three runs; the robots are evolved ones with some noise."""
+    rng = rng_of(index)
+    seeds = [int(seed) for seed in rng.permutation(900)[:3] + 1]
+    files = {}
+    for seed in seeds:
+        done = files_of(text, seed, 60_000)
+        for kind in ("best", "bestg"):
+            genotype = done[f"{kind}S{seed}.npy"]
+            files[f"{kind}S{seed}.npy"] = genotype + 0.03 * rng.normal(size=genotype.shape)
+        table = done[f"statS{seed}.npy"].reshape(-1, 6)
+        files[f"statS{seed}.npy"] = (table + rng.normal(size=table.shape).round(3)).ravel()
+    return seeds, files
+
+
+def expect_worth(student: Student, text: str, index: int, keys: tuple[str, ...]) -> None:
+    seeds, files = made_up_runs(text, index)
+    episodes, test_seed = 20 + secrets.randbelow(40), secrets.randbelow(2**31)
+    said = f"compare('trial.ini', 'saved', {seeds}, {episodes}, {test_seed})"
+    rows = student.run(compare_saved, text, files, "saved", seeds, episodes, test_seed, said=said)
+    expect(
+        isinstance(rows, list) and len(rows) == len(seeds),
+        f"{said} returned {show(rows)}, but a list of {len(seeds)} dicts is needed.",
+    )
+    for seed, row in zip(seeds, rows, strict=True):
+        values = fields(said, row, "seed", *keys)
+        expect(
+            values[0] == seed,
+            f"{said}: a row has the seed {show(values[0])}, but {seed} was expected there.",
+        )
+        for key, value in zip(keys, values[1:], strict=True):
+            expect_close(
+                f"{said}: {key} of seed {seed}", value, worth_of(text, files, key, seed, episodes,
+                                                                 test_seed)
+            )  # fmt: skip
+
+
+def worth_of(text, files, key: str, seed: int, episodes: int, test_seed: int) -> float:
+    if key == "promised":
+        return float(files[f"statS{seed}.npy"].reshape(-1, 6)[-1, 2])
+    with tempfile.TemporaryDirectory() as place:
+        file = Path(place) / "trial.ini"
+        file.write_text(text)
+        robot = SavedRobot(file, files[f"{key}S{seed}.npy"])
+    return float(robot.evaluate(test_seed, episodes).mean())
+
+
+@worth.check(4)
+def promised(student: Student):
+    expect_worth(student, ACROBOT, 40, ("promised",))
+
+
+@worth.check(8)
+def both_robots_in_new_episodes(student: Student):
+    expect_worth(student, ACROBOT, 41, ("best", "bestg"))
+
+
+@worth.check(6)
+def another_experiment(student: Student):
+    expect_worth(student, PENDULUM, 42, ("best", "bestg"))

@@ -1,0 +1,261 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Exercise 3. Evolution strategy
+#
+# The background is in `README.md`. Fill in the functions below one after another, and run
+# `make test-ex3` (or `botschool grade 3.1` for one task) as often as you like.
+
+# %%
+"""Exercise 3: the steady-state evolution strategy, by hand."""
+
+import numpy as np
+
+from botschool.course import Robot
+
+# %% [markdown]
+# `Robot` is given: a neural controller in an environment, like the one you wrote in exercise 2,
+# but evaluated in C++, so that a whole evolution takes seconds.
+#
+# - `Robot("CartPole-v0")` makes one;
+# - `robot.nbiases` and `robot.nweights` count its parameters: the biases come first in the vector;
+# - `robot.evaluate(population, seed)` takes an array with one row of parameters per individual and
+#   returns an array with their fitness, which is the mean return over 5 episodes (or over more:
+#   `robot.evaluate(population, seed, episodes=20)`). All individuals meet the same starting
+#   conditions, and another seed gives other ones.
+#
+# ## Task 3.1. The initial population
+#
+# Evolution begins with individuals that know nothing. Their biases are zero and their weights small
+# random numbers, so that no neuron is saturated and every individual acts differently.
+#
+# `rng = np.random.default_rng(seed)` makes a generator of random numbers, and
+# `rng.standard_normal((rows, columns))` draws Gaussian ones with mean 0 and standard deviation 1;
+# multiplied by 0.1 their deviation is 0.1.
+
+
+# %%
+def initial_population(popsize: int, nbiases: int, nweights: int, seed: int) -> np.ndarray:
+    """Random parameters for a whole population, one row per individual.
+
+    Each row holds nbiases zeros and then nweights Gaussian numbers with mean 0.0 and standard
+    deviation 0.1. The same seed gives the same population, another seed another one.
+
+    Returns an array of shape (popsize, nbiases + nweights).
+    """
+    ### BEGIN SOLUTION task 3.1: make the initial population
+    rng = np.random.default_rng(seed)
+    biases = np.zeros((popsize, nbiases))
+    weights = 0.1 * rng.standard_normal((popsize, nweights))
+    return np.hstack([biases, weights])
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 3.2. Ranking
+#
+# To select, we need to know who is best. `np.argsort(values)` returns the places of the values in
+# rising order, the smallest first; with `kind="stable"` equal values stay in their order.
+
+
+# %%
+def rank(fitness: np.ndarray) -> np.ndarray:
+    """The numbers of the individuals, the best first.
+
+    rank([10.0, 30.0, 20.0]) returns [1, 2, 0]: individual 1 is the best. Of equals, the one with
+    the lower number comes first.
+    """
+    ### BEGIN SOLUTION task 3.2: rank the individuals
+    return np.argsort(-np.asarray(fitness), kind="stable")
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 3.3. The next population
+#
+# Selection and variation. With $\lambda$ individuals, the $\lambda/2$ best survive as they are, and
+# each leaves one mutated copy in the place of one of the $\lambda/2$ worst:
+#
+# $$\theta_{worse} = \theta_{better} + \sigma\,\varepsilon$$
+#
+# Here $\theta$ is an individual's vector of parameters, $\sigma$ the mutation rate `mutrate`, and
+# $\varepsilon$ a vector of Gaussian numbers with mean 0 and standard deviation 1, another one for
+# each copy. Copies that turn out worse are overwritten in the next generation, better ones stay.
+
+
+# %%
+def next_population(
+    population: np.ndarray, fitness: np.ndarray, mutrate: float, rng: np.random.Generator
+) -> np.ndarray:
+    """The population after selection and mutation, as a new array of the same shape.
+
+    The better half stays as it is, each individual in its row. Every row of the worse half is
+    overwritten by a copy of an individual of the better half plus Gaussian noise with standard
+    deviation mutrate; each of the better half is copied once. All random numbers come from rng.
+
+    population has shape (popsize, parameters) with an even popsize, fitness has shape (popsize,).
+    `population` itself is not changed.
+    """
+    ### BEGIN SOLUTION task 3.3: replace the worse half
+    ranking = rank(fitness)
+    half = len(population) // 2
+    best, worst = ranking[:half], ranking[half:]
+    following = population.copy()
+    noise = rng.standard_normal((half, population.shape[1]))
+    following[worst] = population[best] + mutrate * noise
+    return following
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 3.4. The loop
+#
+# One *generation*: evaluate everybody, then make the next population. Each generation is evaluated
+# with another seed, so that in the long run only those survive who cope with all starting
+# conditions, and not just with lucky ones. For the same reason the fitness of an individual differs
+# a little from generation to generation, and the curve of the best fitness is not smooth.
+
+
+# %%
+def evolve(evaluate, population: np.ndarray, generations: int, mutrate: float, seed: int) -> dict:
+    """Evolves a population for a number of generations.
+
+    evaluate(population, seed) returns the fitness of each row. In generation g (from 0) it is
+    called once, with seed + g. All other randomness comes from np.random.default_rng(seed).
+
+    Returns a dict with
+    - "best": the parameters with the highest fitness met in any generation, shape (parameters,);
+    - "fitness": that fitness;
+    - "history": the highest fitness of each generation, a list of `generations` numbers;
+    - "population": the population after the last generation.
+    """
+    ### BEGIN SOLUTION task 3.4: evolve
+    rng = np.random.default_rng(seed)
+    best, best_fitness, history = population[0], -np.inf, []
+    for generation in range(generations):
+        fitness = evaluate(population, seed + generation)
+        winner = rank(fitness)[0]
+        history.append(float(fitness[winner]))
+        if fitness[winner] > best_fitness:
+            best, best_fitness = population[winner].copy(), float(fitness[winner])
+        population = next_population(population, fitness, mutrate, rng)
+    return {"best": best, "fitness": best_fitness, "history": history, "population": population}
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 3.5. A hill climber
+#
+# With two individuals the strategy becomes a very simple one: take a solution, vary it, keep the
+# better of the two. It climbs like a walker in fog, who tries a step and takes it back when it goes
+# down.
+
+
+# %%
+def hill_climb(evaluate, start: np.ndarray, generations: int, mutrate: float, seed: int) -> dict:
+    """The same strategy with a population of two: one solution, and one variation of it.
+
+    start has shape (parameters,); both individuals begin as copies of it. Returns what evolve
+    returns.
+    """
+    ### BEGIN SOLUTION task 3.5: climb
+    return evolve(evaluate, np.array([start, start]), generations, mutrate, seed)
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 3.6. Replications
+#
+# A run depends on random numbers, so a single one proves nothing. Repeat it with other seeds, and
+# give mean and spread. With $n$ replications, $x_i$ the value of replication $i$ and $\bar x$ their
+# mean, the standard deviation is
+#
+# $$s = \sqrt{\frac{1}{n-1} \sum_{i=1}^{n} (x_i - \bar x)^2}$$
+#
+# Dividing by $n - 1$ makes up for the mean being estimated from the same few values
+# (`ddof=1` in numpy).
+
+
+# %%
+def replicate(experiment, seeds: list[int]) -> dict:
+    """Runs experiment(seed), which returns what evolve returns, for every seed.
+
+    Returns a dict with
+    - "mean": the mean over the replications of the highest fitness, generation by generation;
+    - "deviation": the standard deviation over the replications, likewise, dividing by the number
+      of replications minus one (0 when there is a single one);
+    - "best": the fitness of the best individual of each replication, in the order of the seeds.
+    """
+    ### BEGIN SOLUTION task 3.6: replicate
+    runs = [experiment(seed) for seed in seeds]
+    histories = np.array([run["history"] for run in runs])
+    many = len(seeds) > 1
+    return {
+        "mean": histories.mean(axis=0),
+        "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
+        "best": [run["fitness"] for run in runs],
+    }
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 3.7. CartPole and Pendulum
+#
+# Now put it together. CartPole is easy: nearly any setting works, and even one in thirty random
+# controllers does. Pendulum is not: its motor is too weak to lift the rod at once, so a controller
+# must learn to swing, and only then to stop at the top. Draw the curve of a run, change one
+# hyperparameter, and look again.
+
+
+# %%
+def train(environment: str, seed: int) -> np.ndarray:
+    """Parameters of a controller for "CartPole-v0" or "Pendulum-v1", evolved from the seed.
+
+    Choose the size of the population, the mutation rate and the number of generations yourself.
+    Asked for, as means over 20 episodes that the controller has not met: on CartPole at least 195
+    of the 200 steps, on Pendulum a return of at least -600 (random controllers: about -1200).
+    Another seed gives another controller. Each should take a few seconds, 15 at the very most.
+
+    Returns an array of shape (robot.nbiases + robot.nweights,).
+    """
+    ### BEGIN SOLUTION task 3.7: choose the hyperparameters and evolve
+    robot = Robot(environment)
+    popsize, mutrate, generations = (20, 0.1, 40) if "CartPole" in environment else (40, 0.4, 1000)
+    population = initial_population(popsize, robot.nbiases, robot.nweights, seed)
+    run = evolve(robot.evaluate, population, generations, mutrate, seed)
+    # the winner of a single evaluation may have been lucky: choose in the last population again
+    fitness = robot.evaluate(run["population"], seed + 10_000, episodes=20)
+    return run["population"][rank(fitness)[0]]
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## The picture
+#
+# `make solution-ex3` (or running this file once all tasks are done) draws the fitness curves of
+# ten replications on Pendulum with their band, and films the best controllers.
+
+# %%
+if __name__ == "__main__":
+    from botschool.course import draw_curves, film
+
+    robot = Robot("Pendulum-v1")
+
+    def experiment(seed):
+        population = initial_population(40, robot.nbiases, robot.nweights, seed)
+        return evolve(robot.evaluate, population, 500, 0.4, seed)
+
+    curves = replicate(experiment, list(range(1, 11)))
+    draw_curves("curves.png", curves["mean"], curves["deviation"], title="Pendulum, 10 runs")
+    film("cartpole.mp4", "CartPole-v0", train("CartPole-v0", seed=1))
+    film("pendulum.mp4", "Pendulum-v1", train("Pendulum-v1", seed=1))
