@@ -1,0 +1,386 @@
+"""Grader of exercise 8; run it with `make test-ex8`.
+
+Stochastic checks (task 8.8; a seed of the grader's, the mean over 100 episodes that the submission
+has not seen): CartPole-v0 at least 195, Pendulum-v1 at least -400. Over 20 seeds the solution
+reaches 200 of 200 with every one, and -215 to -145.
+"""
+
+import numpy as np
+
+from botschool.course import Robot
+from botschool.grading import Exercise, Student, expect, expect_array, expect_close, show
+
+exercise = Exercise(8, "OpenAI-ES", file="openai_es.py")
+SIZES = ((1, 1), (3, 2), (20, 37))
+
+
+def generator(index: int) -> np.random.Generator:
+    return np.random.default_rng(exercise.seed(index))
+
+
+def changed(module, name, arguments):
+    """Which of its array arguments a function of the submission changes."""
+    import numpy
+
+    before = [numpy.copy(each) for each in arguments]
+    getattr(module, name)(*arguments)
+    pairs = zip(before, arguments, strict=True)
+    return [bool(numpy.any(one != other)) for one, other in pairs]
+
+
+def expect_unchanged(student: Student, name: str, arguments: list) -> None:
+    answer = student.run(changed, name, arguments, said=f"{name}(...)")
+    expect(
+        answer == [False] * len(arguments),
+        f"{student.said} changed an array that it was given: make a new one.",
+    )
+
+
+# What the grader expects, computed apart from any submission.
+
+
+def around(centre, samples, noise):
+    pairs = [(centre + noise * e, centre - noise * e) for e in samples]
+    return np.array([each for pair in pairs for each in pair])
+
+
+def ranked(fitness):
+    order = sorted(range(len(fitness)), key=lambda i: (fitness[i], i))
+    ranks = np.empty(len(fitness))
+    ranks[order] = np.arange(len(fitness))
+    return ranks / (len(fitness) - 1) - 0.5
+
+
+def estimated(samples, utilities):
+    return np.sum((utilities[0::2] - utilities[1::2])[:, None] * samples, axis=0) / len(utilities)
+
+
+def decayed(gradient, centre, wdecay):
+    return -gradient + 0.005 * (0, centre, np.sign(centre))[wdecay]
+
+
+def adam_step(centre, d, m, v, t, stepsize):
+    m, v = 0.9 * m + 0.1 * d, 0.999 * v + 0.001 * d**2
+    corrected = np.sqrt(v / (1 - 0.999**t)) + 1e-8
+    return centre - stepsize * m / (1 - 0.9**t) / corrected, m, v
+
+
+# ------------------------------------------------------------------- 8.1
+sampling = exercise.task("8.1", "Symmetric sampling")
+
+
+@sampling.check(8)
+def candidates_on_both_sides(student: Student):
+    rng = generator(1)
+    for samplesize, n in SIZES:
+        centre, samples = rng.normal(size=n), rng.normal(size=(samplesize, n))
+        noise = round(float(rng.uniform(0.01, 0.5)), 3)
+        answer = student.call("candidates_around", centre, samples, noise)
+        expect_close(student.said, answer, around(centre, samples, noise))
+
+
+@sampling.check(2)
+def samples_without_side_effects(student: Student):
+    rng = generator(60)
+    centre, samples = rng.normal(size=5), rng.normal(size=(4, 5))
+    answer = student.call("candidates_around", centre, samples, 0.1)
+    expect_close(student.said, answer, around(centre, samples, 0.1))
+    expect_unchanged(student, "candidates_around", [centre, samples, 0.1])
+
+
+# ------------------------------------------------------------------- 8.2
+ranks = exercise.task("8.2", "Utilities")
+
+
+@ranks.check(8)
+def centred_ranks(student: Student):
+    rng = generator(2)
+    for size in (2, 5, 40):
+        fitness = np.round(rng.normal(size=size) * 100, 2)
+        answer = student.call("utilities", fitness)
+        if size == 5:
+            student.said = f"utilities({fitness.tolist()})"
+        expect_close(student.said, answer, ranked(fitness))
+
+
+@ranks.check(4)
+def equals_in_their_order(student: Student):
+    many = generator(3).integers(0, 4, 40).astype(float)
+    for fitness in (np.array([1.0, 2.0, 2.0, 1.0]), np.full(6, 9.0), many):
+        answer = student.call("utilities", fitness)
+        if len(fitness) < 10:
+            student.said = f"utilities({fitness.tolist()})"
+        expect_close(student.said, answer, ranked(fitness))
+
+
+# ------------------------------------------------------------------- 8.3
+direction = exercise.task("8.3", "The gradient")
+
+
+@direction.check(8)
+def weighted_samples(student: Student):
+    rng = generator(4)
+    for samplesize, n in SIZES:
+        samples = rng.normal(size=(samplesize, n))
+        weights = rng.permutation(np.linspace(-0.5, 0.5, 2 * samplesize))
+        answer = student.call("gradient", samples, weights)
+        expect_close(student.said, answer, estimated(samples, weights))
+
+
+@direction.check(4)
+def points_uphill(student: Student):
+    rng = generator(5)
+    uphill, samples = rng.normal(size=6), rng.normal(size=(3000, 6))
+    fitness = np.stack([samples @ uphill, -samples @ uphill], axis=1).ravel()
+    weights = ranked(fitness)
+    answer = student.call("gradient", samples, weights)
+    answer = expect_array(student.said, answer, (6,))
+    length = float(np.linalg.norm(answer) * np.linalg.norm(uphill))
+    expect(
+        length > 0 and float(answer @ uphill) > 0.98 * length,
+        f"{student.said}: fitness rises along {show(uphill)}, but the gradient is {show(answer)}.",
+    )
+    expect_close(student.said, answer, estimated(samples, weights))
+
+
+# ------------------------------------------------------------------- 8.4
+decay = exercise.task("8.4", "Weight decay")
+
+
+def compare_descent(student: Student, index: int, wdecay: int) -> None:
+    rng = generator(index)
+    for n in (1, 5, 60):
+        gradient, centre = 0.02 * rng.normal(size=n), rng.normal(size=n)
+        centre[n // 2] = 0.0
+        answer = student.call("descent", gradient, centre, wdecay)
+        expect_close(student.said, answer, decayed(gradient, centre, wdecay))
+
+
+@decay.check(2)
+def no_decay(student: Student):
+    compare_descent(student, 6, 0)
+
+
+@decay.check(4)
+def decay_in_proportion(student: Student):
+    compare_descent(student, 7, 1)
+
+
+@decay.check(4)
+def decay_by_sign(student: Student):
+    compare_descent(student, 8, 2)
+
+
+# ------------------------------------------------------------------- 8.5
+optimiser = exercise.task("8.5", "Adam")
+
+
+def compare_adam(student: Student, arguments: list) -> None:
+    answer = student.call("adam", *arguments)
+    expect(
+        isinstance(answer, (list, tuple)) and len(answer) == 3,
+        f"{student.said} must return the centre, m and v, not {show(answer)}.",
+    )
+    wanted = adam_step(*arguments)
+    for name, got, value in zip(("the new m", "the new v"), answer[1:], wanted[1:], strict=True):
+        expect_close(f"{student.said}: {name}", got, value)
+    expect_close(f"{student.said}: the new centre", answer[0], wanted[0], 1e-6)
+
+
+def inputs_of_adam(index: int, n: int, t: int) -> list:
+    rng = generator(index)
+    centre, d = rng.normal(size=n), rng.uniform(0.05, 2, n) * rng.choice([-1, 1], n)
+    m, v = rng.normal(size=n), rng.uniform(0.1, 2, n)
+    if t == 1:
+        m, v = np.zeros(n), np.zeros(n)
+    return [centre, d, m, v, t, round(float(rng.uniform(0.01, 0.2)), 3)]
+
+
+@optimiser.check(6)
+def first_step(student: Student):
+    for index, n in ((9, 1), (10, 30)):
+        compare_adam(student, inputs_of_adam(index, n, 1))
+
+
+@optimiser.check(6)
+def later_steps(student: Student):
+    for index, n, t in ((11, 3, 2), (12, 30, 10), (13, 8, 500)):
+        compare_adam(student, inputs_of_adam(index, n, t))
+
+
+@optimiser.check(2)
+def late_steps(student: Student):
+    compare_adam(student, inputs_of_adam(14, 12, 50_000))
+
+
+@optimiser.check(2)
+def steps_without_side_effects(student: Student):
+    compare_adam(student, inputs_of_adam(61, 6, 3))
+    expect_unchanged(student, "adam", inputs_of_adam(61, 6, 3))
+
+
+# ------------------------------------------------------------------- 8.6
+whole = exercise.task("8.6", "The whole algorithm")
+
+
+def evolved(module, centre, target, generations, seed, options):
+    """Runs the student's algorithm on a fitness that the grader can compute again."""
+    import numpy
+
+    def evaluate(candidates, seed):
+        goal = target + 0.3 * numpy.sin(seed + numpy.arange(len(target)))
+        return -numpy.abs(candidates - goal).sum(axis=1)
+
+    return module.evolve(evaluate, centre, generations, seed, **options)
+
+
+def compare_run(student: Student, index: int, n: int, generations: int, **options) -> None:
+    rng, seed = generator(index), exercise.seed(index + 100) % 100_000
+    start, target = rng.normal(size=n), rng.normal(size=n)
+    said = f"evolve(evaluate, centre, generations={generations}, seed={seed}"
+    said += "".join(f", {key}={value}" for key, value in options.items()) + ")"
+    answer = student.run(evolved, start, target, generations, seed, options, said=said)
+    expect(isinstance(answer, dict), f"{said} must return a dict, not {show(answer)}.")
+    for key in ("centre", "history"):
+        expect(key in answer, f"{said} returned a dict without {key!r}.")
+    settings = {"samplesize": 20, "noiseStdDev": 0.02, "stepsize": 0.01, "wdecay": 0, **options}
+    samplesize, noise, stepsize, wdecay = settings.values()
+    samples_rng, centre, history = np.random.default_rng(seed), start, []
+    m, v = np.zeros(n), np.zeros(n)
+    for generation in range(generations):
+        samples = samples_rng.standard_normal((samplesize, n))
+        goal = target + 0.3 * np.sin(seed + generation + np.arange(n))
+        fitness = -np.abs(around(centre, samples, noise) - goal).sum(axis=1)
+        history.append(fitness.mean())
+        d = decayed(estimated(samples, ranked(fitness)), centre, wdecay)
+        centre, m, v = adam_step(centre, d, m, v, generation + 1, stepsize)
+    expect_close(f"{said}: history", answer["history"], history, 1e-5)
+    expect_close(f"{said}: centre", answer["centre"], centre, 1e-5)
+
+
+@whole.check(6)
+def one_generation(student: Student):
+    compare_run(student, 15, 6, 1, samplesize=5, noiseStdDev=0.1, stepsize=0.05)
+
+
+@whole.check(7)
+def many_generations(student: Student):
+    compare_run(student, 16, 8, 40, samplesize=6, noiseStdDev=0.1, stepsize=0.05, wdecay=1)
+    compare_run(student, 17, 5, 25, samplesize=9, noiseStdDev=0.2, stepsize=0.1, wdecay=2)
+
+
+@whole.check(2)
+def hyperparameters_have_defaults(student: Student):
+    compare_run(student, 18, 10, 12)
+
+
+# ------------------------------------------------------------------- 8.7
+curves = exercise.task("8.7", "How stable is it?")
+
+
+@curves.check(4)
+def smooths(student: Student):
+    for index, length, width in ((19, 8, 2), (20, 60, 7), (21, 12, 1), (22, 9, 9)):
+        curve = np.round(generator(index).normal(size=length), 2)
+        expected = [curve[i : i + width].mean() for i in range(length - width + 1)]
+        answer = student.call("smooth", curve, width)
+        expect_close(student.said, answer, expected)
+
+
+def judged(student: Student, curve: np.ndarray) -> tuple[str, dict, dict]:
+    """What the student says about a curve, and what is right."""
+    answer = student.call("stability", curve)
+    if len(curve) < 8:
+        student.said = f"stability({curve.tolist()})"
+    said = student.said
+    expect(isinstance(answer, dict), f"{said} must return a dict, not {show(answer)}.")
+    for key in ("drop", "bottom", "peak", "verdict"):
+        expect(key in answer, f"{said} returned a dict without {key!r}.")
+    largest, bottom, peak, height = 0.0, 0, 0, float(curve.max() - curve.min())
+    top = 0
+    for i, value in enumerate(curve):
+        top = i if value > curve[top] else top
+        if curve[top] - value > largest:
+            largest, bottom, peak = float(curve[top] - value), i, top
+    drop = largest / height if height > 0 else 0.0
+    names = ("monotonic", "mild regressions", "severe regressions")
+    verdict = names[int(drop > 0.1) + int(drop > 0.3)]
+    return said, answer, {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
+
+
+def rising_with_fall(index: int, fall: float, recovers: bool) -> np.ndarray:
+    """A rising curve, from any height to any other, that falls once by a share of its range."""
+    rng = generator(index)
+    low, height = rng.uniform(-2000, 100), rng.uniform(5, 1500)
+    up, down = np.sort(rng.uniform(0, 0.8, 15)), np.linspace(0.8, 0.8 - fall, 6)
+    up[0] = 0.0
+    after = np.sort(rng.uniform(0.82, 1, 9)) if recovers else np.full(9, 0.8 - fall)
+    return low + height * np.concatenate([up, down, after])
+
+
+@curves.check(4)
+def drops(student: Student):
+    cases = [rising_with_fall(23 + i, fall, i % 2 == 0) for i, fall in enumerate((0.2, 0.5, 0.07))]
+    cases += [np.round(generator(26).normal(size=50), 3), np.array([0.0, 8.0, 6.0, 10.0])]
+    cases += [np.arange(5.0), np.full(6, 9.0), np.array([5.0, 1.0]), np.array([3.0])]
+    for curve in cases:
+        said, answer, right = judged(student, curve)
+        expect_close(f"{said}: drop", answer["drop"], right["drop"])
+
+
+@curves.check(3)
+def places_of_the_fall(student: Student):
+    cases = [rising_with_fall(27 + i, fall, i % 2 == 0) for i, fall in enumerate((0.2, 0.5))]
+    cases += [np.round(generator(29).normal(size=50), 3)]
+    cases += [np.array([1.0, 4.0, 4.0, 2.0, 3.0, 2.0, 9.0]), np.array([0.0, 5.0, 3.0, 6.0, 1.0])]
+    for curve in cases:
+        said, answer, right = judged(student, curve)
+        for key in ("peak", "bottom"):
+            expect_close(f"{said}: {key}", answer[key], right[key])
+
+
+@curves.check(4)
+def verdicts(student: Student):
+    falls = (0.0, 0.05, 0.09, 0.11, 0.2, 0.29, 0.31, 0.6, 0.8)
+    cases = [rising_with_fall(30 + i, fall, i % 2 == 0) for i, fall in enumerate(falls)]
+    cases += [np.arange(12.0), np.full(4, -500.0), np.array([5.0, 1.0])]
+    cases += [np.array([0.0, 10.0, 9.0, 10.0])]
+    for curve in cases:
+        said, answer, right = judged(student, curve)
+        expect(
+            isinstance(answer["verdict"], str) and answer["verdict"] == right["verdict"],
+            f"{said}: the verdict is {show(answer['verdict'])}, but should be "
+            f"{right['verdict']!r}: the drop is {right['drop']:.3g}.",
+        )
+
+
+# ------------------------------------------------------------------- 8.8
+training = exercise.task("8.8", "CartPole and Pendulum", seconds=50)
+
+
+def mean_of(student: Student, environment: str, index: int) -> float:
+    """Mean return of the student's centre over 100 episodes that it has not seen."""
+    robot = Robot(environment)
+    centre = student.call("train", environment, seed=exercise.seed(index) % 100_000)
+    centre = expect_array(student.said, centre, (robot.nbiases + robot.nweights,))
+    return float(robot.evaluate(centre[None], exercise.seed(index + 1), episodes=100)[0])
+
+
+@training.check(5)
+def keeps_the_pole_up(student: Student):
+    mean = mean_of(student, "CartPole-v0", 50)
+    expect(
+        mean >= 195,
+        f"{student.said}: the controller keeps the pole up for {mean:.1f} steps on average over "
+        "100 new episodes, but 195 are asked for.",
+    )
+
+
+@training.check(5)
+def swings_the_pendulum_up(student: Student):
+    mean = mean_of(student, "Pendulum-v1", 52)
+    expect(
+        mean >= -400,
+        f"{student.said}: the controller reaches {mean:.0f} on average over 100 new episodes, but "
+        "-400 is asked for.",
+    )

@@ -1,0 +1,7 @@
+# loses: 8.2, 8.6, 8.8
+# The best candidate gets the lowest utility.
+_utilities = utilities
+
+
+def utilities(fitness):
+    return -_utilities(fitness)

@@ -1,0 +1,5 @@
+# loses: 8.1, 8.6, 8.8
+# Forgets noiseStdDev, so that candidates lie far from the centre.
+def candidates_around(centre, samples, noiseStdDev):
+    both = np.stack([centre + samples, centre - samples], axis=1)
+    return both.reshape(-1, len(centre))
