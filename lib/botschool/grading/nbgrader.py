@@ -1,0 +1,248 @@
+"""A course folder for nbgrader, generated from the solutions."""
+
+from __future__ import annotations
+
+import glob
+import hashlib
+import json
+import os
+import re
+import sys
+import textwrap
+from pathlib import Path
+from typing import Any
+
+from botschool.errors import BotschoolError
+from botschool.grading.exercise import (
+    Exercise,
+    course_root,
+    exercise_numbers,
+    folder_of,
+    load_exercise,
+)
+from botschool.grading.skeleton import BEGIN
+from botschool.output import written_whole
+
+CONFIG = "nbgrader_config.py"
+GENERATED = ".generated.json"
+"""In the course folder: the digest of every notebook as it was generated, to know edited ones."""
+_CONFIG_TEXT = '''\
+"""How nbgrader grades this course. Made by `make nbgrader` once, then yours to change."""
+
+from pathlib import Path
+
+from botschool.grading.nbgrader import configure
+
+c = get_config()  # noqa: F821
+here = Path(__file__).resolve().parent
+configure(c, here, course={course})
+'''
+_HOW_TO = """\
+This is the exercise as a notebook. Write your code where `NotImplementedError` is raised; then
+save the notebook (Ctrl+S) and run the cell below the task: it says how many points the task has,
+and why some are missing. Cells of your own may stand anywhere: keep what takes long out of the
+cells that define functions."""
+
+
+def nbgrader_command(folder: Path) -> None:
+    """Makes the course folder and says what to do in it."""
+    for path in make_course(course_root(), folder):
+        print(f"left alone, because it was edited: {path}")
+    command = os.path.relpath(Path(sys.executable).parent / "nbgrader", folder.resolve())
+    print(
+        f"Course folder: {folder}   In it, for exercise 3:\n"
+        f"  {command} generate_assignment ex03   makes release/ex03, what students get\n"
+        f"  {command} autograde ex03             grades submitted/STUDENT/ex03\n"
+        f"  {command} generate_feedback ex03     writes feedback/STUDENT/ex03\n"
+        f"  {command} export                     writes grades.csv"
+    )
+
+
+def make_course(root: Path, folder: Path) -> list[Path]:
+    """Writes nbgrader's configuration and source notebooks; returns notebooks left alone.
+
+    Notebooks that the instructor has edited are never touched, nor is an existing configuration.
+    Raises BotschoolError.
+    """
+    try:
+        import nbformat
+    except ImportError:
+        raise BotschoolError(
+            "nbgrader and jupytext are needed: pip install 'botschool[course]' installs them."
+        ) from None
+    numbers = [n for n in exercise_numbers(root) if list(_solutions(root, n))]
+    if not numbers:
+        raise BotschoolError(f"{root} holds no solutions to make notebooks of.")
+    digests = _read_digests(folder / GENERATED)
+    edited = []
+    for number in numbers:
+        exercise = load_exercise(number, root)
+        (solution,) = _solutions(root, number)
+        target = folder / "source" / f"ex{number:02d}" / f"{solution.stem}.ipynb"
+        name = target.relative_to(folder).as_posix()
+        text = nbformat.writes(notebook(solution.read_text(encoding="utf-8"), exercise)) + "\n"
+        if target.exists():
+            present = target.read_text(encoding="utf-8")
+            if present != text and _digest(present) != digests.get(name):
+                edited.append(target)
+                continue
+        _write(target, text)
+        digests[name] = _digest(text)
+    _write(folder / GENERATED, json.dumps(digests, indent=1, sort_keys=True) + "\n")
+    if not (folder / CONFIG).exists():
+        course = os.path.relpath(root.resolve(), folder.resolve())
+        _write(folder / CONFIG, _CONFIG_TEXT.format(course=f'here / "{course}"'))
+    return edited
+
+
+def configure(c: Any, folder: Path, course: Path) -> None:
+    """Sets nbgrader's options for a course folder made from the repository `course`."""
+    from nbconvert.preprocessors.sanitize import SanitizeHTML
+    from nbgrader.converters import Autograde, GenerateAssignment, GenerateFeedback
+    from nbgrader.coursedir import CourseDirectory
+    from nbgrader.preprocessors import ClearSolutions, Execute
+
+    from botschool.grading.preprocessors import (
+        ClearToSkeleton,
+        Grade,
+        Restore,
+        TolerantExporter,
+    )
+
+    os.environ["BOTSCHOOL_COURSE"] = str(Path(course).resolve())
+    # nbgrader calls `alembic`, which lies beside it, by its name alone
+    os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    c.CourseDirectory.course_id = "botschool"
+    c.CourseDirectory.root = str(folder)
+    c.CourseDirectory.ignore = [
+        *_default(CourseDirectory, "ignore"),
+        *map(glob.escape, _links(folder / "submitted")),  # they may lead to solutions
+    ]
+    c.GenerateAssignment.preprocessors = [
+        ClearToSkeleton if step is ClearSolutions else step
+        for step in _default(GenerateAssignment, "preprocessors")
+    ]
+    c.Autograde.exporter_class = TolerantExporter
+    c.Autograde.sanitize_preprocessors = [Restore, *_default(Autograde, "sanitize_preprocessors")]
+    c.Autograde.autograde_preprocessors = [
+        Grade if step is Execute else step
+        for step in _default(Autograde, "autograde_preprocessors")
+    ]
+    c.Autograde.exclude_overwriting = {
+        path.name: [file.name for file in path.glob("*.py")]
+        for path in (folder / "source").glob("ex[0-9][0-9]")
+    }
+    c.Execute.timeout = 120
+    c.GenerateFeedback.preprocessors = [
+        SanitizeHTML,  # of students' text cells
+        *_default(GenerateFeedback, "preprocessors"),
+    ]
+    c.SanitizeHTML.enabled = True
+
+
+def notebook(solution: str, exercise: Exercise) -> Any:
+    """The source notebook of an exercise: the solution, each task followed by its test cell."""
+    import jupytext
+    from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+
+    taken: set[str] = set()
+    last: dict[str, int] = {}
+    cells = []
+    for given in jupytext.reads(solution, fmt="py:percent").cells:
+        tasks = list(dict.fromkeys(re.findall(rf"{BEGIN} task (\d+\.\d+):", given.source)))
+        if given.cell_type != "code":
+            cell = new_markdown_cell(given.source, id=_slug(given.source, taken))
+        elif not tasks:
+            cell = new_code_cell(given.source, id=_slug(given.source, taken))
+        else:
+            name = _unused("task-" + "-".join(task.replace(".", "-") for task in tasks), taken)
+            cell = new_code_cell(given.source, id=name, metadata=_marks(name))
+        cells.append(cell)
+        if len(cells) == 1:
+            cells.append(new_markdown_cell(_HOW_TO, id=_unused("how-to", taken)))
+        last.update({task: len(cells) for task in tasks})
+    if set(last) - {task.id for task in exercise.tasks}:
+        raise BotschoolError(
+            f"Exercise {exercise.number}: the solution names tasks that the grader does not have."
+        )
+    place = 0
+    after: dict[int, list[Any]] = {}
+    for task in exercise.tasks:
+        place = max(place, last.get(task.id, 0))
+        name = _unused("test-" + task.id.replace(".", "-"), taken)
+        text = textwrap.dedent(f"""\
+            # Task {task.id}, {task.max_points} points: save the notebook, then run this cell.
+            from botschool.grading.notebook import grade_cell
+
+            grade_cell("{task.id}")""")
+        test = new_code_cell(text, id=name, metadata=_marks(name, task.max_points))
+        after.setdefault(place, []).append(test)
+    ordered = [each for at, cell in enumerate(cells, 1) for each in (cell, *after.get(at, []))]
+    kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    metadata = {"kernelspec": kernel, "language_info": {"name": "python"}}
+    return new_notebook(cells=ordered, metadata=metadata)
+
+
+def _marks(name: str, points: int | None = None) -> dict[str, Any]:
+    """nbgrader's metadata (schema 3) of an answer cell, or of a test cell worth some points."""
+    test = points is not None
+    marks = {
+        "grade": test,
+        "grade_id": name,
+        "locked": test,
+        "schema_version": 3,
+        "solution": not test,
+        "task": False,
+    }
+    return {"nbgrader": marks | ({"points": points} if test else {})}
+
+
+def _slug(text: str, taken: set[str]) -> str:
+    """A cell id made of the cell's first line, the same in every generation."""
+    words = re.findall(r"[a-z0-9]+", next(iter(text.strip().splitlines()), "").lower())
+    return _unused("-".join(["cell", *words])[:50].rstrip("-"), taken)
+
+
+def _unused(name: str, taken: set[str]) -> str:
+    candidate, count = name, 1
+    while candidate in taken:
+        count += 1
+        candidate = f"{name}-part-{count}"
+    taken.add(candidate)
+    return candidate
+
+
+def _default(application: Any, option: str) -> list[Any]:
+    return list(application.class_traits()[option].default())
+
+
+def _links(folder: Path) -> list[str]:
+    """Files in submissions that are symbolic links."""
+    found = (os.path.join(top, name) for top, _, names in os.walk(folder) for name in names)
+    return [path for path in found if os.path.islink(path)]
+
+
+def _solutions(root: Path, number: int) -> list[Path]:
+    """The exercise's solution file, if there is one."""
+    folder = root / "solutions" / folder_of(number, root).name
+    path = folder / load_exercise(number, root).file
+    return [path] if path.is_file() else []
+
+
+def _read_digests(path: Path) -> dict[str, str]:
+    try:
+        return json.loads(path.read_text())
+    except FileNotFoundError:
+        return {}
+    except ValueError:
+        raise BotschoolError(f"{path} is damaged: remove it and run make nbgrader again.") from None
+
+
+def _write(path: Path, text: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with written_whole(path) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
