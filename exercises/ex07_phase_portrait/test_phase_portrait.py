@@ -1,9 +1,9 @@
 """Grader of exercise 7; run it with `make test-ex7`.
 
 Stochastic check (task 7.6; the mean return over 100 episodes that the submission has not seen):
-the first stage below -900, the last at least -400, the middle one 100 or more away from both.
-The margin over 20 seeds: the solution's first stages reach -1254 to -1120, the middle ones -729 to
--615 (at least 448 away from the others), the last ones -247 to -139.
+the first stage below -900, the last at least -400, the middle one 100 or more away from both. The
+margin over 20 seeds: the solution's first stages reach -1254 to -1120, the middle ones -729 to -615
+(at least 448 away from the others), the last ones -247 to -139.
 """
 
 import gymnasium
