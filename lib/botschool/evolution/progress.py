@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from contextlib import contextmanager
 
 from botschool.evolution.run import Run
@@ -16,7 +15,6 @@ def reporting(budget: int, seed: int, terminal: bool):
             yield report
     else:
         yield _line
-        sys.stdout.flush()
 
 
 def _numbers(run: Run) -> str:
