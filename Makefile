@@ -38,6 +38,10 @@ test-ex%: .venv/.module FORCE ## grade exercise N; SUBMISSION=FOLDER grades anot
 solution-ex%: .venv/.module FORCE ## run the solution of exercise N in results/exNN
 	@$(BIN)/python -m botschool.grading.solution $*
 
+# What these exercises train and simulate with is large, so only they ask for it.
+LARGE := 5 9 10 11 12 13 14 15
+$(LARGE:%=test-ex%) $(LARGE:%=solution-ex%): .venv/.bodies
+
 skeletons: .venv/.module ## generate the exercises' files from the solutions
 	@$(BIN)/botschool skeletons
 
@@ -79,6 +83,9 @@ clean: ## remove what the targets above set up; results stay
 
 .venv/.module: .venv/.tools $(CPP_INPUTS)
 	@tools/setup.sh module
+
+.venv/.bodies: .venv/.module
+	@tools/setup.sh bodies
 
 .venv/.tests: .venv/.module
 	@tools/setup.sh tests

@@ -1,5 +1,5 @@
 #!/bin/sh
-# One step of what the Makefile sets up: tools/setup.sh venv|tools|module|tests|sanitize
+# One step of what the Makefile sets up: tools/setup.sh venv|tools|module|bodies|tests|sanitize
 # Says in a line what it does; a tool's own output appears only when it fails.
 set -u
 
@@ -137,6 +137,11 @@ build_module() {
     pip_install --no-build-isolation -e .
 }
 
+install_bodies() {
+    say "Installing PyTorch, Stable-Baselines3, PyBullet and Box2D (a minute or two)"
+    pip_install 'botschool[bodies]'
+}
+
 install_tests() {
     say "Installing what the tests need (up to a minute)"
     pip_install 'botschool[all]'
@@ -154,6 +159,7 @@ case $1 in
     venv) make_venv ;;
     tools) install_tools && touch .venv/.tools ;;
     module) build_module && touch .venv/.module ;;
+    bodies) install_bodies && touch .venv/.bodies ;;
     tests) install_tests && touch .venv/.tests ;;
     sanitize) build_sanitized ;;
 esac

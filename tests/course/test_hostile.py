@@ -66,8 +66,10 @@ class Trap:
                     found[str(path)] = (path.lstat().st_mode,)
                     continue
                 status = path.lstat()
-                digest = hashlib.md5(path.read_bytes()).hexdigest() if path.is_file() else ""
-                found[str(path)] = (status.st_mode, status.st_uid, status.st_mtime_ns, digest)
+                found[str(path)] = (status.st_mode, status.st_uid)
+                if path.is_file():  # a folder changes when Python caches its modules there
+                    digest = hashlib.md5(path.read_bytes()).hexdigest()
+                    found[str(path)] += (status.st_mtime_ns, digest)
         return found
 
     def attack(self, number: int, kind: str) -> str:
