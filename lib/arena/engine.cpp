@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 #include <thread>
+#include <type_traits>
 
 #include "cpu.hpp"
 #include "kernel.hpp"
@@ -49,10 +50,14 @@ class SharedQueue final : public Queue {
 };
 
 template <template <int> class Problem>
-class ProblemStepper final : public Stepper {
+class ProblemStepper : public Stepper {
  public:
-  ProblemStepper() { start(0, 0); }
+  ProblemStepper() {
+    ProblemStepper::set({Problem<1>::info().limit});
+    ProblemStepper::start(0, 0);
+  }
   Info info() const override { return Problem<1>::info(); }
+  void set(const Setting& setting) override { problem_.set(setting); }
   void start(std::uint64_t seed, std::uint32_t episode) override {
     Random random(seed, episode, Stream::start);
     problem_.start(0, random);
@@ -71,16 +76,58 @@ class ProblemStepper final : public Stepper {
     return ended != 0;
   }
 
- private:
+ protected:
   Problem<1> problem_{};
 };
+
+/// With the objects of an arena; where its cylinders are is part of the state, too.
+template <template <int> class Problem>
+class ArenaStepper final : public ProblemStepper<Problem> {
+  using P = Problem<1>;
+  using ProblemStepper<Problem>::problem_;
+
+  int objects() const override { return P::cylinders + P::walls; }
+  void get_objects(double* row) const override {
+    for (int c = 0; c < P::cylinders; ++c, row += kObject) {
+      const double values[]{problem_.cylinder_x(c)[0], problem_.cylinder_y(c)[0], 0, 0,
+                            problem_.radius[c]};
+      std::copy(values, values + kObject, row);
+    }
+    for (const Wall& wall : problem_.wall) {
+      const double values[]{wall.x, wall.y, wall.x2, wall.y2, 0};
+      std::copy(values, values + kObject, row);
+      row += kObject;
+    }
+  }
+  void set_objects(const double* row) override {
+    for (int c = 0; c < P::cylinders; ++c, row += kObject) {
+      problem_.place_cylinder(0, c, row[0], row[1]);
+      problem_.radius[c] = row[4];
+    }
+    for (Wall& wall : problem_.wall) {
+      wall = {row[0], row[1], row[2], row[3]};
+      row += kObject;
+    }
+  }
+  int blocked() const override {
+    for (int robot = 0; robot < P::robots; ++robot)
+      if (problem_.blocked(robot, 0)) return robot;
+    return -1;
+  }
+};
+
+template <template <int> class Problem>
+std::unique_ptr<Stepper> new_stepper() {
+  if constexpr (std::is_base_of_v<Arena, Problem<1>>)
+    return std::make_unique<ArenaStepper<Problem>>();
+  else
+    return std::make_unique<ProblemStepper<Problem>>();
+}
 
 template <template <int> class... Problem>
 std::unique_ptr<Stepper> find_stepper(const std::string& name, ProblemList<Problem...>) {
   std::unique_ptr<Stepper> found;
-  ((Problem<1>::info().name == name ? void(found = std::make_unique<ProblemStepper<Problem>>())
-                                    : void()),
-   ...);
+  ((Problem<1>::info().name == name ? void(found = new_stepper<Problem>()) : void()), ...);
   return found;
 }
 
@@ -119,7 +166,8 @@ void Engine::run(const Jobs& jobs, Queue& queue, Recorder* recorder) const {
   kernel_->run(layout_, jobs, queue, recorder, workspace.get());
 }
 
-void Engine::evaluate(const Jobs& jobs, std::size_t count, int threads) const {
+void Engine::evaluate(const Jobs& jobs, int threads) const {
+  const std::size_t count = jobs.count;
   SharedQueue queue(count);
   // a thread's lanes cost the same whether they are used or not: fill them before using another;
   // and a batch that takes no longer than starting a thread is done by one

@@ -26,8 +26,8 @@ class Engine {
   const Layout& layout() const { return layout_; }
   const Info& info() const { return kernel_->info; }
 
-  /// Evaluates `count` jobs on up to `threads` threads; the results do not depend on how many.
-  void evaluate(const Jobs& jobs, std::size_t count, int threads) const;
+  /// Evaluates the jobs on up to `threads` threads; the results do not depend on how many.
+  void evaluate(const Jobs& jobs, int threads) const;
   /// Evaluates the first job and reports every step.
   void record(const Jobs& jobs, Recorder& recorder) const;
 
@@ -39,17 +39,27 @@ class Engine {
   mutable std::atomic<double> seconds_per_job_{1.0};  ///< of one thread, in the last batch
 };
 
+constexpr int kObject = 5;
+
 /// A native problem step by step, in double precision: for Gymnasium, for tests, for looking.
 class Stepper {
  public:
   virtual ~Stepper() = default;
   virtual Info info() const = 0;
+  virtual void set(const Setting& setting) = 0;
   virtual void start(std::uint64_t seed, std::uint32_t episode) = 0;
   virtual void set_state(const double* state) = 0;
   virtual void get_state(double* state) const = 0;
   virtual void observe(double* observation) const = 0;
   /// Returns whether the episode has ended (a time limit is the caller's affair).
   virtual bool step(const double* action, double& reward) = 0;
+
+  /// An arena's cylinders and walls, a row of x, y, x2, y2, radius each (kObject values).
+  virtual int objects() const { return 0; }
+  virtual void get_objects(double*) const {}
+  virtual void set_objects(const double*) {}
+  /// The first robot that overlaps something where it stands, or -1.
+  virtual int blocked() const { return -1; }
 };
 
 std::unique_ptr<Stepper> make_stepper(const std::string& problem);

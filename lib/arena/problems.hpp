@@ -7,6 +7,8 @@
 #include "classic/mountaincar.hpp"
 #include "classic/pendulum.hpp"
 #include "classic/swingup.hpp"
+#include "wheels/discrim.hpp"
+#include "wheels/predprey.hpp"
 
 BOTSCHOOL_BEGIN
 
@@ -14,6 +16,7 @@ template <template <int> class... Problem>
 struct ProblemList {};
 
 using NativeProblems =
-    ProblemList<CartPole, Pendulum, Acrobot, MountainCarContinuous, Swingup, DoublePole>;
+    ProblemList<CartPole, Pendulum, Acrobot, MountainCarContinuous, Swingup, DoublePole, Discrim,
+                Predprey>;
 
 BOTSCHOOL_END

@@ -16,9 +16,9 @@ class Interface:
     """What a problem asks of a policy."""
 
     observations: int
-    """Values of an observation."""
+    """Values of one robot's observation."""
     outputs: int
-    """Actuators, or the number of actions of a discrete problem."""
+    """One robot's actuators, or the number of actions of a discrete problem."""
     discrete: bool
     """Whether an action is the index of the most active output."""
     low: float | None = -1.0
@@ -26,6 +26,8 @@ class Interface:
     high: float | None = 1.0
     morphology: int = 0
     """Parameters of the body, at the end of the genotype."""
+    robots: int = 1
+    """Robots in the environment, one network each."""
 
 
 class Policy:
@@ -36,8 +38,11 @@ class Policy:
     """
 
     def __init__(self, problem: str, interface: Interface, config: PolicyConfig) -> None:
-        if config.nrobots != 1:
-            raise BotschoolError(f"{problem} has one robot: set nrobots = 1, not {config.nrobots}.")
+        if config.nrobots != interface.robots:
+            robots = "one robot" if interface.robots == 1 else f"{interface.robots} robots"
+            raise BotschoolError(
+                f"{problem} has {robots}: set nrobots = {interface.robots}, not {config.nrobots}."
+            )
         if config.nbins > 1 and interface.discrete:
             raise BotschoolError(
                 f"{problem} has discrete actions, which need no bins: set nbins = 1."
@@ -73,17 +78,25 @@ class Policy:
         except ValueError as error:
             raise BotschoolError(f"The network for {problem} cannot be built: {error}") from None
         self.network = Network(self.spec)
-        self._nparameters = len(self.network.parameters)
+        self.nparameters = len(self.network.parameters)
+        """Parameters of one network."""
+        self.networks = interface.robots if config.heterogeneous else 1
+        """Networks in a genotype; without `heterogeneous` all robots share one."""
+        self.morphology = np.zeros(interface.morphology)
+        """Parameters of the body, from the genotype that is loaded; often none."""
 
     @property
     def genotype_size(self) -> int:
-        """Parameters of the network and of the body."""
-        return self._nparameters + self.interface.morphology
+        """Parameters of the networks and of the body."""
+        return self.networks * self.nparameters + self.interface.morphology
 
     def initial(self, seed: int, index: int = 0) -> np.ndarray:
         """A random genotype, shape (genotype_size,); each (seed, index) gives another."""
-        self.network.seed(seed, index)
-        return np.concatenate([self.network.initialise(), np.zeros(self.interface.morphology)])
+        parts = []
+        for network in range(self.networks):
+            self.network.seed(seed, index * self.networks + network)
+            parts.append(self.network.initialise().copy())
+        return np.concatenate([*parts, np.zeros(self.interface.morphology)])
 
     def split(self, saved: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
         """A saved genotype -> (genotype, normalisation vectors or None).
@@ -114,7 +127,8 @@ class Policy:
 
     def load(self, genotype: np.ndarray, normalisation: np.ndarray | None) -> None:
         """Puts a genotype (and normalisation vectors) into the network."""
-        self.network.parameters[:] = genotype[: self._nparameters]
+        self.network.parameters[:] = genotype[: self.nparameters]
+        self.morphology = genotype[self.genotype_size - self.interface.morphology :]
         if normalisation is not None:
             self.network.normalisation = normalisation
 

@@ -10,12 +10,6 @@
 
 BOTSCHOOL_BEGIN
 
-/// What drives the action noise of a lane: a pure function of these and the step.
-struct NoiseKey {
-  std::uint64_t seed;
-  std::uint32_t episode;
-};
-
 /// Working memory of a Brain, all [values * L]; carve() lays it out in one zeroed buffer.
 template <class T, int L>
 struct BrainMemory {
@@ -65,6 +59,8 @@ class Brain {
   void load(int lane, const double* genotype, const double* normalisation) {
     for (int i = 0; i < l_.parameters; ++i)
       m_.parameters[i * L + lane] = static_cast<T>(genotype[i]);
+    if (l_.cells > 0) pack(l_.gates, lane, genotype);
+    for (int i = 0; i < l_.layers; ++i) pack(l_.layer[i], lane, genotype);
     for (int i = 0; i < l_.spec.inputs; ++i) {
       m_.mean[i * L + lane] = normalisation ? static_cast<T>(normalisation[i]) : T(0);
       m_.deviation[i * L + lane] =
@@ -103,6 +99,24 @@ class Brain {
   }
 
  private:
+  /// Receivers whose sums run side by side: independent chains keep the adders busy.
+  static constexpr int kGroup = 4;
+
+  /// Lays the rows of a whole group of receivers beside each other, sender by sender, so that
+  /// sum() reads the weights as one stream. Those of the last receivers stay as they are.
+  void pack(const Layer& layer, int lane, const double* genotype) {
+    for (int b = 0; b < layer.blocks; ++b) {
+      const Connections& c = layer.block[b];
+      for (int r = 0; r < layer.neurons / kGroup * kGroup; ++r) {
+        const int row = c.weights + r * c.stride + c.offset;
+        const int first = c.weights + r / kGroup * kGroup * c.stride + r % kGroup;
+        for (int s = 0; s < c.senders; ++s)
+          m_.parameters[(first + (c.offset + s) * kGroup) * L + lane] =
+              static_cast<T>(genotype[row + s]);
+      }
+    }
+  }
+
   void read_inputs() {
     const int n = l_.spec.inputs * L;
     T* BOTSCHOOL_RESTRICT out = m_.activations;
@@ -116,8 +130,8 @@ class Brain {
       for (int i = 0; i < n; ++i) out[i] = clamp(out[i], T(-5), T(5));
   }
 
-  /// Sums over the senders of R receivers at a time (independent chains keep the adders busy);
-  /// each sum runs over the blocks and their senders in order, whatever R is.
+  /// Sums over the senders of R receivers at a time; each sum runs over the blocks and their
+  /// senders in order, whatever R is.
   template <int R>
   void sum(const Layer& layer, int receiver, T* BOTSCHOOL_RESTRICT out) const {
     T total[R * L];
@@ -130,18 +144,17 @@ class Brain {
       const T* BOTSCHOOL_RESTRICT from =
           (c.previous ? m_.previous : m_.activations) + std::ptrdiff_t(c.sender) * L;
       const T* BOTSCHOOL_RESTRICT weights =
-          m_.parameters + (c.weights + std::ptrdiff_t(receiver) * c.stride) * L;
-      const std::ptrdiff_t stride = std::ptrdiff_t(c.stride) * L;
-      for (int s = 0; s < c.senders; ++s, from += L, weights += L)
+          m_.parameters + (c.weights + std::ptrdiff_t(receiver) * c.stride + R * c.offset) * L;
+      for (int s = 0; s < c.senders; ++s, from += L, weights += R * L)
         for (int r = 0; r < R; ++r)
-          for (int l = 0; l < L; ++l) total[r * L + l] += weights[r * stride + l] * from[l];
+          for (int l = 0; l < L; ++l) total[r * L + l] += weights[r * L + l] * from[l];
     }
     for (int i = 0; i < R * L; ++i) out[i] = total[i];
   }
 
   void net_inputs(const Layer& layer, T* out) const {
     int r = 0;
-    for (; r + 4 <= layer.neurons; r += 4) sum<4>(layer, r, out + r * L);
+    for (; r + kGroup <= layer.neurons; r += kGroup) sum<kGroup>(layer, r, out + r * L);
     for (; r < layer.neurons; ++r) sum<1>(layer, r, out + r * L);
   }
 
@@ -168,10 +181,15 @@ class Brain {
       const T* BOTSCHOOL_RESTRICT gate = m_.gates + 4 * u * L;
       T* BOTSCHOOL_RESTRICT state = m_.state + u * L;
       for (int l = 0; l < L; ++l) {
-        const T forget = logistic(gate[l] + T(1)), input = logistic(gate[L + l]);
-        const T output = logistic(gate[2 * L + l]), candidate = hyperbolic_tangent(gate[3 * L + l]);
-        state[l] = state[l] * forget + candidate * input;
-        hidden[u * L + l] = hyperbolic_tangent(state[l]) * output;
+        // logistic(x) = 1 / (1 + exp(-x)) and tanh(x) = e / (e + 2), e = exp(2x) - 1; each product
+        // of the two takes one division
+        const T forget = logistic(gate[l] + T(1));
+        const T input = T(1) + exponential(-gate[L + l]);
+        const T output = T(1) + exponential(-gate[2 * L + l]);
+        const T candidate = expm1_twice(gate[3 * L + l]);
+        state[l] = state[l] * forget + candidate / ((candidate + T(2)) * input);
+        const T squashed = expm1_twice(state[l]);
+        hidden[u * L + l] = squashed / ((squashed + T(2)) * output);
       }
     }
   }

@@ -76,8 +76,7 @@ void Evonet::step(const double* parameters, const double* inputs, double* action
     Brain<double, 1> brain(layout_, memory);
     brain.load(0, parameters + (heterogeneous_ ? n * layout_.parameters : 0), normalisation.data());
     std::copy(raw, raw + layout_.spec.inputs, memory.inputs);
-    // each network has its own stream of action noise
-    const NoiseKey key{seed_ + (static_cast<std::uint64_t>(n) << 48), episode_};
+    const NoiseKey key = robot_key({seed_, episode_}, n);
     brain.step(&key, &steps_);
     std::copy(memory.actions, memory.actions + layout_.spec.outputs,
               actions + n * layout_.spec.outputs);

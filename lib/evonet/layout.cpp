@@ -69,13 +69,13 @@ class Placer {
   }
   void connect(Layer& layer, int sender, int senders, bool previous) {
     layer.block[layer.blocks++] = {sender, senders, previous, take(layer.neurons * senders),
-                                   senders};
+                                   senders, 0};
   }
   /// Two blocks whose rows lie beside each other: the senders of now, then those of before.
   void connect_rows(Layer& layer, int now, int nows, int before, int befores) {
     const int row = nows + befores, place = take(layer.neurons * row);
-    layer.block[layer.blocks++] = {now, nows, false, place, row};
-    layer.block[layer.blocks++] = {before, befores, true, place + nows, row};
+    layer.block[layer.blocks++] = {now, nows, false, place, row, 0};
+    layer.block[layer.blocks++] = {before, befores, true, place, row, nows};
   }
 
  private:
@@ -129,13 +129,13 @@ void scale_incoming(const Layer& layer, int receiver, double length, double* par
   double squares = 0;
   for (int b = 0; b < layer.blocks; ++b) {
     const Connections& c = layer.block[b];
-    const double* row = parameters + c.weights + receiver * c.stride;
+    const double* row = parameters + c.weights + receiver * c.stride + c.offset;
     for (int s = 0; s < c.senders; ++s) squares += row[s] * row[s];
   }
   if (squares == 0) return;
   for (int b = 0; b < layer.blocks; ++b) {
     const Connections& c = layer.block[b];
-    double* row = parameters + c.weights + receiver * c.stride;
+    double* row = parameters + c.weights + receiver * c.stride + c.offset;
     for (int s = 0; s < c.senders; ++s) row[s] *= length / std::sqrt(squares);
   }
 }
@@ -148,7 +148,7 @@ void initial_layer(const Layout& l, const Layer& layer, int fan_out, bool output
   for (int r = 0; r < layer.neurons; ++r) {
     for (int b = 0; b < layer.blocks; ++b) {
       const Connections& c = layer.block[b];
-      double* row = parameters + c.weights + r * c.stride;
+      double* row = parameters + c.weights + r * c.stride + c.offset;
       for (int s = 0; s < c.senders; ++s) {
         if (l.spec.winit == uniform_weights)
           row[s] = random.uniform(-l.spec.wrange, l.spec.wrange);

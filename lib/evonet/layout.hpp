@@ -34,11 +34,12 @@ struct Spec {
 
 constexpr int kMaxLayers = 16;
 
-/// Connections into a layer: the weight from sender s to receiver r is at weights + r * stride + s.
+/// Connections into a layer: a receiver's weights are a row of `stride` values, the rows begin at
+/// `weights`, and the weight from sender s to receiver r is at weights + r * stride + offset + s.
 struct Connections {
   int sender, senders;
   bool previous;  ///< from the activations of the step before
-  int weights, stride;
+  int weights, stride, offset;
 };
 
 /// Neurons updated together.

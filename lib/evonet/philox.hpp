@@ -17,6 +17,12 @@ struct Block {
   std::uint32_t word[4];
 };
 
+/// What drives an episode's draws.
+struct NoiseKey {
+  std::uint64_t seed;
+  std::uint32_t episode;
+};
+
 BOTSCHOOL_INLINE Block philox(std::uint64_t seed, std::uint32_t episode, Stream stream,
                               std::uint32_t step, std::uint32_t index) {
   std::uint32_t c0 = index, c1 = step, c2 = static_cast<std::uint32_t>(stream), c3 = episode;
@@ -48,6 +54,24 @@ BOTSCHOOL_INLINE double gaussian_of(const Block& block) {
   return std::sqrt(-2.0 * logarithm(u)) * cosine;
 }
 
+/// Each robot's network has its own stream of action noise.
+BOTSCHOOL_INLINE NoiseKey robot_key(NoiseKey key, int robot) {
+  return {key.seed + (static_cast<std::uint64_t>(robot) << 48), key.episode};
+}
+
+/// Two independent standard Gaussians from 48 of 64 bits: enough for sensor noise, and cheap.
+template <class T>
+BOTSCHOOL_INLINE void gaussian_pair(std::uint32_t a, std::uint32_t b, T& first, T& second) {
+  const T scale = T(1) / T(16777216);
+  const T u = (static_cast<T>(static_cast<std::int32_t>(a >> 8)) + T(0.5)) * scale;
+  const T turn = static_cast<T>(static_cast<std::int32_t>(b >> 8)) * scale;
+  T sine, cosine;
+  sine_cosine(T(2 * kPi) * turn, sine, cosine);
+  const T length = std::sqrt(T(-2) * logarithm(u));
+  first = length * cosine;
+  second = length * sine;
+}
+
 /// Draws one after another, for the places that draw seldom (the start of an episode).
 class Random {
  public:
@@ -58,6 +82,7 @@ class Random {
     return low + (high - low) * uniform_of(block.word[0], block.word[1]);
   }
   double gaussian() { return gaussian_of(next()); }
+  NoiseKey key() const { return {seed_, episode_}; }
 
  private:
   Block next() { return philox(seed_, episode_, stream_, 0, index_++); }

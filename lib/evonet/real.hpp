@@ -82,12 +82,18 @@ BOTSCHOOL_INLINE T exponential(T x) {
   return scale * expm1_series(rest) + scale;
 }
 
+/// exp(2x) - 1, with x limited to where tanh(x) is not yet 1.
 template <class T>
-BOTSCHOOL_INLINE T hyperbolic_tangent(T x) {
+BOTSCHOOL_INLINE T expm1_twice(T x) {
   const T limit = sizeof(T) == 8 ? T(40) : T(20);
   T rest, scale;
   split_by_ln2(clamp(x + x, -limit, limit), rest, scale);
-  const T e = scale * expm1_series(rest) + (scale - T(1));
+  return scale * expm1_series(rest) + (scale - T(1));
+}
+
+template <class T>
+BOTSCHOOL_INLINE T hyperbolic_tangent(T x) {
+  const T e = expm1_twice(x);
   return e / (e + T(2));
 }
 
@@ -100,6 +106,17 @@ BOTSCHOOL_INLINE T logistic(T x) {
 BOTSCHOOL_INLINE double nearest(double x) {
   const double magic = 6755399441055744.0;
   return (x + magic) - magic;
+}
+
+BOTSCHOOL_INLINE float nearest(float x) {
+  const float magic = 12582912.0f;
+  return (x + magic) - magic;
+}
+
+/// Largest whole number that is not above x; |x| < 2^51.
+BOTSCHOOL_INLINE double floor_of(double x) {
+  const double whole = nearest(x);
+  return whole > x ? whole - 1 : whole;
 }
 
 /// Sine and cosine; full precision for |x| up to about 10^6.
@@ -137,7 +154,89 @@ BOTSCHOOL_INLINE void sine_cosine(double x, double& sine, double& cosine) {
   cosine = bits_of<double>(((c_bits & ~swap) | (s_bits & swap)) ^ (((quadrant + 1) & 2) << 62));
 }
 
+/// In single precision; for |x| up to about 1000.
+BOTSCHOOL_INLINE void sine_cosine(float x, float& sine, float& cosine) {
+  const float magic = 12582912.0f;
+  const float shifted = x * float(2.0 / kPi) + magic;
+  const float k = shifted - magic;
+  const std::uint32_t quadrant = bits_of<std::uint32_t>(shifted);
+  float r = x - k * 1.5703125f;
+  r -= k * 4.83751296997070312500e-04f;
+  r -= k * 7.54978995489188216e-08f;
+  const float z = r * r;
+  float s = 1.0f / 362880.0f;
+  s = s * z - 1.0f / 5040.0f;
+  s = s * z + 1.0f / 120.0f;
+  s = s * z - 1.0f / 6.0f;
+  s = (s * z) * r + r;
+  float c = -1.0f / 3628800.0f;
+  c = c * z + 1.0f / 40320.0f;
+  c = c * z - 1.0f / 720.0f;
+  c = c * z + 1.0f / 24.0f;
+  c = (c * z) * z + (1.0f - 0.5f * z);
+  const std::uint32_t swap = 0 - (quadrant & 1);
+  const std::uint32_t s_bits = bits_of<std::uint32_t>(s), c_bits = bits_of<std::uint32_t>(c);
+  sine = bits_of<float>(((s_bits & ~swap) | (c_bits & swap)) ^ ((quadrant & 2) << 30));
+  cosine = bits_of<float>(((c_bits & ~swap) | (s_bits & swap)) ^ (((quadrant + 1) & 2) << 30));
+}
+
+/// Angle of the direction (x, y), in [-pi, pi]; 0 for (0, 0).
+template <class T>
+BOTSCHOOL_INLINE T arctangent(T y, T x) {
+  const T ax = x < T(0) ? -x : x, ay = y < T(0) ? -y : y;
+  const bool steep = ay > ax;
+  const T low = steep ? ax : ay, high = steep ? ay : ax;
+  T t = low / (high > T(0) ? high : T(1));  // tan in [0, 1]
+  // turned back by pi / 4 or pi / 8, or both, so that the series converges fast
+  T base = T(0);
+  const T eighth = T(0.41421356237309504880), sixteenth = T(0.19891236737965800691);
+  const bool far = t > eighth;
+  t = far ? (t - T(1)) / (t + T(1)) : t;
+  base = far ? T(kPi / 4) : base;
+  const T side = t < T(0) ? T(-1) : T(1);
+  const T size = t * side;
+  const bool farther = size > sixteenth;
+  const T turned = farther ? (size - eighth) / (size * eighth + T(1)) : size;
+  base += farther ? side * T(kPi / 8) : T(0);
+  const T z = turned * turned;
+  T p;
+  if constexpr (sizeof(T) == 8) {
+    p = T(1.0 / 25.0);
+    p = p * z - T(1.0 / 23.0);
+    p = p * z + T(1.0 / 21.0);
+    p = p * z - T(1.0 / 19.0);
+    p = p * z + T(1.0 / 17.0);
+    p = p * z - T(1.0 / 15.0);
+    p = p * z + T(1.0 / 13.0);
+    p = p * z - T(1.0 / 11.0);
+    p = p * z + T(1.0 / 9.0);
+  } else {
+    p = T(1.0 / 9.0);
+  }
+  p = p * z - T(1.0 / 7.0);
+  p = p * z + T(1.0 / 5.0);
+  p = p * z - T(1.0 / 3.0);
+  T angle = base + side * ((p * z) * turned + turned);
+  angle = steep ? T(kPi / 2) - angle : angle;
+  angle = x < T(0) ? T(kPi) - angle : angle;
+  return y < T(0) ? -angle : angle;
+}
+
 /// Natural logarithm of a positive normal number.
+BOTSCHOOL_INLINE float logarithm(float x) {
+  const std::uint32_t bits = bits_of<std::uint32_t>(x);
+  const std::uint32_t exponent = (bits - 0x3f3504f3u) & 0xff800000u;
+  const float mantissa = bits_of<float>(bits - exponent);
+  const float k = static_cast<float>(static_cast<std::int32_t>(exponent) >> 23);
+  const float f = (mantissa - 1.0f) / (mantissa + 1.0f);
+  const float z = f * f;
+  float p = 1.0f / 9.0f;
+  p = p * z + 1.0f / 7.0f;
+  p = p * z + 1.0f / 5.0f;
+  p = p * z + 1.0f / 3.0f;
+  p = 2.0f * (f * z * p + f);
+  return k * 0.693145751953125f + (p + k * 1.42860677e-06f);
+}
 BOTSCHOOL_INLINE double logarithm(double x) {
   const std::uint64_t bits = bits_of<std::uint64_t>(x);
   // the mantissa is taken to [sqrt(1/2), sqrt(2)), so that the series converges fast

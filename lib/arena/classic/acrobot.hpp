@@ -7,7 +7,7 @@
 BOTSCHOOL_BEGIN
 
 template <int L>
-struct Acrobot {
+struct Acrobot : AnyProblem {
   static Info info() { return {"Acrobot-v1", 6, 3, 4, 500, true, 0, 2, 0.2}; }
 
   double state[4][L];  // theta1 (0 hangs), theta2 (against link 1), theta1', theta2'

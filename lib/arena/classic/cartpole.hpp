@@ -6,7 +6,7 @@
 BOTSCHOOL_BEGIN
 
 template <int L>
-struct CartPole {
+struct CartPole : AnyProblem {
   static Info info() { return {"CartPole-v1", 4, 2, 4, 500, true, 0, 1, 0.02}; }
 
   double state[4][L];  // x, x', theta, theta' (0 is upright)

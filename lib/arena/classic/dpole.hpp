@@ -7,7 +7,7 @@
 BOTSCHOOL_BEGIN
 
 template <int L>
-struct DoublePole {
+struct DoublePole : AnyProblem {
   static Info info() { return {"ErDpole", 3, 1, 6, 1000, false, -1, 1, 0.02}; }
 
   double state[6][L];  // x, x', theta1, theta1', theta2, theta2' (0 is upright)

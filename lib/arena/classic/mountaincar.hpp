@@ -7,7 +7,7 @@
 BOTSCHOOL_BEGIN
 
 template <int L>
-struct MountainCarContinuous {
+struct MountainCarContinuous : AnyProblem {
   static Info info() { return {"MountainCarContinuous-v0", 2, 1, 2, 999, false, -1, 1, 1.0 / 30}; }
 
   double state[2][L];  // position, velocity

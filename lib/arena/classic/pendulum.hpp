@@ -6,7 +6,7 @@
 BOTSCHOOL_BEGIN
 
 template <int L>
-struct Pendulum {
+struct Pendulum : AnyProblem {
   static Info info() { return {"Pendulum-v1", 3, 1, 2, 200, false, -2, 2, 0.05}; }
 
   double state[2][L];  // theta (0 is upright, unbounded), theta'

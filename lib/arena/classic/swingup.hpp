@@ -6,7 +6,7 @@
 BOTSCHOOL_BEGIN
 
 template <int L>
-struct Swingup {
+struct Swingup : AnyProblem {
   static Info info() { return {"envSwingupCustom", 5, 1, 4, 1000, false, -1, 1, 0.01}; }
 
   double state[4][L];  // x, x', theta (0 is upright), theta'

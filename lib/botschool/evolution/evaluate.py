@@ -81,7 +81,7 @@ class Evaluator:
             episodes.collect = (np.arange(len(episodes)) < collecting).astype(np.uint8)
         outcome = self._run(genotype[None], episodes)
         self._collected = [
-            (float(outcome.steps[i]), *np.split(outcome.moments[i], 2)) for i in range(collecting)
+            (float(outcome.steps[i] * self.problem.interface.robots), *np.split(outcome.moments[i], 2)) for i in range(collecting)
         ]
         return Measured(outcome.fitness, int(outcome.steps.sum()))
 

@@ -8,31 +8,15 @@ every other name is a Gymnasium id (gym.py).
 
 from __future__ import annotations
 
-from botschool.errors import BotschoolError
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.native import NATIVE, NativeProblem
 
 __all__ = ["Episodes", "Interrupted", "Outcome", "Problem", "make", "names"]
 
-NOT_YET = (
-    "ErDiscrim",
-    "ErPredprey",
-    "BalanceBotBulletEnv-v0",
-    "envBodybrainCustom",
-    *(
-        f"{body}BulletEnv-v{version}"
-        for body in ("Hopper", "HalfCheetah", "Ant", "Walker2D", "Humanoid")
-        for version in (0, 5)
-    ),
-)
-
-
 def make(name: str) -> Problem:
-    """The problem of that name; raises BotschoolError when there is none."""
+    """The problem of that name; raises BotschoolError (errors.py) when there is none."""
     if name in NATIVE:
         return NativeProblem(name)
-    if name in NOT_YET:
-        raise BotschoolError(f"{name} is not in this version of botschool yet.")
     from botschool.problems.gym import GymProblem
 
     return GymProblem(name)

@@ -19,10 +19,10 @@ class Interrupted(Exception):
 
 @dataclass
 class Episodes:
-    """A batch of episodes to evaluate; all arrays have shape (n,)."""
+    """A batch of n episodes to evaluate; all arrays have shape (n,)."""
 
     candidate: np.ndarray
-    """int32: rows of the genotypes."""
+    """int32: rows of the genotypes; or shape (robots, n), a row of one network for each robot."""
     seed: np.ndarray
     """uint64."""
     episode: np.ndarray
@@ -43,10 +43,10 @@ class Episodes:
     def part(self, chosen: slice) -> Episodes:
         """Some of the episodes."""
         collect = None if self.collect is None else self.collect[chosen]
-        return Episodes(self.candidate[chosen], self.seed[chosen], self.episode[chosen], collect)
+        return Episodes(self.candidate[..., chosen], self.seed[chosen], self.episode[chosen], collect)
 
     def __len__(self) -> int:
-        return len(self.candidate)
+        return len(self.seed)
 
 
 @dataclass

@@ -40,7 +40,12 @@ class NativeProblem(Problem):
         info = _CORE[self.dynamics]
         self.fps = 1 / info["seconds"]
         self.interface = Interface(
-            info["observations"], info["outputs"], info["discrete"], info["low"], info["high"]
+            info["observations"],
+            info["outputs"],
+            info["discrete"],
+            info["low"],
+            info["high"],
+            robots=info["robots"],
         )
 
     def engine(self, policy: Policy) -> _core.Engine:
@@ -71,12 +76,13 @@ class NativeProblem(Problem):
                 self.engine(policy).evaluate(
                     genotypes,
                     normalisation,
-                    part.candidate,
+                    np.atleast_2d(part.candidate),
                     part.seed,
                     part.episode,
                     part.collect,
                     limit,
                     workers,
+                    bool(policy.config.heterogeneous),
                 )
             )
         fitness, steps, moments = parts[0] if len(parts) == 1 else _concatenated(parts)
@@ -98,7 +104,12 @@ class NativeProblem(Problem):
         render: bool = False,
     ) -> Iterator[Moment]:
         tape = self.engine(policy).record(
-            genotype, normalisation, seed, episode, self.steps(maxsteps)
+            np.atleast_2d(genotype),
+            normalisation,
+            seed,
+            episode,
+            self.steps(maxsteps),
+            bool(policy.config.heterogeneous),
         )
         total = 0.0
         for t, reward in enumerate(tape["rewards"]):

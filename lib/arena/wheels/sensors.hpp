@@ -1,0 +1,352 @@
+// What robots sense. A sensor is a class with
+//   static constexpr int size;                                   observations it gives
+//   static void read(const World& world, int robot, T* out);     out[i * L + lane]
+// Positions are in double precision; T is the network's scalar, in which readings are computed.
+#pragma once
+
+#include "world.hpp"
+
+BOTSCHOOL_BEGIN
+
+/// Several sensors, their observations one after another.
+template <class... Sensor>
+struct Suite {
+  static constexpr int size = (Sensor::size + ...);
+  template <class W, class T>
+  static void read(const W& world, int robot, T* out) {
+    ((Sensor::read(world, robot, out), out += Sensor::size * W::lanes), ...);
+  }
+};
+
+/// Where another object is, seen from a robot.
+template <class T, int L>
+struct Sight {
+  alignas(64) T distance[L];  ///< between centres, mm
+  alignas(64) T angle[L];     ///< counter-clockwise from the heading, in [-pi, pi]
+
+  template <class W>
+  void look(const W& world, int robot, const double* BOTSCHOOL_RESTRICT to_x,
+            const double* BOTSCHOOL_RESTRICT to_y) {
+    for (int l = 0; l < L; ++l) {
+      const T dx = static_cast<T>(to_x[l] - world.x(robot)[l]);
+      const T dy = static_cast<T>(to_y[l] - world.y(robot)[l]);
+      distance[l] = std::sqrt(dx * dx + dy * dy);
+      angle[l] = wrapped(arctangent(dy, dx) - static_cast<T>(world.heading(robot)[l]));
+    }
+  }
+};
+
+/// Farther objects give nothing: half a step past a table's last distance.
+inline double range_of(const InfraredTable& table) {
+  return table.first + table.step * (table.distances - 0.5);
+}
+
+/// The measured readings nearest to a direction and a distance, or null out of range.
+inline const double* readings_of(const InfraredTable& table, double angle, double gap) {
+  if (!(gap <= range_of(table))) return nullptr;
+  int d = static_cast<int>(nearest((gap - table.first) / table.step));
+  d = d < 0 ? 0 : d < table.distances ? d : table.distances - 1;
+  int a = static_cast<int>(nearest(angle / (2 * kPi) * table.angles));
+  a = (a % table.angles + table.angles) % table.angles;
+  return table.values + (std::ptrdiff_t(d) * table.angles + a) * kInfrared;
+}
+
+/// Eight infrared sensors that see walls, cylinders and other robots within `range`, each
+/// summing what they give, capped at 1; by the fitted model, or by a measured table if one is set.
+struct Infrared {
+  static constexpr int size = kInfrared;
+
+  template <class W, class T>
+  static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
+    constexpr int L = W::lanes;
+    const Body& body = *W::plan.robot[robot].body;
+    const Setting& setting = world.setting;
+    for (int i = 0; i < size * L; ++i) out[i] = 0;
+    alignas(64) double to_x[L], to_y[L];
+    for (const Wall& wall : world.wall) {
+      nearest_points(world, robot, wall, to_x, to_y);
+      add(world, robot, body, body.wall, setting.wall_table, 0.0, to_x, to_y, out);
+    }
+    for (int c = 0; c < W::cylinders; ++c)
+      add(world, robot, body, body.round, setting.round_table, world.radius[c],
+          world.cylinder_x(c), world.cylinder_y(c), out);
+    for (int other = 0; other < W::robots; ++other)
+      if (other != robot)
+        add(world, robot, body, body.round, setting.round_table,
+            W::plan.robot[other].body->radius, world.x(other), world.y(other), out);
+    // nothing rather than nearly nothing: products with denormal numbers are very slow
+    for (int i = 0; i < size * L; ++i) {
+      const T most = out[i] < T(1) ? out[i] : T(1);
+      out[i] = most > T(1e-12) ? most : T(0);
+    }
+  }
+
+ private:
+  template <class W>
+  static void nearest_points(const W& world, int robot, const Wall& w,
+                             double* BOTSCHOOL_RESTRICT to_x, double* BOTSCHOOL_RESTRICT to_y) {
+    const double ux = w.x2 - w.x, uy = w.y2 - w.y, length2 = ux * ux + uy * uy;
+    const double inverse = length2 > 0 ? 1 / length2 : 0;
+    for (int l = 0; l < W::lanes; ++l) {
+      const double px = world.x(robot)[l] - w.x, py = world.y(robot)[l] - w.y;
+      const double t = clamp((px * ux + py * uy) * inverse, 0.0, 1.0);
+      to_x[l] = w.x + t * ux;
+      to_y[l] = w.y + t * uy;
+    }
+  }
+
+  /// Adds what an object of that radius at (to_x, to_y) gives.
+  template <class W, class T>
+  static void add(const W& world, int robot, const Body& body, const Response& response,
+                  const InfraredTable* table, double radius, const double* BOTSCHOOL_RESTRICT to_x,
+                  const double* BOTSCHOOL_RESTRICT to_y, T* BOTSCHOOL_RESTRICT out) {
+    constexpr int L = W::lanes;
+    const double range = table ? range_of(*table) : body.range;
+    const double reach = body.radius + radius + range;
+    std::int64_t near = 0;
+    for (int l = 0; l < L; ++l) {
+      const double dx = to_x[l] - world.x(robot)[l], dy = to_y[l] - world.y(robot)[l];
+      near |= dx * dx + dy * dy <= reach * reach;
+    }
+    if (!near) return;  // out of every lane's range
+    Sight<T, L> sight;
+    sight.look(world, robot, to_x, to_y);
+    alignas(64) T gap[L];
+    for (int l = 0; l < L; ++l) {
+      const T d = sight.distance[l] - static_cast<T>(body.radius + radius);
+      gap[l] = d > T(0) ? d : T(0);
+    }
+    if (table)
+      add_measured<T, L>(*table, sight.angle, gap, out);
+    else
+      add_modelled<T, L>(body, response, sight.angle, gap, out);
+  }
+
+  template <class T, int L>
+  static void add_modelled(const Body& body, const Response& response,
+                           const T* BOTSCHOOL_RESTRICT angle, const T* BOTSCHOOL_RESTRICT gap,
+                           T* BOTSCHOOL_RESTRICT out) {
+    alignas(64) T fade[L], seen[L];
+    const T d0 = static_cast<T>(response.d0), range = static_cast<T>(body.range);
+    for (int l = 0; l < L; ++l) {
+      const T ratio = gap[l] / d0;
+      fade[l] = body.n == 1 ? ratio : ratio * std::sqrt(ratio);
+      seen[l] = gap[l] <= range ? T(1) : T(0);
+    }
+    const T width = static_cast<T>(response.w), power = static_cast<T>(response.m);
+    for (int s = 0; s < size; ++s) {
+      const T direction = static_cast<T>(radians(body.direction[s]));
+      const T gain = static_cast<T>(body.gain[s]);
+      T* BOTSCHOOL_RESTRICT reading = out + s * L;
+      if (response.m == 2)
+        for (int l = 0; l < L; ++l) {
+          const T off = wrapped(angle[l] - direction) / width;
+          reading[l] += seen[l] * gain * exponential(-(fade[l] + off * off));
+        }
+      else
+        for (int l = 0; l < L; ++l) {
+          const T off = std::fabs(wrapped(angle[l] - direction)) / width;
+          const T raised = exponential(power * logarithm(off > T(1e-6) ? off : T(1e-6)));
+          reading[l] += seen[l] * gain * exponential(-(fade[l] + raised));
+        }
+    }
+  }
+
+  template <class T, int L>
+  static void add_measured(const InfraredTable& table, const T* angle, const T* gap, T* out) {
+    for (int l = 0; l < L; ++l) {
+      const double* readings = readings_of(table, angle[l], gap[l]);
+      if (!readings) continue;
+      for (int s = 0; s < size; ++s) out[s * L + l] += static_cast<T>(readings[s]);
+    }
+  }
+};
+
+/// Adds Gaussian noise, fresh in every step; its standard deviation is set for the world.
+template <class Sensor>
+struct Noisy {
+  static constexpr int size = Sensor::size;
+
+  template <class W, class T>
+  static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
+    constexpr int L = W::lanes;
+    Sensor::read(world, robot, out);
+    const T deviation = static_cast<T>(world.setting.noise);
+    if (deviation == T(0)) return;
+    constexpr int kBlocks = (size + 3) / 4;
+    for (int b = 0; b < kBlocks; ++b) {
+      alignas(64) T draw[4][L];
+      for (int l = 0; l < L; ++l) {
+        const Block block = philox(world.key[l].seed, world.key[l].episode, Stream::sensor,
+                                   static_cast<std::uint32_t>(world.state[W::kSteps][l]),
+                                   static_cast<std::uint32_t>(robot * kBlocks + b));
+        gaussian_pair(block.word[0], block.word[1], draw[0][l], draw[1][l]);
+        gaussian_pair(block.word[2], block.word[3], draw[2][l], draw[3][l]);
+      }
+      for (int i = 4 * b; i < size && i < 4 * b + 4; ++i)
+        for (int l = 0; l < L; ++l) out[i * L + l] += deviation * draw[i % 4][l];
+    }
+  }
+};
+
+/// The other robot of two in eight sectors of 45 degrees around the robot, and its apparent size.
+struct Camera {
+  static constexpr int sectors = 8, size = sectors + 1;
+
+  template <class W, class T>
+  static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
+    static_assert(W::robots == 2, "the camera looks for the other robot of two");
+    constexpr int L = W::lanes;
+    const int other = 1 - robot;
+    Sight<T, L> sight;
+    sight.look(world, robot, world.x(other), world.y(other));
+    const T sector = static_cast<T>(radians(45));
+    for (int s = 0; s < sectors; ++s)
+      for (int l = 0; l < L; ++l) {
+        const T off = std::fabs(wrapped(sight.angle[l] - (T(s) + T(0.5)) * sector));
+        const T seen = T(1) - off / sector;
+        out[s * L + l] = seen > T(0) ? seen : T(0);
+      }
+    const T radius = static_cast<T>(W::plan.robot[other].body->radius);
+    for (int l = 0; l < L; ++l)
+      out[sectors * L + l] = T(2) * arctangent(radius, sight.distance[l]);
+  }
+};
+
+/// The ground's shade is its distance from the arena's centre / half the diagonal. Four sensors at
+/// 0.9 of the radius, near the heading and near its opposite, give 0.5 + 10 * (shade - mean of the
+/// four); then comes the mean.
+struct Ground {
+  static constexpr int sensors = 4, size = sensors + 1;
+
+  template <class W, class T>
+  static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
+    constexpr int L = W::lanes;
+    constexpr double at[sensors] = {-0.0872, 0.0872, kPi - 0.0872, kPi + 0.0872};
+    const double arm = 0.9 * W::plan.robot[robot].body->radius;
+    const double centre_x = W::plan.width / 2, centre_y = W::plan.height / 2;
+    const double half = std::sqrt(centre_x * centre_x + centre_y * centre_y);
+    alignas(64) double shade[sensors][L];
+    for (int s = 0; s < sensors; ++s)
+      for (int l = 0; l < L; ++l) {
+        double sine, cosine;
+        sine_cosine(world.heading(robot)[l] + at[s], sine, cosine);
+        const double dx = world.x(robot)[l] + arm * cosine - centre_x;
+        const double dy = world.y(robot)[l] + arm * sine - centre_y;
+        shade[s][l] = std::sqrt(dx * dx + dy * dy) / half;
+      }
+    for (int l = 0; l < L; ++l) {
+      const double mean = (shade[0][l] + shade[1][l] + shade[2][l] + shade[3][l]) / sensors;
+      for (int s = 0; s < sensors; ++s)
+        out[s * L + l] = static_cast<T>(0.5 + 10 * (shade[s][l] - mean));
+      out[sensors * L + l] = static_cast<T>(mean);
+    }
+  }
+};
+
+/// Elapsed share of the episode.
+struct Time {
+  static constexpr int size = 1;
+  template <class W, class T>
+  static void read(const W& world, int, T* BOTSCHOOL_RESTRICT out) {
+    for (int l = 0; l < W::lanes; ++l)
+      out[l] = static_cast<T>(world.state[W::kSteps][l] / world.setting.limit);
+  }
+};
+
+/// The constant 1.
+struct Bias {
+  static constexpr int size = 1;
+  template <class W, class T>
+  static void read(const W&, int, T* BOTSCHOOL_RESTRICT out) {
+    for (int l = 0; l < W::lanes; ++l) out[l] = T(1);
+  }
+};
+
+/// Eight light sensors around the robot: a light gives each max(0, cos(angle off its axis)) *
+/// 1 / (1 + (distance / 200 mm)^2). Walls and objects cast no shadow.
+struct Light {
+  static constexpr int sensors = 8, size = sensors;
+  static constexpr double kHalf = 200;  ///< mm at which the light is half as bright
+
+  template <class W, class T>
+  static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
+    constexpr int L = W::lanes;
+    alignas(64) double to_x[L], to_y[L];
+    for (int l = 0; l < L; ++l) to_x[l] = W::plan.light_x, to_y[l] = W::plan.light_y;
+    Sight<T, L> sight;
+    sight.look(world, robot, to_x, to_y);
+    for (int s = 0; s < sensors; ++s)
+      for (int l = 0; l < L; ++l) {
+        double sine, cosine;
+        sine_cosine(sight.angle[l] - radians(45) * s, sine, cosine);
+        const T ratio = sight.distance[l] / T(kHalf);
+        const T bright = static_cast<T>(cosine > 0 ? cosine : 0);
+        out[s * L + l] = bright / (T(1) + ratio * ratio);
+      }
+  }
+};
+
+/// A laser range finder: eight rays from the robot's edge, the first straight ahead, then every 45
+/// degrees; 1 - distance / 500 mm to what each hits first (walls, cylinders, robots), 0 beyond.
+struct Laser {
+  static constexpr int rays = 8, size = rays;
+  static constexpr double kRange = 500;
+
+  template <class W, class T>
+  static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
+    constexpr int L = W::lanes;
+    const double edge = W::plan.robot[robot].body->radius;
+    for (int r = 0; r < rays; ++r) {
+      alignas(64) double way_x[L], way_y[L], first[L];
+      for (int l = 0; l < L; ++l) {
+        sine_cosine(world.heading(robot)[l] + radians(45) * r, way_y[l], way_x[l]);
+        first[l] = edge + kRange;
+      }
+      for (const Wall& wall : world.wall) meet_wall(world, robot, wall, way_x, way_y, first);
+      for (int c = 0; c < W::cylinders; ++c)
+        meet_round(world, robot, world.radius[c], world.cylinder_x(c), world.cylinder_y(c), way_x,
+                   way_y, first);
+      for (int other = 0; other < W::robots; ++other)
+        if (other != robot)
+          meet_round(world, robot, W::plan.robot[other].body->radius, world.x(other),
+                     world.y(other), way_x, way_y, first);
+      for (int l = 0; l < L; ++l) {
+        const double gap = first[l] > edge ? first[l] - edge : 0;
+        out[r * L + l] = static_cast<T>(1 - gap / kRange);
+      }
+    }
+  }
+
+ private:
+  template <class W>
+  static void meet_wall(const W& world, int robot, const Wall& w, const double* way_x,
+                        const double* way_y, double* BOTSCHOOL_RESTRICT first) {
+    const double ux = w.x2 - w.x, uy = w.y2 - w.y;
+    for (int l = 0; l < W::lanes; ++l) {
+      const double px = w.x - world.x(robot)[l], py = w.y - world.y(robot)[l];
+      const double cross = way_x[l] * uy - way_y[l] * ux;
+      const double t = (px * uy - py * ux) / cross;                  // along the ray
+      const double v = (px * way_y[l] - py * way_x[l]) / cross;      // along the wall
+      const bool hit = (cross != 0) & (t >= 0) & (v >= 0) & (v <= 1);  // parallel: never
+      first[l] = hit & (t < first[l]) ? t : first[l];
+    }
+  }
+
+  template <class W>
+  static void meet_round(const W& world, int robot, double radius, const double* to_x,
+                         const double* to_y, const double* way_x, const double* way_y,
+                         double* BOTSCHOOL_RESTRICT first) {
+    for (int l = 0; l < W::lanes; ++l) {
+      const double dx = to_x[l] - world.x(robot)[l], dy = to_y[l] - world.y(robot)[l];
+      const double along = dx * way_x[l] + dy * way_y[l];
+      const double across = dx * way_y[l] - dy * way_x[l];
+      const double depth2 = radius * radius - across * across;
+      const double t = along - std::sqrt(depth2 > 0 ? depth2 : 0);
+      const bool hit = (depth2 >= 0) & (along >= 0);
+      first[l] = hit & (t < first[l]) ? t : first[l];
+    }
+  }
+};
+
+BOTSCHOOL_END
