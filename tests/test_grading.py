@@ -6,19 +6,23 @@ import os
 import stat
 import sys
 import time
+from pathlib import Path
 
 import psutil
 import pytest
 from rich.console import Console
 
+from botschool.errors import BotschoolError
+from botschool.grading import apart, process, scratch
 from botschool.grading import exercise as exercises
-from botschool.grading import process, scratch
 from botschool.grading.checks import NotDone, Wrong, expect_array, plain, show
-from botschool.grading.exercise import grade, grade_task, load_exercise
+from botschool.grading.exercise import load_exercise
 from botschool.grading.hints import next_hints, read_hints
+from botschool.grading.nursery import Nursery
 from botschool.grading.report import Screen, notice
 from botschool.grading.skeleton import skeleton, write_skeletons
 from botschool.grading.student import Student
+from botschool.grading.submission import GraderFault, Submission, grade, grade_task
 from tiny_course import FILE, FOLDER, HINTS, SOLUTION, make_course, submit
 
 
@@ -336,7 +340,7 @@ def test_report_fits_and_says_what_is_next(course):
     result = grade(load_exercise(3, course), course / "exercises" / FOLDER / FILE)
 
     def report(screen):
-        screen.start(3, "Tiny", "tiny.py")
+        screen.start(3, "Tiny", Path("tiny.py"))
         for task in result.tasks:
             screen.task(task)
         screen.end(result)
@@ -384,7 +388,137 @@ def test_debugging_runs_here(course, capsys, monkeypatch):
 
 def test_a_single_task(course):
     exercise = load_exercise(3, course)
-    result = grade_task(exercise.find("3.2"), course / "solutions" / FOLDER / FILE)
+    with Nursery() as nursery:
+        result = grade_task(exercise.find("3.2"), course / "solutions" / FOLDER / FILE, nursery)
     assert (result.points, result.max_points) == (40, 40)
     assert exercises.exercise_numbers(course) == [3]
     assert stat.S_IMODE((course / "exercises").stat().st_mode) & 0o700
+
+
+def test_debugging_leaves_nothing_beside_the_file(course, capsys, tmp_path, monkeypatch):
+    from botschool.grading.commands import grade_command
+
+    file = course / "exercises" / FOLDER / FILE
+    (file.parent / "helper.py").write_text("factor = 2\n")
+    file.write_text(
+        "import sys\nimport helper\nfrom pathlib import Path\n"
+        "def double(x):\n    Path('left.txt').touch()\n    Path(__file__).with_name('b').touch()\n"
+        "    print(sys._getframe().f_code.co_filename)\n    return helper.factor * x\n"
+    )
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    load_exercise(3, course)  # leaves a cache of the grader's code
+    before = sorted(file.parent.rglob("*"))
+    here = Path.cwd()
+    grade_command("3.1", None, False, True)
+    out = capsys.readouterr().out
+    assert "passed: doubles\n" in out and str(file.resolve()) in out  # where breakpoints are
+    assert sorted(file.parent.rglob("*")) == before
+    assert Path.cwd() == here
+
+
+# --- what can be loaded in part
+
+PARTS = [
+    "import numpy as np\nFACTOR = 2",
+    "def double(x):\n    return FACTOR * x",
+    "print(1 / 0)",
+    "def total(x):\n    return float(np.sum(x))\n\n\ndef broken(:\n    pass",
+]
+
+
+@pytest.mark.parametrize("parts", [PARTS[:3], PARTS[:2] + PARTS[3:], PARTS])
+def test_a_script_and_a_notebook_that_fail_in_part_are_judged_alike(course, tmp_path, parts):
+    exercise = load_exercise(3, course)
+    script = submit(tmp_path / "script", "# %%\n" + "\n# %%\n".join(parts) + "\n")
+    as_script = grade(exercise, script)
+    with (
+        Nursery() as nursery,
+        Submission(tmp_path / "script" / FOLDER / FILE, nursery, parts, FILE) as notebook,
+    ):
+        as_notebook = [notebook.grade(task) for task in exercise.tasks]
+    assert [task.points for task in as_script.tasks] == [task.points for task in as_notebook]
+    assert [task.points for task in as_script.tasks] == [60, 0]
+    assert "Your file as a whole cannot be loaded" in as_script.tasks[1].message
+    assert "The notebook as a whole cannot be loaded" in as_notebook[1].message
+    if PARTS[3] not in parts:
+        assert "ZeroDivisionError in line 8" in as_script.tasks[1].message
+        assert "in line 1 of the cell 'print(1 / 0)'" in as_notebook[1].message
+    else:
+        assert "The part from line" in as_script.tasks[1].message
+
+
+def test_lines_of_a_file_that_is_loaded_in_part(graded):
+    result = graded(
+        "raise ValueError\n# %%\ndef double(x):\n    return [][1]\n# %%\n"
+        "def total(x):\n    return float(sum(x))\n"
+    )
+    assert "raised IndexError in line 4" in result.tasks[0].message
+    assert result.tasks[1].points == 40
+
+
+def test_a_fault_of_the_grader_is_no_zero(course, tmp_path):
+    exercise = load_exercise(3, course)
+    task, file = exercise.tasks[0], submit(tmp_path / "one", SOLUTION)
+    faults = {
+        "before anything was asked": lambda student: [][0],
+        "a name that is not there": lambda student: (student.call("double", 1), nowhere),  # noqa: F821
+    }
+    for check in faults.values():
+        task.checks[0] = (40, "check", check)
+        with pytest.raises(GraderFault, match=r"task 3\.1 has a fault.*test_grading\.py line"):
+            grade(exercise, file)
+    task.checks[0] = (40, "check", lambda student: student.call("double", 1)[0])
+    result = grade(exercise, file)
+    assert result.tasks[0].points == 20
+    assert "cannot be judged (TypeError" in result.tasks[0].message
+
+
+def test_imports_cost_no_time_of_a_task(tmp_path):
+    slow = tmp_path / "site-packages"
+    slow.mkdir()
+    (slow / "slow_library.py").write_text(
+        "import time\nprint('a banner')\ntime.sleep(3)\nNUMBER = 7\n"
+    )
+    file = submit(tmp_path, "import slow_library\ndef get(): return slow_library.NUMBER\n")
+    sys.path.append(str(slow))
+    try:
+        with Nursery(["slow_library"]) as nursery:
+            for _ in range(2):
+                one = Student(file, 1, nursery=nursery)
+                assert one.call("get") == 7
+                one.close()
+                assert one.printed == ""
+        with (
+            Nursery(["no_such_library"]) as nursery,
+            pytest.raises(
+                BotschoolError, match="did not start: ModuleNotFoundError: No module named"
+            ),
+        ):
+            Student(file, 1, nursery=nursery).call("get")
+    finally:
+        sys.path.remove(str(slow))
+
+
+def test_children_of_a_nursery_share_nothing(tmp_path):
+    text = (
+        "import os, random\nimport numpy\nKEPT = []\n"
+        "def draw():\n    KEPT.append(1)\n"
+        "    return [len(KEPT), numpy.random.rand(), random.random(), os.environ['HOME']]\n"
+    )
+    with Nursery() as nursery:
+        drawn = []
+        for name in "ab":
+            one = Student(submit(tmp_path / name, text), 5, nursery=nursery)
+            drawn.append(one.call("draw"))
+            one.close()
+    assert [each[0] for each in drawn] == [1, 1]
+    assert all(one != other for one, other in zip(drawn[0][1:], drawn[1][1:], strict=True))
+
+
+def test_the_results_asked_for_longest_ago_are_forgotten(course, tmp_path, monkeypatch):
+    monkeypatch.setattr(apart, "MOST_KEPT", 2)
+    grades = apart.Grades(course)
+    for n in range(4):
+        job = apart.Job(3, submit(tmp_path / str(n), f"N = {n}\n"))
+        grades.of([job], 1)
+        assert len(list((course / ".botschool" / "grades").iterdir())) == min(2, n + 1)

@@ -9,7 +9,6 @@ import platform
 import signal
 import subprocess
 import sys
-import time
 from html.parser import HTMLParser
 
 import pytest
@@ -21,6 +20,7 @@ from botschool.grading.grade_all import grade_all, page_names
 from botschool.grading.release import find_leaks, release
 from botschool.grading.report import Screen
 from botschool.grading.solution import run_solution
+from botschool.grading.submission import grade
 from botschool.grading.watching import watch
 from running import call, environment_of_command, finish, start
 from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
@@ -148,11 +148,11 @@ def test_watch_grades_after_each_save(course):
 
 @pytest.mark.skipif(not hasattr(signal, "SIGINT"), reason="needs signals")
 def test_watch_ends_with_ctrl_c(course):
-    process = start("watch", "3.1")
-    time.sleep(3)
+    process = start("watch", "3.1", env=environment_of_command() | {"PYTHONUNBUFFERED": "1"})
+    assert any("Ctrl-C ends" in line for line in process.stdout)
     process.send_signal(signal.SIGINT)
-    code, out, errors = finish(process, 20)
-    assert code == 0 and "Ctrl-C ends" in out and "Traceback" not in errors
+    code, _, errors = finish(process, 60)
+    assert code == 0 and "Traceback" not in errors
 
 
 # --- a copy for students
@@ -176,6 +176,20 @@ def test_release(course, tmp_path):
     assert "NotImplementedError" in (tmp_path / "copy" / "exercises" / FOLDER / FILE).read_text()
     with pytest.raises(BotschoolError, match="student's copy already"):
         release(tmp_path / "copy", tmp_path / "again")
+
+
+def test_released_graders_work_and_cannot_be_read(course, tmp_path, monkeypatch):
+    release(course, tmp_path / "copy")
+    grader = tmp_path / "copy" / "exercises" / FOLDER / "test_tiny.py"
+    assert (
+        "doubles_many" not in grader.read_text() and "numbers + numbers" not in grader.read_text()
+    )
+    assert grader.read_text().count("\n") < 40
+    mine = submit(tmp_path / "mine", SOLUTION.replace("2 *", "3 *"))
+    before = grade(load_exercise(3, course), mine).to_json()
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(tmp_path / "copy"))
+    assert grade(load_exercise(3), mine).to_json() == before
+    assert before["points"] == 40
 
 
 @pytest.mark.parametrize("place", ["lib/code.py", "docs/results.md", f"exercises/{FOLDER}/mine.py"])

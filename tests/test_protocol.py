@@ -142,3 +142,11 @@ def test_large_messages_pass():
     thread.join()
     os.close(reading)
     os.close(writing)
+
+
+def test_too_many_arrays():
+    with pytest.raises(protocol.NotPlain, match="arrays, which is too much"):
+        protocol.pack([np.zeros(0)] * 60_000)
+    text = json.dumps([{"__array__": ["|u1", [0]]}] * 60_000).encode()
+    with pytest.raises(ValueError, match="damaged"):
+        protocol.unpack(len(text).to_bytes(8, "little") + bytes(8) + text)

@@ -11,17 +11,18 @@ import warnings
 import gymnasium
 import numpy as np
 
-from botschool.grading import Exercise, Student, Wrong, expect, expect_array, expect_close, show
+from botschool.grading import (
+    Exercise,
+    Student,
+    Wrong,
+    expect,
+    expect_array,
+    expect_close,
+    expect_fields,
+    show,
+)
 
 exercise = Exercise(1, "Gymnasium", file="gymnasium_basics.py")
-
-
-def fields(said: str, value: object, *keys: str) -> list:
-    """The values of these keys of a dict, which may have others."""
-    expect(isinstance(value, dict), f"{said} must be a dict, not {show(value)}.")
-    for key in keys:
-        expect(key in value, f"{said} is a dict without {key!r}.")
-    return [value[key] for key in keys]
 
 
 # ------------------------------------------------------------------- 1.1
@@ -51,12 +52,12 @@ def probe(module, observed, acted, maxsteps):
 
 def expect_space(said: str, got: object, space: gymnasium.Space) -> None:
     if isinstance(space, gymnasium.spaces.Discrete):
-        kind, choices, first = fields(said, got, "kind", "choices", "first")
+        kind, choices, first = expect_fields(said, got, "kind", "choices", "first")
         expect(kind == "Discrete", f"{said}: kind is {show(kind)}, but the space is Discrete.")
         expect_close(f"{said}: choices", choices, space.n)
         expect_close(f"{said}: first", first, space.start)
         return
-    kind, size, low, high = fields(said, got, "kind", "size", "low", "high")
+    kind, size, low, high = expect_fields(said, got, "kind", "size", "low", "high")
     expect(kind == "Box", f"{said}: kind is {show(kind)}, but the space is a Box.")
     expect_close(f"{said}: size", size, space.low.size)
     for name, bounds, wanted in (("low", low, space.low), ("high", high, space.high)):
@@ -94,12 +95,12 @@ def probed(student: Student, index: int):
 def expect_spaces(student: Student, which: str) -> None:
     """The student's description of one side, of environments known and unknown."""
     for name in ("CartPole-v1", "Pendulum-v1", "Acrobot-v1", "MountainCarContinuous-v0"):
-        (got,) = fields(student.said, student.call("describe", name), which)
+        (got,) = expect_fields(student.said, student.call("describe", name), which)
         with gymnasium.make(name) as env:
             expect_space(f"{student.said}: {which}", got, getattr(env, f"{which}_space"))
     for index in (1, 2):
         answer, spaces, _ = probed(student, index)
-        (got,) = fields(student.said, answer, which)
+        (got,) = expect_fields(student.said, answer, which)
         expect_space(f"{student.said}: {which}", got, spaces[which == "action"])
 
 
@@ -116,11 +117,11 @@ def actions(student: Student):
 @description.check(3)
 def time_limit(student: Student):
     for name in ("CartPole-v1", "Acrobot-v1"):
-        (maxsteps,) = fields(student.said, student.call("describe", name), "maxsteps")
+        (maxsteps,) = expect_fields(student.said, student.call("describe", name), "maxsteps")
         expect_close(f"{student.said}: maxsteps", maxsteps, gymnasium.spec(name).max_episode_steps)
     for index in (3, 4):
         answer, _, wanted = probed(student, index)
-        (maxsteps,) = fields(student.said, answer, "maxsteps")
+        (maxsteps,) = expect_fields(student.said, answer, "maxsteps")
         expect(
             type(maxsteps) in (int, type(None)) and maxsteps == wanted,
             f"{student.said}: maxsteps is {show(maxsteps)}, but {wanted} was expected.",
@@ -167,7 +168,7 @@ def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
     name, maxsteps = CASES[case]
     seed = exercise.seed(10 + case)
     report = student.call("random_episode", name, seed=seed, maxsteps=maxsteps)
-    _, actions, *_ = fields(student.said, report, *KEYS)
+    _, actions, *_ = expect_fields(student.said, report, *KEYS)
     expect(
         isinstance(actions, (list, np.ndarray)) and 0 < len(actions) <= maxsteps,
         f"{student.said}: actions must be a list of 1 to {maxsteps} actions, not {show(actions)}.",
@@ -477,7 +478,7 @@ def expect_column(student: Student, column: str, wanted_of) -> None:
             f"{student.said} returned {show(table)}, but a list of {len(names)} rows is needed.",
         )
         for name, row in zip(names, table, strict=True):
-            environment, value = fields(f"{student.said}: a row", row, "environment", column)
+            environment, value = expect_fields(f"{student.said}: a row", row, "environment", column)
             expect(
                 environment == name,
                 f"{student.said}: the row of {name} is about {show(environment)}.",

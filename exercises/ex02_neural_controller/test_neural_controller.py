@@ -12,18 +12,18 @@ import time
 import gymnasium
 import numpy as np
 
-from botschool.grading import Exercise, Student, expect, expect_array, expect_close, show
+from botschool.grading import (
+    Exercise,
+    Student,
+    expect,
+    expect_array,
+    expect_close,
+    expect_fields,
+    show,
+)
 
 exercise = Exercise(2, "A neural controller", file="neural_controller.py")
 PROBLEMS = ("CartPole-v1", "Pendulum-v1", "Acrobot-v1", "MountainCarContinuous-v0")
-
-
-def fields(said: str, value: object, *keys: str) -> list:
-    """The values of these keys of a dict, which may have others."""
-    expect(isinstance(value, dict), f"{said} must be a dict, not {show(value)}.")
-    for key in keys:
-        expect(key in value, f"{said} is a dict without {key!r}.")
-    return [value[key] for key in keys]
 
 
 def shapes(ninputs: int, nhiddens: int, noutputs: int) -> dict[str, tuple[int, ...]]:
@@ -37,7 +37,7 @@ def shapes(ninputs: int, nhiddens: int, noutputs: int) -> dict[str, tuple[int, .
 
 def expect_network(said: str, network: object, *layers: int) -> dict[str, np.ndarray]:
     """A dict of the four arrays, in their shapes."""
-    values = fields(said, network, *shapes(*layers))
+    values = expect_fields(said, network, *shapes(*layers))
     return {
         key: expect_array(f"{said}: {key}", value, shape)
         for value, (key, shape) in zip(values, shapes(*layers).items(), strict=True)
@@ -343,7 +343,7 @@ def replay(student: Student, name: str, index: int, maxsteps: int) -> tuple[floa
         network = drawn(np.random.default_rng(seed), *layers_of(env, 5))
         said = f"run_episode({name!r}, network, seed={seed}, maxsteps={maxsteps})"
         answer = student.run(lived, name, network, seed, maxsteps, said=said)
-        actions, total = fields(said, answer, "actions", "return")
+        actions, total = expect_fields(said, answer, "actions", "return")
         expect(
             isinstance(actions, (list, np.ndarray)) and 0 < len(actions) <= maxsteps,
             f"{said}: actions must be a list of 1 to {maxsteps} actions, not {show(actions)}.",
@@ -543,7 +543,7 @@ def searched(student: Student, name: str, index: int, nnetworks: int, nhiddens: 
     """What the student reports: networks, their fitness, the best, and the seeds to check with."""
     seed = exercise.seed(index)
     report = student.call("random_search", name, nnetworks, nhiddens, seed=seed)
-    networks, values, best = fields(student.said, report, "networks", "fitness", "best")
+    networks, values, best = expect_fields(student.said, report, "networks", "fitness", "best")
     expect(
         isinstance(networks, list) and len(networks) == nnetworks,
         f"{student.said}: networks must be a list of {nnetworks} networks, not {show(networks)}.",
@@ -584,8 +584,10 @@ def finds_the_best(student: Student):
     first = student.call("random_search", "CartPole-v1", 2, 5, seed=100)
     second = student.call("random_search", "CartPole-v1", 1, 5, seed=101)
     said = "random_search('CartPole-v1', 2, 5, seed=100)"
-    one = expect_network(f"{said}: network 1", fields(said, first, "networks")[0][1], 4, 5, 2)
-    same = expect_network("network 0", fields(said, second, "networks")[0][0], 4, 5, 2)
+    one = expect_network(
+        f"{said}: network 1", expect_fields(said, first, "networks")[0][1], 4, 5, 2
+    )
+    same = expect_network("network 0", expect_fields(said, second, "networks")[0][0], 4, 5, 2)
     expect(
         np.array_equal(one["W1"], same["W1"]),
         f"{said}: network 1 differs from network 0 of seed 101, but network i has seed + i.",

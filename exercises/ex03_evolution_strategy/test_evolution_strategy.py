@@ -13,7 +13,15 @@ Stochastic checks (task 3.7), each with two seeds and 20 unseen episodes a contr
 import numpy as np
 
 from botschool.course import Robot
-from botschool.grading import Exercise, Student, expect, expect_array, expect_close, show
+from botschool.grading import (
+    Exercise,
+    Student,
+    expect,
+    expect_array,
+    expect_close,
+    expect_fields,
+    show,
+)
 
 exercise = Exercise(3, "Evolution strategy", file="evolution_strategy.py")
 
@@ -267,9 +275,7 @@ class Evolved:
         self.populations = [expect_array(self.said, each[0], (rows, len(target))) for each in calls]
         self.distance = [((each - target) ** 2).mean(axis=1) for each in self.populations]
         self.fitness = [(seed + g) * 37 % 11 - distance for g, distance in enumerate(self.distance)]
-        expect(isinstance(run, dict), f"{self.said} must return a dict, not {show(run)}.")
-        for key in ("best", "fitness", "history", "population"):
-            expect(key in run, f"{self.said} returned a dict without {key!r}.")
+        expect_fields(self.said, run, "best", "fitness", "history", "population")
         self.run = run
 
     def expect_report(self) -> None:
@@ -408,9 +414,7 @@ def curves_of(student: Student, n: int, seed: int):
     result = student.run(
         replicated, histories, seeds, said=f"replicate(experiment, {show(seeds, 30)})"
     )
-    expect(isinstance(result, dict), f"{student.said} must return a dict, not {show(result)}.")
-    for key in ("mean", "deviation", "best"):
-        expect(key in result, f"{student.said} returned a dict without {key!r}.")
+    expect_fields(student.said, result, "mean", "deviation", "best")
     return histories, result
 
 

@@ -18,7 +18,16 @@ import numpy as np
 from botschool import config
 from botschool.course import SavedRobot
 from botschool.evolution.run import Run, evolve
-from botschool.grading import Exercise, Student, Wrong, expect, expect_array, expect_close, show
+from botschool.grading import (
+    Exercise,
+    Student,
+    Wrong,
+    expect,
+    expect_array,
+    expect_close,
+    expect_fields,
+    show,
+)
 
 exercise = Exercise(4, "The tool", file="acrobot.py")
 COLUMNS = (
@@ -50,14 +59,6 @@ def number(said: str, value: object) -> float:
     """A plain, finite number."""
     expect(isinstance(value, (int, float)), f"{said}: one number is needed, not {show(value)}.")
     return float(expect_array(said, value, ()))
-
-
-def fields(said: str, value: object, *keys: str) -> list:
-    """The values of these keys of a dict, which may have others."""
-    expect(isinstance(value, dict), f"{said} returned {show(value)}, but a dict is needed.")
-    for key in keys:
-        expect(key in value, f"{said} returned a dict without {key!r}.")
-    return [value[key] for key in keys]
 
 
 @lru_cache
@@ -103,7 +104,7 @@ observation_task = exercise.task("4.1", "What Acrobot observes")
 def expect_decoded(student: Student, index: int, keys: tuple[str, str], columns: slice) -> None:
     states, observations, _ = moves(index)
     given = [
-        fields(f"decode({shown(observation)})", answer, *keys)
+        expect_fields(f"decode({shown(observation)})", answer, *keys)
         for observation, answer in zip(
             observations, asked(student, "decode", list(observations)), strict=True
         )
@@ -314,7 +315,7 @@ def expect_columns(student: Student, generations: int, columns: tuple[str, ...])
     table = rng_of(20 + generations).normal(size=(generations, 6)).round(3)
     said = f"read_stat(file of {generations} generation{'s' * (generations > 1)})"
     stat = student.run(read_saved, table.ravel(), said=said)
-    for name, values in zip(columns, fields(said, stat, *columns), strict=True):
+    for name, values in zip(columns, expect_fields(said, stat, *columns), strict=True):
         expect_close(f"{said}: {name}", values, table[:, COLUMNS.index(name)])
 
 
@@ -362,7 +363,7 @@ def wanted_curves(stats: list[dict], column: str, budgets: np.ndarray):
 def expect_curves(student: Student, stats, column: str, budgets, key: str) -> None:
     answer = student.call("curves", stats, column, budgets)
     said = f"curves(stats of {len(stats)} runs, '{column}', {len(budgets)} budgets)"
-    (values,) = fields(said, answer, key)
+    (values,) = expect_fields(said, answer, key)
     wanted = dict(zip(("mean", "deviation"), wanted_curves(stats, column, budgets), strict=True))
     expect_close(f"{said}: {key}", values, wanted[key])
 
@@ -433,7 +434,7 @@ def expect_worth(student: Student, text: str, index: int, keys: tuple[str, ...])
         f"{said} returned {show(rows)}, but a list of {len(seeds)} dicts is needed.",
     )
     for seed, row in zip(seeds, rows, strict=True):
-        values = fields(said, row, "seed", *keys)
+        values = expect_fields(said, row, "seed", *keys)
         expect(
             values[0] == seed,
             f"{said}: a row has the seed {show(values[0])}, but {seed} was expected there.",

@@ -10,7 +10,16 @@ import gymnasium
 import numpy as np
 
 from botschool.course import Robot
-from botschool.grading import Exercise, Student, Wrong, expect, expect_array, expect_close, show
+from botschool.grading import (
+    Exercise,
+    Student,
+    Wrong,
+    expect,
+    expect_array,
+    expect_close,
+    expect_fields,
+    show,
+)
 
 exercise = Exercise(7, "Phase portrait", file="phase_portrait.py")
 
@@ -232,9 +241,7 @@ def stages_of(student: Student, index: int, generations: int, every: int):
         staged, prepared, target, generations, every,
         said=f"evolve(algorithm, evaluate, generations={generations}, every={every})",
     )  # fmt: skip
-    expect(isinstance(answer, dict), f"{student.said} must return a dict, not {show(answer)}.")
-    for key in ("generations", "parameters", "history"):
-        expect(key in answer, f"{student.said} returned a dict without {key!r}.")
+    expect_fields(student.said, answer, "generations", "parameters", "history")
     told, best, history = 0.0, [], []
     for generation in range(generations):
         candidates = prepared[generation] + told

@@ -8,7 +8,15 @@ reaches 200 of 200 with every one, and -215 to -145.
 import numpy as np
 
 from botschool.course import Robot
-from botschool.grading import Exercise, Student, expect, expect_array, expect_close, show
+from botschool.grading import (
+    Exercise,
+    Student,
+    expect,
+    expect_array,
+    expect_close,
+    expect_fields,
+    show,
+)
 
 exercise = Exercise(8, "OpenAI-ES", file="openai_es.py")
 SIZES = ((1, 1), (3, 2), (20, 37))
@@ -240,9 +248,7 @@ def compare_run(student: Student, index: int, n: int, generations: int, **option
     said = f"evolve(evaluate, centre, generations={generations}, seed={seed}"
     said += "".join(f", {key}={value}" for key, value in options.items()) + ")"
     answer = student.run(evolved, start, target, generations, seed, options, said=said)
-    expect(isinstance(answer, dict), f"{said} must return a dict, not {show(answer)}.")
-    for key in ("centre", "history"):
-        expect(key in answer, f"{said} returned a dict without {key!r}.")
+    expect_fields(said, answer, "centre", "history")
     settings = {"samplesize": 20, "noiseStdDev": 0.02, "stepsize": 0.01, "wdecay": 0, **options}
     samplesize, noise, stepsize, wdecay = settings.values()
     samples_rng, centre, history = np.random.default_rng(seed), start, []
@@ -293,9 +299,7 @@ def judged(student: Student, curve: np.ndarray) -> tuple[str, dict, dict]:
     if len(curve) < 8:
         student.said = f"stability({curve.tolist()})"
     said = student.said
-    expect(isinstance(answer, dict), f"{said} must return a dict, not {show(answer)}.")
-    for key in ("drop", "bottom", "peak", "verdict"):
-        expect(key in answer, f"{said} returned a dict without {key!r}.")
+    expect_fields(said, answer, "drop", "bottom", "peak", "verdict")
     largest, bottom, peak, height = 0.0, 0, 0, float(curve.max() - curve.min())
     top = 0
     for i, value in enumerate(curve):

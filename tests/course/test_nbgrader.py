@@ -16,10 +16,10 @@ import pytest
 import building
 from botschool.errors import BotschoolError
 from botschool.grading.cells import Unreadable, definitions, plain_python, scripts, whole
-from botschool.grading.exercise import grade
 from botschool.grading.nbgrader import make_course
 from botschool.grading.notebook import grade_cell
 from botschool.grading.release import find_leaks
+from botschool.grading.submission import grade
 
 REGION = re.compile(
     r"^( *)### BEGIN SOLUTION (task (\d+\.\d+): [^\n]+)\n(.*?)^ *### END SOLUTION\n?",

@@ -1,6 +1,13 @@
 """Grading: exercises, the isolated runner, scores. A grader file needs only what is named here."""
 
-from botschool.grading.checks import Wrong, expect, expect_array, expect_close, show
+from botschool.grading.checks import (
+    Wrong,
+    expect,
+    expect_array,
+    expect_close,
+    expect_fields,
+    show,
+)
 from botschool.grading.exercise import Exercise, Task
 from botschool.grading.student import Student
 
@@ -12,5 +19,6 @@ __all__ = [
     "expect",
     "expect_array",
     "expect_close",
+    "expect_fields",
     "show",
 ]

@@ -24,13 +24,16 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.checks import Wrong
-from botschool.grading.exercise import Exercise, Result, folder_of, grade, load_exercise
-from botschool.grading.process import interpreter, package
+from botschool.grading.exercise import Exercise, folder_of, load_exercise
+from botschool.grading.nursery import interpreter, package
 from botschool.grading.scratch import remove_tree, submission_files
+from botschool.grading.submission import Result, grade
 from botschool.output import save_bytes
 
 STATE = ".botschool"
 """In the course folder: what the commands remember."""
+MOST_KEPT = 5000
+"""Results that are remembered; those not asked for longest are forgotten first."""
 SPARE_SECONDS = 60
 """What a grader's process may take beyond the limits of its tasks and 5 seconds for each."""
 
@@ -86,7 +89,14 @@ class Grades:
                     process.kill()
                 pool.shutdown(cancel_futures=True)
                 raise
+        self._forget()
         return results
+
+    def _forget(self) -> None:
+        with contextlib.suppress(OSError):
+            kept = sorted(self._cache.glob("*.json"), key=lambda path: -path.stat().st_mtime_ns)
+            for path in kept[MOST_KEPT:]:
+                path.unlink()
 
     def _result(self, job: Job) -> dict[str, Any]:
         try:
@@ -96,7 +106,9 @@ class Grades:
         place = self._cache / f"{key}.json"
         if not self._fresh:
             with contextlib.suppress(OSError, ValueError):
-                return json.loads(place.read_bytes())
+                result = json.loads(place.read_bytes())
+                place.touch()
+                return result
         result = self._grade(job)
         if not result["problem"] and not self._stopped.is_set():
             with contextlib.suppress(OSError, BotschoolError):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,14 @@ def expect(condition: bool, sentence: str) -> None:
     """Raises Wrong(sentence) unless the condition holds."""
     if not condition:
         raise Wrong(sentence)
+
+
+def expect_fields(said: str, value: Any, *keys: str) -> list[Any]:
+    """The values of these keys of a dict, which may have others."""
+    expect(isinstance(value, dict), f"{said} {_came(said)} {show(value)}, but a dict is needed.")
+    for key in keys:
+        expect(key in value, f"{said} {_came(said)} a dict without {key!r}.")
+    return [value[key] for key in keys]
 
 
 def expect_array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
@@ -64,6 +73,10 @@ def plain(text: str) -> str:
     return "".join(c if c in "\n\t" or c.isprintable() or c == " " else "\ufffd" for c in text)
 
 
+_SHORT = reprlib.Repr()  # looks at the beginning of what is long
+_SHORT.maxlist = _SHORT.maxdict = _SHORT.maxstring = _SHORT.maxlong = _SHORT.maxother = 400
+
+
 def show(value: Any, longest: int = 60) -> str:
     """A value in a few words."""
     if isinstance(value, np.ndarray):
@@ -72,7 +85,7 @@ def show(value: Any, longest: int = 60) -> str:
         return _numbers(value) if value.ndim else f"{value.item():.6g}"
     if isinstance(value, float):
         return f"{value:.6g}"
-    text = repr(value)
+    text = _SHORT.repr(value)
     return text if len(text) <= longest else text[: longest - 3] + "..."
 
 

@@ -1,4 +1,4 @@
-"""The process that a submission runs in. Started by process.py; answers its requests until killed.
+"""The process that a submission runs in. Comes from nursery.py; answers process.py's requests.
 
 Nothing here is trusted by the grader: whatever comes out of this process may have been made up by
 the submission.
@@ -9,9 +9,12 @@ from __future__ import annotations
 import importlib.util
 import os
 import sys
+import tempfile
 import traceback
 from pathlib import Path
 from typing import Any
+
+import numpy
 
 from botschool.grading import protocol, sandbox
 
@@ -69,16 +72,18 @@ def _explained(error: BaseException, file: Path, **more: bool) -> bytes:
         return protocol.pack({"error": "an exception", "text": "", "line": None} | more)
 
 
-def main() -> None:
-    """Argument 1 and 2: the pipes that requests come from and answers go to."""
-    requests, answers = int(sys.argv[1]), int(sys.argv[2])
+def serve(requests: int, answers: int) -> None:
+    """Shuts this process in as the first request says, then answers requests until killed.
+
+    requests, answers: the pipes that requests come from and answers go to.
+    """
     set_up = protocol.unpack(protocol.receive(requests, WAIT))
     file = Path(set_up["file"])
-    import gymnasium.envs.classic_control  # noqa: F401  (before the doors close)
-    import numpy.random  # noqa: F401
-
-    import botschool.evolution.run  # noqa: F401
-
+    os.environ.update(set_up["environment"])
+    tempfile.tempdir = None
+    numpy.random.seed()  # noqa: NPY002 (or all children, being copies, would draw alike)
+    if "torch" in sys.modules:
+        sys.modules["torch"].seed()
     sandbox.limit(set_up["seconds"], set_up["memory"], set_up["file_size"])
     missing = sandbox.shut_in(
         [Path(path) for path in set_up["readable"]], [Path(path) for path in set_up["writable"]]
@@ -99,7 +104,3 @@ def main() -> None:
                 continue
         while answer:
             answer = answer[os.write(answers, answer) :]
-
-
-if __name__ == "__main__":
-    main()

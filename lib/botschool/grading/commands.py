@@ -16,16 +16,14 @@ from botschool.grading.debug import DirectStudent
 from botschool.grading.exercise import (
     EXERCISES,
     Exercise,
-    Result,
     course_root,
     exercise_numbers,
     folder_of,
-    grade,
-    grade_task,
     load_exercise,
     submission_file,
 )
 from botschool.grading.report import Screen, counting, notice
+from botschool.grading.submission import grade
 
 
 def grade_command(what: str, submission: str | None, as_json: bool, debug: bool) -> bool:
@@ -43,11 +41,7 @@ def grade_command(what: str, submission: str | None, as_json: bool, debug: bool)
     report = (lambda result: None) if as_json else screen.task
     if not as_json:
         screen.start(exercise.number, exercise.title, file)
-    if task:
-        result = Result(exercise.number, exercise.title, [grade_task(exercise.find(what), file)])
-        report(result.tasks[0])
-    else:
-        result = grade(exercise, file, report)
+    result = grade(exercise, file, report, [exercise.find(what)] if task else None)
     if as_json:
         print(json.dumps(result.to_json(), indent=1))
     else:
@@ -59,15 +53,18 @@ def debug_task(exercise: Exercise, id: str, file: Path) -> bool:
     """Runs a task's checks in this process, without limits and points."""
     task = exercise.find(id)
     student = DirectStudent(file)
-    for _, name, check in task.checks:
-        try:
-            check(student)
-            print(f"passed: {name}")
-        except Wrong as error:
-            print(f"failed: {name}: {error}")
-        except Exception:
-            print(f"failed: {name}:")
-            traceback.print_exc()
+    try:
+        for _, name, check in task.checks:
+            try:
+                check(student)
+                print(f"passed: {name}")
+            except Wrong as error:
+                print(f"failed: {name}: {error}")
+            except Exception:
+                print(f"failed: {name}:")
+                traceback.print_exc()
+    finally:
+        student.close()
     return False
 
 

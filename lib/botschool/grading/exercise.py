@@ -1,4 +1,4 @@
-"""Exercises, their tasks and checks; finding and grading them."""
+"""Exercises, their tasks and checks, and where to find them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.checks import Wrong, plain
 from botschool.grading.student import Student
 
 POINTS = 100
@@ -26,6 +25,7 @@ class Task:
     title: str
     seconds: float
     memory: int
+    imports: tuple[str, ...] = ()
     checks: list[tuple[int, str, Callable[[Student], None]]] = field(default_factory=list)
 
     def check(self, points: int) -> Callable:
@@ -42,24 +42,6 @@ class Task:
         return sum(points for points, _, _ in self.checks)
 
 
-@dataclass
-class TaskResult:
-    """What a submission got for a task."""
-
-    id: str
-    title: str
-    points: int
-    max_points: int
-    message: str
-    """Why points are missing, in sentences; empty for full marks."""
-    printed: str = ""
-    """The beginning of what the submission printed."""
-    missing: list[str] = field(default_factory=list)
-    """What this system could not confine, in words."""
-    pictures: list[tuple[str, bytes]] = field(default_factory=list)
-    """(name, PNG) of those beside the submission's file after the task."""
-
-
 class Exercise:
     """An exercise as its grader file declares it.
 
@@ -70,15 +52,17 @@ class Exercise:
     def has_the_right_shape(student): ...
     """
 
-    def __init__(self, number: int, title: str, file: str) -> None:
+    def __init__(self, number: int, title: str, file: str, imports: tuple[str, ...] = ()) -> None:
+        """imports: modules that take long to import; no task's time is used up by them."""
         self.number = number
         self.title = title
         self.file = file
+        self.imports = imports
         self.tasks: list[Task] = []
 
     def task(self, id: str, title: str, seconds: float = 20, memory: int = 4096) -> Task:
-        """Adds a task; seconds: wall time for all its checks; memory: MB of address space."""
-        self.tasks.append(Task(id, title, seconds, memory))
+        """Adds a task; seconds: wall time for all its checks; memory: MB beyond the imports."""
+        self.tasks.append(Task(id, title, seconds, memory, self.imports))
         return self.tasks[-1]
 
     def seed(self, index: int) -> int:
@@ -94,91 +78,6 @@ class Exercise:
                 return each
         known = ", ".join(each.id for each in self.tasks)
         raise BotschoolError(f"Exercise {self.number} has no task {task}; its tasks are {known}.")
-
-
-def grade_task(task: Task, file: Path) -> TaskResult:
-    """Runs a task's checks on a submission's file, in a child of its own."""
-    result = TaskResult(task.id, task.title, 0, task.max_points, "")
-    problems: list[str] = []
-    student = None
-    try:
-        student = Student(file, task.seconds, task.memory)
-        for worth, _, check in task.checks:
-            problem = _problem(check, student)
-            if problem is None:
-                result.points += worth
-            else:
-                problems.append(problem)
-        student.stop()
-        result.printed, result.missing = plain(student.printed), student.missing
-        result.pictures = student.pictures()
-    except Wrong as error:
-        problems.append(str(error))
-    finally:
-        if student is not None:
-            student.close()
-    result.message = plain("\n".join(dict.fromkeys(problems)))
-    return result
-
-
-def _problem(check: Callable[[Student], None], student: Student) -> str | None:
-    """Why a check is not passed, in a sentence; None when it is."""
-    try:
-        check(student)
-    except Wrong as error:
-        return str(error)
-    except BotschoolError:
-        raise  # the grader's own trouble, not the submission's
-    except Exception as error:
-        return (
-            f"{student.said} returned something that cannot be judged "
-            f"({type(error).__name__}: {str(error)[:200]})."
-        )
-    return None
-
-
-@dataclass
-class Result:
-    """What a submission got for an exercise."""
-
-    exercise: int
-    title: str
-    tasks: list[TaskResult]
-
-    @property
-    def points(self) -> int:
-        return sum(task.points for task in self.tasks)
-
-    @property
-    def max_points(self) -> int:
-        return sum(task.max_points for task in self.tasks)
-
-    @property
-    def missing(self) -> list[str]:
-        """What this system could not confine, in words."""
-        return list(dict.fromkeys(each for task in self.tasks for each in task.missing))
-
-    def to_json(self) -> dict:
-        """The form of `botschool grade --json`."""
-        shown = ("id", "title", "points", "max_points", "message")
-        tasks = [{name: getattr(task, name) for name in shown} for task in self.tasks]
-        return {
-            "exercise": self.exercise,
-            "points": self.points,
-            "max_points": self.max_points,
-            "tasks": tasks,
-        }
-
-
-def grade(
-    exercise: Exercise, file: Path, report: Callable[[TaskResult], None] = lambda result: None
-) -> Result:
-    """Grades a submission's file; reports each task as soon as it is judged."""
-    results = []
-    for task in exercise.tasks:
-        results.append(grade_task(task, file))
-        report(results[-1])
-    return Result(exercise.number, exercise.title, results)
 
 
 def course_root() -> Path:

@@ -6,127 +6,17 @@ import contextlib
 import io
 import json
 import re
-import shutil
-import tempfile
 import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.cells import Script, Unreadable, scripts
 from botschool.grading.checks import Wrong
-from botschool.grading.exercise import Exercise, TaskResult, grade_task, load_exercise
-from botschool.grading.scratch import submission_files
-from botschool.grading.student import Student
+from botschool.grading.exercise import load_exercise
+from botschool.grading.nursery import Nursery
+from botschool.grading.submission import Submission, TaskResult
 
-LOADING_SECONDS = 10
-"""Time for all that a notebook's cells do besides defining functions, when it is graded."""
 LONGEST_PRINTED = 1500
 """Characters of what a task's code printed that are shown."""
-_LINE = re.compile(r" in line (\d+)")
-_FILE = re.compile(r" \(\w+\.py, line \d+\)")
-
-
-class NotebookSubmission:
-    """The code cells of a notebook as a submission's file, and what is to be said of it."""
-
-    def __init__(self, exercise: Exercise, file: Path, sources: list[str]) -> None:
-        self._exercise = exercise
-        self._file = file
-        self._sources = sources
-        self._notes: list[str] = []
-        self._script = Script()
-        self._failure = ""
-
-    def prepare(self) -> None:
-        """Writes the file: all that the cells hold if that can be loaded, else what they define."""
-        try:
-            everything, defined = scripts(self._sources)
-        except Unreadable as error:
-            self._failure = str(error)
-            return
-        self._write(everything)
-        trouble = _trouble(self._file)
-        if trouble:
-            trouble = self._with_cells(trouble).removeprefix("Your file cannot be loaded: ")
-            self._write(defined)
-            self._notes.append(
-                f"The notebook as a whole cannot be run ({trouble.rstrip('.')}), so only its "
-                "functions, classes and imports count, with the names that these use."
-            )
-            for number in defined.left_out:
-                self._notes.append(f"{self._cell(number).capitalize()} is no Python: left out.")
-
-    def grade(self, task: str) -> TaskResult:
-        """Grades a task, as `botschool grade` does; the message names cells and their lines."""
-        asked = self._exercise.find(task)
-        if self._failure:
-            return TaskResult(asked.id, asked.title, 0, asked.max_points, self._failure)
-        result = grade_task(asked, self._file)
-        result.message = self._with_cells(result.message)
-        if result.message:
-            result.message = "\n".join([result.message, *self._notes])
-        return result
-
-    def _write(self, script: Script) -> None:
-        self._script = script
-        self._file.write_bytes(script.text.encode("utf-8", "replace"))
-
-    def _with_cells(self, message: str) -> str:
-        def place(found: re.Match) -> str:
-            line = int(found[1])
-            if not 1 <= line <= len(self._script.places):
-                return found[0]
-            number, inside = self._script.places[line - 1]
-            return f" in line {inside} of {self._cell(number)}"
-
-        return _LINE.sub(place, _FILE.sub("", message))
-
-    def _cell(self, number: int) -> str:
-        lines = [line.strip() for line in self._sources[number - 1].splitlines() if line.strip()]
-        shown = lines[0] if lines else ""
-        return f"the cell '{shown[:40]}{'...' if len(shown) > 40 else ''}'"
-
-
-@contextmanager
-def notebook_submission(
-    exercise: Exercise, notebook: Path, sources: list[str]
-) -> Iterator[NotebookSubmission]:
-    """A notebook's code, ready to be graded in a copy of its folder that is removed at the end.
-
-    sources: the texts of its code cells. Raises Wrong when the folder is too large.
-    """
-    base = Path(tempfile.mkdtemp(prefix="botschool-"))
-    try:
-        file = base / "submission" / exercise.file
-        file.parent.mkdir()
-        for path in submission_files(notebook):
-            place = file.parent / path.relative_to(notebook.parent)
-            if path.suffix != ".ipynb" and place != file:
-                place.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(path, place, follow_symlinks=False)
-        submission = NotebookSubmission(exercise, file, sources)
-        submission.prepare()
-        yield submission
-    finally:
-        shutil.rmtree(base, ignore_errors=True)
-
-
-def _trouble(file: Path) -> str:
-    """Why a submission's file cannot be loaded, in a sentence; "" if it can."""
-
-    def loads(module):
-        return True
-
-    student = Student(file, LOADING_SECONDS)
-    try:
-        student.run(loads, said="the code outside functions")
-    except Wrong as error:
-        return str(error)
-    finally:
-        student.close()
-    return ""
 
 
 def code_cells(path: Path) -> list[str]:
@@ -173,13 +63,16 @@ def _grade_here(task: str) -> float:
     if not number.isdigit():
         raise BotschoolError(f"'{task}' names no task: give one as '3.2'.")
     exercise = load_exercise(int(number))
-    exercise.find(task)
+    asked = exercise.find(task)
     path = Path.cwd() / Path(exercise.file).with_suffix(".ipynb")
     sources = code_cells(path)
     if _changed(sources):
         print("What you ran is not what is saved: save the notebook (Ctrl+S), run this cell again.")
-    with notebook_submission(exercise, path, sources) as submission:
-        result = submission.grade(task)
+    with (
+        Nursery(exercise.imports) as nursery,
+        Submission(path, nursery, sources, exercise.file) as submission,
+    ):
+        result = submission.grade(asked)
     print(report(result))
     return float(result.points)
 

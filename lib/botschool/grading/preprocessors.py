@@ -23,10 +23,11 @@ from nbgrader.api import Gradebook
 from nbgrader.preprocessors import NbGraderPreprocessor
 
 from botschool.errors import BotschoolError
-from botschool.grading.checks import Wrong
-from botschool.grading.exercise import TaskResult, load_exercise
-from botschool.grading.notebook import notebook_submission, report
+from botschool.grading.exercise import load_exercise
+from botschool.grading.notebook import report
+from botschool.grading.nursery import Nursery
 from botschool.grading.skeleton import BEGIN, skeleton
+from botschool.grading.submission import Submission, TaskResult
 
 ANSWER, TEST = "task-", "test-"
 """How the grade ids of answer cells and test cells begin; task-3-2 is tested by test-3-2."""
@@ -167,15 +168,13 @@ class Grade(NbGraderPreprocessor):
         exercise = load_exercise(int(task_of(_grade_id(tests[0])).partition(".")[0]))
         name = resources["nbgrader"]["notebook"] + ".ipynb"
         path = Path(resources["metadata"]["path"]) / name
-        try:
-            with notebook_submission(exercise, path, sources) as submission:
-                for count, cell in enumerate(tests, 1):
-                    _fill(cell, count, submission.grade(task_of(_grade_id(cell))))
-        except Wrong as error:  # nothing of it can be graded
+        with (
+            Nursery(exercise.imports) as nursery,
+            Submission(path, nursery, sources, exercise.file) as submission,
+        ):
             for count, cell in enumerate(tests, 1):
                 task = exercise.find(task_of(_grade_id(cell)))
-                failed = TaskResult(task.id, task.title, 0, task.max_points, str(error))
-                _fill(cell, count, failed)
+                _fill(cell, count, submission.grade(task))
         return nb, resources
 
 

@@ -5,20 +5,17 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
-import subprocess
 import sys
 import threading
 import time
 from pathlib import Path
 from typing import Any
 
-import botschool
 from botschool.errors import BotschoolError
 from botschool.grading import protocol
+from botschool.grading.nursery import START_SECONDS, Nursery, homes, is_packages, package
 from botschool.grading.scratch import Scratch
 
-START_SECONDS = 60
-"""Longest start of the child, the student's file not yet loaded."""
 OUTPUT_KEPT = 4000
 """Characters of what the student's code prints that are kept."""
 LARGEST_OUTPUT = 16 * 2**20
@@ -41,40 +38,30 @@ _PRIVATE = ("solutions", "exercises", "tests", "results", "build", ".git", ".bot
 class Child:
     """A process that has not yet loaded the student's file, shut in and ready for requests."""
 
-    def __init__(self, file: Path, scratch: Scratch, seconds: float, memory: int) -> None:
+    def __init__(
+        self, nursery: Nursery, file: Path, scratch: Scratch, seconds: float, memory: int
+    ) -> None:
         """file: the submission, where it was handed in; memory: bytes. Raises BotschoolError."""
-        if not hasattr(os, "killpg"):
-            raise BotschoolError(
-                "Grading needs Linux or macOS: on Windows, install WSL with 'wsl --install' and "
-                "work there."
-            )
+        self._nursery = nursery
         self._scratch = scratch
         self._reason = ""
         self._kept = bytearray()
         self._closed = threading.Event()
+        self._ending = threading.Lock()
+        self._code: int | None = None
         to_child, self._requests = os.pipe()
         self._answers, from_child = os.pipe()
+        self._output, its_output = os.pipe()
         os.set_blocking(self._requests, False)
         try:
-            self._process = subprocess.Popen(
-                interpreter("botschool.grading.child", str(to_child), str(from_child)),
-                cwd=scratch.folder,
-                env=_environment(scratch.root),
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT,
-                pass_fds=(to_child, from_child),
-                start_new_session=True,
-            )
-        except OSError as error:
+            self._pid = nursery.start(to_child, from_child, its_output, scratch.folder)
+        except BotschoolError:
             self._close_pipes()
-            raise BotschoolError(
-                f"No process can be started for a submission ({error.strerror}): close other "
-                "programs, or use fewer workers (-w)."
-            ) from None
+            os.close(self._output)
+            raise
         finally:
-            os.close(to_child)
-            os.close(from_child)
+            for fd in (to_child, from_child, its_output):
+                os.close(fd)
         threading.Thread(target=self._drain, daemon=True).start()
         self.missing = self._set_up(file, seconds, memory)
         threading.Thread(target=self._look, daemon=True).start()
@@ -85,6 +72,7 @@ class Child:
             "seconds": seconds,
             "memory": memory,
             "file_size": LARGEST_FILE,
+            "environment": homes(self._scratch.root),
             "readable": [str(path) for path in readable(file)],
             "writable": [str(self._scratch.root), "/dev/null"],
         }
@@ -120,9 +108,8 @@ class Child:
 
     def ending(self) -> str:
         """Why the process ended, in words."""
-        try:
-            code = self._process.wait(1)
-        except subprocess.TimeoutExpired:
+        code = self._wait(1)
+        if code is None:
             return "it closed its connection to the grader"
         if self._reason:
             return self._reason
@@ -136,15 +123,21 @@ class Child:
         """Ends the process, with all its threads and what it started."""
         self._closed.set()
         self._kill_group()
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            self._process.wait(5)
+        self._wait(5)
         self._close_pipes()
 
+    def _wait(self, seconds: float) -> int | None:
+        with self._ending:
+            if self._code is None:
+                self._code = self._nursery.ended(self._pid, seconds)
+            return self._code
+
     def _kill_group(self) -> None:
-        if self._process.returncode is None:
-            with contextlib.suppress(ProcessLookupError, PermissionError):
-                os.killpg(self._process.pid, signal.SIGKILL)
-            self._process.kill()
+        with self._ending:
+            if self._code is None:
+                for kill in (os.killpg, os.kill):
+                    with contextlib.suppress(ProcessLookupError, PermissionError):
+                        kill(self._pid, signal.SIGKILL)
 
     def _close_pipes(self) -> None:
         for fd in (self._requests, self._answers):
@@ -159,18 +152,18 @@ class Child:
     def _drain(self) -> None:
         total = 0
         with contextlib.suppress(OSError, ValueError):
-            while part := os.read(self._process.stdout.fileno(), 65536):
+            while part := os.read(self._output, 65536):
                 total += len(part)
                 self._kept += part[: max(0, 4 * OUTPUT_KEPT - len(self._kept))]
                 if total > LARGEST_OUTPUT:
                     self._end(f"it printed more than {LARGEST_OUTPUT // 2**20} MB")
                     break
         with contextlib.suppress(OSError):
-            self._process.stdout.close()
+            os.close(self._output)
 
     def _look(self) -> None:
-        while not self._closed.wait(LOOK_EACH) and self._process.returncode is None:
-            if _threads(self._process.pid) > MOST_THREADS:
+        while not self._closed.wait(LOOK_EACH) and self._code is None:
+            if _threads(self._pid) > MOST_THREADS:
                 self._end(f"it started more than {MOST_THREADS} threads")
             if reason := self._scratch.trouble():
                 self._end(reason)
@@ -183,44 +176,6 @@ def _threads(pid: int) -> int:
         return 0
 
 
-def interpreter(module: str, *arguments: str) -> list[str]:
-    """The command that runs a module's main in another interpreter.
-
-    It finds our packages wherever they were installed, and nothing in the working folder.
-    """
-    places = [str(package().parent), *(path for path in sys.path if _is_packages(path))]
-    start = (
-        f"import sys; sys.path += [p for p in {places!r} if p not in sys.path]; "
-        f"from {module} import main; main()"
-    )
-    return [sys.executable, "-I", "-c", start, *arguments]
-
-
-def _is_packages(path: str) -> bool:
-    return Path(path).name in ("site-packages", "dist-packages")
-
-
-def package() -> Path:
-    """The folder of botschool's Python files."""
-    return Path(botschool.__file__).parent
-
-
-def _environment(root: Path) -> dict[str, str]:
-    return {
-        "PATH": os.environ.get("PATH", ""),
-        "LANG": "C.UTF-8",
-        "HOME": str(root),
-        "TMPDIR": str(root),
-        "MPLCONFIGDIR": str(root),
-        "MPLBACKEND": "Agg",
-        "SDL_VIDEODRIVER": "dummy",
-        "OPENBLAS_NUM_THREADS": "1",
-        "OMP_NUM_THREADS": "1",
-        "PYTHONDONTWRITEBYTECODE": "1",
-        "PYTHONHASHSEED": "0",
-    }
-
-
 def readable(file: Path) -> list[Path]:
     """What the submission may read beside its copy: Python, its packages, the system's libraries.
 
@@ -230,7 +185,7 @@ def readable(file: Path) -> list[Path]:
 
     own = package().resolve()
     core = Path(botschool._core.__file__).resolve().parent
-    packages = [Path(path).resolve() for path in sys.path if path and _is_packages(path)]
+    packages = [Path(path).resolve() for path in sys.path if path and is_packages(path)]
     prefixes = [Path(sys.prefix).resolve(), Path(sys.base_prefix).resolve()]
     needed = [own, core, *packages, *prefixes]
     file = file.resolve()

@@ -18,8 +18,10 @@ from typing import Any
 
 import numpy as np
 
-LARGEST_TEXT = 8 * 2**20
+LARGEST_TEXT = 4 * 2**20
 """Bytes of JSON in a message; Python objects made of it take some ten times as much."""
+MOST_ARRAYS = 50_000
+"""In a message."""
 LARGEST = 64 * 2**20
 """Bytes of the arrays in a message."""
 DEEPEST = 50
@@ -39,6 +41,8 @@ def pack(value: Any) -> bytes:
     blobs: list[bytes] = []
     text = json.dumps(_simple(value, blobs, 0)).encode()
     data = b"".join(blobs)
+    if len(blobs) > MOST_ARRAYS:
+        raise NotPlain(f"{len(blobs)} arrays, which is too much")
     if len(text) > LARGEST_TEXT or len(data) > LARGEST:
         raise NotPlain(f"{(len(text) + len(data)) / 2**20:.0f} MB of data, which is too much")
     return len(text).to_bytes(8, "little") + len(data).to_bytes(8, "little") + text + data
@@ -134,6 +138,7 @@ class _Restored:
 
     def __init__(self, data: bytes) -> None:
         self._data = data
+        self._arrays = 0
         self.used = 0
 
     def of(self, value: Any, depth: int) -> Any:
@@ -152,6 +157,9 @@ class _Restored:
     def _array(self, kind: str, shape: list[int]) -> np.ndarray:
         if not _KIND.fullmatch(kind) or any(type(n) is not int or n < 0 for n in shape):
             raise ValueError("an array that is not numbers")
+        self._arrays += 1
+        if self._arrays > MOST_ARRAYS:
+            raise ValueError("too many arrays")
         dtype = np.dtype(kind)
         start = self.used
         self.used += math.prod(shape) * dtype.itemsize

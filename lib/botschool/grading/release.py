@@ -10,14 +10,15 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from botschool.errors import BotschoolError
+from botschool.grading.packed import pack
 from botschool.grading.scratch import remove_tree
 from botschool.grading.skeleton import BEGIN, END, pairs, skeleton
 
 RELEASED = (
-    "lib", "data", "envs", "exercises", "tools", "docs", "tests", "Makefile", "pyproject.toml",
+    "lib", "data", "exercises", "tools", "docs", "tests", "Makefile", "pyproject.toml",
     "constraints.txt", "README.md", "LICENSE", ".gitignore", ".clang-format",
 )  # fmt: skip
-"""At the top of the repository; everything else stays."""
+"""At the top of the repository; everything else stays (envs/ is what exercise 10 builds)."""
 _WITHHELD = re.compile(
     r"tests/course(/|$)|docs/(instructor|answer|solution)|(^|/)(__pycache__|\..*_cache|results)/"
     r"|\.(pyc|so|pyd|dylib|dll|ipynb|egg-info)$|(^|/)(?!\.gitignore$|\.clang-format$)\.[^/]*$",
@@ -52,7 +53,9 @@ def release(root: Path, target: Path) -> int:
             shutil.copy2(path, place)
         for solution, place in pairs(root):
             text = skeleton(solution.read_text(encoding="utf-8"))
-            (made / place.relative_to(root)).write_text(text, encoding="utf-8", newline="\n")
+            released = made / place.relative_to(root)
+            released.parent.mkdir(parents=True, exist_ok=True)
+            released.write_text(text, encoding="utf-8", newline="\n")
         leaks = find_leaks(root, (path for path in made.rglob("*") if path.is_file()))
         if leaks:
             path, line = leaks[0]
@@ -60,6 +63,9 @@ def release(root: Path, target: Path) -> int:
                 f"{path.relative_to(made)} tells a part of a solution ('{line[:60]}'): nothing was "
                 "released; take it out and try again."
             )
+        for grader in made.glob("exercises/ex[0-9][0-9]_*/test_*.py"):
+            text = pack(grader.read_text(encoding="utf-8"))
+            grader.write_text(text, encoding="utf-8", newline="\n")
         made.chmod(0o755)
         if target.is_dir():
             target.rmdir()

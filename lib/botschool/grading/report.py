@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
 from rich.padding import Padding
 
-from botschool.grading.exercise import Result, TaskResult
+from botschool.grading.submission import Result, TaskResult
 
 LONGEST_MESSAGE = 6
 """Lines of a task's message on the screen."""
@@ -22,12 +23,14 @@ class Screen:
 
     def __init__(self, console: Console | None = None) -> None:
         self.console = console or Console(highlight=False)
+        self._file = Path()
 
-    def start(self, number: int, title: str, file: object) -> None:
+    def start(self, number: int, title: str, file: Path) -> None:
         """The heading."""
-        self.console.print(
-            f"[bold]Exercise {number}. {escape(title)}[/]  [dim]{escape(str(file))}[/]"
-        )
+        file = file.resolve()
+        self._file = file.relative_to(Path.cwd()) if file.is_relative_to(Path.cwd()) else file
+        self.console.print(f"[bold]Exercise {number}. {escape(title)}[/]")
+        self.console.print(f"[dim]{escape(str(self._file))}[/]", soft_wrap=True)
 
     def task(self, result: TaskResult) -> None:
         """One task: its points, and why some are missing."""
@@ -61,8 +64,8 @@ class Screen:
             return
         if not missing:
             self.console.print(
-                f"[green]All done![/] See your robot: make solution-ex{result.exercise}, "
-                "or run your file."
+                f"[green]All done![/] See what you have made: python {escape(str(self._file))}",
+                soft_wrap=True,
             )
             return
         task = missing[0]

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from botschool.grading.checks import NotDone, Wrong, plain, show
+from botschool.grading.nursery import Nursery
 from botschool.grading.process import Child
 from botschool.grading.scratch import Scratch
 
@@ -22,8 +23,17 @@ class Student:
     later checks are judged on their own.
     """
 
-    def __init__(self, file: Path, seconds: float = 20, memory: int = 4096) -> None:
-        """memory: MB of address space. Raises Wrong when the submission is too large."""
+    def __init__(
+        self,
+        file: Path,
+        seconds: float = 20,
+        memory: int = 4096,
+        nursery: Nursery | None = None,
+    ) -> None:
+        """memory: MB of address space; nursery: else one of its own.
+
+        Raises Wrong when the submission is too large.
+        """
         self._file = Path(file)
         self._memory = memory * 2**20
         self._seconds = seconds
@@ -32,9 +42,13 @@ class Student:
         self._printed = ""
         self.missing: list[str] = []
         """What this system could not confine, in words."""
+        self.answers = 0
+        """How many requests the submission has answered."""
         self.said = "your file"
         """The last call, as the learner would write it."""
         self._scratch = Scratch(self._file)
+        self._nursery = nursery
+        self._own: Nursery | None = None
 
     def call(self, name: str, *arguments: Any, **options: Any) -> Any:
         """Calls a function of the submission; what it returns, as plain data.
@@ -87,13 +101,19 @@ class Student:
     def close(self) -> None:
         """Kills the child and removes the scratch copy."""
         self.stop()
+        if self._own is not None:
+            self._own.close()
         self._scratch.remove()
 
     def _request(self, request: dict[str, Any]) -> Any:
         if self.seconds_left <= 0:
             raise Wrong("the task's time was used up by the checks before.")
         if self._child is None:
-            self._child = Child(self._file, self._scratch, self.seconds_left, self._memory)
+            if self._nursery is None:
+                self._nursery = self._own = Nursery()
+            self._child = Child(
+                self._nursery, self._file, self._scratch, self.seconds_left, self._memory
+            )
             self.missing = self._child.missing
             if self._deadline is None:
                 self._deadline = time.monotonic() + self._seconds
@@ -111,6 +131,7 @@ class Student:
             reason = self._child.ending()
             self.stop()
             raise Wrong(f"The program ended while {self.said} was running: {reason}.")
+        self.answers += 1
         return _value(answer, self.said)
 
 

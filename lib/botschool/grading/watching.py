@@ -6,8 +6,10 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from botschool.grading.exercise import Exercise, Result, TaskResult, grade_task
+from botschool.grading.exercise import Exercise
+from botschool.grading.nursery import Nursery
 from botschool.grading.report import Screen
+from botschool.grading.submission import TaskResult, grade
 
 LOOK_EACH = 0.3
 """Seconds."""
@@ -37,25 +39,33 @@ def watch(
     wait: Callable[[float], None] = time.sleep,
 ) -> None:
     """Grades now and after every save, for ever; `wait` is called between two looks."""
-    while True:
-        seen = stamp(file.parent)
-        try:
-            _once(exercise, file, tasks, screen, seen)
-        except Saved:
-            continue
-        screen.console.print("[dim]Waiting for the next save; Ctrl-C ends.[/]")
-        while stamp(file.parent) == seen or not file.is_file():
-            wait(LOOK_EACH)
+    with Nursery(exercise.imports) as nursery:
+        while True:
+            seen = stamp(file.parent)
+            try:
+                _once(exercise, file, tasks, screen, seen, nursery)
+            except Saved:
+                continue
+            screen.console.print("[dim]Waiting for the next save; Ctrl-C ends.[/]")
+            while stamp(file.parent) == seen or not file.is_file():
+                wait(LOOK_EACH)
 
 
-def _once(exercise: Exercise, file: Path, tasks: list, screen: Screen, seen: tuple) -> None:
+def _once(
+    exercise: Exercise,
+    file: Path,
+    tasks: list,
+    screen: Screen,
+    seen: tuple,
+    nursery: Nursery,
+) -> None:
     screen.console.clear()
     screen.start(exercise.number, exercise.title, file)
-    results: list[TaskResult] = []
-    for task in tasks:
-        results.append(grade_task(task, file))
+
+    def report(result: TaskResult) -> None:
         if stamp(file.parent) != seen:
             raise Saved
-        screen.task(results[-1])
-    whole = len(tasks) == len(exercise.tasks)
-    screen.end(Result(exercise.number, exercise.title, results), whole)
+        screen.task(result)
+
+    result = grade(exercise, file, report, tasks, nursery)
+    screen.end(result, whole=len(tasks) == len(exercise.tasks))
