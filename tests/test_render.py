@@ -10,7 +10,7 @@ import pytest
 
 from botschool.errors import BotschoolError
 from botschool.problems.moment import Moment
-from botschool.render import panel, scene, video, window
+from botschool.render import panel, scene, shapes, video, window
 
 STATES = {
     "CartPole-v0": [0.5, 0.0, 0.1, 0.0],
@@ -65,24 +65,24 @@ def test_the_action_is_seen(name):
 def test_the_force_points_where_the_cart_is_pushed():
     drawn = scene.make_scene("ErDpole")
     cart = 300
-    left, right = (where(drawn.draw(np.zeros(6), a), scene.FORCE)[1] for a in (-1.0, 1.0))
+    left, right = (where(drawn.draw(np.zeros(6), a), shapes.FORCE)[1] for a in (-1.0, 1.0))
     assert left < cart - 25 and right > cart + 25
 
 
 def test_a_positive_angle_of_the_double_pole_leans_right():
     frame = scene.make_scene("ErDpole").draw(np.array([0.0, 0.0, 0.5, 0.0, -0.5, 0.0]))
-    assert where(frame, scene.POLE)[1] > 310
-    assert where(frame, scene.SHORT_POLE)[1] < 295
+    assert where(frame, shapes.POLE)[1] > 310
+    assert where(frame, shapes.SHORT_POLE)[1] < 295
 
 
 def test_a_push_to_the_right_lets_the_swingup_pole_lean_left():
     drawn = scene.make_scene("envSwingupCustom")
-    assert where(drawn.draw(np.array([0.0, 0.0, 0.5, 0.0])), scene.POLE)[1] < 295
+    assert where(drawn.draw(np.array([0.0, 0.0, 0.5, 0.0])), shapes.POLE)[1] < 295
 
 
 def test_the_swingup_pole_hangs_at_pi():
     drawn = scene.make_scene("envSwingupCustom")
-    up, down = (where(drawn.draw(np.array([0, 0, a, 0])), scene.POLE)[0] for a in (0.0, np.pi))
+    up, down = (where(drawn.draw(np.array([0, 0, a, 0])), shapes.POLE)[0] for a in (0.0, np.pi))
     assert up < 190 and down > 210
 
 

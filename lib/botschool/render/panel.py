@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,32 +28,53 @@ _CELL_WITH_NUMBER = 34
 
 
 def with_activations(
-    frame: np.ndarray, activations: np.ndarray, ninputs: int, noutputs: int
+    frame: np.ndarray,
+    activations: np.ndarray,
+    ninputs: int,
+    noutputs: int,
+    robots: Sequence[str] = ("",),
 ) -> np.ndarray:
     """The frame with a panel at its right: one coloured cell for each neuron.
 
-    `frame` is (height, width, 3) uint8, `activations` (neurons,): inputs, hidden, outputs. White
-    is 0, orange +1 and beyond, blue -1 and beyond; a black border marks what is beyond. Cells with
-    room show their number. Returns a new frame; its sides are even, as video formats ask.
-    Raises ValueError if there are fewer neurons than inputs and outputs.
+    `frame` is (height, width, 3) uint8, `activations` (neurons,): inputs, hidden, outputs of each
+    of the robots. White is 0, orange +1 and beyond, blue -1 and beyond; a black border marks what
+    is beyond. Cells with room show their number. Returns a new frame; its sides are even, as
+    video formats ask. Raises ValueError if there are fewer neurons than inputs and outputs.
     """
     activations = np.asarray(activations, dtype=np.float64).ravel()
-    if len(activations) < ninputs + noutputs:
-        raise ValueError(
-            f"{len(activations)} activations for {ninputs} inputs and {noutputs} outputs"
-        )
-    hidden, outputs = ninputs, len(activations) - noutputs
-    groups = {
-        "inputs": activations[:hidden],
-        "hidden": activations[hidden:outputs],
-        "outputs": activations[outputs:],
-    }
+    groups, first = {}, 0
+    for label, size in neuron_groups(len(activations), ninputs, noutputs, robots):
+        groups[label] = activations[first : first + size]
+        first += size
     height = _even(max(len(frame), PANEL_MIN_HEIGHT))
     panel = blank(PANEL_WIDTH, height)
     panel.fill(GREY, (0, 0, 1, height))
-    _draw_groups(panel, {name: group for name, group in groups.items() if len(group)})
+    _draw_groups(panel, groups)
     _draw_scale(panel, height - _SCALE_BAR)
     return np.hstack([_padded(frame, height), to_frame(panel)])
+
+
+def neuron_groups(
+    neurons: int, ninputs: int, noutputs: int, robots: Sequence[str] = ("",)
+) -> list[tuple[str, int]]:
+    """Labels and sizes of the groups in a vector of activations; empty groups are left out.
+
+    ninputs and noutputs are those of one robot's network; all robots' networks are alike.
+    Raises ValueError if there are fewer neurons than inputs and outputs.
+    """
+    nhiddens, rest = divmod(neurons - len(robots) * (ninputs + noutputs), len(robots))
+    if nhiddens < 0 or rest:
+        raise ValueError(
+            f"{neurons} activations for {ninputs} inputs and {noutputs} outputs "
+            f"of {len(robots)} robot(s)"
+        )
+    sizes = {"inputs": ninputs, "hidden": nhiddens, "outputs": noutputs}
+    return [
+        (f"{robot} {kind}".strip(), size)
+        for robot in robots
+        for kind, size in sizes.items()
+        if size
+    ]
 
 
 def with_caption(frame: np.ndarray, episode: int, moment: Moment) -> np.ndarray:

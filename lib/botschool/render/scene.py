@@ -1,41 +1,69 @@
-"""Frames of the native problems, drawn from their states."""
+"""The pictures of the native problems, each described once: shapes, and what moves them."""
 
 from __future__ import annotations
 
-import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import cos, sin
-from typing import TYPE_CHECKING
+from math import atan, cos, sin
 
 import numpy as np
 
 from botschool.errors import BotschoolError
-from botschool.render.canvas import BLACK, GREY, blank, disc, draw_offscreen, polygon, to_frame
-
-if TYPE_CHECKING:
-    import pygame
-
-AXLE = (129, 132, 203)
-POLE = (202, 152, 101)
-SHORT_POLE = (86, 158, 140)
-FORCE = (204, 77, 77)
+from botschool.problems.moment import Moment
+from botschool.render.canvas import Painter, draw_offscreen
+from botschool.render.shapes import Shape, arrow, bent_arrow, rectangle
 
 
 class Scene(ABC):
-    """Draws the states of one problem."""
+    """The picture of one problem. A subclass adds its shapes when it is made."""
 
     fps: float
-    """Frames a second: the speed at which a film looks right."""
+    """Steps a second: the speed at which a film looks right."""
     state_size: int
+    view: tuple[float, float, float, float]
+    """What is seen of the world: left, bottom, right, top."""
+    scale: float
+    """Pixels of a frame per unit of length."""
+    robots: tuple[str, ...] = ("",)
+    """Names of the robots whose networks are seen, where there is more than one."""
+    closeups: tuple[tuple[str, int, float], ...] = ()
+    """What a replay can follow: name, pose, width of what is seen around it."""
 
-    def draw(self, state: np.ndarray, action: np.ndarray | float | None = None) -> np.ndarray:
-        """The frame of a state, (height, width, 3) uint8.
+    def __init__(self) -> None:
+        self.shapes: list[Shape] = []
+        self.count = 0
+        """How many numbers a step has."""
+        self._past: list[np.ndarray] = []
+        self._painter: Painter | None = None
 
-        `state` is the native problem's, (state_size,); `action` the one that led to it, where it
-        can be seen. Raises BotschoolError if a number is not finite, ValueError if the size is
-        wrong.
+    def add(self, kind: str, points, colour: str, **options) -> None:
+        """Adds a shape in front of those before; see Shape."""
+        self.shapes.append(Shape(kind, tuple(points), colour, **options))
+
+    def pose(self) -> int:
+        """Reserves three numbers: x, y, angle."""
+        self.count += 3
+        return self.count - 3
+
+    def value(self) -> int:
+        """Reserves one number."""
+        self.count += 1
+        return self.count - 1
+
+    def numbers(
+        self,
+        state: np.ndarray,
+        action: np.ndarray | float | None = None,
+        observation: np.ndarray | None = None,
+        reward: float = 0.0,
+    ) -> np.ndarray:
+        """What moves the shapes, float64 (count,).
+
+        `state` is the native problem's, (state_size,); `action` the one that led to it,
+        `observation` what it answered to and `reward` what it earned, where they can be seen.
+        Raises BotschoolError if a number of the state is not finite, ValueError if the size of
+        the state, the action or the observation is wrong.
         """
         state = np.asarray(state, dtype=np.float64)
         if state.shape != (self.state_size,):
@@ -44,44 +72,49 @@ class Scene(ABC):
             raise BotschoolError(
                 f"the state {state.tolist()} cannot be drawn: it holds numbers that are not finite."
             )
-        first = None if action is None else float(np.ravel(action)[0])
-        draw_offscreen()
-        return self._draw(state, first if first is not None and np.isfinite(first) else None)
+        action = np.nan_to_num(np.ravel([] if action is None else action).astype(np.float64))
+        if observation is not None:
+            observation = np.nan_to_num(np.ravel(observation).astype(np.float64))
+        return np.array(self._numbers(state, action, observation, reward), dtype=np.float64)
 
     @abstractmethod
-    def _draw(self, state: np.ndarray, action: float | None) -> np.ndarray:
-        """As `draw`; `action` is the first number of the action, or None."""
+    def _numbers(
+        self,
+        state: np.ndarray,
+        action: np.ndarray,
+        observation: np.ndarray | None,
+        reward: float,
+    ) -> list[float]:
+        """As `numbers`, in the order in which they were reserved; `action` may be empty."""
 
+    def draw(
+        self,
+        state: np.ndarray,
+        action: np.ndarray | float | None = None,
+        observation: np.ndarray | None = None,
+        reward: float = 0.0,
+    ) -> np.ndarray:
+        """The frame of a step, (height, width, 3) uint8; arguments and errors as `numbers`.
 
-class GymnasiumScene(Scene):
-    """Gymnasium's own pictures of a classic-control environment."""
+        Where there are trails, they show what was drawn before in the same episode.
+        """
+        numbers = self.numbers(state, action, observation, reward)
+        longest = max((shape.steps for shape in self.shapes), default=0)
+        if not self._follows(state):
+            self._past = []
+        self._past = [*self._past, numbers][-longest - 1 :]
+        draw_offscreen()
+        if self._painter is None:
+            self._painter = Painter(self.shapes, self.view, self.scale)
+        return self._painter.frame(self._past)
 
-    def __init__(self, env_id: str, state_size: int) -> None:
-        import gymnasium
+    def draw_moment(self, moment: Moment) -> np.ndarray:
+        """The frame of a step that `Problem.play` yielded; see draw."""
+        return self.draw(moment.state, moment.action, moment.observation, moment.reward)
 
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            env = gymnasium.make(env_id, render_mode="rgb_array")
-        self.state_size = state_size
-        self.fps = float(env.metadata["render_fps"])
-        self._env = env.unwrapped
-        self._env.reset(seed=0)
-
-    def _draw(self, state: np.ndarray, action: float | None) -> np.ndarray:
-        self._env.state = state.copy()
-        self._show_action(action)
-        return np.array(self._env.render())
-
-    def _show_action(self, action: float | None) -> None:
-        """Most pictures show no action."""
-
-
-class PendulumScene(GymnasiumScene):
-    """The pendulum, with the torque as a bent arrow."""
-
-    def _show_action(self, action: float | None) -> None:
-        limit = self._env.max_torque
-        self._env.last_u = None if action is None else float(np.clip(action, -limit, limit))
+    def _follows(self, state: np.ndarray) -> bool:
+        """Whether the state comes after those drawn before, in the same episode."""
+        return False
 
 
 @dataclass(frozen=True)
@@ -92,7 +125,7 @@ class Pole:
     """Where in the state its angle is (radians, 0 upright)."""
     length: float
     """Metres."""
-    colour: tuple[int, int, int]
+    colour: str = "pole"
     clockwise: bool = True
     """Whether the angle grows as the pole leans to the right."""
 
@@ -100,94 +133,179 @@ class Pole:
 class CartScene(Scene):
     """A cart with poles on a track of +-2.4 m, and the force that pushes it as an arrow.
 
-    The state starts with the cart's position; the force is full at an action of +-1.
+    The state starts with the cart's position; the force is full at an action of +-1, or with a
+    discrete action always full: 0 to the left, 1 to the right.
     """
 
+    scale = 110.0
     WIDTH, HEIGHT = 600, 400
-    SCALE = 110.0
-    """Pixels a metre."""
     TRACK_END = 2.4
-    CART = (50, 30)
-    POLE_WIDTH = 10
-    ARROW = 60.0
+    CART = (0.45, 0.27)
+    POLE_WIDTH = 0.09
 
-    def __init__(self, poles: list[Pole], state_size: int, track_y: int, fps: float) -> None:
-        self.poles = poles
-        self.state_size = state_size
-        self.fps = fps
-        self._track_y = track_y
-
-    def _draw(self, state: np.ndarray, action: float | None) -> np.ndarray:
-        surface = blank(self.WIDTH, self.HEIGHT)
-        cart_x = self.WIDTH / 2 + self.SCALE * float(np.clip(state[0], -3.0, 3.0))
-        self._draw_track(surface)
-        self._draw_cart(surface, cart_x)
-        axle = (cart_x, self._track_y - self.CART[1] / 4)
-        for pole in self.poles:
-            self._draw_pole(surface, axle, pole, state[pole.angle])
-        disc(surface, axle, self.POLE_WIDTH / 2, AXLE)
-        if action is not None:
-            self._draw_force(surface, cart_x, float(np.clip(action, -1.0, 1.0)))
-        return to_frame(surface)
-
-    def _draw_track(self, surface: pygame.Surface) -> None:
-        y, end = self._track_y, self.SCALE * self.TRACK_END
-        surface.fill(BLACK, (0, y, self.WIDTH, 1))
-        for x in (self.WIDTH / 2 - end, self.WIDTH / 2 + end):
-            surface.fill(GREY, (round(x) - 1, y - 12, 3, 25))
-
-    def _draw_cart(self, surface: pygame.Surface, x: float) -> None:
-        width, height = self.CART
-        surface.fill(BLACK, (round(x - width / 2), self._track_y - height // 2, width, height))
-
-    def _draw_pole(
-        self, surface: pygame.Surface, axle: tuple[float, float], pole: Pole, angle: float
+    def __init__(
+        self, poles: list[Pole], state_size: int, track_y: int, fps: float, discrete: bool = False
     ) -> None:
-        if not pole.clockwise:
-            angle = -angle
-        along, across = (sin(angle), -cos(angle)), (cos(angle), sin(angle))
+        super().__init__()
+        self.poles, self.state_size, self.fps, self._discrete = poles, state_size, fps, discrete
+        half = self.WIDTH / 2 / self.scale
+        bottom, top = (track_y - self.HEIGHT) / self.scale, track_y / self.scale
+        self.view = (-half, bottom, half, top)
+        self._add_track(half)
+        width, height = (side / 2 for side in self.CART)
+        cart = self.pose()
+        self.add("polygon", rectangle(-width, -height, width, height), "ink", pose=cart)
         half = self.POLE_WIDTH / 2
-        ends = (-half, self.SCALE * pole.length)
-        corners = [(ends[0], -half), (ends[0], half), (ends[1], half), (ends[1], -half)]
-        points = [
-            (axle[0] + a * along[0] + b * across[0], axle[1] + a * along[1] + b * across[1])
-            for a, b in corners
-        ]
-        polygon(surface, points, pole.colour)
+        for pole in poles:
+            corners = rectangle(-half, -half, half, pole.length)
+            self.add("polygon", corners, pole.colour, pose=self.pose())
+        self.add("disc", [(0.0, self.CART[1] / 4)], "axle", radius=half, pose=cart)
+        push = arrow(0.55, 0.16)
+        for side in (1, -1):
+            corners = [(side * x, y) for x, y in push]
+            self.add(
+                "polygon", corners, "force",
+                at=(side * (width + 0.03), 0.0), pose=cart, size=self.value(),
+            )  # fmt: skip
 
-    def _draw_force(self, surface: pygame.Surface, cart_x: float, force: float) -> None:
-        length = self.ARROW * abs(force)
-        if length < 1.0:
-            return
-        side = 1.0 if force > 0 else -1.0
-        tail = cart_x + side * (self.CART[0] / 2 + 3)
-        head, tip = tail + side * max(length - 12.0, 0.0), tail + side * length
-        y = self._track_y
-        shaft = [(tail, y - 3), (head, y - 3), (head, y + 3), (tail, y + 3)]
-        polygon(surface, shaft, FORCE)
-        half = min(9.0, 0.75 * length)
-        polygon(surface, [(head, y - half), (tip, y), (head, y + half)], FORCE)
+    def _add_track(self, half: float) -> None:
+        self.add("line", [(-half, 0.0), (half, 0.0)], "ink", radius=0.005)
+        for x in (-self.TRACK_END, self.TRACK_END):
+            self.add("line", [(x, -0.11), (x, 0.11)], "muted", radius=0.012)
+
+    def _numbers(self, state, action, observation, reward) -> list[float]:
+        x = float(np.clip(state[0], -3.0, 3.0))
+        numbers = [x, 0.0, 0.0]
+        for pole in self.poles:
+            angle = float(state[pole.angle])
+            numbers += [x, self.CART[1] / 4, -angle if pole.clockwise else angle]
+        force = float(np.clip(action[0], -1.0, 1.0)) if len(action) else 0.0
+        if self._discrete and len(action):
+            force = 1.0 if action[0] >= 0.5 else -1.0
+        return [*numbers, max(force, 0.0), max(-force, 0.0)]
+
+
+class PendulumScene(Scene):
+    """The pendulum, with the torque as a bent arrow."""
+
+    state_size, fps, scale = 2, 20.0, 160.0
+    view = (-1.25, -1.25, 1.25, 1.25)
+    TORQUE = 2.0
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.add("line", [(0.0, 1.06), (0.0, 1.16)], "muted", radius=0.01)
+        pole = self.pose()
+        self.add("line", [(0.0, 0.0), (0.0, 1.0)], "pole", radius=0.08, pose=pole)
+        self.add("disc", [(0.0, 0.0)], "pole", radius=0.08, pose=pole)
+        self.add("disc", [(0.0, 1.0)], "pole", radius=0.08, pose=pole)
+        self.add("disc", [(0.0, 0.0)], "ink", radius=0.035)
+        self.add("polygon", bent_arrow(0.34, 0.2), "force", size=self.value())
+
+    def _numbers(self, state, action, observation, reward) -> list[float]:
+        torque = float(np.clip(action[0] / self.TORQUE, -1.0, 1.0)) if len(action) else 0.0
+        return [0.0, 0.0, float(state[0]), torque]
+
+
+class AcrobotScene(Scene):
+    """Two links that hang, the height to reach, and the torque at the elbow as a bent arrow."""
+
+    state_size, fps, scale = 4, 15.0, 90.0
+    view = (-2.4, -2.3, 2.4, 2.3)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.add("line", [(-2.4, 1.0), (2.4, 1.0)], "goal", radius=0.012)
+        upper, lower = self.pose(), self.pose()
+        for link, colour in ((upper, "short pole"), (lower, "pole")):
+            self.add("line", [(0.0, 0.0), (0.0, -1.0)], colour, radius=0.09, pose=link)
+            self.add("disc", [(0.0, -1.0)], colour, radius=0.09, pose=link)
+            self.add("disc", [(0.0, 0.0)], colour, radius=0.09, pose=link)
+            self.add("disc", [(0.0, 0.0)], "axle", radius=0.06, pose=link)
+        turn = self.pose()
+        self.add("polygon", bent_arrow(0.3, 0.17), "force", pose=turn, size=self.value())
+
+    def _numbers(self, state, action, observation, reward) -> list[float]:
+        first, second = float(state[0]), float(state[1])
+        elbow = (sin(first), -cos(first))
+        torque = float(np.clip(action[0] - 1.0, -1.0, 1.0)) if len(action) else 0.0
+        return [0.0, 0.0, first, *elbow, first + second, *elbow, 0.0, torque]
+
+
+class MountainCarScene(Scene):
+    """A car between two hills, its engine's force as an arrow, and the flag to reach."""
+
+    state_size, fps, scale = 2, 30.0, 310.0
+    LEFT, RIGHT, GOAL = -1.2, 0.6, 0.45
+    view = (-1.25, -0.1, 0.68, 1.25)
+
+    def __init__(self) -> None:
+        super().__init__()
+        left, bottom, right, _ = self.view
+        hills = [(x, self._height(x)) for x in np.linspace(left, right, 80)]
+        self.add("polygon", [(left, bottom), *hills, (right, bottom)], "ground")
+        self.add("line", hills, "muted", radius=0.004)
+        top = self._height(self.GOAL)
+        self.add("line", [(self.GOAL, top), (self.GOAL, top + 0.2)], "ink", radius=0.004)
+        flag = [(self.GOAL, top + 0.2), (self.GOAL, top + 0.12), (self.GOAL + 0.1, top + 0.16)]
+        self.add("polygon", flag, "goal")
+        car = self.pose()
+        self.add("polygon", rectangle(-0.06, 0.025, 0.06, 0.065), "ink", pose=car)
+        self.add("polygon", rectangle(-0.03, 0.06, 0.035, 0.095), "ink", pose=car)
+        for x in (-0.035, 0.035):
+            self.add("disc", [(x, 0.022)], "muted", radius=0.02, pose=car)
+        push = arrow(0.2, 0.05)
+        self.add("polygon", push, "force", at=(0.0, 0.13), pose=car, size=self.value())
+
+    @staticmethod
+    def _height(x: float) -> float:
+        return 0.55 + 0.45 * sin(3 * x)
+
+    def _numbers(self, state, action, observation, reward) -> list[float]:
+        x = float(np.clip(state[0], self.LEFT, self.RIGHT))
+        force = float(np.clip(action[0], -1.0, 1.0)) if len(action) else 0.0
+        return [x, self._height(x), atan(1.35 * cos(3 * x)), force]
+
+
+def _cartpole() -> Scene:
+    return CartScene(
+        [Pole(angle=2, length=1.0)], state_size=4, track_y=300, fps=50.0, discrete=True
+    )
 
 
 def _swingup() -> Scene:
-    poles = [Pole(angle=2, length=0.6, colour=POLE, clockwise=False)]
+    poles = [Pole(angle=2, length=0.6, clockwise=False)]
     return CartScene(poles, state_size=4, track_y=200, fps=100.0)
 
 
 def _double_pole() -> Scene:
-    poles = [Pole(angle=2, length=1.0, colour=POLE), Pole(angle=4, length=0.5, colour=SHORT_POLE)]
+    poles = [Pole(angle=2, length=1.0), Pole(angle=4, length=0.5, colour="short pole")]
     return CartScene(poles, state_size=6, track_y=300, fps=50.0)
 
 
+def _discrim() -> Scene:
+    from botschool.render.arena import DiscrimScene
+
+    return DiscrimScene()
+
+
+def _predprey() -> Scene:
+    from botschool.render.arena import PredpreyScene
+
+    return PredpreyScene()
+
+
 _SCENES: dict[str, Callable[[], Scene]] = {
-    "CartPole-v0": lambda: GymnasiumScene("CartPole-v1", 4),
-    "CartPole-v1": lambda: GymnasiumScene("CartPole-v1", 4),
-    "Pendulum-v0": lambda: PendulumScene("Pendulum-v1", 2),
-    "Pendulum-v1": lambda: PendulumScene("Pendulum-v1", 2),
-    "Acrobot-v1": lambda: GymnasiumScene("Acrobot-v1", 4),
-    "MountainCarContinuous-v0": lambda: GymnasiumScene("MountainCarContinuous-v0", 2),
+    "CartPole-v0": _cartpole,
+    "CartPole-v1": _cartpole,
+    "Pendulum-v0": PendulumScene,
+    "Pendulum-v1": PendulumScene,
+    "Acrobot-v1": AcrobotScene,
+    "MountainCarContinuous-v0": MountainCarScene,
     "envSwingupCustom": _swingup,
     "ErDpole": _double_pole,
+    "ErDiscrim": _discrim,
+    "ErPredprey": _predprey,
 }
 
 

@@ -1,4 +1,4 @@
-"""Looking at one robot: post-evaluation with numbers, window, video and activations."""
+"""Looking at one robot: post-evaluation with numbers, window, video, replay and activations."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from botschool.policy import Policy
 from botschool.problems.moment import Moment
 
 VIDEO_EPISODES = 3
-"""Episodes in a video, unless the user says how many."""
+REPLAY_EPISODES = 5
+"""Episodes in a video and in a replay, unless the user says how many."""
 
 
 def read_genotype(path: Path) -> np.ndarray:
@@ -42,7 +43,14 @@ class PostEvaluation:
     Without a saved genotype the robot is the random one that evolution starts from.
     """
 
-    def __init__(self, experiment: Experiment, seed: int, saved: np.ndarray | None = None) -> None:
+    def __init__(
+        self,
+        experiment: Experiment,
+        seed: int,
+        saved: np.ndarray | None = None,
+        name: str = "random robot",
+    ) -> None:
+        self.name = name
         self.problem = problems.make(experiment.exp.environment)
         self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
         self.seed = seed
@@ -75,16 +83,37 @@ class PostEvaluation:
 
         draw_offscreen()
         scene = make_scene(self.problem.dynamics) if self.problem.native else None
-        outputs = self.policy.spec.outputs * self.policy.spec.nbins
+        robots = scene.robots if scene else ("",)
         for episode in range(episodes):
             for moment in self.play(episode, render=True):
-                frame = scene.draw(moment.state, moment.action) if scene else moment.frame
+                frame = scene.draw_moment(moment) if scene else moment.frame
                 frame = with_caption(frame, episode + 1, moment)
                 if activations:
-                    frame = with_activations(
-                        frame, moment.activations, self.policy.spec.inputs, outputs
-                    )
+                    frame = with_activations(frame, moment.activations, *self.neurons, robots)
                 yield frame
+
+    @property
+    def neurons(self) -> tuple[int, int]:
+        """Inputs and outputs of one robot's network."""
+        spec = self.policy.spec
+        return spec.inputs, spec.outputs * spec.nbins
+
+    def write_replay(self, path: Path, episodes: int) -> None:
+        """A page that plays the first episodes; see botschool.render.replay."""
+        from botschool.render.canvas import draw_offscreen
+        from botschool.render.replay import write_replay
+        from botschool.render.scene import make_scene
+
+        draw_offscreen()
+        write_replay(
+            path,
+            self.problem.name,
+            f"{self.name}, post-evaluated with seed {self.seed}",
+            (self.play(episode, render=True) for episode in range(episodes)),
+            self.problem.fps,
+            self.neurons,
+            make_scene(self.problem.dynamics) if self.problem.native else None,
+        )
 
     def print_summary(self) -> None:
         """Mean and standard deviation over the episodes played."""
@@ -101,14 +130,18 @@ def watch(
     window: bool,
     video: Path | None,
     activations: bool,
+    replay: Path | None = None,
 ) -> None:
-    """Plays and prints `episodes` episodes; to a window or a video file if wanted."""
+    """Plays and prints `episodes` episodes; to a window, a video file or a page if wanted."""
     title = f"botschool: {robot.problem.name}"
     if video is not None:
         from botschool.render.video import write_video
 
         write_video(video, robot.frames(episodes, activations), robot.problem.fps)
         print(f"video: {video}")
+    elif replay is not None:
+        robot.write_replay(replay, episodes)
+        print(f"replay: {replay} (open it in a browser)")
     elif window:
         from botschool.render.window import show
 

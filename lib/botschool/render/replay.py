@@ -1,0 +1,181 @@
+"""Replays: one self-contained page that plays episodes in any browser, without a network.
+
+The page is replay.html with its two scripts and the episodes as JSON in it. Where there is a
+scene, an episode is the scene's numbers step by step; elsewhere it is the environment's frames.
+"""
+
+from __future__ import annotations
+
+import json
+import zlib
+from base64 import b64encode
+from collections.abc import Iterable
+from importlib.resources import files
+from io import BytesIO
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.output import check_output, save_bytes
+from botschool.problems.moment import Moment
+from botschool.render.panel import neuron_groups
+from botschool.render.scene import Scene
+from botschool.render.shapes import PALETTE
+
+REPLAY_SUFFIXES = (".html",)
+MAX_FRAME_BYTES = 16_000_000
+"""Of all pictures of a page; where they would be more, every second one is left out, and so on."""
+_FRAME_SIDE = 640
+_LEVELS = 65_535
+
+
+def write_replay(
+    path: Path | str,
+    title: str,
+    about: str,
+    episodes: Iterable[Iterable[Moment]],
+    fps: float,
+    neurons: tuple[int, int],
+    scene: Scene | None = None,
+) -> None:
+    """Writes the page.
+
+    title: the problem's name; about: a line on the robot and the experiment. fps: steps a second.
+    neurons: inputs and outputs of one robot's network. Without a scene the moments must hold
+    frames. Raises BotschoolError if the file cannot be written or there are no steps to show.
+    """
+    path = check_output(path, REPLAY_SUFFIXES)
+    frames = Frames()
+    played = []
+    count = 0
+    for moments in episodes:
+        steps = [_Step.of(moment, scene, frames, len(played)) for moment in moments]
+        if steps:
+            played.append(_episode(steps))
+            count = len(steps[0].activations)
+    if not played:
+        raise BotschoolError(f"{path} is not written: there were no steps to show.")
+    for number, episode in enumerate(played):
+        if scene is None:
+            episode["frames"] = frames.of(number)
+    groups = neuron_groups(count, *neurons, scene.robots if scene else ("",)) if count else []
+    data = {
+        "title": title,
+        "about": about,
+        "fps": float(fps),
+        "palette": {name: [_hex(colour) for colour in pair] for name, pair in PALETTE.items()},
+        "scene": None if scene is None else _description(scene),
+        "groups": [[label, size] for label, size in groups],
+        "episodes": played,
+    }
+    save_bytes(path, _page(data).encode())
+
+
+def _page(data: dict) -> str:
+    folder = files("botschool.render")
+    page = (folder / "replay.html").read_text(encoding="utf-8")
+    # "<" never appears in the JSON, so nothing in it can end its element.
+    text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+    for place, name in (("/*REPLAY*/", "replay.js"), ("/*DRAWING*/", "replay_draw.js")):
+        page = page.replace(place, (folder / name).read_text(encoding="utf-8"))
+    return page.replace("/*DATA*/", text)
+
+
+def _description(scene: Scene) -> dict:
+    return {
+        "view": scene.view,
+        "shapes": [shape.as_dict() for shape in scene.shapes],
+        "closeups": scene.closeups,
+    }
+
+
+class _Step(NamedTuple):
+    total: float
+    activations: np.ndarray
+    numbers: np.ndarray
+
+    @classmethod
+    def of(cls, moment: Moment, scene: Scene | None, frames: Frames, episode: int) -> _Step:
+        """What is kept of a moment; its picture goes to `frames` where there is no scene."""
+        numbers = np.zeros(0)
+        if scene is None:
+            frames.add(episode, moment.step - 1, moment.frame)
+        else:
+            numbers = scene.numbers(moment.state, moment.action, moment.observation, moment.reward)
+        return cls(moment.total, np.array(moment.activations), numbers)
+
+
+def _episode(steps: list[_Step]) -> dict:
+    return {
+        "fitness": steps[-1].total,
+        "totals": [round(step.total, 4) for step in steps],
+        "activations": packed(np.array([step.activations for step in steps])),
+        "numbers": packed(np.array([step.numbers for step in steps])),
+    }
+
+
+def packed(table: np.ndarray) -> dict:
+    """A table, (rows, columns), as JSON: each column in 65,536 levels from its least value.
+
+    Levels are stored as differences from the row before, modulo 65,536: all low bytes, then all
+    high bytes, column by column, compressed by zlib, in base 64. What is not finite becomes 0.
+    """
+    table = np.nan_to_num(np.asarray(table, dtype=np.float64), posinf=0.0, neginf=0.0)
+    low = table.min(axis=0)
+    step = (table.max(axis=0) - low) / _LEVELS
+    levels = np.rint((table - low) / np.where(step > 0, step, 1.0)).astype(np.uint16)
+    differences = np.diff(levels, axis=0, prepend=np.zeros((1, table.shape[1]), np.uint16))
+    halves = differences.T.astype("<u2").reshape(-1, 1).view(np.uint8).T
+    return {
+        "rows": table.shape[0],
+        "low": [float(f"{value:.9g}") for value in low],
+        "step": [float(f"{value:.9g}") for value in step],
+        "data": b64encode(zlib.compress(halves.tobytes(), 9)).decode(),
+    }
+
+
+class Frames:
+    """Pictures of episodes as WebP, as many as MAX_FRAME_BYTES hold."""
+
+    def __init__(self) -> None:
+        self._every = 1
+        self._frames: list[tuple[int, int, bytes]] = []
+        self._bytes = 0
+
+    def add(self, episode: int, step: int, frame: np.ndarray) -> None:
+        """Adds the picture of a step, (height, width, 3) uint8; steps count from 0."""
+        if step % self._every:
+            return
+        content = _webp(frame)
+        if self._frames and self._frames[-1][0] == episode and self._frames[-1][2] == content:
+            return
+        self._frames.append((episode, step, content))
+        self._bytes += len(content)
+        while self._bytes > MAX_FRAME_BYTES and len(self._frames) > 1:
+            self._every *= 2
+            self._frames = [kept for kept in self._frames if kept[1] % self._every == 0]
+            self._bytes = sum(len(content) for _, _, content in self._frames)
+
+    def of(self, episode: int) -> dict:
+        """The steps of an episode's pictures, and the pictures in base 64."""
+        own = [(step, content) for number, step, content in self._frames if number == episode]
+        return {
+            "steps": [step for step, _ in own],
+            "data": [b64encode(content).decode() for _, content in own],
+        }
+
+
+def _webp(frame: np.ndarray) -> bytes:
+    from PIL import Image
+
+    picture = Image.fromarray(frame)
+    picture.thumbnail((_FRAME_SIDE, _FRAME_SIDE))
+    buffer = BytesIO()
+    picture.save(buffer, "WEBP", quality=80, method=2)
+    return buffer.getvalue()
+
+
+def _hex(colour: tuple[int, int, int]) -> str:
+    return "#{:02x}{:02x}{:02x}".format(*colour)

@@ -1,0 +1,333 @@
+"""Replays: what the page holds, and what it does in a browser."""
+
+import base64
+import json
+import re
+import zlib
+
+import numpy as np
+import pytest
+
+from botschool.errors import BotschoolError
+from botschool.problems.moment import Moment
+from botschool.render import replay
+from botschool.render.scene import make_scene
+from browser import Browser, find_browser
+from running import write_experiment
+
+STEPS = 40
+
+
+def circling(name, steps=STEPS, seed=0):
+    """An episode of the arena's robots, which drive in circles, with made-up readings."""
+    scene = make_scene(name)
+    rng = np.random.default_rng(seed)
+    side, robots = scene.side, len(scene.bodies)
+    seen = sum(body.observations for body in scene.bodies)
+    for step in range(1, steps + 1):
+        angles = step / 10 + np.pi * np.arange(robots)
+        poses = np.column_stack(
+            [side * (0.5 + 0.3 * np.cos(angles)), side * (0.5 + 0.3 * np.sin(angles)), angles + 1.6]
+        )
+        objects = [] if name == "ErPredprey" else [side / 2, side / 2]
+        state = np.array([*poses.ravel(), *objects, step])
+        observation, action = rng.uniform(0, 1, seen), rng.uniform(-1, 1, 2 * robots)
+        reward = float(step == steps)
+        yield Moment(step, reward, reward, observation, action, state[:-1] / side, state)
+
+
+def arena(path, name="ErDiscrim", episodes=2):
+    played = (circling(name, STEPS + episode, episode) for episode in range(episodes))
+    scene = make_scene(name)
+    replay.write_replay(path, name, "a robot", played, 10.0, (1, 1), scene)
+    return path
+
+
+def held(path):
+    """The JSON in a page."""
+    [text] = re.findall(r'<script id="data"[^>]*>(.*?)</script>', path.read_text("utf-8"), re.S)
+    return json.loads(text)
+
+
+def unpacked(table):
+    halves = np.frombuffer(zlib.decompress(base64.b64decode(table["data"])), np.uint8)
+    low, high = halves.reshape(2, len(table["low"]), table["rows"]).astype(np.uint16)
+    levels = np.cumsum(low + 256 * high, axis=1, dtype=np.uint16)
+    return (np.array(table["low"]) + levels.T * np.array(table["step"])).reshape(table["rows"], -1)
+
+
+# The file
+
+
+def test_a_table_comes_back_to_a_65535th_of_its_range():
+    table = np.random.default_rng(1).normal(size=(300, 7)) * [1e-6, 1, 1, 10, 1e3, 1e9, 0] + 5
+    error = np.abs(unpacked(replay.packed(table)) - table)
+    assert (error <= np.ptp(table, axis=0) / 65_535 + 1e-7).all()
+
+
+def test_a_table_without_columns_and_one_that_is_not_finite():
+    assert unpacked(replay.packed(np.zeros((4, 0)))).shape == (4, 0)
+    assert unpacked(replay.packed(np.array([[np.nan, np.inf], [1.0, 2.0]])))[0].tolist() == [0, 0]
+
+
+@pytest.mark.parametrize("name", ["ErDiscrim", "ErPredprey"])
+def test_a_page_holds_what_the_scene_draws(name, tmp_path):
+    data = held(arena(tmp_path / "a.html", name))
+    assert [len(episode["totals"]) for episode in data["episodes"]] == [STEPS, STEPS + 1]
+    scene = make_scene(name)
+    for seed, episode in enumerate(data["episodes"]):
+        moments = list(circling(name, STEPS + seed, seed))
+        drawn = np.array(
+            [scene.numbers(m.state, m.action, m.observation, m.reward) for m in moments]
+        )
+        kept = unpacked(episode["numbers"])
+        assert kept.shape == (STEPS + seed, scene.count)
+        np.testing.assert_allclose(kept, drawn, atol=0.05)
+    assert len(data["scene"]["shapes"]) == len(scene.shapes)
+
+
+def test_the_same_robot_gives_the_same_page(tmp_path):
+    pages = [arena(tmp_path / name).read_bytes() for name in ("a.html", "b.html")]
+    assert pages[0] == pages[1]
+
+
+def test_no_text_ends_the_data_and_nothing_comes_from_elsewhere(tmp_path):
+    path = tmp_path / "a.html"
+    title = '</script><img src="x">'
+    replay.write_replay(
+        path, title, "&", [circling("ErDiscrim")], 10.0, (1, 1), make_scene("ErDiscrim")
+    )
+    assert held(path)["title"] == title
+    assert re.findall(r"(?:https?:)?//[a-z]", path.read_text("utf-8")) == []
+
+
+def test_pictures_are_thinned_to_what_a_page_may_hold(monkeypatch):
+    monkeypatch.setattr(replay, "MAX_FRAME_BYTES", 30_000)
+    rng = np.random.default_rng(2)
+    frames = replay.Frames()
+    for step in range(60):
+        frames.add(step // 30, step % 30, rng.integers(0, 255, (40, 60, 3), dtype=np.uint8))
+    for episode in (0, 1):
+        kept = frames.of(episode)
+        assert kept["steps"][0] == 0
+        assert len(set(np.diff(kept["steps"]))) == 1 and np.diff(kept["steps"])[0] in (2, 4, 8)
+        assert len(kept["data"]) == len(kept["steps"])
+    assert sum(len(d) for e in (0, 1) for d in frames.of(e)["data"]) < 1.4 * 30_000
+
+
+def test_a_picture_that_stays_is_kept_once():
+    frames = replay.Frames()
+    for step in range(9):
+        frames.add(0, step, np.full((20, 30, 3), 200 if step < 5 else 0, np.uint8))
+    assert frames.of(0)["steps"] == [0, 5]
+
+
+def test_an_arena_refuses_what_it_cannot_draw():
+    scene = make_scene("ErDiscrim")
+    state = np.array([200.0, 200, 0, 100, 100, 1])
+    with pytest.raises(ValueError, match="7 values where 8"):
+        scene.draw(state, None, np.zeros(7))
+    with pytest.raises(ValueError, match="3 values where 2"):
+        scene.draw(state, np.zeros(3))
+
+
+def test_a_trail_shows_where_the_robot_was_and_ends_with_its_episode():
+    scene = make_scene("ErDiscrim")
+    moments = list(circling("ErDiscrim", 12))
+    for moment in moments:
+        followed = scene.draw_moment(moment)
+    alone = scene.draw(
+        moments[-1].state, moments[-1].action, moments[-1].observation, moments[-1].reward
+    )
+    assert (followed != alone).any(axis=2).sum() > 300
+    fresh = make_scene("ErDiscrim").draw_moment(moments[-1])
+    assert (alone == fresh).all()
+
+
+# The command
+
+
+def test_the_command_writes_a_page(command, tmp_path):
+    file, path = write_experiment(tmp_path), tmp_path / "a.html"
+    code, said, _ = command("es", "-f", file, "-p", "--replay", path)
+    assert code == 0 and f"replay: {path}" in said
+    data = held(path)
+    assert data["title"] == "CartPole-v1" and len(data["episodes"]) == 3
+    fitness = [float(number) for number in re.findall(r"fitness (\S+)", said)]
+    assert [round(episode["fitness"], 2) for episode in data["episodes"]] == fitness
+    assert data["groups"] == [["inputs", 4], ["hidden", 3], ["outputs", 2]]
+    changes = np.ptp(unpacked(data["episodes"][0]["activations"]), axis=0)
+    assert (changes > 0).all()
+
+
+def test_an_environment_in_python_replays_as_its_pictures(command, tmp_path):
+    file, path = (
+        write_experiment(tmp_path, "MountainCar-v0", policy={"maxsteps": 20}),
+        tmp_path / "a.html",
+    )
+    assert command("es", "-f", file, "-p", "--replay", path, "--episodes", 1)[0] == 0
+    data = held(path)
+    [episode] = data["episodes"]
+    assert data["scene"] is None and len(episode["totals"]) == 20
+    assert 1 < len(episode["frames"]["steps"]) <= 20
+    assert base64.b64decode(episode["frames"]["data"][0])[8:12] == b"WEBP"
+    assert np.ptp(unpacked(episode["activations"]), axis=0).max() > 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["-p", "--replay", "a.htm"], ["a.htm", ".html"]),
+        (["-p", "--replay", "no/a.html"], ["no folder"]),
+        (["--replay", "a.html"], ["-p"]),
+        (["-p", "--replay", "a.html", "--video", "a.mp4"], ["--video", "--replay"]),
+    ],
+)
+def test_replays_that_are_refused(refused, tmp_path, monkeypatch, arguments, says):
+    monkeypatch.chdir(tmp_path)
+    refused("es", "-f", write_experiment(tmp_path / "x"), *arguments, says=says)
+    assert [path.name for path in tmp_path.iterdir()] == ["x"]
+
+
+def test_a_replay_of_nothing_is_refused(tmp_path):
+    with pytest.raises(BotschoolError, match="no steps"):
+        replay.write_replay(tmp_path / "a.html", "x", "x", [[], []], 10.0, (1, 1))
+    assert list(tmp_path.iterdir()) == []
+
+
+# The page in a browser
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    if find_browser() is None:
+        pytest.skip("no browser found: install chromium to test the replay's page")
+    browser = Browser(tmp_path_factory.mktemp("browser"))
+    yield browser
+    browser.close()
+
+
+@pytest.fixture
+def page(browser, tmp_path):
+    """Opens a page for a test, which must leave no errors and ask no network."""
+
+    def opened(path, place="#step=1", **screen):
+        browser.resize(**({"width": 1280, "height": 800} | screen))
+        browser.open(path, place)
+        return browser
+
+    browser.errors.clear()
+    browser.requests.clear()
+    yield opened
+    assert browser.errors == []
+    assert {url.partition(":")[0] for url in browser.requests} <= {"file", "data", "about"}
+
+
+def step(browser):
+    return int(browser.run("byId('step').innerText").split("/")[0])
+
+
+def episode(browser):
+    return int(browser.run("byId('episode').innerText").split("/")[0])
+
+
+def picture(browser):
+    return browser.run("byId('scene').toDataURL()")
+
+
+@pytest.mark.parametrize("name", ["ErDiscrim", "ErPredprey"])
+def test_the_page_plays_every_episode_and_stops(page, name, tmp_path):
+    browser = page(arena(tmp_path / "a.html", name), place="")
+    browser.wait("playing")
+    first = picture(browser)
+    browser.wait("time > 5")
+    assert picture(browser) != first
+    browser.press("ArrowUp")
+    browser.press("ArrowUp")
+    browser.press("ArrowUp")
+    assert browser.run("byId('speed').innerText") == "8×"
+    browser.wait("!playing")
+    assert (episode(browser), step(browser)) == (2, STEPS + 1)
+    assert browser.run("byId('total').innerText") == "1"
+
+
+def test_keys_steer_the_page(page, tmp_path):
+    browser = page(arena(tmp_path / "a.html"))
+    assert not browser.run("playing") and step(browser) == 1
+    reached = []
+    for key, modifiers in (
+        ("ArrowRight", 0), ("ArrowRight", 8), ("ArrowLeft", 0), ("ArrowLeft", 8), ("End", 0),
+        ("Home", 0),
+    ):  # fmt: skip
+        browser.press(key, modifiers=modifiers)
+        reached.append(step(browser))
+    assert reached == [2, 12, 11, 1, STEPS, 1]
+    browser.press(" ", " ")
+    browser.wait("time > 1")
+    browser.press(" ", " ")
+    assert not browser.run("playing")
+    for key, number in (("PageDown", 2), ("PageUp", 1), ("2", 2)):
+        browser.press(key, key if len(key) == 1 else "")
+        browser.wait(f"episode === {number - 1} && time === 0")
+    everything = picture(browser)
+    browser.press("z", "z")
+    assert picture(browser) != everything
+    browser.press("?", "?")
+    assert browser.run("byId('help').open")
+
+
+def test_scrubbing_shows_the_step(page, tmp_path):
+    browser = page(arena(tmp_path / "a.html"), "#episode=2&step=12")
+    assert (episode(browser), step(browser)) == (2, 12)
+    before = picture(browser)
+    browser.run("byId('bar').value = 30; byId('bar').oninput()")
+    assert step(browser) == 30 and picture(browser) != before
+    browser.run("byId('bar').value = 12; byId('bar').oninput()")
+    assert picture(browser) == before
+
+
+def test_the_browser_reads_the_numbers_that_were_packed(page, tmp_path):
+    browser = page(path := arena(tmp_path / "a.html"), "#step=7")
+    numbers = unpacked(held(path)["episodes"][0]["numbers"])[6]
+    np.testing.assert_allclose(browser.run("numbersAt(time)"), numbers, rtol=1e-6, atol=1e-6)
+    half = browser.run("numbersAt(6.5)")
+    assert half[0] == pytest.approx((numbers[0] + browser.run("numbersAt(7)")[0]) / 2)
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_a_phone_shows_it_all_and_is_steered_by_touch(page, tmp_path, dark):
+    path = arena(tmp_path / "a.html", "ErPredprey")
+    browser = page(path, width=390, height=844, phone=True, dark=dark)
+    assert browser.run("document.documentElement.scrollWidth") <= 390
+    sides = browser.run(
+        "[...document.querySelectorAll('footer button')].map(b => b.getBoundingClientRect().right)"
+    )
+    assert max(sides) <= 390
+    browser.tap("#forward")
+    browser.wait("time === 1")
+    browser.tap("#fitness canvas", x=0.99)
+    browser.wait(f"time === {STEPS - 1}")
+    browser.tap("#play")
+    browser.wait("playing && time > 0")
+
+
+def test_pictures_are_shown_as_they_were(page, tmp_path):
+    colours = [(220, 30, 30), (30, 160, 60), (40, 60, 220)]
+
+    def coloured():
+        for number, colour in enumerate(colours, start=1):
+            frame = np.full((100, 150, 3), colour, np.uint8)
+            yield Moment(number, 1.0, number, np.zeros(1), np.zeros(1), np.zeros(2), frame=frame)
+
+    path = tmp_path / "a.html"
+    replay.write_replay(path, "Frames", "x", [coloured()], 30.0, (1, 1))
+    browser = page(path)
+    for colour in colours:
+        middle = (
+            "[...byId('scene').getContext('2d').getImageData("
+            "byId('scene').width / 2, byId('scene').height / 2, 1, 1).data.slice(0, 3)]"
+        )
+        browser.wait("pictureAt(Math.floor(time)).complete")
+        browser.run("drawPicture()")
+        np.testing.assert_allclose(browser.run(middle), colour, atol=12)
+        browser.press("ArrowRight")
