@@ -1,0 +1,555 @@
+"""Grader of exercise 12; run it with `make test-ex12`.
+
+Stochastic checks (task 12.8; a seed of the grader's, without chance, the mean over 50 episodes that
+the submission has not seen): CartPole-v1 and botschool/PushedCartPole-v0 need at least 180 of 200
+steps. Over 20 seeds the solution reaches 198.1 to 200.0 in the first and 193.4 to 200.0 in the
+second (margins 18.1 and 13.4 steps).
+"""
+
+import functools
+
+import gymnasium
+import numpy as np
+
+import botschool.envs
+from botschool.grading import Exercise, Student, expect, expect_array, expect_close, show
+
+gymnasium.register_envs(botschool.envs)
+exercise = Exercise(
+    12, "Cross-entropy", file="cross_entropy.py", imports=("torch", "torch._dynamo")
+)
+SINGLE = 1e-5
+"""Tolerance where the submission computes in single precision."""
+
+
+def generator(index: int) -> np.random.Generator:
+    return np.random.default_rng(exercise.seed(index))
+
+
+def fields(said: str, value: object, *keys: str) -> list:
+    """The values of these keys of a dict, which may have others."""
+    expect(isinstance(value, dict), f"{said} must return a dict, not {show(value)}.")
+    for key in keys:
+        expect(key in value, f"{said} returned a dict without {key!r}.")
+    return [value[key] for key in keys]
+
+
+# What the grader expects, computed apart from any submission.
+
+
+def logarithms_of(scores: np.ndarray) -> np.ndarray:
+    """Logarithms of the probabilities, along the last axis."""
+    shifted = scores - scores.max(axis=-1, keepdims=True)
+    return shifted - np.log(np.exp(shifted).sum(axis=-1, keepdims=True))
+
+
+def outputs_of(parameters: list[np.ndarray], observation: np.ndarray) -> np.ndarray:
+    W1, b1, W2, b2 = parameters
+    return W2.dot(np.tanh(W1.dot(observation) + b1)) + b2
+
+
+# ------------------------------------------------------------------- 12.1
+probabilities = exercise.task("12.1", "Softmax")
+
+
+def compare_softmax(student: Student, scores: np.ndarray) -> None:
+    answer = student.call("softmax", scores)
+    if scores.size <= 6:
+        student.said = f"softmax({scores.tolist()})"
+    expect_close(student.said, answer, np.exp(logarithms_of(scores)))
+
+
+@probabilities.check(4)
+def of_one_step(student: Student):
+    for index, actions in ((1, 2), (2, 5)):
+        compare_softmax(student, generator(index).normal(size=actions).round(2))
+
+
+@probabilities.check(2)
+def of_many_steps(student: Student):
+    compare_softmax(student, generator(3).normal(size=(30, 4)))
+    compare_softmax(student, generator(4).normal(size=(5, 5)))
+
+
+@probabilities.check(2)
+def of_large_scores(student: Student):
+    compare_softmax(student, np.array([1000.0, 999.0, -1000.0]))
+    compare_softmax(student, 800 * generator(5).normal(size=(10, 3)))
+
+
+# ------------------------------------------------------------------- 12.2
+choosing = exercise.task("12.2", "Choosing at random")
+
+
+def chosen(module, probabilities, seed, times):
+    """Actions that the student's function draws one after another."""
+    import numpy
+
+    rng = numpy.random.default_rng(seed)
+    return [module.choose(probabilities, rng) for _ in range(times)]
+
+
+def compare_choices(student: Student, index: int, shares: np.ndarray, times: int = 200) -> None:
+    seed = exercise.seed(index)
+    shares = shares / shares.sum()
+    said = f"choose({show(shares)}, rng)"
+    answer = student.run(chosen, shares, seed, times, said=said)
+    expect(isinstance(answer, list) and len(answer) == times, f"{said} gave no answers.")
+    rng = np.random.default_rng(seed)
+    for got in answer:
+        dart, edges = float(rng.random()), np.cumsum(shares)
+        wanted = min(int(np.searchsorted(edges, dart, side="right")), len(shares) - 1)
+        near = bool(np.any(np.abs(edges - dart) < 1e-9))
+        expect(
+            near or (type(got) is int and got == wanted),
+            f"{said} returned {show(got)} when rng.random() gave {dart:.4f}, but {wanted} was "
+            "expected.",
+        )
+
+
+@choosing.check(5)
+def where_the_dart_lands(student: Student):
+    compare_choices(student, 10, np.array([0.5, 0.5]))
+    compare_choices(student, 11, np.array([0.2, 0.5, 0.3]))
+    compare_choices(student, 12, generator(13).random(7))
+
+
+@choosing.check(3)
+def unlikely_and_certain_actions(student: Student):
+    compare_choices(student, 14, np.array([0.0, 1.0, 0.0]), 30)
+    compare_choices(student, 15, np.array([0.0, 0.3, 0.0, 0.7]), 60)
+    compare_choices(student, 16, np.array([1.0]), 5)
+
+
+# ------------------------------------------------------------------- 12.3
+episodes = exercise.task("12.3", "An episode")
+
+
+def lived(module, environment, parameters, shift, seed, maxsteps):
+    """An episode of the student's, with a policy that the grader can follow."""
+    import gymnasium
+    import numpy
+
+    W1, b1, W2, b2 = parameters
+    with gymnasium.make(environment) as env:
+        discrete = isinstance(env.action_space, gymnasium.spaces.Discrete)
+    step = 0
+
+    def act(observation):
+        nonlocal step
+        step += 1
+        outputs = W2.dot(numpy.tanh(W1.dot(observation) + b1)) + b2 + shift * numpy.sin(step)
+        return int(outputs.argmax()) if discrete else outputs
+
+    return module.run_episode(environment, act, seed, maxsteps)
+
+
+def replay(student: Student, environment: str, index: int, maxsteps: int, shift: float) -> dict:
+    """Follows the student's episode in a fresh environment; what should have been recorded."""
+    rng, seed = generator(index), exercise.seed(index + 100) % 100_000
+    with gymnasium.make(environment) as env:
+        space, ninputs = env.action_space, env.observation_space.shape[0]
+        discrete = isinstance(space, gymnasium.spaces.Discrete)
+        noutputs = int(space.n) if discrete else space.shape[0]
+        sizes = ((8, ninputs), (8,), (noutputs, 8), (noutputs,))
+        parameters = [rng.normal(size=size) for size in sizes]
+        said = f"run_episode({environment!r}, act, seed={seed}, maxsteps={maxsteps})"
+        answer = student.run(lived, environment, parameters, shift, seed, maxsteps, said=said)
+        wanted = {"observations": [], "actions": [], "return": 0.0}
+        observation, _ = env.reset(seed=seed)
+        for step in range(1, maxsteps + 1):
+            outputs = outputs_of(parameters, observation) + shift * np.sin(step)
+            action = int(outputs.argmax()) if discrete else outputs
+            wanted["observations"].append(observation)
+            wanted["actions"].append(action)
+            if not discrete:
+                action = np.clip(action, space.low, space.high).astype(np.float32)
+            observation, reward, terminated, truncated, _ = env.step(action)
+            wanted["return"] += float(reward)
+            if terminated or truncated:
+                break
+    values = fields(said, answer, *wanted)
+    return {"said": said, **dict(zip(wanted, values, strict=True)), "wanted": wanted}
+
+
+def expect_episode(found: dict, *keys: str) -> None:
+    for key in keys:
+        wanted = np.array(found["wanted"][key])
+        if wanted.ndim:
+            value = found[key]
+            steps = len(value) if isinstance(value, (list, np.ndarray)) else 0
+            expect(
+                steps == len(wanted),
+                f"{found['said']}: {key} has {steps} rows, but the episode has {len(wanted)} "
+                "steps.",
+            )
+        expect_close(f"{found['said']}: {key}", found[key], wanted, SINGLE)
+
+
+CASES = (
+    ("CartPole-v1", 200, 0.0), ("CartPole-v1", 9, 0.0), ("Acrobot-v1", 60, 2.0),
+    ("Pendulum-v1", 250, 0.1), ("botschool/PushedCartPole-v0", 200, 0.3),
+    ("MountainCarContinuous-v0", 50, 0.1),
+)  # fmt: skip
+
+
+@episodes.check(5)
+def records_what_was_seen(student: Student):
+    for number, case in enumerate(CASES):
+        expect_episode(replay(student, case[0], 20 + number, *case[1:]), "observations")
+
+
+@episodes.check(4)
+def records_what_was_done(student: Student):
+    for number, case in enumerate(CASES):
+        expect_episode(replay(student, case[0], 30 + number, *case[1:]), "actions")
+
+
+@episodes.check(3)
+def adds_up_the_rewards(student: Student):
+    for number, case in enumerate(CASES):
+        expect_episode(replay(student, case[0], 40 + number, *case[1:]), "return")
+
+
+@episodes.check(2)
+def cuts_only_what_the_environment_gets(student: Student):
+    for number, environment in enumerate(("Pendulum-v1", "MountainCarContinuous-v0")):
+        found = replay(student, environment, 50 + number, 100, 9.0)
+        expect_episode(found, "actions", "return")
+
+
+# ------------------------------------------------------------------- 12.4
+selecting = exercise.task("12.4", "The elite")
+
+
+def drawn_episodes(index: int, count: int, actuators: int | None, levels: int = 0) -> list[dict]:
+    """Episodes of the grader's; levels: how many different returns there are, 0 for any."""
+    rng, found = generator(index), []
+    for _ in range(count):
+        steps = int(rng.integers(1, 12))
+        size = (steps,) if actuators is None else (steps, actuators)
+        actions = rng.integers(0, 3, size) if actuators is None else rng.normal(size=size)
+        result = float(rng.integers(levels)) if levels else round(float(rng.normal(-300, 80)), 2)
+        found.append(
+            {"observations": rng.normal(size=(steps, 4)), "actions": actions, "return": result}
+        )
+    return found
+
+
+def compare_elite(student: Student, found: list[dict], percentile: float, *keys: str) -> None:
+    answer = student.call("elite", found, percentile)
+    returns = [episode["return"] for episode in found]
+    student.said = f"elite(episodes with the returns {show(returns)}, {percentile})"
+    values = fields(student.said, answer, "observations", "actions", "bound")
+    bound = np.percentile(returns, percentile)
+    best = [episode for episode in found if episode["return"] >= bound]
+    wanted = {key: np.concatenate([e[key] for e in best]) for key in ("observations", "actions")}
+    wanted["bound"] = bound
+    for key, value in zip(wanted, values, strict=True):
+        if key in keys:
+            expect_close(f"{student.said}: {key}", value, wanted[key])
+
+
+@selecting.check(3)
+def bound(student: Student):
+    for index, count, percentile in ((60, 10, 70), (61, 7, 50), (62, 20, 85)):
+        compare_elite(student, drawn_episodes(index, count, None), percentile, "bound")
+
+
+@selecting.check(6)
+def keeps_the_best(student: Student):
+    for index, count, percentile in ((63, 10, 70), (64, 6, 40), (65, 1, 70)):
+        found = drawn_episodes(index, count, None)
+        compare_elite(student, found, percentile, "observations", "actions")
+    compare_elite(student, drawn_episodes(66, 12, 3), 75, "observations", "actions")
+
+
+@selecting.check(3)
+def keeps_equals_of_the_bound(student: Student):
+    for index, levels in ((67, 1), (68, 2), (69, 3)):
+        found = drawn_episodes(index, 16, None, levels)
+        compare_elite(student, found, 70, "observations", "actions")
+
+
+@selecting.check(2)
+def keeps_whole_actions_whole(student: Student):
+    answer = student.call("elite", drawn_episodes(70, 10, None), 60)
+    (actions,) = fields(student.said, answer, "actions")
+    kind = np.asarray(actions).dtype.kind
+    expect(kind in "iu", f"{student.said}: actions must stay whole numbers, as they were given.")
+
+
+# ------------------------------------------------------------------- 12.5
+surprise = exercise.task("12.5", "Cross-entropy")
+
+
+def measured(module, scores, actions):
+    """The student's loss, and its gradients by torch."""
+    import torch
+
+    scores = torch.tensor(scores, requires_grad=True)
+    loss = module.cross_entropy(scores, torch.tensor(actions))
+    loss.backward()
+    return [loss.detach().numpy(), scores.grad.numpy()]
+
+
+def surprised(student: Student, index: int, steps: int, actions: int, scale: float) -> list:
+    """[loss, gradient] of the student's, then what they should be."""
+    rng = generator(index)
+    scores, done = scale * rng.normal(size=(steps, actions)), rng.integers(0, actions, steps)
+    said = f"cross_entropy(scores, actions) for {steps} steps and {actions} actions"
+    said += ", the scores in hundreds" if scale > 100 else ""
+    answer = student.run(measured, scores, done, said=said)
+    expect(isinstance(answer, list) and len(answer) == 2, f"{said} gave no answer.")
+    logarithms, row = logarithms_of(scores), np.arange(steps)
+    gradient = np.exp(logarithms)
+    gradient[row, done] -= 1
+    return [*answer, -logarithms[row, done].mean(), gradient / steps]
+
+
+@surprise.check(6)
+def loss_of_a_batch(student: Student):
+    for index, steps, actions in ((80, 1, 2), (81, 40, 2), (82, 25, 6), (83, 4, 4)):
+        loss, _, wanted, _ = surprised(student, index, steps, actions, 1.0)
+        expect_close(student.said, loss, wanted, SINGLE)
+
+
+@surprise.check(5)
+def gradients_flow(student: Student):
+    for index, steps, actions in ((84, 40, 2), (85, 25, 6)):
+        _, gradient, _, wanted = surprised(student, index, steps, actions, 1.0)
+        expect_close(f"{student.said}: gradient of the scores", gradient, wanted, SINGLE)
+
+
+@surprise.check(3)
+def large_scores(student: Student):
+    loss, gradient, wanted, slope = surprised(student, 86, 30, 3, 600.0)
+    expect_close(student.said, loss, wanted, SINGLE)
+    expect_close(f"{student.said}: gradient of the scores", gradient, slope, SINGLE)
+
+
+# ------------------------------------------------------------------- 12.6
+learning = exercise.task("12.6", "Learning from the elite")
+
+
+def improved(module, parameters, observations, actions, kind, updates):
+    """The student's updates of a network, with an optimiser and a loss of the grader's."""
+    import torch
+
+    sizes = [parameters[0].shape[1], len(parameters[0]), len(parameters[2])]
+    network = torch.nn.Sequential(
+        torch.nn.Linear(*sizes[:2]), torch.nn.Tanh(), torch.nn.Linear(*sizes[1:])
+    )
+    with torch.no_grad():
+        for own, given in zip(network.parameters(), parameters, strict=True):
+            own.copy_(torch.as_tensor(given))
+            own.grad = torch.ones_like(own)  # left over from something else
+    made = torch.optim.Adam if kind == "Adam" else torch.optim.SGD
+    optimiser = made(network.parameters(), lr=0.02)
+    kinds = []
+
+    def loss(outputs, wanted):
+        kinds.append(str(wanted.dtype))
+        if wanted.dtype == torch.int64:
+            return torch.nn.functional.cross_entropy(outputs, wanted)
+        return (outputs - wanted).pow(2).mean()
+
+    losses = module.improve(network, optimiser, observations, actions, loss, updates)
+    after = [each.detach().numpy() for each in network.parameters()]
+    return [losses, after, kinds]
+
+
+def updated(parameters, observations, actions, kind, updates) -> tuple[list, list]:
+    """Losses and parameters as they should be."""
+    import torch
+
+    weights = [torch.tensor(each, dtype=torch.float32, requires_grad=True) for each in parameters]
+    inputs = torch.tensor(observations, dtype=torch.float32)
+    made = torch.optim.Adam if kind == "Adam" else torch.optim.SGD
+    optimiser, losses = made(weights, lr=0.02), []
+    for _ in range(updates):
+        outputs = torch.tanh(inputs @ weights[0].T + weights[1]) @ weights[2].T + weights[3]
+        if actions.dtype.kind == "i":
+            loss = torch.nn.functional.cross_entropy(outputs, torch.tensor(actions))
+        else:
+            wanted = torch.tensor(actions, dtype=torch.float32)
+            loss = ((outputs - wanted) ** 2).mean()
+        optimiser.zero_grad()
+        loss.backward()
+        optimiser.step()
+        losses.append(loss.item())
+    return losses, [each.detach().numpy() for each in weights]
+
+
+def compare_updates(student: Student, index: int, kind: str, whole: bool, updates: int) -> tuple:
+    """(said, the student's losses and parameters, the right ones)."""
+    rng = generator(index)
+    steps, noutputs = int(rng.integers(20, 60)), int(rng.integers(2, 4))
+    sizes = ((6, 4), (6,), (noutputs, 6), (noutputs,))
+    parameters = [0.5 * rng.normal(size=size) for size in sizes]
+    observations = rng.normal(size=(steps, 4))
+    actions = rng.integers(0, noutputs, steps) if whole else rng.normal(size=(steps, noutputs))
+    right = updated(parameters, observations, actions, kind, updates)
+    said = f"improve(network, {kind}, observations, actions, loss, updates={updates})"
+    answer = student.run(improved, parameters, observations, actions, kind, updates, said=said)
+    expect(isinstance(answer, list) and len(answer) == 3, f"{said} gave no answer.")
+    losses, after, kinds = answer
+    wanted = "torch.int64" if whole else "torch.float32"
+    expect(
+        isinstance(kinds, list) and kinds == [wanted] * updates,
+        f"{said} must call the loss {updates} times, with actions of {wanted}, but the calls had "
+        f"{show(kinds)}.",
+    )
+    expect(isinstance(after, list) and len(after) == 4, f"{said} gave no parameters.")
+    return said, losses, after, *right
+
+
+LEARNING_CASES = (("SGD", True, 1), ("Adam", True, 12), ("SGD", False, 5), ("Adam", False, 8))
+
+
+@learning.check(8)
+def parameters_after_the_updates(student: Student):
+    for number, case in enumerate(LEARNING_CASES):
+        said, _, after, _, right = compare_updates(student, 90 + number, *case)
+        for name, got, wanted in zip(("W1", "b1", "W2", "b2"), after, right, strict=True):
+            expect_close(f"{said}: {name} of the network afterwards", got, wanted, 1e-4)
+
+
+@learning.check(4)
+def losses_before_each_update(student: Student):
+    for number, case in enumerate(LEARNING_CASES):
+        said, losses, _, right, _ = compare_updates(student, 95 + number, *case)
+        expect_close(said, losses, right, 1e-4)
+
+
+# ------------------------------------------------------------------- 12.7
+continuous = exercise.task("12.7", "Continuous actions")
+
+
+def moved(module, mean, log_deviation, seed, times):
+    """Actions that the student's function draws one after another."""
+    import numpy
+
+    rng = numpy.random.default_rng(seed)
+    return [module.gaussian_action(mean, log_deviation, rng) for _ in range(times)]
+
+
+@continuous.check(6)
+def draws_actions(student: Student):
+    for index, actuators in ((110, 1), (111, 3), (112, 8)):
+        rng, seed = generator(index), exercise.seed(index + 100)
+        mean, log_deviation = rng.normal(size=actuators), rng.normal(size=actuators)
+        said = f"gaussian_action({show(mean)}, {show(log_deviation)}, rng)"
+        answer = student.run(moved, mean, log_deviation, seed, 4, said=said)
+        expect(isinstance(answer, list) and len(answer) == 4, f"{said} gave no answers.")
+        noise = np.random.default_rng(seed)
+        for got in answer:
+            wanted = mean + np.exp(log_deviation) * noise.standard_normal(actuators)
+            expect_close(said, got, wanted)
+
+
+def measured_gaussian(module, means, log_deviation, actions):
+    """The student's loss, and its gradients by torch."""
+    import torch
+
+    means, log_deviation = (torch.tensor(x, requires_grad=True) for x in (means, log_deviation))
+    loss = module.gaussian_loss(means, log_deviation, torch.tensor(actions))
+    loss.backward()
+    return [loss.detach().numpy(), means.grad.numpy(), log_deviation.grad.numpy()]
+
+
+def compare_gaussian(student: Student, index: int, steps: int, actuators: int, part: int) -> None:
+    """part: 0 for the loss, 1 for its gradients."""
+    rng = generator(index)
+    means, actions = rng.normal(size=(2, steps, actuators))
+    log_deviation = 0.5 * rng.normal(size=actuators)
+    said = f"gaussian_loss(...) for {steps} steps and {actuators} actuators"
+    answer = student.run(measured_gaussian, means, log_deviation, actions, said=said)
+    expect(isinstance(answer, list) and len(answer) == 3, f"{said} gave no answer.")
+    distance = (actions - means) / np.exp(log_deviation)
+    if part == 0:
+        surprises = distance**2 / 2 + log_deviation + np.log(2 * np.pi) / 2
+        expect_close(said, answer[0], surprises.sum(axis=1).mean(), SINGLE)
+        return
+    slope = -distance / np.exp(log_deviation) / steps
+    expect_close(f"{said}: gradient of the means", answer[1], slope, SINGLE)
+    spread = (1 - distance**2).sum(axis=0) / steps
+    expect_close(f"{said}: gradient of log_deviation", answer[2], spread, SINGLE)
+
+
+@continuous.check(5)
+def loss_of_continuous_actions(student: Student):
+    for index, steps, actuators in ((120, 1, 1), (121, 30, 1), (122, 20, 4)):
+        compare_gaussian(student, index, steps, actuators, 0)
+
+
+@continuous.check(3)
+def gradients_of_both(student: Student):
+    for index, steps, actuators in ((123, 30, 1), (124, 20, 4)):
+        compare_gaussian(student, index, steps, actuators, 1)
+
+
+# ------------------------------------------------------------------- 12.8
+training = exercise.task("12.8", "Training", seconds=90)
+
+
+@functools.cache
+def starts(environment: str) -> list[int]:
+    return [exercise.seed(1000 + i) for i in range(50)]
+
+
+def mean_return(environment: str, parameters: list[np.ndarray]) -> float:
+    """Mean over 50 episodes of at most 200 steps, without chance."""
+    total = 0.0
+    with gymnasium.make(environment) as env:
+        discrete = isinstance(env.action_space, gymnasium.spaces.Discrete)
+        for seed in starts(environment):
+            observation, _ = env.reset(seed=seed)
+            for _ in range(200):
+                outputs = outputs_of(parameters, observation)
+                action = int(outputs.argmax()) if discrete else outputs.clip(-1, 1)
+                observation, reward, terminated, truncated, _ = env.step(
+                    action if discrete else action.astype(np.float32)
+                )
+                total += float(reward)
+                if terminated or truncated:
+                    break
+    return total / 50
+
+
+def expect_balanced(student: Student, environment: str, index: int) -> None:
+    with gymnasium.make(environment) as env:
+        discrete = isinstance(env.action_space, gymnasium.spaces.Discrete)
+    answer = student.call("train", environment, seed=exercise.seed(index) % 100_000)
+    parameters, returns = fields(student.said, answer, "parameters", "returns")
+    expect(
+        isinstance(parameters, list) and len(parameters) == 4,
+        f"{student.said}: parameters must be a list of W1, b1, W2 and b2.",
+    )
+    nhiddens = np.size(parameters[1])
+    noutputs = 2 if discrete else 1
+    sizes = ((nhiddens, 4), (nhiddens,), (noutputs, nhiddens), (noutputs,))
+    arrays = [
+        expect_array(f"{student.said}: {name}", value, size)
+        for name, value, size in zip(("W1", "b1", "W2", "b2"), parameters, sizes, strict=True)
+    ]
+    expect(
+        isinstance(returns, list) and all(isinstance(each, list) and each for each in returns),
+        f"{student.said}: returns must be a list with a list of returns for each iteration.",
+    )
+    mean = mean_return(environment, arrays)
+    expect(
+        mean >= 180,
+        f"{student.said}: without chance, the policy keeps the pole up for {mean:.1f} steps on "
+        "average over 50 new episodes, but 180 are asked for.",
+    )
+
+
+@training.check(8)
+def with_discrete_actions(student: Student):
+    expect_balanced(student, "CartPole-v1", 200)
+
+
+@training.check(8)
+def with_continuous_actions(student: Student):
+    expect_balanced(student, "botschool/PushedCartPole-v0", 201)

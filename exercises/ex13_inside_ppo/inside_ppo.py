@@ -1,0 +1,279 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Exercise 13. Inside PPO
+#
+# The background is in `README.md`. Fill in the functions below one after another, and run
+# `make test-ex13` (or `botschool grade 13.1` for one task) as often as you like.
+#
+# Everything here is NumPy on plain arrays: numbers in, numbers out. A *rollout* is what the policy
+# has lived through before an update: the same number of steps in each of several environments, one
+# after another whatever ends meanwhile. Its arrays have the shape (steps, envs).
+
+# %%
+"""Exercise 13: what PPO computes between two rollouts, and what its network has learnt to see."""
+
+import numpy as np
+
+# %% [markdown]
+# ## Task 13.1. Advantages
+#
+# Was an action better than the critic had expected? After one step there is a first answer, the
+# *surprise* $\delta_t$: the reward, plus what the critic says is still to come, minus what it said
+# before. Generalised advantage estimation adds the surprises of the later steps, each one counting
+# less:
+#
+# $$\delta_t = r_t + \gamma\, n_t\, V_{t+1} - V_t, \qquad
+# A_t = \delta_t + \gamma \lambda\, n_t\, A_{t+1}$$
+#
+# $n_t$ is 0 if step $t$ ended its episode and else 1: what comes after an end has nothing to do
+# with the action. After the last step there are no more surprises, so the $A$ behind it is 0.
+
+
+# %%
+def advantages(
+    rewards: np.ndarray,
+    values: np.ndarray,
+    episode_starts: np.ndarray,
+    last_values: np.ndarray,
+    dones: np.ndarray,
+    gamma: float,
+    gae_lambda: float,
+) -> np.ndarray:
+    """A of each step, by the formulas above; shape (steps, envs).
+
+    - rewards, values: shape (steps, envs); the critic's value V of what was observed before a step.
+    - episode_starts: shape (steps, envs); 1.0 where a step is the first of an episode, else 0.0.
+      So step t ended its episode if step t + 1 starts one.
+    - last_values, dones: shape (envs,); the value of what was observed after the last step, and
+      whether the last step ended its episode (1.0 or 0.0).
+    """
+    raise NotImplementedError("task 13.1: estimate the advantages")
+
+
+# %% [markdown]
+# ## Task 13.2. The clipped surrogate
+#
+# Actions with a positive advantage shall become more probable, and others less. How much more or
+# less probable an action has become is the *ratio* of its probability now, with the policy that is
+# being trained, to the one it had in the rollout:
+#
+# $$\rho_t = \frac{p_{\mathrm{now}}(a_t)}{p_{\mathrm{old}}(a_t)}
+# = e^{\ln p_{\mathrm{now}}(a_t) - \ln p_{\mathrm{old}}(a_t)}$$
+#
+# The loss (to be made small) takes, of two products, the smaller one:
+#
+# $$L = -\frac{1}{N} \sum_t \min\left( \rho_t A_t,\;
+# \mathrm{clip}(\rho_t, 1 - \epsilon, 1 + \epsilon)\, A_t \right)$$
+#
+# Before, the advantages of the batch are normalised: minus their mean, divided by (their standard
+# deviation + 1e-8). The deviation is that of a sample, which divides by N - 1.
+
+
+# %%
+def policy_loss(
+    log_prob: np.ndarray, old_log_prob: np.ndarray, advantages: np.ndarray, clip_range: float
+) -> dict:
+    """The loss of the policy for a batch of steps; all arrays have the shape (N,).
+
+    clip_range is the epsilon of the formula. A batch of a single step is not normalised.
+
+    Returns a dict with
+    - "loss": L, a float;
+    - "clip_fraction": the share of steps whose ratio is farther than clip_range from 1.
+    """
+    raise NotImplementedError("task 13.2: clip the surrogate")
+
+
+# %% [markdown]
+# ## Task 13.3. The loss of the critic
+#
+# The critic shall predict the *return* of each step, for which PPO takes $A_t + V_t$ with the
+# values of the rollout. Its loss is the mean squared difference. Some people clip here too: the
+# prediction is then not allowed to count for more than `clip_range_vf` of movement away from the
+# value in the rollout.
+
+
+# %%
+def value_loss(
+    values: np.ndarray,
+    old_values: np.ndarray,
+    returns: np.ndarray,
+    clip_range_vf: float | None = None,
+) -> float:
+    """Mean squared difference of predictions and returns; all arrays have the shape (N,).
+
+    values are those of the critic now, old_values those in the rollout. Without clip_range_vf the
+    predictions are `values`; with it, old_values + (values - old_values), where the difference in
+    brackets is cut to -clip_range_vf ... clip_range_vf.
+    """
+    raise NotImplementedError("task 13.3: compute the loss of the critic")
+
+
+# %% [markdown]
+# ## Task 13.4. Entropy
+#
+# How undecided is the policy? For discrete actions with probabilities $p_i$ (softmax of the
+# scores, as in exercise 12) and for Gaussian ones with deviations $\sigma_i$:
+#
+# $$H = -\sum_i p_i \ln p_i \qquad \text{and} \qquad
+# H = \sum_i \left( \tfrac{1}{2} + \tfrac{1}{2} \ln 2\pi + \ln \sigma_i \right)$$
+
+
+# %%
+def entropy_of_choices(scores: np.ndarray) -> np.ndarray:
+    """The entropy of each step, shape (N,), from scores of shape (N, actions).
+
+    Scores may be as large as 1000, and an action with the probability 0 adds nothing.
+    """
+    raise NotImplementedError("task 13.4: compute the entropy of choices")
+
+
+def entropy_of_gaussians(log_deviation: np.ndarray) -> float:
+    """The entropy of a Gaussian action with these ln sigma, shape (actuators,)."""
+    raise NotImplementedError("task 13.4: compute the entropy of Gaussians")
+
+
+# %% [markdown]
+# ## Task 13.5. How far has the policy moved?
+#
+# The Kullback-Leibler divergence says how different two distributions are; 0 means equal. From the
+# actions of a batch it can be estimated as the mean of $(\rho_t - 1) - \ln \rho_t$. PPO goes
+# through a rollout in several *epochs*, and in each of them batch by batch. As soon as the estimate
+# of a batch is greater than 1.5 times `target_kl`, training on this rollout is over, and this batch
+# makes no update any more.
+
+
+# %%
+def approx_kl(log_prob: np.ndarray, old_log_prob: np.ndarray) -> float:
+    """The estimated divergence of a batch; both arrays have the shape (N,)."""
+    raise NotImplementedError("task 13.5: estimate the divergence")
+
+
+def updates_made(divergences: list[list[float]], target_kl: float | None) -> int:
+    """How many updates PPO makes, given the divergences that it would find on its way.
+
+    divergences: for each epoch the estimate of each batch. target_kl None: no early stop.
+    """
+    raise NotImplementedError("task 13.5: stop early")
+
+
+# %% [markdown]
+# ## Task 13.6. All together
+#
+# One loss for everything: the policy's, plus `vf_coef` times the critic's, minus `ent_coef` times
+# the mean entropy (being undecided is rewarded, so that exploring does not stop too soon).
+#
+# And is the critic any good? The *explained variance* compares what it leaves unexplained with how
+# much the returns vary: 1 is perfect, 0 no better than always saying the mean, negative is worse.
+#
+# $$1 - \frac{\mathrm{var}(R - V)}{\mathrm{var}(R)}$$
+
+
+# %%
+def total_loss(
+    policy_loss: float, value_loss: float, entropies: np.ndarray, ent_coef: float, vf_coef: float
+) -> float:
+    """The loss that the optimiser gets; entropies, shape (N,), are those of the batch's steps."""
+    raise NotImplementedError("task 13.6: add up the losses")
+
+
+def explained_variance(values: np.ndarray, returns: np.ndarray) -> float:
+    """By the formula above; both arrays have the same shape, and the returns are not all equal."""
+    raise NotImplementedError("task 13.6: compute the explained variance")
+
+
+# %% [markdown]
+# ## Task 13.7. What the hidden neurons respond to
+#
+# Each hidden layer computes $\tanh(W x + b)$ of what comes before it, the first one of the
+# observation. To see what a neuron responds to, let the policy run, record, and ask for each number
+# that is observed how closely the neuron follows it: by their correlation,
+#
+# $$c = \frac{\sum_t (h_t - \bar h)(x_t - \bar x)}
+# {\sqrt{\sum_t (h_t - \bar h)^2 \; \sum_t (x_t - \bar x)^2}}$$
+#
+# which is 1 or -1 if the neuron is a straight line of this number alone, and 0 if it knows nothing
+# of it.
+
+
+# %%
+def hidden_activations(
+    layers: list[tuple[np.ndarray, np.ndarray]], observations: np.ndarray
+) -> list[np.ndarray]:
+    """The activations of each hidden layer, shape (N, neurons), from the first to the last.
+
+    layers: for each hidden layer its weights W, shape (neurons, neurons of the layer before), and
+    its biases b, shape (neurons,). observations: shape (N, numbers observed).
+    """
+    raise NotImplementedError("task 13.7: compute the hidden neurons")
+
+
+def responses(activations: np.ndarray, observations: np.ndarray) -> np.ndarray:
+    """The correlation of each neuron with each observed number; shape (neurons, numbers observed).
+
+    activations: shape (N, neurons); observations: shape (N, numbers observed). Where one of the two
+    never changes, there is nothing to follow, and the correlation is 0.
+    """
+    raise NotImplementedError("task 13.7: correlate neurons and observations")
+
+
+# %% [markdown]
+# ## Your numbers beside those of Stable-Baselines3
+#
+# `make solution-ex13` (or running this file once all tasks are done) trains PPO on CartPole,
+# compares your functions with what Stable-Baselines3 computes on a rollout of it, and draws what
+# the hidden neurons respond to, before and after training.
+
+# %%
+if __name__ == "__main__":
+    from botschool.course_rl import draw_hidden_layer
+    from botschool.rl.reference import Rollout, make_ppo, policy_layers
+
+    names = ["cart's position", "cart's speed", "pole's angle", "pole's angular speed"]
+    model = make_ppo("CartPole-v1", seed=1, n_steps=256, n_envs=4, batch_size=128, n_epochs=6)
+    stages = {}
+    for stage, steps in (("before training", 0), ("after 40 000 steps", 40_000)):
+        if steps:
+            model.learn(steps)
+        rollout = Rollout(model)
+        seen = rollout.observations.reshape(-1, 4)
+        layers = policy_layers(model)
+        activations = hidden_activations(layers, seen)[-1]
+        stages[stage] = (layers, seen, activations, responses(activations, seen))
+
+    rollout.train(3)
+    given, logged = rollout.losses(clip_range=0.05, clip_range_vf=0.5, ent_coef=0.01)
+    mine = policy_loss(given["log_prob"], given["old_log_prob"], given["advantages"], 0.05)
+    critic = value_loss(given["values"], given["old_values"], given["returns"], 0.5)
+    estimated = advantages(
+        rollout.rewards, rollout.values, rollout.episode_starts, rollout.last_values, rollout.dones,
+        rollout.gamma, rollout.gae_lambda,
+    )  # fmt: skip
+    table = {
+        "mean advantage": (estimated.mean(), rollout.advantages.mean()),
+        "policy loss": (mine["loss"], logged["policy_gradient_loss"]),
+        "clip fraction": (mine["clip_fraction"], logged["clip_fraction"]),
+        "value loss": (critic, logged["value_loss"]),
+        "approximate KL": (
+            approx_kl(given["log_prob"], given["old_log_prob"]), logged["approx_kl"]
+        ),
+        "loss": (total_loss(mine["loss"], critic, given["entropy"], 0.01, 0.5), logged["loss"]),
+        "explained variance": (
+            explained_variance(rollout.values, rollout.returns), logged["explained_variance"]
+        ),
+    }  # fmt: skip
+    print(f"{'':20}{'yours':>14}{'theirs':>14}{'difference':>12}")
+    for name, (yours, theirs) in table.items():
+        print(f"{name:20}{yours:14.8f}{theirs:14.8f}{yours - theirs:12.1e}")
+    draw_hidden_layer("hidden_layer.png", stages, names, axes=(2, 3), hidden=hidden_activations)

@@ -1,0 +1,419 @@
+"""Grader of exercise 13; run it with `make test-ex13`.
+
+What is expected comes from Stable-Baselines3's own code (RolloutBuffer, PPO.train and its
+distributions, see botschool/rl/reference.py) on rollouts that are drawn from the grading seed, and
+everything is compared to 1e-6. Nothing here is learnt, so nothing depends on luck.
+"""
+
+import copy
+import functools
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from botschool.grading import Exercise, Student, expect, expect_array, expect_close, show
+
+exercise = Exercise(13, "Inside PPO", file="inside_ppo.py")
+CLOSE = 1e-6
+
+
+def generator(index: int) -> np.random.Generator:
+    return np.random.default_rng(exercise.seed(index))
+
+
+ENVIRONMENTS = ("CartPole-v1", "Pendulum-v1")
+UPDATES = (
+    ("CartPole-v1", {"clip_range": 0.2}),
+    ("CartPole-v1", {"clip_range": 0.05, "clip_range_vf": 0.5}),
+    ("CartPole-v1", {"clip_range_vf": 2.0, "ent_coef": 0.05}),
+    ("Pendulum-v1", {"clip_range": 0.1, "ent_coef": 0.3, "vf_coef": 0.1}),
+    ("Pendulum-v1", {"clip_range_vf": 0.3}),
+)
+"""Environment and hyperparameters of updates, in the order in which they are made."""
+DEFAULTS = {"clip_range": 0.2, "clip_range_vf": None, "ent_coef": 0.0, "vf_coef": 0.5}
+
+
+@dataclass
+class References:
+    """What Stable-Baselines3 has computed, all of it before the submission's time runs."""
+
+    rollouts: dict[str, Any]
+    updates: list[tuple[str, dict, dict, dict]]
+    """Environment, hyperparameters, what went in, what was logged."""
+    layers: dict[str, list]
+    """Of the hidden layers of each policy, weights and biases."""
+    activations: dict[str, list[np.ndarray]]
+    """Of each hidden layer, for the observations of the rollout."""
+
+
+@functools.cache
+def references() -> References:
+    import torch
+
+    from botschool.rl.reference import Rollout, make_ppo, policy_layers
+
+    found = References({}, [], {}, {})
+    for index, environment in enumerate(ENVIRONMENTS):
+        seed = exercise.seed(90 + index) % 100_000
+        model = make_ppo(environment, seed, n_steps=64, batch_size=32, learning_rate=3e-3)
+        rollout = Rollout(model)
+        rollout.train(8)
+        found.rollouts[environment] = rollout
+        found.layers[environment] = policy_layers(model)
+        values, found.activations[environment] = torch.from_numpy(seen(rollout)), []
+        with torch.no_grad():
+            for part in copy.deepcopy(model.policy.mlp_extractor.policy_net).double():
+                values = part(values)
+                if isinstance(part, torch.nn.Tanh):
+                    found.activations[environment].append(values.numpy())
+    for environment, chosen in UPDATES:
+        given, logged = found.rollouts[environment].losses(**chosen)
+        found.updates.append((environment, {**DEFAULTS, **chosen}, given, logged))
+    return found
+
+
+def seen(rollout) -> np.ndarray:
+    """The observations of a rollout, one in each row."""
+    return rollout.observations.reshape(-1, rollout.observations.shape[-1])
+
+
+# ------------------------------------------------------------------- 13.1
+estimating = exercise.task("13.1", "Advantages")
+
+
+def compare_advantages(student: Student, index: int, steps: int, envs: int, **special) -> None:
+    """The student's advantages against RolloutBuffer's, on drawn numbers."""
+    import torch
+    from gymnasium import spaces
+    from stable_baselines3.common.buffers import RolloutBuffer
+
+    rng = generator(index)
+    rewards, values = rng.normal(size=(steps, envs)), 3 * rng.normal(size=(steps, envs))
+    starts = (rng.random((steps, envs)) < special.get("ends", 0.0)).astype(float)
+    starts[0] = 1.0
+    last_values = 3 * rng.normal(size=envs)
+    dones = np.full(envs, special.get("done", 0.0))
+    if envs > 1 and special.get("ends"):
+        dones[::2] = 1.0
+    gamma = special.get("gamma", round(float(rng.uniform(0.8, 0.99)), 3))
+    gae_lambda = special.get("gae_lambda", round(float(rng.uniform(0.5, 0.95)), 3))
+    box = spaces.Box(-1, 1, (1,))
+    buffer = RolloutBuffer(steps, box, box, "cpu", gae_lambda, gamma, envs)
+    buffer.rewards, buffer.values, buffer.episode_starts = rewards, values, starts
+    buffer.advantages = np.zeros((steps, envs))
+    buffer.compute_returns_and_advantage(torch.from_numpy(last_values), dones)
+    answer = student.call(
+        "advantages", rewards, values, starts, last_values, dones, gamma=gamma,
+        gae_lambda=gae_lambda,
+    )  # fmt: skip
+    if rewards.size <= 4:
+        student.said = (
+            f"advantages({rewards.round(3).tolist()}, {values.round(3).tolist()}, ..., "
+            f"gamma={gamma}, gae_lambda={gae_lambda})"
+        )
+    expect_close(student.said, answer, buffer.advantages, CLOSE)
+
+
+@estimating.check(5)
+def one_episode_that_goes_on(student: Student):
+    references()
+    for index, steps in ((1, 1), (2, 3), (3, 40)):
+        compare_advantages(student, index, steps, 1)
+
+
+@estimating.check(5)
+def episodes_that_end_on_the_way(student: Student):
+    for index, steps in ((4, 4), (5, 60)):
+        compare_advantages(student, index, steps, 1, ends=0.3)
+
+
+@estimating.check(4)
+def an_episode_that_ends_with_the_rollout(student: Student):
+    for index, steps in ((6, 1), (7, 5)):
+        compare_advantages(student, index, steps, 1, done=1.0)
+
+
+@estimating.check(3)
+def several_environments(student: Student):
+    compare_advantages(student, 8, 50, 4, ends=0.2)
+    compare_advantages(student, 9, 20, 3, ends=0.2, gae_lambda=0.0)
+    compare_advantages(student, 10, 20, 3, ends=0.2, gae_lambda=1.0, gamma=1.0)
+
+
+@estimating.check(3)
+def rollouts_of_stable_baselines(student: Student):
+    for environment, rollout in references().rollouts.items():
+        answer = student.call(
+            "advantages", rollout.rewards, rollout.values, rollout.episode_starts,
+            rollout.last_values, rollout.dones, rollout.gamma, rollout.gae_lambda,
+        )  # fmt: skip
+        said = f"advantages(...) on a rollout in {environment}"
+        expect_close(said, answer, rollout.advantages, CLOSE)
+
+
+# ------------------------------------------------------------------- 13.2
+surrogate = exercise.task("13.2", "The clipped surrogate")
+
+
+def judged_policy(student: Student, given: dict, clip_range: float) -> dict:
+    answer = student.call(
+        "policy_loss", given["log_prob"], given["old_log_prob"], given["advantages"], clip_range
+    )
+    expect(isinstance(answer, dict), f"{student.said} must return a dict, not {show(answer)}.")
+    for key in ("loss", "clip_fraction"):
+        expect(key in answer, f"{student.said} returned a dict without {key!r}.")
+    return answer
+
+
+def drawn_batch(index: int, n: int, spread: float) -> dict:
+    rng = generator(index)
+    old = rng.normal(-1, 0.5, n)
+    return {
+        "old_log_prob": old,
+        "log_prob": old + spread * rng.normal(size=n),
+        "advantages": 5 + 20 * rng.normal(size=n),
+    }
+
+
+def surrogate_of(given: dict, clip_range: float) -> tuple[float, float]:
+    """Loss and clip fraction by PPO.train's lines, in torch."""
+    import torch
+
+    log_prob, old, advantages = (
+        torch.from_numpy(given[key]) for key in ("log_prob", "old_log_prob", "advantages")
+    )
+    if len(advantages) > 1:
+        advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
+    ratio = torch.exp(log_prob - old)
+    cut = torch.clamp(ratio, 1 - clip_range, 1 + clip_range)
+    loss = -torch.min(advantages * ratio, advantages * cut).mean()
+    return loss.item(), ((ratio - 1).abs() > clip_range).double().mean().item()
+
+
+@surrogate.check(6)
+def nothing_to_clip(student: Student):
+    references()
+    for index, n in ((20, 2), (21, 50)):
+        given = drawn_batch(index, n, 0.01)
+        answer = judged_policy(student, given, 0.5)
+        expect_close(f"{student.said}: loss", answer["loss"], surrogate_of(given, 0.5)[0], CLOSE)
+
+
+@surrogate.check(6)
+def losses_of_stable_baselines(student: Student):
+    for _, chosen, given, logged in references().updates:
+        answer = judged_policy(student, given, chosen["clip_range"])
+        wanted = logged["policy_gradient_loss"]
+        expect_close(f"{student.said}: loss", answer["loss"], wanted, CLOSE)
+    for index, n in ((22, 5), (23, 300)):
+        given = drawn_batch(index, n, 0.6)
+        answer = judged_policy(student, given, 0.2)
+        expect_close(f"{student.said}: loss", answer["loss"], surrogate_of(given, 0.2)[0], CLOSE)
+
+
+@surrogate.check(4)
+def clip_fraction(student: Student):
+    for _, chosen, given, logged in references().updates:
+        answer = judged_policy(student, given, chosen["clip_range"])
+        said = f"{student.said}: clip_fraction"
+        expect_close(said, answer["clip_fraction"], logged["clip_fraction"], CLOSE)
+    given = drawn_batch(24, 80, 0.6)
+    answer = judged_policy(student, given, 0.3)
+    wanted = surrogate_of(given, 0.3)[1]
+    expect_close(f"{student.said}: clip_fraction", answer["clip_fraction"], wanted, CLOSE)
+
+
+@surrogate.check(2)
+def a_batch_of_one_step(student: Student):
+    for index in (25, 26):
+        given = drawn_batch(index, 1, 0.6)
+        answer = judged_policy(student, given, 0.2)
+        expect_close(f"{student.said}: loss", answer["loss"], surrogate_of(given, 0.2)[0], CLOSE)
+
+
+# ------------------------------------------------------------------- 13.3
+critic = exercise.task("13.3", "The loss of the critic")
+
+
+def compare_critic(student: Student, clipping: bool) -> None:
+    for _, chosen, given, logged in references().updates:
+        if (chosen["clip_range_vf"] is not None) == clipping:
+            arguments = [given["values"], given["old_values"], given["returns"]]
+            arguments += [chosen["clip_range_vf"]] if clipping else []
+            answer = student.call("value_loss", *arguments)
+            expect_close(student.said, answer, logged["value_loss"], CLOSE)
+
+
+@critic.check(5)
+def without_clipping(student: Student):
+    compare_critic(student, False)
+
+
+@critic.check(7)
+def with_clipping(student: Student):
+    compare_critic(student, True)
+
+
+# ------------------------------------------------------------------- 13.4
+undecided = exercise.task("13.4", "Entropy")
+
+
+def compare_choices(student: Student, scores: np.ndarray) -> None:
+    import torch
+    from stable_baselines3.common.distributions import CategoricalDistribution
+
+    distribution = CategoricalDistribution(scores.shape[1])
+    distribution.proba_distribution(torch.from_numpy(scores))
+    answer = student.call("entropy_of_choices", scores)
+    if scores.size <= 6:
+        student.said = f"entropy_of_choices({scores.tolist()})"
+    expect_close(student.said, answer, distribution.entropy().numpy(), CLOSE)
+
+
+@undecided.check(4)
+def of_choices(student: Student):
+    for index, shape in ((30, (1, 2)), (31, (30, 2)), (32, (25, 6))):
+        compare_choices(student, generator(index).normal(size=shape).round(2))
+
+
+@undecided.check(3)
+def of_choices_with_large_scores(student: Student):
+    compare_choices(student, np.array([[1000.0, 0.0], [1000.0, 1000.0], [-900.0, -901.0]]))
+    compare_choices(student, 600 * generator(33).normal(size=(20, 4)))
+
+
+@undecided.check(5)
+def of_gaussians(student: Student):
+    import torch
+    from stable_baselines3.common.distributions import DiagGaussianDistribution
+
+    for index, actuators in ((34, 1), (35, 2), (36, 17)):
+        log_deviation = generator(index).normal(size=actuators).round(2)
+        distribution = DiagGaussianDistribution(actuators)
+        distribution.proba_distribution(
+            torch.zeros(1, actuators, dtype=torch.float64), torch.from_numpy(log_deviation)
+        )
+        answer = student.call("entropy_of_gaussians", log_deviation)
+        if actuators <= 2:
+            student.said = f"entropy_of_gaussians({log_deviation.tolist()})"
+        expect_close(student.said, answer, distribution.entropy().item(), CLOSE)
+
+
+# ------------------------------------------------------------------- 13.5
+moving = exercise.task("13.5", "How far has the policy moved?")
+
+
+@moving.check(8)
+def estimates_the_divergence(student: Student):
+    for _, _, given, logged in references().updates:
+        answer = student.call("approx_kl", given["log_prob"], given["old_log_prob"])
+        expect_close(student.said, answer, logged["approx_kl"], CLOSE)
+    given = drawn_batch(40, 30, 0.8)
+    ratio = np.exp(given["log_prob"] - given["old_log_prob"])
+    answer = student.call("approx_kl", given["log_prob"], given["old_log_prob"])
+    expect_close(student.said, answer, np.mean(ratio - 1 - np.log(ratio)), CLOSE)
+
+
+def compare_updates(student: Student, log_ratios: np.ndarray, target_kl: float | None) -> None:
+    from botschool.rl.reference import updates_made
+
+    divergences = (np.exp(log_ratios) - 1 - log_ratios).tolist()
+    answer = student.call("updates_made", divergences, target_kl)
+    rounded = [[float(f"{value:.3g}") for value in epoch] for epoch in divergences]
+    said = f"updates_made({show(rounded, 70)}, {target_kl})"
+    expect_close(said, answer, updates_made(log_ratios.tolist(), target_kl))
+
+
+@moving.check(5)
+def stops_early(student: Student):
+    rng = generator(41)
+    for epochs, batches in ((1, 3), (3, 2), (4, 8)):
+        log_ratios = rng.uniform(0.01, 0.1, (epochs, batches))
+        log_ratios[rng.integers(epochs), rng.integers(batches)] = 0.4
+        compare_updates(student, log_ratios, 0.02)
+    compare_updates(student, np.array([[0.4, 0.01, 0.01]]), 0.02)
+
+
+@moving.check(3)
+def goes_on_when_near(student: Student):
+    rng = generator(42)
+    compare_updates(student, rng.uniform(0.01, 0.1, (3, 4)), 0.02)
+    between = np.full((2, 3), 0.22)  # a divergence of 1.3 times the target
+    compare_updates(student, between, 0.02)
+    compare_updates(student, rng.uniform(0.5, 1.0, (2, 4)), None)
+
+
+# ------------------------------------------------------------------- 13.6
+together = exercise.task("13.6", "All together")
+
+
+@together.check(6)
+def adds_up_the_losses(student: Student):
+    for _, chosen, given, logged in references().updates:
+        answer = student.call(
+            "total_loss", logged["policy_gradient_loss"], logged["value_loss"], given["entropy"],
+            chosen["ent_coef"], chosen["vf_coef"],
+        )  # fmt: skip
+        expect_close(student.said, answer, logged["loss"], CLOSE)
+
+
+@together.check(4)
+def explains_the_variance(student: Student):
+    from stable_baselines3.common.utils import explained_variance
+
+    for environment, _, _, logged in references().updates:
+        rollout = references().rollouts[environment]
+        answer = student.call("explained_variance", rollout.values, rollout.returns)
+        expect_close(student.said, answer, logged["explained_variance"], CLOSE)
+    rng = generator(50)
+    returns = 4 + rng.normal(size=40)
+    for values in (1 + returns + 0.3 * rng.normal(size=40), -returns):
+        answer = student.call("explained_variance", values, returns)
+        expect_close(student.said, answer, explained_variance(values, returns), CLOSE)
+
+
+# ------------------------------------------------------------------- 13.7
+seeing = exercise.task("13.7", "What the hidden neurons respond to")
+
+
+@seeing.check(6)
+def activations_of_the_layers(student: Student):
+    for environment, rollout in references().rollouts.items():
+        wanted = references().activations[environment]
+        answer = student.call("hidden_activations", references().layers[environment], seen(rollout))
+        said = f"hidden_activations(layers, observations) of a policy for {environment}"
+        expect(
+            isinstance(answer, list) and len(answer) == len(wanted),
+            f"{said} must return a list of {len(wanted)} arrays, not {show(answer)}.",
+        )
+        for number, (got, right) in enumerate(zip(answer, wanted, strict=True), 1):
+            expect_close(f"{said}: layer {number}", got, right, CLOSE)
+
+
+def compare_responses(student: Student, activations: np.ndarray, observations: np.ndarray) -> None:
+    answer = student.call("responses", activations, observations)
+    shape = (activations.shape[1], observations.shape[1])
+    got = expect_array(student.said, answer, shape)
+    wanted = np.zeros(shape)
+    for i, neuron in enumerate(activations.T):
+        for j, observed in enumerate(observations.T):
+            if len(np.unique(neuron)) > 1 and len(np.unique(observed)) > 1:
+                wanted[i, j] = np.corrcoef(neuron, observed)[0, 1]
+    expect_close(student.said, got, wanted, CLOSE)
+
+
+@seeing.check(4)
+def follows_the_observed(student: Student):
+    rng = generator(60)
+    compare_responses(student, 5 + rng.normal(size=(40, 3)), 2 * rng.normal(size=(40, 5)) - 1)
+    for environment, rollout in references().rollouts.items():
+        compare_responses(student, references().activations[environment][-1], seen(rollout))
+
+
+@seeing.check(2)
+def what_never_changes(student: Student):
+    rng = generator(61)
+    activations, observations = rng.normal(size=(30, 4)), rng.normal(size=(30, 3))
+    activations[:, 1], observations[:, 2] = 0.7, 0.1
+    compare_responses(student, activations, observations)

@@ -1,0 +1,33 @@
+"""CartPole with a motor that pushes with any force, instead of full force to the left or right."""
+
+from __future__ import annotations
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from gymnasium.envs.classic_control import CartPoleEnv
+
+FORCE = 10.0
+"""Newton of an action of 1, the force of CartPole."""
+
+
+class PushedCartPole(CartPoleEnv):
+    """CartPole but for the action: one number from -1 (10 N to the left) to 1 (10 N to the right).
+
+    Observation, physics, reward and end are those of Gymnasium's CartPole. The action is cut to
+    its limits.
+    """
+
+    def __init__(self, render_mode: str | None = None) -> None:
+        super().__init__(render_mode=render_mode)
+        self._sides: gymnasium.Space = self.action_space
+        self.action_space = spaces.Box(-1.0, 1.0, (1,), np.float32)
+
+    def step(self, action: np.ndarray):
+        push = float(np.clip(np.asarray(action, dtype=np.float64).reshape(1)[0], -1.0, 1.0))
+        self.force_mag = FORCE * abs(push)
+        ours, self.action_space = self.action_space, self._sides
+        try:
+            return super().step(int(push > 0))
+        finally:
+            self.action_space = ours
