@@ -1,0 +1,451 @@
+"""Grader of exercise 5; run it with `make test-ex5`.
+
+Nothing here is a matter of luck: bodies are decoded by the grader itself, and runs and episodes are
+the same to the last bit whenever they have the same experiment, genotype and seed. The bodies,
+experiments and seeds are drawn from the grading seed; the walkers of task 5.7 are the pre-evolved
+ones of data/genotypes and variations of them that nobody knows before.
+"""
+
+import secrets
+import tempfile
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from botschool import config
+from botschool.course import SavedRobot, genotype_file
+from botschool.evolution.run import Run, evolve
+from botschool.grading import Exercise, Student, expect, expect_array, expect_close, expect_fields
+
+exercise = Exercise(
+    5,
+    "Body and brain",
+    file="body_and_brain.py",
+    imports=("botschool.envs.bodybrain",),
+)
+BODY, OBSERVATIONS = 64, 35
+
+
+def rng_of(index: int) -> np.random.Generator:
+    return np.random.default_rng(exercise.seed(index))
+
+
+def bodies(index: int, count: int = 4, spread: float = 0.6) -> np.ndarray:
+    """Parameters of bodies, the last of them with some beyond all limits."""
+    parameters = spread * rng_of(index).normal(size=(count, BODY))
+    parameters[-1] *= 5
+    return parameters
+
+
+def answers(module, name, questions):
+    """The student's answer to each of many questions."""
+    return [getattr(module, name)(question) for question in questions]
+
+
+def asked(student: Student, name: str, questions: np.ndarray) -> list:
+    said = f"{name}(parameters of a body)"
+    given = student.run(answers, name, questions, said=said)
+    expect(isinstance(given, list) and len(given) == len(questions), f"{said} gave no answers.")
+    return given
+
+
+# ------------------------------------------------------------------- the grader's own decoding
+def scaled(p: np.ndarray, nominal: float) -> np.ndarray:
+    return nominal + 0.9 * nominal * np.tanh(p)
+
+
+def lengths(p: np.ndarray) -> np.ndarray:
+    return scaled(p[0:22:2], 0.8)
+
+
+def thicknesses(p: np.ndarray) -> np.ndarray:
+    return scaled(p[1:22:2], 0.2)
+
+
+def masses(p: np.ndarray) -> np.ndarray:
+    return lengths(p) * thicknesses(p) * (5 + 0.8 * np.tanh(p[53:64]))
+
+
+def angles(p: np.ndarray) -> np.ndarray:
+    return np.minimum(np.maximum(p[42:53], -1), 1) * 135 * np.pi / 180
+
+
+def limits(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    one, other = (np.minimum(np.maximum(p[first:42:2], -1), 1) * np.pi / 2 for first in (22, 23))
+    return np.minimum(one, other), np.maximum(one, other)
+
+
+def corners(p: np.ndarray) -> np.ndarray:
+    """Segment by segment, in complex numbers."""
+    place, heading, found = 0j, 0.0, []
+    for length, thickness, angle in zip(lengths(p), thicknesses(p), angles(p), strict=True):
+        heading += angle
+        along = length * np.exp(1j * heading)
+        side = thickness / 2 * np.exp(1j * (heading + np.pi / 2))
+        found.append([place - side, place + along - side, place + along + side, place + side])
+        place += along
+    return np.stack([np.real(found), np.imag(found)], axis=2)
+
+
+def expect_decoded(student: Student, name: str, index: int, wanted: dict) -> None:
+    """wanted: key -> the grader's function of the parameters."""
+    questions = bodies(index)
+    for p, answer in zip(questions, asked(student, name, questions), strict=True):
+        values = expect_fields(student.said, answer, *wanted)
+        for (key, own), value in zip(wanted.items(), values, strict=True):
+            expect_close(f"{student.said}: {key}", value, own(p))
+
+
+# ------------------------------------------------------------------- 5.1
+size = exercise.task("5.1", "Sizes")
+
+
+@size.check(6)
+def length_of_each_segment(student: Student):
+    expect_decoded(student, "sizes", 1, {"lengths": lengths})
+
+
+@size.check(4)
+def thickness_of_each_segment(student: Student):
+    expect_decoded(student, "sizes", 2, {"thicknesses": thicknesses})
+
+
+@size.check(4)
+def mass_of_each_segment(student: Student):
+    expect_decoded(student, "sizes", 3, {"masses": masses})
+
+
+# ------------------------------------------------------------------- 5.2
+turning = exercise.task("5.2", "Angles")
+
+
+@turning.check(6)
+def default_angles(student: Student):
+    expect_decoded(student, "joints", 4, {"angles": angles})
+
+
+@turning.check(7)
+def limits_of_joints(student: Student):
+    wanted = {"lower": lambda p: limits(p)[0], "upper": lambda p: limits(p)[1]}
+    expect_decoded(student, "joints", 5, wanted)
+
+
+# ------------------------------------------------------------------- 5.3
+shape = exercise.task("5.3", "The shape at rest")
+
+
+def expect_outline(student: Student, questions: np.ndarray) -> None:
+    for p, answer in zip(questions, asked(student, "outline", questions), strict=True):
+        expect_close(student.said, expect_array(student.said, answer, (11, 4, 2)), corners(p))
+
+
+@shape.check(5)
+def straight_bodies(student: Student):
+    questions = bodies(6)
+    questions[:, 42:53] = 0
+    expect_outline(student, questions)
+
+
+@shape.check(5)
+def straight_bodies_that_lean(student: Student):
+    questions = bodies(7)
+    questions[:, 43:53] = 0
+    expect_outline(student, questions)
+
+
+@shape.check(9)
+def bent_bodies(student: Student):
+    expect_outline(student, bodies(8))
+
+
+# ------------------------------------------------------------------- 5.4
+numbers = exercise.task("5.4", "A body in five numbers")
+
+
+@numbers.check(4)
+def length_and_mass(student: Student):
+    wanted = {"length": lambda p: lengths(p).sum(), "mass": lambda p: masses(p).sum()}
+    expect_decoded(student, "describe", 9, wanted)
+
+
+@numbers.check(4)
+def width_and_height(student: Student):
+    wanted = {
+        "width": lambda p: np.ptp(corners(p)[:, :, 0]),
+        "height": lambda p: np.ptp(corners(p)[:, :, 1]),
+    }
+    expect_decoded(student, "describe", 10, wanted)
+
+
+@numbers.check(2)
+def freedom_of_the_joints(student: Student):
+    wanted = {"freedom": lambda p: np.mean(limits(p)[1] - limits(p)[0])}
+    expect_decoded(student, "describe", 11, wanted)
+
+
+# ------------------------------------------------------------------- 5.5
+EXPERIMENT = """
+[EXP]
+environment = envBodybrainCustom
+algo = {algo}
+
+[POLICY]
+episodes = {episodes}
+pepisodes = 2
+maxsteps = 12
+nhiddens = {hidden}
+bias = 1
+out_type = 3
+winit = 1
+action_noise = 1
+action_noise_range = {noise}
+normalize = 1
+clip = 1
+
+[ALGO]
+maxmsteps = 0.0004
+{more}
+saveeach = 60
+"""
+running = exercise.task("5.5", "Evolve walkers", seconds=120)
+
+
+def experiment_text(index: int) -> str:
+    """A very small experiment of the grader's."""
+    rng = rng_of(index)
+    algorithms = (
+        ("SSS", "popsize = 4\nmutrate = 1"),
+        ("OpenAI-ES", "samplesize = 2\nnoiseStdDev = 0.5\nstepsize = 0.5"),
+    )
+    algo, more = algorithms[index % 2]
+    episodes, hidden = int(rng.integers(1, 3)), int(rng.integers(3, 9))
+    return EXPERIMENT.format(algo=algo, more=more, episodes=episodes, hidden=hidden, noise=2)
+
+
+def try_runs(module, text, seeds, folder, steps):
+    """Writes an experiment file, runs the student's function, and reads what the runs have left."""
+    import pathlib
+
+    import numpy
+
+    pathlib.Path("trial.ini").write_text(text)
+    walkers = module.evolve_walkers("trial.ini", seeds, folder, steps)
+    saved = {}
+    for seed in seeds:
+        file = pathlib.Path(folder) / f"bestgS{seed}.npy"
+        saved[seed] = numpy.load(file) if file.exists() else None
+    return [walkers, saved]
+
+
+@lru_cache
+def own_run(text: str, seed: int, steps: int | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """The genotypes with the best post-evaluated and the best fitness of the grader's own run."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "trial.ini"
+        file.write_text(text)
+        run = Run(config.load(file), seed)
+        evolve(run, Path(folder), steps)
+        return run.record.bestg, run.record.best
+
+
+def telling_seeds(text: str, index: int) -> list[int]:
+    """Two seeds; in the run of the second one post-evaluation decides for another genotype."""
+    first, *others = (int(seed) for seed in rng_of(index).permutation(500) + 1)
+    telling = (seed for seed in others if not np.array_equal(*own_run(text, seed)))
+    return [first, next(telling)]
+
+
+class Trial:
+    """The student's runs of a very small experiment, and the grader's own."""
+
+    def __init__(self, student: Student, index: int, steps: int | None) -> None:
+        text = experiment_text(index)
+        seeds = telling_seeds(text, index)
+        self.said = f"evolve_walkers('trial.ini', {seeds}, 'some/runs', {steps})"
+        self.walkers, saved = student.run(try_runs, text, seeds, "some/runs", steps, said=self.said)
+        self.saved = [saved.get(str(seed)) for seed in seeds]
+        self.wanted = np.array([own_run(text, seed, steps)[0] for seed in seeds])
+        self.seeds = seeds
+
+
+@running.check(6)
+def best_walker_of_each_run(student: Student):
+    for index in (20, 21):
+        trial = Trial(student, index, None)
+        expect_close(trial.said, trial.walkers, trial.wanted)
+
+
+@running.check(3)
+def leaves_the_files(student: Student):
+    trial = Trial(student, 20, None)
+    for seed, file, wanted in zip(trial.seeds, trial.saved, trial.wanted, strict=True):
+        expect(file is not None, f"{trial.said} left no file bestgS{seed}.npy in some/runs.")
+        expect_close(f"{trial.said}: bestgS{seed}.npy", file, wanted)
+
+
+@running.check(3)
+def stops_after_the_steps(student: Student):
+    trial = Trial(student, 20, 100)
+    expect_close(trial.said, trial.walkers, trial.wanted)
+
+
+# ------------------------------------------------------------------- 5.6
+surgery = exercise.task("5.6", "Give a brain another body")
+
+
+def genotypes(index: int, count: int = 2) -> np.ndarray:
+    """Made-up genotypes, as long as those of some experiment."""
+    rng = rng_of(index)
+    hidden = int(rng.integers(3, 60))
+    return rng.normal(size=(count, 46 * hidden + 10 + BODY + 2 * OBSERVATIONS))
+
+
+def operate(module, brain, body):
+    """A transplantation, and whether what was given is still as it was."""
+    before = [brain.copy(), body.copy()]
+    result = module.transplant(brain, body)
+    return [result, bool((before[0] == brain).all() and (before[1] == body).all())]
+
+
+@surgery.check(3)
+def body_is_cut_out(student: Student):
+    for index in (30, 31):
+        for genotype in genotypes(index):
+            body = student.call("body_of", genotype)
+            expect_close(student.said, body, genotype[-134:-70], 0)
+
+
+@surgery.check(5)
+def brain_in_another_body(student: Student):
+    for index in (32, 33):
+        brain, body = genotypes(index)
+        answer = student.run(operate, brain, body, said="transplant(brain, body)")
+        got = expect_array(student.said, answer[0], brain.shape)
+        expect_close(f"{student.said}: parameters of the network", got[:-134], brain[:-134], 0)
+        expect_close(f"{student.said}: parameters of the body", got[-134:-70], body[-134:-70], 0)
+        expect_close(f"{student.said}: means and deviations", got[-70:], brain[-70:], 0)
+
+
+@surgery.check(2)
+def patients_stay_as_they_are(student: Student):
+    brain, body = genotypes(34)
+    answer = student.run(operate, brain, body, said="transplant(brain, body)")
+    expect_array(student.said, answer[0], brain.shape)
+    expect(
+        answer[1] is True,
+        f"{student.said} changed a genotype that it was given: work on a copy.",
+    )
+
+
+# ------------------------------------------------------------------- 5.7
+WALKING = EXPERIMENT.replace("maxsteps = 12", "maxsteps = {maxsteps}")
+crossing = exercise.task("5.7", "The co-adaptation matrix", seconds=120)
+
+
+def cross(module, text, walkers, seed, episodes):
+    """Writes an experiment file and runs the student's function."""
+    import pathlib
+
+    pathlib.Path("trial.ini").write_text(text)
+    return module.cross_evaluate("trial.ini", walkers, seed, episodes)
+
+
+def walking(hidden: int, maxsteps: int) -> str:
+    return WALKING.format(
+        algo="SSS", more="popsize = 4", episodes=1, hidden=hidden, noise=0.01, maxsteps=maxsteps
+    )
+
+
+@lru_cache
+def walkers_of(index: int) -> np.ndarray:
+    """The pre-evolved walkers, each with brain and body varied a little."""
+    evolved = np.array([np.load(genotype_file(f"bodybrainS{seed}.npy")) for seed in (1, 2, 3)])
+    evolved[:, :-70] += 0.02 * rng_of(index).normal(size=evolved[:, :-70].shape)
+    return evolved
+
+
+def own_matrix(text: str, walkers: np.ndarray, seed: int, episodes: int) -> np.ndarray:
+    n = len(walkers)
+    matrix = np.zeros((n, n))
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "trial.ini"
+        file.write_text(text)
+        for i, j in np.ndindex(n, n):
+            parts = walkers[i, :-134], walkers[j, -134:-70], walkers[i, -70:]
+            robot = SavedRobot(file, np.concatenate(parts))
+            matrix[i, j] = np.mean(robot.evaluate(seed, episodes))
+    return matrix
+
+
+def expect_matrix(student: Student, text: str, walkers: np.ndarray, episodes: int) -> None:
+    seed = secrets.randbelow(2**31)
+    said = f"cross_evaluate('trial.ini', {len(walkers)} walkers, {seed}, {episodes})"
+    matrix = student.run(cross, text, walkers, seed, episodes, said=said)
+    expect_close(said, matrix, own_matrix(text, walkers, seed, episodes))
+
+
+@crossing.check(6)
+def pre_evolved_walkers(student: Student):
+    expect_matrix(student, walking(50, 150), walkers_of(40), 1)
+
+
+@crossing.check(3)
+def another_experiment(student: Student):
+    walkers = rng_of(41).normal(size=(2, 46 * 5 + 10 + BODY + 2 * OBSERVATIONS))
+    walkers[:, -OBSERVATIONS:] = 1
+    expect_matrix(student, walking(5, 40), walkers, 2)
+
+
+# ------------------------------------------------------------------- 5.8
+losing = exercise.task("5.8", "What is lost")
+
+
+def made_up_matrices(index: int) -> list[np.ndarray]:
+    rng = rng_of(index)
+    sizes = (2, 3, 5, 8)
+    return [30 * rng.normal(size=(n, n)) + 25 * np.eye(n) * rng.random() for n in sizes]
+
+
+def expect_loss(student: Student, index: int, *keys: str) -> None:
+    for matrix in made_up_matrices(index):
+        answer = student.call("loss", matrix)
+        values = expect_fields(student.said, answer, *keys)
+        for key, value in zip(keys, values, strict=True):
+            expect_close(f"{student.said}: {key}", value, own_loss(matrix, key))
+
+
+def own_loss(matrix: np.ndarray, key: str):
+    n = len(matrix)
+    others = [[matrix[i, j] for j in range(n) if j != i] for i in range(n)]
+    if key == "own":
+        return np.mean([matrix[i, i] for i in range(n)])
+    if key == "foreign":
+        return np.mean(others)
+    if key == "brains":
+        return [matrix[i, i] - np.mean(others[i]) for i in range(n)]
+    if key == "bodies":
+        return [
+            matrix[i, i] - np.mean([matrix[j, i] for j in range(n) if j != i]) for i in range(n)
+        ]
+    return sum(matrix[i, i] > max(others[i]) for i in range(n))
+
+
+@losing.check(4)
+def own_and_foreign(student: Student):
+    expect_loss(student, 50, "own", "foreign")
+
+
+@losing.check(3)
+def loss_of_brains(student: Student):
+    expect_loss(student, 51, "brains")
+
+
+@losing.check(3)
+def loss_of_bodies(student: Student):
+    expect_loss(student, 52, "bodies")
+
+
+@losing.check(3)
+def at_home(student: Student):
+    expect_loss(student, 53, "at home")

@@ -1,0 +1,342 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Exercise 5. Body and brain
+#
+# The background is in `README.md`. Fill in the functions below one after another, and run
+# `make test-ex5` (or `botschool grade 5.1` for one task) as often as you like.
+
+# %%
+"""Exercise 5: walkers whose body and brain evolve together."""
+
+from pathlib import Path
+
+import numpy as np
+
+from botschool import config
+from botschool.course import SavedRobot
+from botschool.evolution.run import Run, evolve
+
+SEGMENTS = 11
+"""The torso and ten more, in a chain."""
+JOINTS = 10
+BODY = 64
+"""Parameters of a body."""
+OBSERVATIONS = 35
+
+# %% [markdown]
+# ## Task 5.1. Sizes
+#
+# A body is described by 64 numbers $p$. Evolution may make them as large as it likes, but a
+# segment must neither vanish nor grow without end. So each number goes through a function that
+# keeps it within limits. For lengths (in metres) and thicknesses it is
+#
+# $$\text{length} = 0.8\,(1 + 0.9 \tanh p) \qquad \text{thickness} = 0.2\,(1 + 0.9 \tanh p)$$
+#
+# As $\tanh$ lies between -1 and 1, a segment is at least a tenth as long as the nominal 0.8 m of
+# $p = 0$, and less than twice as long. The density (kilograms per square metre, as the world is
+# flat) varies less: $5 + 0.8 \tanh p$. The mass of a segment is length x thickness x density.
+#
+# The numbers come in this order:
+#
+# | places | what |
+# |---|---|
+# | 0 to 21 | length of segment 0 (the torso), thickness of segment 0, length of segment 1, ... |
+# | 22 to 41 | one limit of joint 0, the other limit of joint 0, one limit of joint 1, ... |
+# | 42 to 52 | default angles of the 11 segments |
+# | 53 to 63 | densities of the 11 segments |
+
+
+# %%
+def sizes(parameters: np.ndarray) -> dict:
+    """Sizes of the segments, from the 64 parameters of a body.
+
+    Returns a dict with "lengths" and "thicknesses" (metres) and "masses" (kg), arrays of shape
+    (11,).
+    """
+    ### BEGIN SOLUTION task 5.1: decode the sizes
+    scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(SEGMENTS, 2))
+    lengths, thicknesses = 0.8 * scales[:, 0], 0.2 * scales[:, 1]
+    densities = 5 + 0.8 * np.tanh(parameters[53:])
+    return {
+        "lengths": lengths,
+        "thicknesses": thicknesses,
+        "masses": lengths * thicknesses * densities,
+    }
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 5.2. Angles
+#
+# Angles are kept within limits in a plainer way: the parameter is cut off at -1 and at 1, as
+# `np.clip(p, -1, 1)` does, and then scaled. The *default angle* of a segment is
+#
+# $$\text{angle} = \tfrac{3\pi}{4}\, \mathrm{clip}(p, -1, 1)$$
+#
+# For the torso it is the angle against the ground, for each other segment the angle against the
+# segment before, counter-clockwise positive. Around this default angle a joint can move between
+# two limits, each
+#
+# $$\text{limit} = \tfrac{\pi}{2}\, \mathrm{clip}(p, -1, 1)$$
+#
+# Evolution does not know which of the two is to be the lower one. So the smaller is taken for it.
+
+
+# %%
+def joints(parameters: np.ndarray) -> dict:
+    """Angles of a body, from its 64 parameters, in radians.
+
+    Returns a dict with "angles", the default angles of the 11 segments, shape (11,), and "lower"
+    and "upper", the limits of the 10 joints around the default angle, shape (10,).
+    """
+    ### BEGIN SOLUTION task 5.2: decode the angles
+    limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
+    return {
+        "angles": 3 * np.pi / 4 * np.clip(parameters[42:53], -1, 1),
+        "lower": limits.min(axis=1),
+        "upper": limits.max(axis=1),
+    }
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 5.3. The shape at rest
+#
+# Let every joint be at its default angle. Where is each segment?
+#
+# - **Headings.** As each angle is counted from the segment before, the heading of a segment
+#   against the ground is the sum of all default angles up to its own (`np.cumsum`).
+# - **Ends.** A segment of length $l$ and heading $\alpha$ that begins at $(x, y)$ ends at
+#   $(x + l\cos\alpha,\; y + l\sin\alpha)$, and there the next one begins. The torso begins at
+#   (0, 0).
+# - **Corners.** The line from beginning to end is the middle of a rectangle as thick as the
+#   segment. The direction across it is $(-\sin\alpha, \cos\alpha)$, the heading turned left by a
+#   right angle. So each corner is the beginning or the end, plus or minus half the thickness times
+#   this direction.
+#
+# We want the corners of a segment in the order: beginning right, end right, end left, beginning
+# left, as you would draw them, looking along the heading.
+
+
+# %%
+def outline(parameters: np.ndarray) -> np.ndarray:
+    """Corners (x, y) of all segments at rest, in metres; shape (11, 4, 2).
+
+    The torso begins at (0, 0). The corners of a segment are, looking along it: beginning right,
+    end right, end left, beginning left.
+    """
+    ### BEGIN SOLUTION task 5.3: find the corners
+    size = sizes(parameters)
+    headings = np.cumsum(joints(parameters)["angles"])
+    along = np.stack([np.cos(headings), np.sin(headings)], axis=1)
+    across = np.stack([-np.sin(headings), np.cos(headings)], axis=1)
+    ends = np.cumsum(size["lengths"][:, None] * along, axis=0)
+    beginnings = np.vstack([[0.0, 0.0], ends[:-1]])
+    side = size["thicknesses"][:, None] / 2 * across
+    return np.stack([beginnings - side, ends - side, ends + side, beginnings + side], axis=1)
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 5.4. A body in five numbers
+#
+# To compare bodies we want few numbers instead of 64.
+
+
+# %%
+def describe(parameters: np.ndarray) -> dict:
+    """What a body is like. Returns a dict of floats:
+
+    - "length": the lengths of all segments together, in metres;
+    - "mass": all masses together, in kg;
+    - "width" and "height": how far the corners of the outline reach from left to right and from
+      bottom to top at rest, in metres;
+    - "freedom": how far a joint can move from its lower to its upper limit, in radians, as the mean
+      over the 10 joints.
+    """
+    ### BEGIN SOLUTION task 5.4: describe the body
+    size, angles = sizes(parameters), joints(parameters)
+    width, height = np.ptp(outline(parameters), axis=(0, 1))
+    return {
+        "length": float(size["lengths"].sum()),
+        "mass": float(size["masses"].sum()),
+        "width": float(width),
+        "height": float(height),
+        "freedom": float(np.mean(angles["upper"] - angles["lower"])),
+    }
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 5.5. Evolve walkers
+#
+# With the tool, as in exercise 4: `config.load(file)`, `Run(experiment, seed)`,
+# `evolve(run, folder, steps)` with a folder that exists. Afterwards `run.record.bestg` is the
+# genotype with the best post-evaluated fitness, as an array.
+
+
+# %%
+def evolve_walkers(
+    experiment_file: str, seeds: list[int], folder: str, steps: int | None = None
+) -> np.ndarray:
+    """Runs the experiment once with each seed; the files of all runs are left in the folder.
+
+    Makes the folder if it does not exist. Returns the genotype with the best post-evaluated fitness
+    of each run, one row for each seed.
+    """
+    ### BEGIN SOLUTION task 5.5: run the replications
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    experiment = config.load(experiment_file)
+    walkers = []
+    for seed in seeds:
+        run = Run(experiment, seed)
+        evolve(run, Path(folder), steps)
+        walkers.append(run.record.bestg)
+    return np.array(walkers)
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 5.6. Give a brain another body
+#
+# A saved genotype holds, one after another:
+#
+# 1. the parameters of the network (their number depends on the hidden neurons);
+# 2. the 64 parameters of the body;
+# 3. 35 means and 35 standard deviations, by which the observations are normalised.
+#
+# The last 70 numbers tell the network what is usual among its observations. It has learnt to read
+# them in that form, so they belong to the brain.
+
+
+# %%
+def body_of(genotype: np.ndarray) -> np.ndarray:
+    """The parameters of the body, shape (64,), of a saved genotype."""
+    ### BEGIN SOLUTION task 5.6: cut out the body
+    return genotype[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS]
+    ### END SOLUTION
+
+
+def transplant(brain: np.ndarray, body: np.ndarray) -> np.ndarray:
+    """A new saved genotype with the brain of one saved genotype and the body of another.
+
+    All three have the same shape. The two that are given are not changed.
+    """
+    ### BEGIN SOLUTION task 5.6: put brain and body together
+    chimera = brain.copy()
+    chimera[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS] = body_of(body)
+    return chimera
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 5.7. The co-adaptation matrix
+#
+# Now every brain gets to try every body. With $n$ walkers this makes a table of $n$ rows, one for
+# each brain, and $n$ columns, one for each body; on its diagonal are the walkers as they evolved.
+#
+# `SavedRobot(experiment_file, genotype).evaluate(seed, episodes)` returns the return of each
+# episode, as in exercise 4. Use the same seed for all, so that all walk over the same ground.
+
+
+# %%
+def cross_evaluate(
+    experiment_file: str, walkers: np.ndarray, seed: int, episodes: int
+) -> np.ndarray:
+    """The mean return of each brain in each body; shape (n, n).
+
+    walkers has one saved genotype in each row. Row i, column j of the answer is the mean over the
+    episodes of the brain of walker i in the body of walker j.
+    """
+    ### BEGIN SOLUTION task 5.7: try every brain in every body
+    return np.array(
+        [
+            [
+                SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
+                for body in walkers
+            ]
+            for brain in walkers
+        ]
+    )
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## Task 5.8. What is lost
+#
+# If any brain could drive any body, all numbers in a column would be alike. If brain and body are
+# *co-adapted*, the diagonal stands out: a brain loses when it leaves its body, and a body loses
+# when it gets another's brain.
+
+
+# %%
+def loss(matrix: np.ndarray) -> dict:
+    """What is lost when brains and bodies are swapped; matrix has shape (n, n), n at least 2.
+
+    Returns a dict with
+    - "own": the mean of the diagonal, and "foreign": the mean of all other places;
+    - "brains": for each brain, its return in its own body minus its mean return in the others,
+      shape (n,);
+    - "bodies": for each body, its return with its own brain minus its mean return with the others,
+      shape (n,);
+    - "at home": how many brains do better in their own body than in each of the others, an int.
+    """
+    ### BEGIN SOLUTION task 5.8: measure the loss
+    n = len(matrix)
+    own = np.diagonal(matrix)
+    foreign = matrix.sum() - own.sum()
+    others = np.where(np.eye(n, dtype=bool), -np.inf, matrix)
+    return {
+        "own": float(own.mean()),
+        "foreign": float(foreign / (n * n - n)),
+        "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
+        "bodies": own - (matrix.sum(axis=0) - own) / (n - 1),
+        "at home": int(np.sum(own > others.max(axis=1))),
+    }
+    ### END SOLUTION
+
+
+# %% [markdown]
+# ## The pictures
+#
+# `make solution-ex5` (or running this file once all tasks are done) evolves three walkers for a few
+# minutes and draws their bodies in `my_walkers.png`. Then it takes three walkers that have evolved
+# longer, from `data/genotypes`: their bodies are drawn in `walkers.png`, each brain in each body in
+# `matrix.png`, and they are filmed.
+
+# %%
+if __name__ == "__main__":
+    from botschool.analysis.bodies import draw_matrix, draw_walkers
+    from botschool.course import experiment_file, genotype_file
+
+    def portrait(genotype, title):
+        body = body_of(genotype)
+        told = describe(body)
+        print(title, "  ".join(f"{name} {value:.2f}" for name, value in told.items()))
+        angles = joints(body)
+        return {"title": title, "outline": outline(body), **angles}
+
+    short = experiment_file("bodybrain_short.ini")
+    mine = evolve_walkers(short, [1, 2, 3], "runs", steps=100_000)
+    draw_walkers("my_walkers.png", [portrait(w, f"my walker {i + 1}") for i, w in enumerate(mine)])
+
+    long = experiment_file("bodybrain.ini")
+    walkers = np.array([np.load(genotype_file(f"bodybrainS{seed}.npy")) for seed in (1, 2, 3)])
+    draw_walkers("walkers.png", [portrait(w, f"walker {i + 1}") for i, w in enumerate(walkers)])
+    matrix = cross_evaluate(long, walkers, seed=2_000_000, episodes=5)
+    draw_matrix("matrix.png", matrix)
+    for name, value in loss(matrix).items():
+        print(f"{name:>8}: {np.round(value, 1)}")
+    for i, walker in enumerate(walkers):
+        SavedRobot(long, walker).film(f"walker{i + 1}.mp4", seed=2_000_000)
