@@ -42,7 +42,7 @@ class Tiny(gymnasium.Env):
 
     def reset(self, seed=None, options=None):
         super().reset(seed=seed)
-        self.broken = self.fault is not None and FAULTY_SEED <= seed < POST_EVALUATION
+        self.broken = self.fault is not None and FAULTY_SEED <= (seed or 0) < POST_EVALUATION
         self.x, self.speed = self.np_random.uniform(-0.5, 0.5, 2)
         if self.broken and self.fault == "resets":
             raise ValueError("cannot\nstart")
@@ -108,3 +108,18 @@ class Blind(Tiny):
 
 
 gymnasium.register("Blind-v0", Blind, max_episode_steps=12)
+
+
+class Picture(Tiny):
+    """Shows the point as a white column in a picture."""
+
+    observation_space = spaces.Box(0, 255, (40, 40, 3), np.uint8)
+
+    def _observation(self):
+        picture = np.zeros((40, 40, 3), dtype=np.uint8)
+        column = int(np.clip(20 + 20 * self.x, 1, 38))
+        picture[:, column - 1 : column + 2] = 255
+        return picture
+
+
+gymnasium.register("Picture-v0", Picture, max_episode_steps=12)

@@ -90,21 +90,31 @@ def es(
     video: Annotated[
         Path | None, typer.Option(help="With -p: a film (.mp4, .webm, .gif).", metavar="FILE")
     ] = None,
+    replay: Annotated[
+        Path | None,
+        typer.Option(
+            help="With -p: a page that plays the episodes in a browser, as "
+            "`es -f acrobot.ini -p -g bestgS1.npy --replay acrobot.html`.",
+            metavar="FILE",
+        ),
+    ] = None,
     episodes: Annotated[
         int | None, typer.Option(min=1, help="With -p: episodes to evaluate or show.")
     ] = None,
 ) -> None:
     """Evolve robots, or look at an evolved one (-p). Without -f: list all hyperparameters."""
     if file is None:
-        if post or genotype or video or resume or force:
+        if post or genotype or video or replay or resume or force:
             raise BotschoolError("Say which experiment: add -f FILE.ini.")
         _list_hyperparameters()
         return
     from botschool import config
 
     experiment = config.load(file)
+    if replay and not (post or genotype):
+        raise BotschoolError("--replay shows a robot: add -p, and -g FILE for a saved one.")
     if post or genotype or video or render or neurons:
-        _watch(experiment, seed, genotype, neurons, render, video, episodes)
+        _watch(experiment, seed, genotype, neurons, render, video, replay, episodes)
         return
     from botschool.evolution.replicate import replicate
 
@@ -130,6 +140,25 @@ def plotave(folders: Folders = None, output: Picture = None) -> None:
     from botschool.analysis.plots import plot_ave
 
     plot_ave(folders or [Path(".")], output)
+
+
+@app.command(epilog="Example: botschool showrobot ant --sheet ant.png")
+def showrobot(
+    name: Annotated[
+        str,
+        typer.Argument(help="A locomotor, balancebot, or a .urdf or .xml file.", metavar="NAME"),
+    ],
+    video: Annotated[
+        Path | None, typer.Option(help="A film of each joint's range.", metavar="FILE")
+    ] = None,
+    sheet: Annotated[
+        Path | None, typer.Option(help="A picture of each joint's range.", metavar="FILE")
+    ] = None,
+) -> None:
+    """Show a robot: a window with a slider for each joint and for gravity, a film or a sheet."""
+    from botschool.render.showrobot import show_robot
+
+    show_robot(name, video, sheet)
 
 
 @app.command(epilog="Example: botschool grade 3, or botschool grade 3.2 for one task")
@@ -231,6 +260,115 @@ def skeletons() -> None:
         print(f"left alone, because it was edited: {path}")
 
 
+RlFolder = Annotated[
+    Path, typer.Option("-o", "--output", help="Folder of the trainings.", metavar="FOLDER")
+]
+RlRun = Annotated[
+    Path | None,
+    typer.Argument(
+        help="Folder of a training, or a model in it (.zip); default: the newest.",
+        show_default=False,
+        metavar="RUN",
+    ),
+]
+RlEnv = Annotated[str | None, typer.Option(help="Another environment for the agent.", metavar="ID")]
+RlEpisodes = Annotated[int, typer.Option(min=1, max=1_000_000, help="Episodes to play.")]
+RlSeed = Annotated[int, typer.Option("-s", "--seed", min=0, max=2**31, help="Seed.")]
+RlLast = Annotated[bool, typer.Option("--last", help="The last model instead of the best one.")]
+
+rl = typer.Typer(
+    help="Train agents by reinforcement learning (Stable-Baselines3), and watch them.",
+    no_args_is_help=True,
+    rich_markup_mode="markdown",
+)
+app.add_typer(rl, name="rl")
+
+
+@rl.command(
+    "train",
+    epilog="Example: botschool rl train --algo ppo --env CartPole-v1 --params gamma=0.9 n_epochs=5",
+)
+def rl_train(
+    algo: Annotated[str, typer.Option(help="ppo, a2c, sac, td3 or dqn.", metavar="NAME")],
+    env: Annotated[str, typer.Option(help="A Gymnasium id.", metavar="ID")],
+    params: Annotated[
+        list[str] | None,
+        typer.Option(help="Hyperparameters; several may follow.", metavar="KEY=VALUE ..."),
+    ] = None,
+    more: Annotated[list[str] | None, typer.Argument(hidden=True, metavar="")] = None,
+    policy: Annotated[
+        str | None,
+        typer.Option(help="mlp, lstm or cnn.", metavar="NAME", show_default="cnn for images"),
+    ] = None,
+    envs: Annotated[
+        int | None, typer.Option(min=1, max=1024, help="Environments side by side.")
+    ] = None,
+    steps: Annotated[int | None, typer.Option(min=1, max=10**12, help="Length.")] = None,
+    seed: RlSeed = 1,
+    evaluations: Annotated[
+        int, typer.Option(min=1, max=100_000, help="Post-evaluations during the training.")
+    ] = 20,
+    episodes: Annotated[
+        int, typer.Option(min=1, max=10_000, help="Episodes of a post-evaluation.")
+    ] = 10,
+    output: RlFolder = Path("results/rl"),
+) -> None:
+    """Train an agent in a new folder; defaults depend on algorithm and environment."""
+    from botschool.rl.training import train_command
+
+    items = [*(params or []), *(more or [])]
+    options = {"policy": policy, "envs": envs, "steps": steps, "seed": seed}
+    options |= {"evaluations": evaluations, "episodes": episodes}
+    if not train_command(algo, env, items, output, sys.stdout.isatty(), **options):
+        raise typer.Exit(130)
+
+
+@rl.command("enjoy", epilog="Example: botschool rl enjoy results/rl/ppo/CartPole-v1_1")
+def rl_enjoy(
+    run: RlRun = None,
+    env: RlEnv = None,
+    episodes: RlEpisodes = 10,
+    seed: RlSeed = 1,
+    render: Annotated[
+        str | None, typer.Option(help="human (a window) or none.", metavar="MODE")
+    ] = None,
+    last: RlLast = False,
+    output: RlFolder = Path("results/rl"),
+) -> None:
+    """Play new episodes with a trained agent: returns, mean and standard deviation."""
+    from botschool.rl.watch import enjoy_command
+
+    enjoy_command(run, output, env, episodes, seed, render, last)
+
+
+@rl.command("video", epilog="Example: botschool rl video results/rl/ppo/CartPole-v1_1 -f pole.mp4")
+def rl_video(
+    run: RlRun = None,
+    file: Annotated[
+        Path, typer.Option("-f", "--file", help="The film (.mp4, .webm, .gif).", metavar="FILE")
+    ] = Path("agent.mp4"),
+    env: RlEnv = None,
+    episodes: RlEpisodes = 3,
+    seed: RlSeed = 1,
+    last: RlLast = False,
+    output: RlFolder = Path("results/rl"),
+) -> None:
+    """Film new episodes of a trained agent."""
+    from botschool.rl.watch import video_command
+
+    video_command(run, output, env, episodes, seed, file, last)
+
+
+@rl.command("list", epilog="Example: botschool rl list results/rl")
+def rl_list(
+    folder: Annotated[Path, typer.Argument(metavar="FOLDER")] = Path("results/rl"),
+) -> None:
+    """Show the trainings in a folder and what they reached."""
+    from botschool.rl.watch import list_command
+
+    list_command(folder)
+
+
 def _list_hyperparameters() -> None:
     from rich.console import Console
     from rich.table import Table
@@ -245,8 +383,9 @@ def _list_hyperparameters() -> None:
     console.print("To evolve: botschool es -f FILE.ini -s SEED (see botschool es --help)")
 
 
-def _watch(experiment, seed, genotype, neurons, render, video, episodes) -> None:
+def _watch(experiment, seed, genotype, neurons, render, video, replay, episodes) -> None:
     from botschool.render.watch import (
+        REPLAY_EPISODES,
         VIDEO_EPISODES,
         PostEvaluation,
         has_display,
@@ -256,17 +395,14 @@ def _watch(experiment, seed, genotype, neurons, render, video, episodes) -> None
 
     if render not in (None, "human", "none"):
         raise BotschoolError(f"--render is '{render}', but must be human or none.")
+    if video and replay:
+        raise BotschoolError("--video makes a film and --replay a page: give one of them.")
     saved = None if genotype is None else read_genotype(genotype)
-    robot = PostEvaluation(experiment, seed, saved)
-    window = render == "human" or (render is None and video is None and has_display())
-    wanted = experiment.policy.pepisodes
-    watch(
-        robot,
-        episodes or (min(wanted, VIDEO_EPISODES) if video else wanted),
-        window,
-        video,
-        neurons,
-    )
+    robot = PostEvaluation(experiment, seed, saved, genotype.name if genotype else "random robot")
+    window = render == "human" or (render is None and not (video or replay) and has_display())
+    most = VIDEO_EPISODES if video else REPLAY_EPISODES if replay else sys.maxsize
+    wanted = episodes or min(experiment.policy.pepisodes, most)
+    watch(robot, wanted, window, video, neurons, replay)
 
 
 def main() -> None:

@@ -82,7 +82,7 @@ def film(file: str | Path, environment: str, parameters: np.ndarray, seed: int =
     draw_offscreen()
     scene = make_scene(NATIVE[environment][0])
     frames = (
-        with_caption(scene.draw(moment.state, moment.action), 1, moment)
+        with_caption(scene.draw_moment(moment), 1, moment)
         for moment in Robot(environment).play(parameters, seed)
     )
     write_video(Path(file), frames, scene.fps)
@@ -240,6 +240,13 @@ def experiment_file(name: str) -> Path:
     return course_root() / "data" / "experiments" / name
 
 
+def genotype_file(name: str) -> Path:
+    """A pre-evolved robot of the course, as "bodybrainS1.npy". Raises BotschoolError."""
+    from botschool.grading.exercise import course_root
+
+    return course_root() / "data" / "genotypes" / name
+
+
 class SavedRobot:
     """A robot that the tool has evolved and saved, ready to be evaluated."""
 
@@ -260,25 +267,27 @@ class SavedRobot:
         ).fitness
 
     def film(self, file: str | Path, seed: int = 1, episodes: int = 1) -> None:
-        """A film of some episodes, in a native environment."""
-        from botschool.problems.native import NATIVE
+        """A film of some episodes."""
         from botschool.render.canvas import draw_offscreen
-        from botschool.render.panel import with_caption
         from botschool.render.scene import make_scene
         from botschool.render.video import write_video
 
         draw_offscreen()
-        scene = make_scene(NATIVE[self.environment][0])
-        frames = (
-            with_caption(scene.draw(moment.state, moment.action), episode + 1, moment)
-            for episode in range(episodes)
-            for moment in self._problem.play(
-                self._policy, self._genotype, self._normalisation, seed, episode,
-                self._policy.config.maxsteps,
-            )
-        )  # fmt: skip
-        write_video(Path(file), frames, scene.fps)
+        scene = make_scene(self._problem.dynamics) if self._problem.native else None
+        fps = scene.fps if scene else self._problem.fps
+        write_video(Path(file), self._frames(scene, seed, episodes), fps)
         print(f"film: {file}")
+
+    def _frames(self, scene, seed: int, episodes: int):
+        from botschool.render.panel import with_caption
+
+        robot, maxsteps = (self._genotype, self._normalisation), self._policy.config.maxsteps
+        for episode in range(episodes):
+            for moment in self._problem.play(
+                self._policy, *robot, seed, episode, maxsteps, render=scene is None
+            ):
+                frame = scene.draw_moment(moment) if scene else moment.frame
+                yield with_caption(frame, episode + 1, moment)
 
 
 def draw_bands(
@@ -308,5 +317,50 @@ def draw_bands(
     if logarithmic:
         axes.set_xscale("log")
         axes.xaxis.set_major_formatter("{x:g}")
+    figure.savefig(file, dpi=100)
+    print(f"picture: {file}")
+
+
+def draw_features(
+    file: str | Path, rows: dict[str, tuple], low: float, high: float, most: int = 8
+) -> None:
+    """What networks with two inputs make of the input plane, from low to high in both directions.
+
+    rows: title -> (inputs (n, 2), targets (n,), output (k, k), features (hiddens, k, k), weights
+    (hiddens,)): the training set, the network's output and its hidden neurons over the plane (rows
+    are the second input), and the output weights. The neurons that weigh most come first.
+    """
+    from matplotlib.figure import Figure
+
+    columns = 1 + min(most, max(len(row[3]) for row in rows.values()))
+    figure = Figure(figsize=(1.9 * columns + 0.6, 2.25 * len(rows) + 0.3), layout="constrained")
+    panels = figure.subfigures(len(rows), 1, squeeze=False)[:, 0]
+    extent = (low, high, low, high)
+    for panel, (title, (inputs, targets, output, features, weights)) in zip(
+        panels, rows.items(), strict=True
+    ):
+        panel.suptitle(title, fontsize=12, x=0.01, ha="left", weight="bold")
+        first, *others = panel.subplots(1, columns)
+        first.imshow(output, origin="lower", extent=extent, cmap="RdBu_r", vmin=-0.3, vmax=1.3)
+        first.contour(output, [0.5], extent=extent, colors="black", linewidths=1)
+        first.scatter(
+            *inputs.T,
+            c=targets,
+            cmap="RdBu_r",
+            vmin=-0.3,
+            vmax=1.3,
+            s=20,
+            lw=0.7,
+            edgecolors="black",
+        )
+        first.set_title("output, training set", fontsize=9)
+        order = np.argsort(-np.abs(weights), kind="stable")
+        for axes, k in zip(others, order, strict=False):
+            axes.imshow(features[k], origin="lower", extent=extent, cmap="viridis", vmin=0, vmax=1)
+            axes.set_title(f"neuron {k + 1}, weight {weights[k]:+.1f}", fontsize=9)
+        for axes in panel.axes:
+            axes.set(xticks=(), yticks=(), xlim=(low, high), ylim=(low, high))
+        for axes in others[len(order) :]:
+            axes.axis("off")
     figure.savefig(file, dpi=100)
     print(f"picture: {file}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,6 +22,12 @@ from botschool.analysis.runs import (
     seed_of,
     warn,
 )
+from botschool.analysis.trainings import (
+    POST_EVALUATED,
+    TRAINING_EPISODES,
+    has_trainings,
+    read_trainings,
+)
 from botschool.errors import BotschoolError
 from botschool.output import cannot_write, check_output, written_whole
 
@@ -36,6 +43,7 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 """Okabe and Ito's palette: its colours differ for colour-blind readers too."""
 
 FITNESS = "fitness (mean return of an episode)"
+RETURN = "mean return of an episode"
 
 Curves = dict[int, np.ndarray]
 """Seed -> (generations, 6)."""
@@ -44,33 +52,70 @@ Curves = dict[int, np.ndarray]
 def plot_stat(
     targets: Sequence[Path | str], output: Path | str | None = None, warn: Warn = warn
 ) -> None:
-    """Draws fitness against steps for stat files and for all runs of folders.
+    """Draws fitness against steps for stat files, and for all runs and trainings of folders.
 
     One run gives three curves. The runs of one folder give the mean and a band of one standard
-    deviation, with the single runs as thin lines; several folders are told apart by colour.
-    Drawn on the screen, or to the picture file `output`. A damaged stat file is an error if it
-    was named and is left out with a warning if its folder was. Raises BotschoolError.
+    deviation, with the single runs as thin lines; several folders are told apart by colour, and so
+    are trainings of `botschool rl` that differ in more than the seed. Beside evolution a training
+    is drawn as evolution is: the best post-evaluation so far, and steps that count those of the
+    post-evaluations. Drawn on the screen, or to the picture file `output`. A damaged stat file is
+    an error if it was named and is left out with a warning if its folder was. Raises
+    BotschoolError.
     """
-    experiments = _read_targets(targets, warn)
+    evolved, trained = _read_targets(targets, warn)
+    experiments = evolved | trained
+    words = _Words.of(bool(evolved), bool(trained))
     with _figure(output) as figure:
         axes = figure.add_subplot()
         if len(experiments) > 1:
             for (name, curves), colour in zip(experiments.items(), _cycle(), strict=False):
-                _draw_group(axes, curves, BEST_POST, colour, f"{name}, {_of_runs(curves)}")
-            _finish(axes, "best post-evaluated so far")
+                _draw_group(axes, curves, words.column, colour, f"{name}, {_of_runs(curves)}")
+            _finish(axes, words.labels[words.column], words)
             return
         [(name, curves)] = experiments.items()
         if len(curves) == 1:
-            [seed] = curves
-            _draw_run(axes, curves[seed])
-            _finish(axes, f"{name}, seed {seed}" if seed >= 0 else name)
+            [number] = curves
+            _draw_run(axes, curves[number], words.labels)
+            _finish(axes, f"{name}, {words.number} {number}" if number >= 0 else name, words)
         else:
             runs = _of_runs(curves)
-            _draw_mean(
-                axes, curves, GENERATION_AVERAGE, COLOURS[1], f"average of the generation, {runs}"
-            )
-            _draw_group(axes, curves, BEST_POST, COLOURS[0], f"best post-evaluated so far, {runs}")
-            _finish(axes, name)
+            average = f"{words.labels[GENERATION_AVERAGE]}, {runs}"
+            main = f"{words.labels[words.column]}, {runs}"
+            _draw_mean(axes, curves, GENERATION_AVERAGE, COLOURS[1], average)
+            _draw_group(axes, curves, words.column, COLOURS[0], main)
+            _finish(axes, name, words)
+
+
+@dataclass(frozen=True)
+class _Words:
+    """How a figure names what it shows."""
+
+    column: int
+    """Of the main curve."""
+    labels: dict[int, str]
+    steps: str
+    fitness: str
+    number: str
+
+    @classmethod
+    def of(cls, evolved: bool, trained: bool) -> _Words:
+        """Words for runs of evolution, for trainings, or for both side by side."""
+        best = "best post-evaluated so far"
+        if not trained:
+            labels = {
+                GENERATION_BEST: "best of the generation",
+                GENERATION_AVERAGE: "average of the generation",
+                BEST_POST: best,
+            }
+            return cls(BEST_POST, labels, "steps", FITNESS, "seed")
+        labels = {
+            POST_EVALUATED: "post-evaluated",
+            TRAINING_EPISODES: "episodes of the training",
+            BEST_POST: best,
+        }
+        if not evolved:
+            return cls(POST_EVALUATED, labels, "steps of training", RETURN, "run")
+        return cls(BEST_POST, labels, "steps, those of post-evaluations included", RETURN, "run")
 
 
 def plot_ave(
@@ -93,17 +138,30 @@ def plot_ave(
         _draw_bars(figure.add_subplot(), fitness)
 
 
-def _read_targets(targets: Sequence[Path | str], warn: Warn) -> dict[str, Curves]:
-    """Name -> curves, for each folder; the stat files named are grouped by their folder."""
-    curves: dict[Path, Curves] = {}
+def _read_targets(
+    targets: Sequence[Path | str], warn: Warn
+) -> tuple[dict[str, Curves], dict[str, Curves]]:
+    """Name -> curves, of evolution and of trainings; stat files are grouped by their folder."""
+    evolved: dict[Path, Curves] = {}
+    trainings: list[Path] = []
     for target in map(Path, targets):
-        if target.is_dir() or target.suffix != ".npy":
-            curves.setdefault(target, {}).update(read_curves(target, warn))
-        else:
-            group = curves.setdefault(target.parent, {})
+        if target.suffix == ".npy" and not target.is_dir():
+            group = evolved.setdefault(target.parent, {})
             seed = seed_of(target)
             group[-1 - len(group) if seed is None else seed] = read_stat(target)
-    return {name: curves[folder] for name, folder in _named(list(curves)).items()}
+        elif has_trainings(target):
+            trainings.append(target)
+        else:
+            evolved.setdefault(target, {}).update(read_curves(target, warn))
+    trained: dict[Path, Curves] = {}
+    for target in trainings:
+        for group, curves in read_trainings(target, bool(evolved), warn).items():
+            trained.setdefault(group, {}).update(curves)
+    names = _named([*evolved, *trained])
+    return (
+        {name: evolved[folder] for name, folder in names.items() if folder in evolved},
+        {name: trained[group] for name, group in names.items() if group in trained},
+    )
 
 
 def _named(folders: Sequence[Path]) -> dict[str, Path]:
@@ -170,16 +228,19 @@ def _shown_figure(height: float) -> Iterator[Figure]:
         pyplot.close(figure)
 
 
-def _draw_run(axes: Axes, stat: np.ndarray) -> None:
+def _draw_run(axes: Axes, stat: np.ndarray, labels: dict[int, str]) -> None:
     stat = _thinned(stat)
     marker = "o" if len(stat) == 1 else None
-    for column, colour, width, label in (
-        (GENERATION_BEST, "#BBBBBB", 0.8, "best of the generation"),
-        (GENERATION_AVERAGE, COLOURS[1], 1.1, "average of the generation"),
-        (BEST_POST, COLOURS[0], 2.2, "best post-evaluated so far"),
-    ):
+    styles = {
+        GENERATION_BEST: ("#BBBBBB", 0.8),
+        GENERATION_AVERAGE: (COLOURS[1], 1.1),
+        BEST_POST: (COLOURS[0], 2.2),
+    }
+    for column, (colour, width) in styles.items():
         fitness = _finite(stat[:, column])
-        axes.plot(stat[:, STEPS], fitness, color=colour, lw=width, marker=marker, label=label)
+        axes.plot(
+            stat[:, STEPS], fitness, color=colour, lw=width, marker=marker, label=labels[column]
+        )
 
 
 def _draw_group(axes: Axes, curves: Curves, column: int, colour: str, label: str) -> None:
@@ -248,10 +309,10 @@ def _finite(fitness: np.ndarray) -> np.ndarray:
     return np.where(np.isfinite(fitness), fitness, np.nan)
 
 
-def _finish(axes: Axes, title: str) -> None:
+def _finish(axes: Axes, title: str, words: _Words) -> None:
     axes.set_title(title)
-    axes.set_xlabel("steps")
-    axes.set_ylabel(FITNESS)
+    axes.set_xlabel(words.steps)
+    axes.set_ylabel(words.fitness)
     axes.set_xlim(left=0.0)
     axes.xaxis.set_major_formatter(lambda steps, _position: format_steps(steps))
     axes.ticklabel_format(axis="y", useOffset=False)

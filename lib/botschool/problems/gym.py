@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import importlib
 import os
 import sys
 import warnings
@@ -12,6 +13,7 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
+import botschool.envs  # noqa: F401  (registers our own)
 from botschool.errors import BotschoolError
 from botschool.inifile import shown
 from botschool.policy import Interface, Policy
@@ -24,9 +26,17 @@ SUPPORTED = (
     "MultiBinary) and give Discrete actions or a Box of one dimension"
 )
 
+PACKAGES = {"BalanceBotBulletEnv-v0": "balance_bot"}
+"""Environments of the course in packages of their own, which register them on import."""
+
 
 class GymProblem(Problem):
-    """A registered Gymnasium id (also `module:id`, which imports the module first)."""
+    """A registered Gymnasium id (also `module:id`, which imports the module first).
+
+    An environment with a body to evolve has an attribute `morphology_size`, the number of its
+    parameters, and a method `set_morphology(parameters)`, which decides on the body of the episodes
+    from the next reset on.
+    """
 
     native = False
 
@@ -48,8 +58,9 @@ class GymProblem(Problem):
         elif not isinstance(observed, (spaces.Discrete, spaces.MultiDiscrete, spaces.MultiBinary)):
             raise self._unsupported(f"observations are a nested {type(observed).__name__} space")
         size = spaces.flatdim(observed)
+        body = int(getattr(self._env.unwrapped, "morphology_size", 0))
         if isinstance(acted, spaces.Discrete):
-            return Interface(size, int(acted.n), discrete=True)
+            return Interface(size, int(acted.n), discrete=True, morphology=body)
         if not isinstance(acted, spaces.Box) or len(acted.shape) != 1:
             raise self._unsupported(f"actions are {acted}")
         low, high = np.unique(acted.low), np.unique(acted.high)
@@ -60,6 +71,7 @@ class GymProblem(Problem):
             discrete=False,
             low=float(low[0]) if common else None,
             high=float(high[0]) if common else None,
+            morphology=body,
         )
 
     def _unsupported(self, what: str) -> BotschoolError:
@@ -130,6 +142,8 @@ class GymProblem(Problem):
         policy.reset(seed, episode)
         start = (seed + episode) % 2**32
         where = f"episode {episode} of seed {seed}"
+        if self.interface.morphology:
+            env.unwrapped.set_morphology(policy.morphology)
         raw, _ = self._call(env.reset, f"reset of {where}", seed=start)
         total, space = 0.0, env.action_space
         for step in range(1, self.steps(maxsteps) + 1):
@@ -186,8 +200,8 @@ class GymProblem(Problem):
 
     def _unseen(self) -> BotschoolError:
         return BotschoolError(
-            f"{self.name} draws no pictures (render_mode rgb_array): leave out --video, and add "
-            "--render none."
+            f"{self.name} draws no pictures (render_mode rgb_array): leave out --video and --replay, "
+            "and add --render none."
         )
 
     def close(self) -> None:
@@ -208,17 +222,21 @@ def make_env(name: str, **options) -> gymnasium.Env:
     """gymnasium.make with errors for learners; a `module:` may lie in the present folder."""
     if ":" in name and os.getcwd() not in sys.path:
         sys.path.insert(0, os.getcwd())
+    if name in PACKAGES and name not in gymnasium.registry:
+        _import_package(name)
+    own = f"botschool/{name}"
+    env_id = own if own in gymnasium.registry else name  # others may have taken our plain id
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # errors say it in a sentence
-            return gymnasium.make(name, disable_env_checker=True, **options)
+            return gymnasium.make(env_id, disable_env_checker=True, **options)
     except (gymnasium.error.DependencyNotInstalled, ModuleNotFoundError) as error:
         raise BotschoolError(
             f"{name} needs a package that is not installed: {_sentence(error)}"
         ) from None
     except gymnasium.error.UnregisteredEnv:
         module, colon, own = name.rpartition(":")
-        known = [*NATIVE, *gymnasium.registry]
+        known = [*NATIVE, *PACKAGES, *gymnasium.registry]
         near = difflib.get_close_matches(own, known, n=1, cutoff=0.65)
         hint = "is the package that has it installed?"
         if near:
@@ -226,6 +244,18 @@ def make_env(name: str, **options) -> gymnasium.Env:
         raise BotschoolError(f"There is no environment '{name}'; {hint}") from None
     except Exception as error:
         raise BotschoolError(f"{name} cannot be made: {_sentence(error)}") from error
+
+
+def _import_package(name: str) -> None:
+    try:
+        importlib.import_module(PACKAGES[name])
+    except ModuleNotFoundError as error:
+        if error.name != PACKAGES[name]:
+            raise BotschoolError(f"{name} cannot be made: {_sentence(error)}") from None
+        raise BotschoolError(
+            f"{name} comes in a package of its own, which exercise 10 builds: install it with "
+            f"'pip install -e envs/{error.name}', or the one that you have built yourself."
+        ) from None
 
 
 def _sentence(error: Exception) -> str:

@@ -1,0 +1,88 @@
+"""Trainings of `botschool rl` as learning curves that can be drawn beside those of evolution."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from botschool.analysis.runs import (
+    BEST_POST,
+    GENERATION_AVERAGE,
+    GENERATION_BEST,
+    STEPS,
+    Warn,
+)
+from botschool.errors import BotschoolError
+from botschool.rl.folder import RunFolder, find_runs
+
+POST_EVALUATED, TRAINING_EPISODES = GENERATION_BEST, GENERATION_AVERAGE
+"""What these columns of a stat file hold in the curve of a training."""
+
+
+def has_trainings(folder: Path) -> bool:
+    """Whether a folder is a training or holds some; runs of evolution in it come first."""
+    return folder.is_dir() and not any(folder.glob("stat*.npy")) and bool(find_runs(folder))
+
+
+def read_trainings(
+    folder: Path, count_evaluations: bool, warn: Warn
+) -> dict[Path, dict[int, np.ndarray]]:
+    """The curves of all trainings in a folder or below: group -> number of the run -> (n, 6).
+
+    A group is a path that exists in name only, `FOLDER/ppo Acrobot-v1`, with what was changed by
+    --params. Columns as in `read_curve`. A damaged training is left out after `warn` was called;
+    one that was named itself is an error. Gives {} if there is no training.
+    """
+    groups: dict[Path, dict[int, np.ndarray]] = {}
+    runs = find_runs(folder)
+    for run in runs:
+        try:
+            curve = read_curve(run, count_evaluations)
+            curves = groups.setdefault(_group(run), {})
+        except BotschoolError as error:
+            if run.path == folder:
+                raise
+            warn(f"skipped: {error}")
+            continue
+        curves[run.number] = curve
+    if runs and not groups:
+        raise BotschoolError(f"no training in {folder} can be read: train again.")
+    return groups
+
+
+def _group(run: RunFolder) -> Path:
+    settings = run.settings()
+    words = [settings.algo, settings.env.replace("/", "-"), settings.variant.replace("/", "-")]
+    return run.path.resolve().parent.parent / " ".join(words).strip()
+
+
+def read_curve(run: RunFolder, count_evaluations: bool = False) -> np.ndarray:
+    """The learning curve of a training in the shape of a stat file, (evaluations, 6).
+
+    Steps of training (with `count_evaluations` those of the post-evaluations too, as evolution
+    counts them); the best post-evaluation so far; POST_EVALUATED, the mean return of this one;
+    TRAINING_EPISODES, the mean return of the latest episodes of the training itself. The other
+    columns are NaN. Raises BotschoolError.
+    """
+    found = run.evaluations()
+    curve = np.full((len(found.steps), 6), np.nan)
+    curve[:, STEPS] = found.steps
+    if count_evaluations:
+        curve[:, STEPS] += found.lengths.sum(axis=1).cumsum()
+    curve[:, POST_EVALUATED] = found.returns.mean(axis=1)
+    curve[:, BEST_POST] = np.maximum.accumulate(curve[:, POST_EVALUATED])
+    curve[:, TRAINING_EPISODES] = _training_episodes(run, found.steps)
+    return curve
+
+
+def _training_episodes(run: RunFolder, steps: np.ndarray) -> np.ndarray:
+    try:
+        log = run.log()
+        means = log["rollout/ep_rew_mean"]
+    except (BotschoolError, KeyError):
+        return np.full(len(steps), np.nan)
+    known = np.isfinite(means) & np.isfinite(log["steps"])
+    if not known.any():
+        return np.full(len(steps), np.nan)
+    return np.interp(steps, log["steps"][known], means[known], left=np.nan)

@@ -1,0 +1,156 @@
+"""A trained model that acts: saving, loading, and playing episodes with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from zipfile import ZipFile
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+
+from botschool.errors import BotschoolError
+from botschool.output import cannot_write, written_whole
+from botschool.rl.environments import described, make
+from botschool.rl.folder import RunFolder
+from botschool.rl.model import build
+
+if TYPE_CHECKING:
+    from stable_baselines3.common.base_class import BaseAlgorithm
+
+NORMALISATION = "normalisation.npz"
+"""Member of a model's zip file: mean and variance of the observations, clip and epsilon."""
+
+Normalise = Callable[[np.ndarray], np.ndarray]
+
+
+def save_model(model: BaseAlgorithm, path: Path) -> None:
+    """Writes a model, whole or not at all. Raises BotschoolError."""
+    try:
+        with written_whole(path) as temporary:
+            model.save(temporary)
+            scaling = model.get_vec_normalize_env()
+            if scaling is not None:
+                with ZipFile(temporary, "a") as archive:
+                    archive.writestr(NORMALISATION, _scaling_bytes(scaling))
+    except (OSError, RuntimeError) as error:
+        reason = getattr(error, "strerror", None) or " ".join(str(error).split())[:120]
+        raise cannot_write(path, reason) from error
+
+
+def _scaling_bytes(scaling) -> bytes:
+    content = BytesIO()
+    np.savez(
+        content,
+        mean=scaling.obs_rms.mean,
+        variance=scaling.obs_rms.var,
+        clip=scaling.clip_obs,
+        epsilon=scaling.epsilon,
+    )
+    return content.getvalue()
+
+
+class Agent:
+    """A model with the scaling of observations that it was trained with."""
+
+    def __init__(self, model: BaseAlgorithm, normalise: Normalise | None = None) -> None:
+        self.model = model
+        self._normalise = normalise
+
+    @classmethod
+    def load(cls, path: Path | str, env: str | None = None) -> Agent:
+        """The model in a zip file of a run's folder, for its environment or for `env`.
+
+        Only weights are read: no Python object in the file is ever loaded. Raises BotschoolError
+        for a file that is missing or damaged, or a model of another environment.
+        """
+        path = Path(path)
+        settings = RunFolder(path.parent).settings()
+        own = make(settings.env)
+        if env is not None and env != settings.env:
+            _check_same(settings.env, own, env)
+        if not path.exists():
+            raise BotschoolError(f"There is no model {path}: train one with `botschool rl train`.")
+        model = build(settings, own, small=True)
+        try:
+            model.set_parameters(str(path), device=model.device)
+            normalise = _read_normalisation(path) if settings.normalize else None
+        except Exception as error:  # a damaged file can fail in any way
+            raise BotschoolError(
+                f"{path} is damaged, or no model of this training: take the other model of its "
+                "folder, or train again."
+            ) from error
+        return cls(model, normalise)
+
+    def act(
+        self, observations: Any, state: Any = None, starts: np.ndarray | None = None
+    ) -> tuple[np.ndarray, Any]:
+        """The most likely actions for (n, ...) observations, and the state of an lstm.
+
+        starts: bool, shape (n,): where an episode begins.
+        """
+        if self._normalise is not None:
+            observations = self._normalise(observations)
+        return self.model.predict(observations, state, starts, deterministic=True)
+
+
+def _check_same(trained: str, own: gymnasium.Env, other: str) -> None:
+    given = make(other)
+    pairs = [
+        ("observations", own.observation_space, given.observation_space),
+        ("actions", own.action_space, given.action_space),
+    ]
+    for what, ours, theirs in pairs:
+        if type(ours) is not type(theirs) or ours.shape != theirs.shape or _n(ours) != _n(theirs):
+            raise BotschoolError(
+                f"This is a model of {trained}, whose {what} are {described(ours)}; it cannot "
+                f"act in {other}, whose {what} are {described(theirs)}."
+            )
+
+
+def _n(space: spaces.Space) -> Any:
+    return getattr(space, "n", None)
+
+
+def _read_normalisation(path: Path) -> Normalise:
+    with ZipFile(path) as archive:
+        content = BytesIO(archive.read(NORMALISATION))
+    with np.load(content, allow_pickle=False) as arrays:
+        mean, variance, clip, epsilon = (
+            arrays[name] for name in ("mean", "variance", "clip", "epsilon")
+        )
+    deviation = np.sqrt(variance + epsilon)
+
+    def normalise(observations: np.ndarray) -> np.ndarray:
+        return np.clip((observations - mean) / deviation, -clip, clip).astype(np.float32)
+
+    return normalise
+
+
+def play(
+    agent: Agent, envs: Sequence[gymnasium.Env], seeds: Sequence[int]
+) -> tuple[np.ndarray, np.ndarray]:
+    """One episode in each environment, all in step: returns (n,) float64 and lengths (n,) int64."""
+    n = len(envs)
+    observations = [env.reset(seed=seed)[0] for env, seed in zip(envs, seeds, strict=True)]
+    returns, lengths = np.zeros(n), np.zeros(n, dtype=np.int64)
+    running, starts, state = np.ones(n, dtype=bool), np.ones(n, dtype=bool), None
+    while running.any():
+        actions, state = agent.act(stacked(observations), state, starts)
+        starts[:] = False
+        for i in np.flatnonzero(running):
+            observations[i], reward, terminated, truncated, _ = envs[i].step(actions[i])
+            returns[i] += reward
+            lengths[i] += 1
+            running[i] = not (terminated or truncated)
+    return returns, lengths
+
+
+def stacked(observations: Sequence[Any]) -> Any:
+    """One batch of the observations, also if each is a dictionary of arrays."""
+    if isinstance(observations[0], dict):
+        return {key: np.stack([one[key] for one in observations]) for key in observations[0]}
+    return np.stack(observations)

@@ -1,0 +1,158 @@
+"""What happens beside the learning: post-evaluation, saving, more indicators, stopping."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+
+import numpy as np
+from gymnasium import spaces
+from stable_baselines3.common.callbacks import BaseCallback
+from stable_baselines3.common.on_policy_algorithm import OnPolicyAlgorithm
+
+from botschool.evolution.evaluate import POST_EVALUATION_SEED
+from botschool.rl.agent import Agent, play, save_model
+from botschool.rl.environments import make
+from botschool.rl.folder import Evaluations, RunFolder
+from botschool.rl.settings import Settings
+
+SAVE_SECONDS = 60.0
+"""The last model is saved this often, and after every post-evaluation."""
+
+REPORT_SECONDS = 0.2
+RECENT = 100
+"""Episodes and, times the environments, steps that the additional indicators look back on."""
+
+Report = Callable[[int, Evaluations], None]
+"""Called with the steps so far and the evaluations so far."""
+
+
+class PostEvaluation(BaseCallback):
+    """Measures the policy on fixed fresh seeds, keeps the best one, and saves the last one.
+
+    The episodes are those of an evolutionary run with the same seed: seed + 100000 + t. Neither
+    they nor the saving change what is learned.
+    """
+
+    def __init__(
+        self, run: RunFolder, settings: Settings, report: Report, stopping: Callable[[], bool]
+    ) -> None:
+        super().__init__()
+        self.run, self.settings = run, settings
+        self.report, self.stopping = report, stopping
+        self.found: Evaluations | None = None
+        first = settings.seed + POST_EVALUATION_SEED
+        self._seeds = list(range(first, first + settings.episodes))
+        self._envs = [make(settings.env) for _ in self._seeds]
+        self._every = max(1, settings.steps // max(1, settings.evaluations))
+        self._saved = self._reported = time.monotonic()
+
+    def _on_training_start(self) -> None:
+        self._evaluate()
+
+    def _on_step(self) -> bool:
+        steps, now = self.num_timesteps, time.monotonic()
+        due = steps // self._every > self.found.steps[-1] // self._every
+        if due and steps < self.settings.steps:
+            self._evaluate()
+        elif now - self._saved > SAVE_SECONDS:
+            self.save()
+        elif now - self._reported > REPORT_SECONDS:
+            self.report(steps, self.found)
+            self._reported = now
+        return not self.stopping()
+
+    def _on_training_end(self) -> None:
+        self._evaluate()
+        self.logger.dump(self.num_timesteps)
+
+    def save(self) -> None:
+        """Saves the last model."""
+        save_model(self.model, self.run.last)
+        self._saved = time.monotonic()
+
+    def close(self) -> None:
+        """Closes the environments."""
+        for env in self._envs:
+            env.close()
+
+    def _evaluate(self) -> None:
+        scaling = self.model.get_vec_normalize_env()
+        agent = Agent(self.model, None if scaling is None else scaling.normalize_obs)
+        returns, lengths = play(agent, self._envs, self._seeds)
+        best = -np.inf if self.found is None else self.found.best
+        self._append(returns, lengths)
+        if returns.mean() > best:
+            save_model(self.model, self.run.best)
+        self.save()
+        self.run.save_evaluations(self.found)
+        self.logger.record("eval/mean_reward", float(returns.mean()))
+        self.logger.record("eval/mean_ep_length", float(lengths.mean()))
+        self.logger.record("time/total_timesteps", self.num_timesteps, exclude="tensorboard")
+        self.report(self.num_timesteps, self.found)
+
+    def _append(self, returns: np.ndarray, lengths: np.ndarray) -> None:
+        new = Evaluations(np.array([self.num_timesteps]), returns[None], lengths[None])
+        if self.found is not None:
+            old = self.found
+            new = Evaluations(
+                np.concatenate([old.steps, new.steps]),
+                np.concatenate([old.returns, new.returns]),
+                np.concatenate([old.lengths, new.lengths]),
+            )
+        self.found = new
+
+
+class Indicators(BaseCallback):
+    """Logs what Stable-Baselines3 does not: discounted return, advantages, chosen actions.
+
+    `rollout/discounted_return` is the mean over the last episodes, without normalisation;
+    `rollout/advantage` and `actions/...` are histograms with mean and standard deviation of the
+    advantages and of each action, or the frequency of each discrete one, in the last rollout.
+    """
+
+    def _on_training_start(self) -> None:
+        n = self.training_env.num_envs
+        self._total, self._discount = np.zeros(n), np.ones(n)
+        self._episodes: deque[float] = deque(maxlen=RECENT)
+        on_policy = isinstance(self.model, OnPolicyAlgorithm)
+        self._window = self.model.n_steps if on_policy else RECENT
+        self._actions: deque[np.ndarray] = deque(maxlen=self._window)
+        self._calls = 0
+
+    def _on_step(self) -> bool:
+        scaling = self.model.get_vec_normalize_env()
+        rewards = self.locals["rewards"] if scaling is None else scaling.get_original_reward()
+        self._total += self._discount * rewards
+        self._discount *= self.model.gamma
+        ended = np.asarray(self.locals["dones"], dtype=bool)
+        self._episodes.extend(self._total[ended].tolist())
+        self._total[ended], self._discount[ended] = 0.0, 1.0
+        self._actions.append(np.array(self.locals["actions"]))
+        self._calls += 1
+        if self._calls % self._window == 0:
+            self._record_actions()
+            if self._episodes:
+                self.logger.record("rollout/discounted_return", float(np.mean(self._episodes)))
+        return True
+
+    def _on_rollout_end(self) -> None:
+        if isinstance(self.model, OnPolicyAlgorithm):
+            self._record("rollout/advantage", self.model.rollout_buffer.advantages)
+
+    def _record_actions(self) -> None:
+        actions, space = np.concatenate(self._actions), self.model.action_space
+        if isinstance(space, spaces.Discrete):
+            counts = np.bincount(actions.ravel().astype(int), minlength=int(space.n))
+            for action, frequency in enumerate(counts / counts.sum()):
+                self.logger.record(f"actions/frequency_{action}", float(frequency))
+            self.logger.record("actions/chosen", actions.ravel(), exclude="csv")
+            return
+        for i, values in enumerate(actions.reshape(len(actions), -1).T):
+            self._record(f"actions/{i}", values)
+
+    def _record(self, name: str, values: np.ndarray) -> None:
+        self.logger.record(name, np.asarray(values, dtype=np.float64).ravel(), exclude="csv")
+        self.logger.record(f"{name}_mean", float(np.mean(values)))
+        self.logger.record(f"{name}_std", float(np.std(values)))

@@ -1,0 +1,192 @@
+"""The folder of a training, and reading it. Needs no torch.
+
+    ppo/CartPole-v1_1/
+        config.yaml        what was trained, and how (settings.py)
+        best_model.zip     the model with the best post-evaluation, in Stable-Baselines3's format
+        last_model.zip     the newest model, saved while the training goes on
+        evaluations.npz    timesteps (n,), results (n, episodes), ep_lengths (n, episodes)
+        progress.csv       the indicators, a row for each time they were logged
+        events.out.*       the same for TensorBoard
+
+The number at the end is the next free one. `.zip` files hold the running means of a normalised
+training too, so a model is always whole.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+from zipfile import BadZipFile
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.output import cannot_write, save_npz
+
+if TYPE_CHECKING:
+    import gymnasium
+
+    from botschool.rl.settings import Settings
+
+CONFIG, EVALUATIONS = "config.yaml", "evaluations.npz"
+
+DEPTH = 3
+"""Folders below one that trainings are looked for in, as results/rl/ppo/CartPole-v1_1."""
+
+
+@dataclass
+class Evaluations:
+    """The post-evaluations of a training, on the same fresh seeds each time."""
+
+    steps: np.ndarray
+    """int64, shape (n,): steps of training before each."""
+    returns: np.ndarray
+    """float64, shape (n, episodes)."""
+    lengths: np.ndarray
+    """int64, shape (n, episodes): steps of each episode."""
+
+    @property
+    def best(self) -> float:
+        """The mean return of the best one, which best_model.zip reached."""
+        return float(self.returns.mean(axis=1).max())
+
+    @property
+    def last(self) -> float:
+        """The mean return of the last one."""
+        return float(self.returns[-1].mean())
+
+
+class RunFolder:
+    """The files of one training."""
+
+    def __init__(self, path: Path | str) -> None:
+        self.path = Path(path)
+
+    def __repr__(self) -> str:
+        return f"RunFolder({str(self.path)!r})"
+
+    @property
+    def config(self) -> Path:
+        return self.path / CONFIG
+
+    @property
+    def best(self) -> Path:
+        return self.path / "best_model.zip"
+
+    @property
+    def last(self) -> Path:
+        return self.path / "last_model.zip"
+
+    @property
+    def number(self) -> int:
+        """The number at the end of the name; 0 if there is none."""
+        match = re.search(r"_(\d+)$", self.path.name)
+        return int(match[1]) if match else 0
+
+    def settings(self) -> Settings:
+        """What was trained, and how. Raises BotschoolError."""
+        from botschool.rl.settings import Settings
+
+        return Settings.load(self.config)
+
+    def make_env(self, **options: object) -> gymnasium.Env:
+        """A new environment of the kind that was trained on."""
+        from botschool.rl.environments import make
+
+        return make(self.settings().env, **options)
+
+    def save_evaluations(self, evaluations: Evaluations) -> None:
+        """Writes evaluations.npz. Raises BotschoolError."""
+        names = ("timesteps", "results", "ep_lengths")
+        arrays = (evaluations.steps, evaluations.returns, evaluations.lengths)
+        save_npz(self.path / EVALUATIONS, dict(zip(names, arrays, strict=True)))
+
+    def evaluations(self) -> Evaluations:
+        """Reads evaluations.npz. Raises BotschoolError."""
+        path = self.path / EVALUATIONS
+        try:
+            with np.load(path, allow_pickle=False) as arrays:
+                steps, returns, lengths = (
+                    arrays[name] for name in ("timesteps", "results", "ep_lengths")
+                )
+        except FileNotFoundError:
+            raise BotschoolError(
+                f"{self.path} is no folder of a training with results: it has no {EVALUATIONS}."
+            ) from None
+        except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+            raise BotschoolError(f"{path} is damaged: train again.") from None
+        if returns.ndim != 2 or not len(steps) == len(returns) == len(lengths) > 0:
+            raise BotschoolError(f"{path} holds no evaluations: train again.")
+        return Evaluations(steps, returns, lengths)
+
+    def log(self) -> dict[str, np.ndarray]:
+        """Reads progress.csv: name of the indicator -> float64, shape (rows,), NaN where absent.
+
+        `steps` counts those of the training. Raises BotschoolError.
+        """
+        path = self.path / "progress.csv"
+        try:
+            with open(path, encoding="utf-8", newline="") as file:
+                rows = list(csv.DictReader(file))
+        except (OSError, UnicodeDecodeError, csv.Error) as error:
+            raise BotschoolError(
+                f"{path} cannot be read ({error}): train again with `botschool rl train`."
+            ) from None
+        names = sorted({name for row in rows for name in row if name})
+        log = {name: np.array([_number(row.get(name)) for row in rows]) for name in names}
+        log["steps"] = log.pop("time/total_timesteps", np.zeros(0))
+        return log
+
+
+def _number(text: object) -> float:
+    try:
+        return float(str(text))
+    except ValueError:
+        return float("nan")
+
+
+def next_folder(base: Path, algo: str, env: str) -> RunFolder:
+    """Makes base/algo/env_N with the next free number N. Raises BotschoolError."""
+    name = re.sub(r"[^\w.-]+", "-", env)
+    parent = base / algo
+    try:
+        parent.mkdir(parents=True, exist_ok=True)
+        taken = (re.fullmatch(re.escape(name) + r"_(\d+)", path.name) for path in parent.iterdir())
+        number = 1 + max((int(match[1]) for match in taken if match), default=0)
+        while True:
+            path = parent / f"{name}_{number}"
+            try:
+                path.mkdir()
+                return RunFolder(path)
+            except FileExistsError:  # another training was quicker
+                number += 1
+    except OSError as error:
+        raise cannot_write(parent, error.strerror or str(error)) from error
+
+
+def find_runs(folder: Path | str) -> list[RunFolder]:
+    """The trainings in a folder, by name and number: itself, or up to DEPTH levels below."""
+    return sorted(
+        (RunFolder(path) for path in _folders(Path(folder))),
+        key=lambda run: (run.path.parent, re.sub(r"_\d+$", "", run.path.name), run.number),
+    )
+
+
+def _folders(folder: Path) -> Iterator[Path]:
+    if is_run(folder):
+        yield folder
+    elif folder.is_dir():
+        for depth in range(1, DEPTH + 1):
+            configs = folder.glob("/".join(["*"] * depth + [CONFIG]))
+            yield from (config.parent for config in configs if is_run(config.parent))
+
+
+def is_run(folder: Path) -> bool:
+    """Whether the folder is that of a training."""
+    return (folder / CONFIG).is_file() and any(
+        (folder / name).is_file() for name in (EVALUATIONS, "last_model.zip", "progress.csv")
+    )

@@ -1,0 +1,203 @@
+"""Stable-Baselines3's algorithms: their classes, and models made of settings."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import warnings
+from collections.abc import Sequence
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+
+from botschool.errors import BotschoolError
+from botschool.rl.environments import described, make
+from botschool.rl.parameters import ACTIVATIONS, OF_POLICY, complete, linear
+from botschool.rl.settings import Settings, check_algorithm, check_policy, defaults
+
+if TYPE_CHECKING:
+    from stable_baselines3.common.base_class import BaseAlgorithm
+    from stable_baselines3.common.vec_env import VecEnv
+
+ACTIONS = {
+    "ppo": (spaces.Discrete, spaces.Box, spaces.MultiDiscrete, spaces.MultiBinary),
+    "a2c": (spaces.Discrete, spaces.Box, spaces.MultiDiscrete, spaces.MultiBinary),
+    "sac": (spaces.Box,),
+    "td3": (spaces.Box,),
+    "dqn": (spaces.Discrete,),
+}
+"""The action spaces that an algorithm can handle."""
+
+
+def require(*packages: str) -> None:
+    """Raises BotschoolError unless the packages can be imported."""
+    for package in packages:
+        try:
+            importlib.import_module(package)
+        except ImportError as error:
+            missing = (error.name or package).partition(".")[0]
+            raise BotschoolError(
+                f"botschool rl needs the package {missing}: install it with `pip install torch "
+                "stable-baselines3 sb3-contrib`, or all that botschool can use with `pip install "
+                "'botschool[rl]'`."
+            ) from None
+
+
+def choose(
+    algo: str,
+    env: str,
+    policy: str | None = None,
+    params: dict[str, Any] | None = None,
+    envs: int | None = None,
+    steps: int | None = None,
+    seed: int = 1,
+    evaluations: int = 20,
+    episodes: int = 10,
+) -> Settings:
+    """Settings of a training: what is given, then defaults.yaml. Raises BotschoolError."""
+    algo = check_algorithm(algo)
+    policy = None if policy is None else check_policy(policy, algo)
+    env_made = make(env)
+    _check_spaces(algo, env, env_made)
+    require("torch", "stable_baselines3")
+    policy = policy or ("cnn" if _sees_images(env_made) else "mlp")
+    if policy == "cnn" and not _sees_images(env_made):
+        raise BotschoolError(
+            f"{env} shows no images, so it cannot be trained with a cnn policy (its observations "
+            f"are {described(env_made.observation_space)}): leave out --policy."
+        )
+    given = dict(params or {})
+    entry = defaults(algo, env)
+    length, width = entry.pop("steps"), entry.pop("envs")
+    normalize = _normalize(given, entry.pop("normalize", False), env_made, policy)
+    entry |= {name: value for name, value in given.items() if name != "normalize"}
+    model_class = algorithm_class(algo, policy)
+    policy_class = model_class.policy_aliases[_policy_name(policy, env_made)]
+    env_made.close()
+    packages = ("stable_baselines3", "torch", "gymnasium", "numpy")
+    return Settings(
+        algo=algo,
+        env=env,
+        policy=policy,
+        seed=seed,
+        steps=length if steps is None else steps,
+        envs=width if envs is None else envs,
+        normalize=normalize,
+        evaluations=evaluations,
+        episodes=episodes,
+        parameters=complete(model_class, policy_class, entry),
+        given=given,
+        versions={package: version(package) for package in packages},
+    )
+
+
+def _normalize(given: dict[str, Any], usual: bool, env: gymnasium.Env, policy: str) -> bool:
+    possible = isinstance(env.observation_space, spaces.Box) and policy != "cnn"
+    wanted = given.get("normalize", usual and possible)
+    if not isinstance(wanted, bool):
+        raise BotschoolError(f"normalize is {wanted}, but must be true or false.")
+    if wanted and not possible:
+        raise BotschoolError(
+            f"normalize is true, but only vectors of numbers can be normalised, not observations "
+            f"in {described(env.observation_space)}: leave it out."
+        )
+    return wanted
+
+
+def _check_spaces(algo: str, name: str, env: gymnasium.Env) -> None:
+    if not isinstance(env.action_space, ACTIONS[algo]):
+        kind = type(env.action_space)
+        able = [other for other, kinds in ACTIONS.items() if kind in kinds]
+        remedy = f"use --algo {' or '.join(able)}" if able else "wrap the environment"
+        raise BotschoolError(
+            f"{algo} cannot be trained on {name}, whose actions are "
+            f"{described(env.action_space)}: {remedy}."
+        )
+    parts = getattr(env.observation_space, "spaces", {})
+    if isinstance(env.observation_space, spaces.Tuple) or any(
+        isinstance(part, (spaces.Dict, spaces.Tuple)) for part in dict(parts).values()
+    ):
+        raise BotschoolError(
+            f"{name} has nested observations, which no policy here reads: wrap it with "
+            "gymnasium.wrappers.FlattenObservation."
+        )
+
+
+def _sees_images(env: gymnasium.Env) -> bool:
+    space = env.observation_space
+    return (
+        isinstance(space, spaces.Box) and len(space.shape) == 3 and space.dtype == np.dtype("uint8")
+    )
+
+
+def algorithm_class(algo: str, policy: str) -> type[BaseAlgorithm]:
+    """The library's class for an algorithm. Raises BotschoolError where it is not installed."""
+    if policy == "lstm":
+        require("torch", "stable_baselines3", "sb3_contrib")
+        return importlib.import_module("sb3_contrib").RecurrentPPO
+    require("torch", "stable_baselines3")
+    return getattr(importlib.import_module("stable_baselines3"), algo.upper())
+
+
+def _policy_name(policy: str, env: gymnasium.Env | VecEnv) -> str:
+    several = isinstance(env.observation_space, spaces.Dict)
+    kind = "MultiInput" if several else "Cnn" if policy == "cnn" else "Mlp"
+    return f"{kind}{'Lstm' if policy == 'lstm' else ''}Policy"
+
+
+def build(settings: Settings, env: VecEnv | gymnasium.Env, small: bool = False) -> BaseAlgorithm:
+    """An untrained model. `small`: one that only acts. Raises BotschoolError."""
+    import torch
+
+    chosen = dict(settings.parameters)
+    policy = {name: chosen.pop(name) for name in OF_POLICY if name in chosen}
+    if "activation_fn" in policy:
+        policy["activation_fn"] = getattr(torch.nn, ACTIVATIONS[policy["activation_fn"]])
+    chosen = {name: _live(name, value, env) for name, value in chosen.items()}
+    if small and "buffer_size" in chosen:
+        chosen["buffer_size"] = 1
+    chosen.setdefault("device", "auto" if settings.policy == "cnn" else "cpu")
+    if small:
+        chosen["device"] = "cpu"
+    model_class = algorithm_class(settings.algo, settings.policy)
+    try:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", UserWarning)
+            model = model_class(
+                _policy_name(settings.policy, env),
+                env,
+                seed=settings.seed,
+                policy_kwargs=policy or None,
+                **chosen,
+            )
+    except (AssertionError, ValueError, TypeError, RuntimeError, MemoryError) as error:
+        reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+        raise BotschoolError(
+            f"{settings.algo} cannot be set up for {settings.env} with these hyperparameters "
+            f"({reason[:300]}): change them with --params."
+        ) from error
+    if not small:
+        _pass_on(caught)
+    return model
+
+
+def _pass_on(caught: Sequence[warnings.WarningMessage]) -> None:
+    for warning in caught:
+        if issubclass(warning.category, UserWarning):
+            print(f"note: {' '.join(str(warning.message).split())}", file=sys.stderr)
+
+
+def _live(name: str, value: Any, env: VecEnv | gymnasium.Env) -> Any:
+    """What the library wants in place of plain data."""
+    from stable_baselines3.common.noise import NormalActionNoise
+    from stable_baselines3.common.utils import LinearSchedule
+
+    if name == "action_noise" and value is not None:
+        size = env.action_space.shape
+        return NormalActionNoise(np.zeros(size), np.full(size, value))
+    if linear(value) is not None:
+        return LinearSchedule(linear(value), 0.0, 1.0)
+    return tuple(value) if name == "train_freq" and isinstance(value, list) else value

@@ -1,0 +1,212 @@
+"""Looking at trained agents: episodes with numbers, a window, a film; and the table of runs."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.problems.moment import Moment
+from botschool.rl.agent import Agent, play, stacked
+from botschool.rl.environments import make
+from botschool.rl.folder import RunFolder, find_runs
+
+NEW_EPISODES_SEED = 200_000
+"""Added to the seed: these episodes had no part in training, nor in choosing the best model."""
+
+BATCH = 16
+"""Episodes that are played side by side where none is shown."""
+
+
+class Player:
+    """Episodes of the agent in a model file, on new seeds."""
+
+    def __init__(self, model: Path, seed: int = 1, env: str | None = None) -> None:
+        self.settings = RunFolder(model.parent).settings()
+        self.env = env or self.settings.env
+        self.agent = Agent.load(model, env)
+        self.seed = seed
+        self.returns: list[float] = []
+        self.lengths: list[int] = []
+
+    def play(self, episodes: int) -> None:
+        """Plays the first episodes, BATCH of them in step, and prints their returns."""
+        envs = [make(self.env) for _ in range(min(BATCH, episodes))]
+        try:
+            for first in range(0, episodes, BATCH):
+                batch = envs[: episodes - first]
+                seeds = range(self._seed(first), self._seed(first) + len(batch))
+                for result in zip(*play(self.agent, batch, seeds), strict=True):
+                    self._keep(*result)
+        finally:
+            for env in envs:
+                env.close()
+
+    def moments(self, number: int) -> Iterator[Moment]:
+        """Plays episode `number`, from 0, yielding each step with its picture."""
+        env = make(self.env, render_mode="rgb_array")
+        try:
+            observation, _ = env.reset(seed=self._seed(number))
+            state, total, step, ended = None, 0.0, 0, False
+            while not ended:
+                seen, starts = observation, np.array([step == 0])
+                actions, state = self.agent.act(stacked([seen]), state, starts)
+                observation, reward, terminated, truncated, _ = env.step(actions[0])
+                step, total, ended = step + 1, total + reward, terminated or truncated
+                frame = _picture(env, self.env)
+                yield Moment(step, reward, total, seen, actions[0], np.zeros(0), frame=frame)
+        finally:
+            env.close()
+        self._keep(total, step)
+
+    def _seed(self, number: int) -> int:
+        return self.seed + NEW_EPISODES_SEED + number
+
+    def _keep(self, total: float, steps: int) -> None:
+        self.returns.append(total)
+        self.lengths.append(steps)
+        print(f"episode {len(self.returns)}  return {total:.2f}  steps {steps}", flush=True)
+
+    def frames(self, episodes: int) -> Iterator[np.ndarray]:
+        """Pictures of the first episodes, with a caption."""
+        from botschool.render.canvas import draw_offscreen
+        from botschool.render.panel import with_caption
+
+        draw_offscreen()
+        for number in range(episodes):
+            for moment in self.moments(number):
+                yield with_caption(moment.frame, number + 1, moment)
+
+    @property
+    def fps(self) -> float:
+        """Of the environment's pictures."""
+        env = make(self.env)
+        env.close()
+        return float(env.metadata.get("render_fps") or 30)
+
+    def print_summary(self) -> None:
+        """Mean and standard deviation over the episodes played."""
+        if self.returns:
+            print(
+                f"mean {np.mean(self.returns):.2f}  standard deviation {np.std(self.returns):.2f}"
+                f"  steps {np.mean(self.lengths):.1f}  episodes {len(self.returns)}"
+            )
+
+
+def _picture(env, name: str) -> np.ndarray:
+    frame = np.asarray(env.render())
+    if frame.ndim != 3 or frame.shape[2] != 3:
+        raise BotschoolError(
+            f"{name} draws no pictures (render_mode rgb_array): use `botschool rl enjoy` with "
+            "--render none."
+        )
+    return frame.astype(np.uint8)
+
+
+def model_of(run: Path | None, folder: Path, last: bool) -> Path:
+    """The model file that a user means: a zip file, or the best or last one of a folder.
+
+    Without `run`, the training of `folder` that was started last. Raises BotschoolError.
+    """
+    if run is not None and run.suffix == ".zip":
+        return run
+    if run is None:
+        runs = find_runs(folder)
+        if not runs:
+            raise BotschoolError(
+                f"There are no trainings in {folder}: train an agent with `botschool rl train "
+                "--algo ppo --env CartPole-v1`, or name the folder of one."
+            )
+        chosen = max(runs, key=lambda run: run.config.stat().st_mtime)
+        print(f"agent: {chosen.path}")
+        return chosen.last if last else chosen.best
+    return RunFolder(run).last if last else RunFolder(run).best
+
+
+def enjoy_command(
+    run: Path | None,
+    folder: Path,
+    env: str | None,
+    episodes: int,
+    seed: int,
+    render: str | None,
+    last: bool,
+) -> None:
+    """`botschool rl enjoy`."""
+    from botschool.render.watch import has_display
+
+    if render == "human" and not has_display():
+        raise BotschoolError(
+            "There is no display to open a window on: add --render none, or make a film with "
+            "`botschool rl video`."
+        )
+    if render not in (None, "human", "none"):
+        raise BotschoolError(f"--render is '{render}', but must be human or none.")
+    player = Player(model_of(run, folder, last), seed, env)
+    if render == "human" or (render is None and has_display()):
+        from botschool.render.window import show
+
+        show(player.frames(episodes), player.fps, f"botschool: {player.env}")
+    else:
+        player.play(episodes)
+    player.print_summary()
+
+
+def video_command(
+    run: Path | None,
+    folder: Path,
+    env: str | None,
+    episodes: int,
+    seed: int,
+    output: Path,
+    last: bool,
+) -> None:
+    """`botschool rl video`."""
+    from botschool.output import check_output
+    from botschool.render.video import VIDEO_SUFFIXES, write_video
+
+    check_output(output, VIDEO_SUFFIXES)
+    player = Player(model_of(run, folder, last), seed, env)
+    write_video(output, player.frames(episodes), player.fps)
+    print(f"video: {output}")
+    player.print_summary()
+
+
+def list_command(folder: Path) -> None:
+    """`botschool rl list`: a table of the trainings in a folder."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    runs = find_runs(folder)
+    if not runs:
+        raise BotschoolError(
+            f"There are no trainings in {folder}: start one with `botschool rl train --algo ppo "
+            "--env CartPole-v1`, or name another folder."
+        )
+    table = Table(title=f"trainings in {folder}", box=box.SIMPLE, title_justify="left")
+    table.add_column("run", no_wrap=True)
+    for column in ("seed", "steps", "best", "last"):
+        table.add_column(column, justify="right", no_wrap=True)
+    table.add_column("changed", overflow="fold")
+    for run in runs:
+        name = run.path.relative_to(folder) if run.path != folder else run.path
+        table.add_row(str(name), *_row(run))
+    Console(highlight=False, width=None if sys.stdout.isatty() else 120).print(table)
+
+
+def _row(run: RunFolder) -> list[str]:
+    try:
+        settings = run.settings()
+    except BotschoolError:
+        return ["damaged"]
+    row = [str(settings.seed)]
+    try:
+        found = run.evaluations()
+        steps, best, last = str(found.steps[-1]), f"{found.best:.1f}", f"{found.last:.1f}"
+    except BotschoolError:
+        steps = best = last = "-"
+    return [*row, steps, best, last, settings.variant]

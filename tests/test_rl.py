@@ -1,0 +1,341 @@
+"""`botschool rl`: tiny trainings, their files, and agents that are what was measured."""
+
+import os
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import yaml
+
+from botschool.errors import BotschoolError
+from botschool.evolution.evaluate import POST_EVALUATION_SEED
+from botschool.rl import settings
+from botschool.rl.agent import Agent, play
+from botschool.rl.folder import RunFolder, find_runs
+from botschool.rl.parameters import complete
+from botschool.rl.training import train
+from running import TESTS, call, finish, one_sentence, start
+
+pytest.importorskip("stable_baselines3")
+SMALL = {"n_steps": 32, "batch_size": 32, "n_epochs": 2}
+FILES = {"best_model.zip", "last_model.zip", "config.yaml", "evaluations.npz", "progress.csv"}
+SHOWN_BY_TENSORBOARD = {
+    "rollout/ep_rew_mean",
+    "rollout/ep_len_mean",
+    "rollout/discounted_return",
+    "rollout/advantage_mean",
+    "actions/frequency_0",
+    "train/policy_gradient_loss",
+    "train/value_loss",
+    "train/entropy_loss",
+    "train/approx_kl",
+    "train/clip_fraction",
+    "train/explained_variance",
+    "eval/mean_reward",
+}
+
+
+def tiny(folder, algo="ppo", env="CartPole-v1", **options):
+    """A training of some hundred steps."""
+    small = {"params": SMALL, "steps": 256, "envs": 2, "evaluations": 4, "episodes": 3}
+    return train(algo, env, folder, **(small | options))
+
+
+@pytest.fixture(scope="module")
+def trained(tmp_path_factory):
+    """One training for the tests that only look at it."""
+    return tiny(tmp_path_factory.mktemp("rl"))
+
+
+@pytest.fixture(autouse=True)
+def own_environments(monkeypatch):
+    monkeypatch.syspath_prepend(TESTS)
+
+
+def again(run, model):
+    """Mean returns of a saved model on the seeds of the post-evaluation."""
+    used = run.settings()
+    seeds = [used.seed + POST_EVALUATION_SEED + t for t in range(used.episodes)]
+    returns, _ = play(Agent.load(model), [run.make_env() for _ in seeds], seeds)
+    return returns
+
+
+def test_a_training_leaves_its_files(trained):
+    assert trained.path.parts[-2:] == ("ppo", "CartPole-v1_1")
+    names = {path.name for path in trained.path.iterdir()}
+    assert names > FILES
+    assert [name.startswith("events.out.tfevents") for name in names - FILES] == [True]
+    found = trained.evaluations()
+    assert found.steps.tolist() == [0, 64, 128, 192, 256]
+    assert found.returns.shape == found.lengths.shape == (5, 3)
+    np.testing.assert_array_equal(found.returns, found.lengths)  # CartPole pays 1 a step
+
+
+def test_folders_are_numbered(tmp_path):
+    (tmp_path / "ppo" / "CartPole-v1_7").mkdir(parents=True)
+    (tmp_path / "ppo" / "CartPole-v1_x").mkdir()
+    run = tiny(tmp_path, steps=64)
+    assert run.path.name == "CartPole-v1_8" and run.number == 8
+    assert [found.path for found in find_runs(tmp_path)] == [run.path]
+
+
+def test_the_config_says_all(trained):
+    used = trained.settings()
+    assert (used.algo, used.env, used.policy, used.seed) == ("ppo", "CartPole-v1", "mlp", 1)
+    assert (used.steps, used.envs, used.normalize) == (256, 2, False)
+    assert used.given == SMALL and used.parameters.items() > SMALL.items()
+    assert used.parameters["gae_lambda"] == 0.8  # of defaults.yaml
+    assert used.parameters["vf_coef"] == 0.5  # of the library
+
+
+def test_the_saved_models_are_those_that_were_measured(trained):
+    found = trained.evaluations()
+    assert again(trained, trained.best).mean() == found.best
+    np.testing.assert_array_equal(again(trained, trained.last), found.returns[-1])
+
+
+@pytest.mark.parametrize("policy", ["mlp", "lstm"])
+def test_so_they_are_with_normalisation_and_memory(tmp_path, policy):
+    params = SMALL | {"normalize": True}
+    run = tiny(tmp_path, env="tiny_envs:Tiny-v0", policy=policy, params=params)
+    found = run.evaluations()
+    assert run.settings().normalize
+    assert again(run, run.best).mean() == pytest.approx(found.best, rel=1e-5)
+    np.testing.assert_allclose(again(run, run.last), found.returns[-1], rtol=1e-5)
+
+
+def test_images_are_seen_by_a_convolutional_network(tmp_path):
+    run = tiny(tmp_path, env="tiny_envs:Picture-v0", steps=64)
+    assert run.settings().policy == "cnn" and not run.settings().normalize
+    np.testing.assert_allclose(again(run, run.last), run.evaluations().returns[-1], rtol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("algo", "env", "params"),
+    [
+        ("a2c", "tiny_envs:Tinydiscrete-v0", {"n_steps": 8}),
+        ("dqn", "CartPole-v1", {"learning_starts": 10, "buffer_size": 100}),
+        ("sac", "tiny_envs:Tiny-v0", {"learning_starts": 10, "net_arch": [8]}),
+        ("td3", "tiny_envs:Tiny-v0", {"learning_starts": 10, "net_arch": [8], "action_noise": 0.2}),
+    ],
+)
+def test_every_algorithm_trains(tmp_path, algo, env, params):
+    run = tiny(tmp_path, algo, env, params=params, steps=240)
+    np.testing.assert_allclose(again(run, run.last), run.evaluations().returns[-1], rtol=1e-5)
+    log = run.log()
+    assert np.isfinite(log["rollout/discounted_return"]).any()
+
+
+def test_the_seed_decides(trained, tmp_path):
+    same, other = tiny(tmp_path), tiny(tmp_path, seed=2)
+    np.testing.assert_array_equal(same.evaluations().returns, trained.evaluations().returns)
+    assert not np.array_equal(other.evaluations().returns, trained.evaluations().returns)
+
+
+def test_measuring_and_saving_do_not_change_what_is_learned(trained, tmp_path):
+    seldom = tiny(tmp_path, evaluations=1)
+    np.testing.assert_array_equal(
+        seldom.evaluations().returns[-1], trained.evaluations().returns[-1]
+    )
+
+
+# logs
+
+
+def test_tensorboard_shows_the_indicators(trained):
+    from tensorboard.backend.event_processing.event_accumulator import EventAccumulator
+
+    events = EventAccumulator(str(trained.path)).Reload()
+    assert set(events.Tags()["scalars"]) >= SHOWN_BY_TENSORBOARD
+    assert {"rollout/advantage", "actions/chosen"} <= set(events.Tags()["histograms"])
+    for tag in SHOWN_BY_TENSORBOARD:
+        assert all(np.isfinite(event.value) for event in events.Scalars(tag)), tag
+    shares = [events.Scalars(f"actions/frequency_{action}")[-1].value for action in (0, 1)]
+    assert sum(shares) == pytest.approx(1.0)
+    final = events.Scalars("eval/mean_reward")[-1]
+    assert final.step == 256
+    assert final.value == pytest.approx(trained.evaluations().last)
+
+
+def test_the_table_of_indicators_is_read(trained):
+    log = trained.log()
+    assert set(log) > SHOWN_BY_TENSORBOARD - {"eval/mean_reward"}
+    assert log["steps"][-1] == 256
+    assert all(values.shape == log["steps"].shape for values in log.values())
+
+
+def test_the_discounted_return_is_that_of_whole_episodes(tmp_path):
+    """CartPole pays 1 a step, so an episode of n steps gives (1 - gamma^n) / (1 - gamma)."""
+    run = tiny(tmp_path, params=SMALL | {"gamma": 0.5, "normalize": True})
+    log = run.log()
+    found = log["rollout/discounted_return"]
+    np.testing.assert_allclose(found[np.isfinite(found)], 2.0, atol=0.02)
+
+
+# defaults.yaml
+
+
+@pytest.mark.parametrize("algo", settings.ALGORITHMS)
+def test_defaults_are_hyperparameters_of_their_algorithm(algo):
+    from botschool.rl.model import algorithm_class
+
+    model_class = algorithm_class(algo, "mlp")
+    for problem, entry in settings._defaults()[algo].items():
+        entry = dict(entry)
+        assert entry.pop("steps") > 0 and entry.pop("envs") > 0, problem
+        assert isinstance(entry.pop("normalize", False), bool)
+        complete(model_class, model_class.policy_aliases["MlpPolicy"], entry)
+
+
+def test_a_problem_without_version_stands_for_all():
+    walker = settings.defaults("ppo", "BipedalWalker-v3")
+    assert walker["envs"] == 32 and settings.defaults("ppo", "BipedalWalker-v9") == walker
+    assert settings.defaults("ppo", "Unheard-v0") == settings.defaults("ppo", "default")
+    assert settings.defaults("ppo", "botschool/Discrim-v0")["steps"] == 500_000
+    assert settings.defaults("sac", "HumanoidBulletEnv-v0")["steps"] == 300_000
+
+
+# the command
+
+FLAGS = ("--steps", 256, "--envs", 2, "--episodes", 3, "--evaluations", 4)
+
+
+def test_the_command_trains_and_enjoys(tmp_path, command):
+    small = [f"{name}={value}" for name, value in SMALL.items()]
+    code, out, errors = command(
+        *("rl", "train", "--algo", "PPO", "--env", "CartPole-v1", "-o", tmp_path, *FLAGS),
+        *("--params", *small, "learning_rate=1e-3", "net_arch=[8, 8]"),
+    )
+    assert (code, errors) == (0, "")
+    lines = out.splitlines()
+    assert lines[0] == f"training ppo on CartPole-v1 in {tmp_path}/ppo/CartPole-v1_1"
+    assert len(lines) == 7 and "steps 128 (50%)  post-evaluated " in lines[3]
+    run = RunFolder(tmp_path / "ppo" / "CartPole-v1_1")
+    assert f"best post-evaluated {run.evaluations().best:.2f}" in lines[-1]
+    assert run.settings().parameters["net_arch"] == [8, 8]
+    assert run.settings().parameters["learning_rate"] == 0.001
+
+    for target in ([run.path], [run.best], ["-o", tmp_path]):
+        code, out, errors = command("rl", "enjoy", *target, "--episodes", 4, "--render", "none")
+        assert (code, errors) == (0, "")
+    returns = [float(line.split()[3]) for line in out.splitlines() if line.startswith("episode")]
+    mean, sd = np.mean(returns), np.std(returns)
+    assert f"mean {mean:.2f}  standard deviation {sd:.2f}" in out and len(returns) == 4
+
+
+def test_the_table_of_trainings(trained, command):
+    code, out, _ = command("rl", "list", trained.path.parent.parent)
+    assert code == 0
+    best = f"{trained.evaluations().best:.1f}"
+    assert best in out and "n_steps=32" in out and "CartPole-v1_1" in out.replace("\n", "")
+
+
+def test_a_film(trained, tmp_path, command):
+    import imageio.v3
+
+    film = tmp_path / "pole.mp4"
+    code, out, _ = command("rl", "video", trained.path, "-f", film, "--episodes", 1)
+    assert code == 0 and f"video: {film}" in out
+    _, told, _ = command("rl", "enjoy", trained.path, "--render", "none", "--episodes", 17)
+    first, *_, last, _ = told.splitlines()
+    assert first in out and last.startswith("episode 17 ")
+    frames = imageio.v3.imread(film)
+    assert f"steps {len(frames)}\n" in out
+    assert frames.std() > 5
+
+
+def test_nothing_heavy_is_loaded_for_help_and_reading():
+    code = (
+        "import sys, botschool.cli, botschool.rl.folder, botschool.analysis.plots, "
+        "botschool.rl.training; sys.exit('torch' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+# interruptions
+
+
+def long_training(folder):
+    """A training that does not end by itself, as a process, after its second post-evaluation."""
+    process = start(
+        *("rl", "train", "--algo", "ppo", "--env", "CartPole-v1", "-o", folder, "--envs", 2),
+        *("--steps", 10**8, "--evaluations", 10**5, "--episodes", 2),
+        *("--params", "n_steps=32", "batch_size=32", "n_epochs=1"),
+    )
+    for _ in range(4):
+        assert process.stdout.readline()
+    return process
+
+
+def playable(run):
+    """Asserts that both models of a training can be watched, and nothing else lies about."""
+    for model in (run.best, run.last):
+        assert np.isfinite(again(run, model)).all()
+    assert len(run.evaluations().steps) >= 2
+    assert run.log()["steps"].size
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
+def test_a_killed_training_leaves_its_models(tmp_path):
+    process = long_training(tmp_path)
+    process.kill()
+    finish(process)
+    playable(RunFolder(tmp_path / "ppo" / "CartPole-v1_1"))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to another process")
+def test_ctrl_c_saves_and_ends(tmp_path):
+    process = long_training(tmp_path)
+    os.kill(process.pid, signal.SIGINT)
+    code, out, errors = finish(process)
+    assert (code, errors) == (130, "")
+    assert out.splitlines()[-1].startswith("stopped after ")
+    run = RunFolder(tmp_path / "ppo" / "CartPole-v1_1")
+    playable(run)
+    assert again(run, run.last).mean() == run.evaluations().last
+
+
+def test_an_environment_that_breaks_leaves_the_models(tmp_path):
+    with pytest.raises(BotschoolError, match=r"does not work \(its reward was nan\).*environment"):
+        tiny(tmp_path, env="tiny_envs:Tinynan-v0", seed=3)
+    run = RunFolder(tmp_path / "ppo" / "tiny_envs-Tinynan-v0_1")
+    assert run.best.exists() and run.last.exists() and len(run.evaluations().steps) == 1
+
+
+def test_a_full_disk(tmp_path):
+    """A limit on the size of files, below that of a model."""
+    if sys.platform == "win32":
+        pytest.skip("Windows has no such limit")
+    import resource
+
+    def limited():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+
+    code, _, errors = call(
+        *("rl", "train", "--algo", "ppo", "--env", "CartPole-v1", "-o", tmp_path, *FLAGS),
+        *("--params", "n_steps=32", "batch_size=32"),
+        preexec_fn=limited,
+    )
+    folder = tmp_path / "ppo" / "CartPole-v1_1"
+    one_sentence(code, errors, [folder, "cannot be written", "free some space"])
+    assert not list(folder.glob(".*")) and not list(folder.glob("*.zip"))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("env", "target"), [("CartPole-v1", 500.0), ("Pendulum-v1", -200.0), ("Acrobot-v1", -85.0)]
+)
+def test_the_defaults_of_ppo_reach_their_targets(tmp_path, env, target):
+    run = train("ppo", env, tmp_path, seed=1)
+    seeds = list(range(300_000, 300_100))
+    returns, _ = play(Agent.load(run.best), [run.make_env() for _ in seeds], seeds)
+    assert returns.mean() >= target
+
+
+def test_settings_survive_the_file(trained, tmp_path):
+    used = trained.settings()
+    used.save(tmp_path / "config.yaml")
+    assert settings.Settings.load(tmp_path / "config.yaml") == used
+    assert yaml.safe_load((tmp_path / "config.yaml").read_text())["algo"] == "ppo"
