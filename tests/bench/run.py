@@ -13,6 +13,8 @@ from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 
+from bodies import locomotors
+from bodybrain import bodybrain
 from processes import Neighbours, help_seconds, peak_memory
 from report import Table, machine, rate, verdict
 from speed import (
@@ -193,6 +195,8 @@ def main() -> None:
         (instruction_sets, (0.05, 2) if quick else (0.15, 5)),
         (two_workers_evaluating, (20,) if quick else (200,)),
         (two_workers_running, (0.15, 2) if quick else (0.5, 7)),
+        (locomotors, (5,) if quick else (50,)),
+        (bodybrain, (5,) if quick else (30,)),
         (memory_and_start, (2, 3) if quick else (8, 10)),
     ):
         tables.append(part(*arguments))

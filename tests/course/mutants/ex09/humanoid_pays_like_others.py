@@ -1,0 +1,7 @@
+# loses: 9.2, 9.3
+# A Humanoid's electricity costs no more than that of others.
+_electricity = electricity
+
+
+def electricity(robot, actions, speeds):
+    return _electricity("Hopper", actions, speeds)

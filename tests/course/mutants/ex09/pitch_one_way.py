@@ -1,0 +1,7 @@
+# loses: 9.1, 9.3, 9.5, 9.6
+# A robot may lean back as far as it likes.
+_alive_bonus = alive_bonus
+
+
+def alive_bonus(robot, height, pitch, touching):
+    return _alive_bonus(robot, height, np.maximum(pitch, 0), touching)

@@ -1,0 +1,9 @@
+# loses: 9.5, 9.6
+# The share of standing is taken of the whole reward, costs included.
+_gait = gait
+
+
+def gait(trajectory):
+    parts = components_v0(trajectory)
+    total = sum(float(each.sum()) for each in parts.values())
+    return {**_gait(trajectory), "standing": float(parts["alive"].sum()) / total}
