@@ -56,6 +56,9 @@ def release(root: Path, target: Path) -> int:
             released = made / place.relative_to(root)
             released.parent.mkdir(parents=True, exist_ok=True)
             released.write_text(text, encoding="utf-8", newline="\n")
+        for grader in made.glob("exercises/ex[0-9][0-9]_*/test_*.py"):
+            text = pack(grader.read_text(encoding="utf-8"))
+            grader.write_text(text, encoding="utf-8", newline="\n")
         leaks = find_leaks(root, (path for path in made.rglob("*") if path.is_file()))
         if leaks:
             path, line = leaks[0]
@@ -63,9 +66,6 @@ def release(root: Path, target: Path) -> int:
                 f"{path.relative_to(made)} tells a part of a solution ('{line[:60]}'): nothing was "
                 "released; take it out and try again."
             )
-        for grader in made.glob("exercises/ex[0-9][0-9]_*/test_*.py"):
-            text = pack(grader.read_text(encoding="utf-8"))
-            grader.write_text(text, encoding="utf-8", newline="\n")
         made.chmod(0o755)
         if target.is_dir():
             target.rmdir()
