@@ -1,0 +1,496 @@
+"""Grader of exercise 11; run it with `make test-ex11`.
+
+Stochastic checks (seeds of the grader's). Task 11.5, every output within 0.05 of its target: the
+solution goes on until all are within 0.03. Task 11.8, at least 90 % of the variance explained on
+500 patterns that the submission has not seen: over 20 seeds, with three training sets each, the
+solution explains 93.5 % or more (half of the time, more than 99.7 %), a margin of 3.5 %.
+"""
+
+import itertools
+
+import numpy as np
+
+from botschool.grading import (
+    Exercise,
+    Student,
+    expect,
+    expect_array,
+    expect_close,
+    expect_fields,
+    show,
+)
+
+exercise = Exercise(
+    11, "Back-propagation", file="regression.py", imports=("torch", "torch._dynamo")
+)
+SIZES = ((1, 1, 1, 1), (4, 2, 2, 1), (7, 3, 5, 2), (30, 4, 9, 3))
+"""Of patterns, inputs, hidden neurons, outputs."""
+NAMES = ("w1", "b1", "w2", "b2")
+
+
+def generator(index: int) -> np.random.Generator:
+    return np.random.default_rng(exercise.seed(index))
+
+
+def random_network(rng: np.random.Generator, inputs: int, hiddens: int, outputs: int) -> list:
+    """w1, b1, w2, b2; numbers that single precision holds exactly."""
+    shapes = ((hiddens, inputs), (hiddens,), (outputs, hiddens), (outputs,))
+    return [rng.normal(size=shape).astype(np.float32).astype(float) for shape in shapes]
+
+
+def random_set(rng: np.random.Generator, n: int, inputs: int, outputs: int) -> list[np.ndarray]:
+    """Inputs and targets."""
+    return [
+        rng.normal(size=shape).astype(np.float32).astype(float)
+        for shape in ((n, inputs), (n, outputs))
+    ]
+
+
+# What the grader expects, computed apart from any submission.
+
+
+def logistic(x):
+    return 1 / (1 + np.exp(-np.clip(x, -500, 500)))
+
+
+def hidden_of(network, inputs):
+    return logistic(inputs @ network[0].T + network[1])
+
+
+def outputs_of(network, inputs):
+    return hidden_of(network, inputs) @ network[2].T + network[3]
+
+
+def gradient_of(network, inputs, targets):
+    """The loss, and its gradient with respect to w1, b1, w2, b2."""
+    hidden, error = hidden_of(network, inputs), outputs_of(network, inputs) - targets
+    down = 2 * error / error.size
+    below = down @ network[2] * hidden * (1 - hidden)
+    return (error**2).mean(), [below.T @ inputs, below.sum(0), down.T @ hidden, down.sum(0)]
+
+
+def descended(network, inputs, targets, batches, learning_rate, momentum):
+    """The network after a step for each batch, and the loss before each step."""
+    network, velocity, losses = [p.copy() for p in network], [0.0] * 4, []
+    for batch in batches:
+        loss, gradient = gradient_of(network, inputs[batch], targets[batch])
+        losses.append(loss)
+        velocity = [momentum * v + g for v, g in zip(velocity, gradient, strict=True)]
+        network = [p - learning_rate * v for p, v in zip(network, velocity, strict=True)]
+    return network, losses
+
+
+# ------------------------------------------------------------------- 11.1
+network = exercise.task("11.1", "The network")
+
+
+def sizes_of(module, inputs, hiddens, outputs):
+    """Shapes of the layers of the student's network, and whether both can learn."""
+    made = module.Network(inputs, hiddens, outputs)
+    layers = (made.hidden.weight, made.hidden.bias, made.output.weight, made.output.bias)
+    shapes = [None if each is None else list(each.shape) for each in layers]
+    return [shapes, len(list(made.parameters()))]
+
+
+def activated(module, parameters, inputs, what):
+    """Puts parameters into the student's network; its features or outputs for these inputs."""
+    import torch
+
+    hiddens, size = parameters[0].shape
+    made = module.Network(size, hiddens, len(parameters[3]))
+    layers = (made.hidden.weight, made.hidden.bias, made.output.weight, made.output.bias)
+    with torch.no_grad():
+        for layer, values in zip(layers, parameters, strict=True):
+            layer.copy_(torch.tensor(values))
+        patterns = torch.tensor(inputs, dtype=torch.float32)
+        found = made.features(patterns) if what == "features" else made(patterns)
+    return found.numpy()
+
+
+@network.check(4)
+def layers_have_their_sizes(student: Student):
+    for _, inputs, hiddens, outputs in SIZES:
+        said = f"Network({inputs}, {hiddens}, {outputs})"
+        answer = student.run(sizes_of, inputs, hiddens, outputs, said=said)
+        shapes, count = answer
+        wanted = [[hiddens, inputs], [hiddens], [outputs, hiddens], [outputs]]
+        names = ("hidden.weight", "hidden.bias", "output.weight", "output.bias")
+        for name, got, shape in zip(names, shapes, wanted, strict=True):
+            expect(got == shape, f"{said}: {name} has shape {show(got)}, but {shape} is needed.")
+        expect(count == 4, f"{said} has {show(count)} parameter tensors, but 4 are needed.")
+
+
+def compare_activations(student: Student, index: int, what: str, compute) -> None:
+    rng = generator(index)
+    for n, inputs, hiddens, outputs in SIZES:
+        parameters = random_network(rng, inputs, hiddens, outputs)
+        patterns, _ = random_set(rng, n, inputs, outputs)
+        said = f"Network({inputs}, {hiddens}, {outputs})"
+        said += ".features(patterns)" if what == "features" else "(patterns)"
+        answer = student.run(activated, parameters, patterns, what, said=said)
+        expect_close(said, answer, compute(parameters, patterns), 1e-4)
+
+
+@network.check(3)
+def features_are_logistic(student: Student):
+    compare_activations(student, 1, "features", hidden_of)
+
+
+@network.check(3)
+def outputs_are_linear(student: Student):
+    compare_activations(student, 2, "outputs", outputs_of)
+
+
+# ------------------------------------------------------------------- 11.2
+by_hand = exercise.task("11.2", "The gradient by hand")
+by_torch = exercise.task("11.3", "The gradient by torch")
+
+
+def compare_gradient(student: Student, name: str, index: int, keys: tuple[str, ...]) -> None:
+    rng = generator(index)
+    for n, inputs, hiddens, outputs in SIZES:
+        parameters = random_network(rng, inputs, hiddens, outputs)
+        patterns, targets = random_set(rng, n, inputs, outputs)
+        answer = student.call(name, patterns, targets, *parameters)
+        said = f"{name}(inputs {patterns.shape}, targets {targets.shape}, w1, b1, w2, b2)"
+        values = expect_fields(said, answer, *keys)
+        loss, gradient = gradient_of(parameters, patterns, targets)
+        right = {"loss": loss, **dict(zip(NAMES, gradient, strict=True))}
+        for key, value in zip(keys, values, strict=True):
+            expect_close(f"{said}: {key}", value, right[key], 1e-9)
+
+
+@by_hand.check(3)
+def loss_by_hand(student: Student):
+    compare_gradient(student, "gradient_by_hand", 3, ("loss",))
+
+
+@by_hand.check(6)
+def output_layer_by_hand(student: Student):
+    compare_gradient(student, "gradient_by_hand", 4, ("w2", "b2"))
+
+
+@by_hand.check(9)
+def hidden_layer_by_hand(student: Student):
+    compare_gradient(student, "gradient_by_hand", 5, ("w1", "b1"))
+
+
+# ------------------------------------------------------------------- 11.3
+@by_torch.check(10)
+def gradient_by_torch(student: Student):
+    compare_gradient(student, "gradient_by_torch", 6, ("loss", *NAMES))
+
+
+# ------------------------------------------------------------------- 11.4
+loop = exercise.task("11.4", "The loop")
+
+
+def trained(module, name, parameters, inputs, targets, options):
+    """Has the student's loop train a network of the grader's: its losses and new parameters."""
+    import torch
+
+    hiddens, size = parameters[0].shape
+    made = torch.nn.Sequential(
+        torch.nn.Linear(size, hiddens),
+        torch.nn.Sigmoid(),
+        torch.nn.Linear(hiddens, len(parameters[3])),
+    )
+    with torch.no_grad():
+        for layer, values in zip(made.parameters(), parameters, strict=True):
+            layer.copy_(torch.tensor(values))
+    tensors = [torch.tensor(each, dtype=torch.float32) for each in (inputs, targets)]
+    losses = getattr(module, name)(made, *tensors, **options)
+    return [[float(loss) for loss in losses], [p.detach().numpy() for p in made.parameters()]]
+
+
+def compare_training(student: Student, name: str, index: int, epochs: int, **options) -> None:
+    """options: those of `train`, and for `train_in_batches` batch_size and seed."""
+    rng = generator(index)
+    for n, inputs, hiddens, outputs in SIZES[1:]:
+        parameters = random_network(rng, inputs, hiddens, outputs)
+        patterns, targets = random_set(rng, n, inputs, outputs)
+        options["learning_rate"] = round(float(rng.uniform(0.02, 0.1)), 3)
+        settings = {"epochs": epochs, **options}
+        shown = ", ".join(f"{key}={value}" for key, value in settings.items())
+        said = f"{name}(network, inputs {patterns.shape}, targets {targets.shape}, {shown})"
+        losses, after = student.run(
+            trained, name, parameters, patterns, targets, settings, said=said
+        )
+        step = {key: options[key] for key in ("learning_rate", "momentum")}
+        if name == "train":
+            everything = [np.arange(n)] * epochs
+            right, right_losses = descended(parameters, patterns, targets, everything, **step)
+        else:
+            order = np.random.default_rng(options["seed"])
+            cuts = [cut(order.permutation(n), options["batch_size"]) for _ in range(epochs)]
+            right, right_losses = parameters, []
+            for epoch in range(epochs):
+                before = list(itertools.chain.from_iterable(cuts[: epoch + 1]))
+                right, _ = descended(parameters, patterns, targets, before, **step)
+                right_losses.append(gradient_of(right, patterns, targets)[0])
+        expect_close(f"{said}: losses", losses, right_losses, 1e-3)
+        for key, got, wanted in zip(NAMES, after, right, strict=True):
+            expect_close(f"{said}: {key} afterwards", got, wanted, 1e-3)
+
+
+def cut(order: np.ndarray, size: int) -> list[np.ndarray]:
+    return [order[i : i + size] for i in range(0, len(order), size)]
+
+
+@loop.check(4)
+def one_epoch(student: Student):
+    compare_training(student, "train", 7, 1, momentum=0.0)
+
+
+@loop.check(5)
+def many_epochs(student: Student):
+    compare_training(student, "train", 8, 25, momentum=0.0)
+
+
+@loop.check(4)
+def momentum(student: Student):
+    compare_training(student, "train", 9, 25, momentum=0.8)
+
+
+# ------------------------------------------------------------------- 11.5
+corners = exercise.task("11.5", "Exclusive or", seconds=60)
+
+
+def learnt(module, inputs, targets, hiddens, seed):
+    """Parameters of the network that the student's function returns."""
+    import torch
+
+    tensors = [torch.tensor(each, dtype=torch.float32) for each in (inputs, targets)]
+    made = module.learn(*tensors, hiddens, seed)
+    layers = (made.hidden.weight, made.hidden.bias, made.output.weight, made.output.bias)
+    return [layer.detach().numpy() for layer in layers]
+
+
+def compare_corners(student: Student, corners, targets, hiddens: int, index: int) -> None:
+    seed = exercise.seed(index) % 100_000
+    said = f"learn(inputs {corners.shape}, targets {show(targets.ravel())}, {hiddens}, {seed})"
+    answer = student.run(learnt, corners, targets, hiddens, seed, said=said)
+    expect(isinstance(answer, list) and len(answer) == 4, f"{said} must return a Network.")
+    shapes = ((hiddens, corners.shape[1]), (hiddens,), (1, hiddens), (1,))
+    parameters = [
+        expect_array(f"{said}: {key}", each, shape)
+        for key, each, shape in zip(NAMES, answer, shapes, strict=True)
+    ]
+    outputs = outputs_of(parameters, corners)
+    wrong = np.abs(outputs - targets).max()
+    expect(
+        wrong <= 0.05,
+        f"{said}: the outputs are {show(outputs.ravel())}, one of them {wrong:.3f} away from its "
+        "target, but 0.05 is allowed.",
+    )
+
+
+def square(low: float, high: float) -> np.ndarray:
+    return np.array(list(itertools.product((low, high), repeat=2)))
+
+
+XOR = np.array([[0.0], [1.0], [1.0], [0.0]])
+
+
+@corners.check(6)
+def exclusive_or(student: Student):
+    compare_corners(student, square(0.0, 1.0), XOR, 2, 10)
+    compare_corners(student, square(0.0, 1.0), XOR, 3, 11)
+
+
+@corners.check(4)
+def other_corners(student: Student):
+    rng = generator(12)
+    low, high = round(rng.uniform(-1.2, -0.6), 2), round(rng.uniform(0.6, 1.2), 2)
+    one, other = round(rng.uniform(-1.0, -0.4), 2), round(rng.uniform(0.2, 0.8), 2)
+    compare_corners(student, square(low, high), one + (other - one) * XOR, 3, 13)
+    cube = np.array(list(itertools.product((low, high), repeat=3)))
+    parity = (cube > 0).sum(axis=1, keepdims=True) % 2.0
+    compare_corners(student, cube, one + (other - one) * parity, 8, 14)
+
+
+# ------------------------------------------------------------------- 11.6
+scaling = exercise.task("11.6", "Normalisation")
+
+
+def compare_normalised(student: Student, inputs: np.ndarray, deviation: np.ndarray) -> None:
+    answer = student.call("normalise", inputs)
+    said = student.said
+    expect(
+        isinstance(answer, (list, tuple)) and len(answer) == 3,
+        f"{said} must return the inputs, the mean and the deviation, not {show(answer)}.",
+    )
+    mean = inputs.sum(axis=0) / len(inputs)
+    expect_close(f"{said}: the mean", answer[1], mean, 1e-6)
+    expect_close(f"{said}: the deviation", answer[2], deviation, 1e-6)
+    expect_close(f"{said}: the inputs", answer[0], (inputs - mean) / deviation, 1e-6)
+
+
+@scaling.check(5)
+def normalised_columns(student: Student):
+    rng = generator(15)
+    for n, columns in ((2, 1), (9, 3), (200, 5)):
+        spread = 10.0 ** rng.uniform(-3, 3, columns)
+        inputs = rng.normal(size=(n, columns)) * spread + 3 * spread * rng.normal(size=columns)
+        mean = inputs.sum(axis=0) / n
+        compare_normalised(student, inputs, np.sqrt(((inputs - mean) ** 2).sum(axis=0) / n))
+
+
+@scaling.check(2)
+def column_that_never_changes(student: Student):
+    rng = generator(16)
+    inputs = rng.normal(size=(12, 4)) * 5
+    inputs[:, 2] = 7.0
+    mean = inputs.sum(axis=0) / 12
+    deviation = np.sqrt(((inputs - mean) ** 2).sum(axis=0) / 12)
+    deviation[2] = 1.0
+    compare_normalised(student, inputs, deviation)
+    compare_normalised(student, inputs[:1], np.ones(4))
+
+
+# ------------------------------------------------------------------- 11.7
+batches = exercise.task("11.7", "Minibatches")
+
+
+def batches_of(module, sizes, seed):
+    """The minibatches of several epochs with one generator."""
+    import numpy
+
+    rng = numpy.random.default_rng(seed)
+    return [module.minibatches(n, batch_size, rng) for n, batch_size in sizes]
+
+
+@batches.check(5)
+def shuffled_and_cut(student: Student):
+    sizes = [(6, 2), (6, 2), (10, 4), (3, 5), (50, 7), (4, 1)]
+    seed = exercise.seed(17) % 100_000
+    answer = student.run(batches_of, sizes, seed, said="minibatches(n, batch_size, rng)")
+    rng = np.random.default_rng(seed)
+    for (n, batch_size), got in zip(sizes, answer, strict=True):
+        said = f"minibatches({n}, {batch_size}, rng)"
+        right = cut(rng.permutation(n), batch_size)
+        expect(
+            isinstance(got, list) and len(got) == len(right),
+            f"{said} must return {len(right)} arrays, not {show(got)}.",
+        )
+        for i, (each, wanted) in enumerate(zip(got, right, strict=True)):
+            expect_close(f"{said}: minibatch {i}", each, wanted)
+
+
+@batches.check(7)
+def a_step_for_each_minibatch(student: Student):
+    for index, batch_size in ((18, 2), (19, 3)):
+        seed = exercise.seed(index) % 100_000
+        options = {"batch_size": batch_size, "momentum": 0.5, "seed": seed}
+        compare_training(student, "train_in_batches", index, 6, **options)
+
+
+# ------------------------------------------------------------------- 11.8
+any_set = exercise.task("11.8", "Any training set", seconds=90)
+
+
+def fitted(module, inputs, targets, seed):
+    """Parameters of the student's network, and what it normalises with."""
+    import numpy
+
+    made, mean, deviation = module.fit(inputs, targets, seed)
+    layers = (made.hidden.weight, made.hidden.bias, made.output.weight, made.output.bias)
+    parameters = [layer.detach().numpy() for layer in layers]
+    return [parameters, numpy.asarray(mean), numpy.asarray(deviation)]
+
+
+def compare_fit(student: Student, index: int, n: int, units, function) -> None:
+    """Trains on n patterns, judges on 500 others. units: (offset, scale) of each input."""
+    rng = generator(index)
+    offset, scale = np.array(units, dtype=float).T
+    plain = rng.uniform(-1, 1, (n + 500, len(units)))
+    inputs, targets = offset + scale * plain, function(plain, rng)
+    seed = exercise.seed(index + 50) % 100_000
+    said = f"fit(inputs {(n, len(units))}, targets {targets[:n].shape}, seed={seed})"
+    answer = student.run(fitted, inputs[:n], targets[:n], seed, said=said)
+    expect(isinstance(answer, list) and len(answer) == 3, f"{said} must return three things.")
+    parameters, mean, deviation = answer
+    mean, deviation = (expect_array(said, each, offset.shape) for each in (mean, deviation))
+    expect(bool(np.all(deviation != 0)), f"{said}: a deviation is 0.")
+    hiddens = len(parameters[1]) if isinstance(parameters[1], np.ndarray) else 0
+    expect(0 < hiddens <= 1000, f"{said}: the network needs 1 to 1000 hidden neurons.")
+    shapes = ((hiddens, len(units)), (hiddens,), (targets.shape[1], hiddens), targets.shape[1:])
+    parameters = [
+        expect_array(f"{said}: {key}", each, shape)
+        for key, each, shape in zip(NAMES, parameters, shapes, strict=True)
+    ]
+    answers = outputs_of(parameters, (inputs[n:] - mean) / deviation)
+    explained = 1 - ((answers - targets[n:]) ** 2).mean(axis=0) / targets[n:].var(axis=0)
+    expect(
+        bool(explained.min() >= 0.9),
+        f"{said}: on 500 other patterns the network explains {show(100 * explained)} % of the "
+        "variance of the targets, but 90 % is asked for.",
+    )
+
+
+def wave(plain, rng):
+    pitch, phase = rng.uniform(2, 3), rng.uniform(0, 6)
+    return np.sin(pitch * plain + phase)
+
+
+def hill_and_valley(plain, rng):
+    x, y = (plain - rng.uniform(-0.4, 0.4, 2)).T
+    return np.stack([2 * np.exp(-2 * (x**2 + y**2)), x - 2 * x * y + rng.uniform(-1, 1)], axis=1)
+
+
+def mixture(plain, rng):
+    x, y, z = plain.T
+    a, b, c = rng.uniform(0.5, 1.5, 3)
+    return (a * np.sin(2 * x) + b * y * z - c * z)[:, None]
+
+
+@any_set.check(5)
+def one_input(student: Student):
+    compare_fit(student, 20, 100, [(0.0, 1.0)], wave)
+
+
+@any_set.check(7)
+def inputs_in_other_units(student: Student):
+    compare_fit(student, 21, 150, [(1000.0, 20.0), (0.02, 0.005)], hill_and_valley)
+    compare_fit(student, 22, 200, [(-40.0, 15.0), (0.0, 1.0), (5e-3, 1e-3)], mixture)
+
+
+# ------------------------------------------------------------------- 11.9
+maps = exercise.task("11.9", "What the hidden neurons see")
+
+
+def mapped(module, parameters, low, high, n):
+    """Feature maps of a network of the grader's."""
+    import torch
+
+    class Features(torch.nn.Module):
+        def __init__(self):
+            super().__init__()
+            self.hidden = torch.nn.Linear(2, len(parameters[1]))
+            self.output = torch.nn.Linear(len(parameters[1]), 1)
+
+        def features(self, patterns):
+            return torch.sigmoid(self.hidden(patterns.float()))
+
+        def forward(self, patterns):
+            return self.output(self.features(patterns))
+
+    made = Features()
+    with torch.no_grad():
+        for layer, values in zip(made.parameters(), parameters, strict=True):
+            layer.copy_(torch.tensor(values))
+    return module.feature_maps(made, low, high, n)
+
+
+@maps.check(8)
+def activations_over_the_plane(student: Student):
+    rng = generator(23)
+    for hiddens, n in ((1, 2), (3, 5), (8, 40)):
+        low, high = (round(float(x), 2) for x in np.sort(rng.uniform(-3, 3, 2)))
+        parameters = random_network(rng, 2, hiddens, 1)
+        said = f"feature_maps(network, {low}, {high}, {n})"
+        answer = student.run(mapped, parameters, low, high, n, said=said)
+        x = np.linspace(low, high, n)
+        patterns = np.stack([np.tile(x, n), np.repeat(x, n)], axis=1)
+        right = hidden_of(parameters, patterns).T.reshape(hiddens, n, n)
+        expect_close(said, answer, right, 1e-4)

@@ -1,0 +1,6 @@
+# loses: 11.6, 11.8
+# All columns share one mean and one deviation.
+def normalise(inputs):
+    mean = np.full(inputs.shape[1], inputs.mean())
+    deviation = np.full(inputs.shape[1], inputs.std() or 1.0)
+    return (inputs - mean) / deviation, mean, deviation
