@@ -47,6 +47,7 @@ ROWS = [
     Row("mountaincarcontinuous", solved=90),
     Row("swingup"),
     Row("dpole", "725 +- 21"),
+    Row("discrim", "about 180 to 360 (50 M steps)"),
     Row("lunarlander", solved=200, box2d=True),
     Row("bipedalwalker", solved=300, box2d=True),
 ]
