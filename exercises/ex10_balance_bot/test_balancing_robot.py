@@ -1,0 +1,819 @@
+"""Grader of exercise 10; run it with `make test-ex10`.
+
+Everything up to task 10.8 is compared with the grader's own simulation, on states, actions and
+seeds that it draws. Each method of the environment is judged in a world that the grader has set
+up, beside a second simulation, so that a forgotten physicsClientId shows.
+
+Stochastic checks (tasks 10.9 and 10.10): a controller must balance for 500 steps in 20 of 20 unseen
+episodes (grading seeds 71, 73 and 81) in the grader's simulation. So that none can be written down
+by heart, it is also learnt for a robot whose wheels turn the other way. With each of 20 seeds
+(1 to 20) the solution's `evolve` balances in 20 of 20 episodes, so its margin is whole; returns are
+462 to 492. Its PPO, of which fewer runs were made (seed 1 and the grading seed), did so, too.
+"""
+
+import tempfile
+from fnmatch import fnmatch
+from pathlib import Path
+
+import numpy as np
+from gymnasium.utils import seeding
+
+from botschool.course_robots import robot_file
+from botschool.grading import (
+    Exercise,
+    Student,
+    Wrong,
+    expect,
+    expect_array,
+    expect_close,
+    expect_fields,
+    show,
+)
+
+exercise = Exercise(
+    10,
+    "A new environment",
+    file="balancing_robot.py",
+    imports=("pybullet", "pybullet_data"),
+)
+NAME = "BalanceBotBulletEnv-v0"
+LIMIT = 24.6
+
+
+def rng_of(index: int) -> np.random.Generator:
+    return np.random.default_rng(exercise.seed(index))
+
+
+def robot_text(turned: bool = False) -> str:
+    """The robot's description; turned: its wheels turn the other way."""
+    text = robot_file("balance_bot.urdf").read_text(encoding="utf-8")
+    if turned:
+        left, right = '<axis xyz="-1 0 0"/>', '<axis xyz="1 0 0"/>'
+        text = text.replace(left, "<axis/>").replace(right, left).replace("<axis/>", right)
+    return text
+
+
+class World:
+    """The grader's own simulation of the robot."""
+
+    def __init__(self, inclination: float, speed: float = 0.0, urdf: str | None = None) -> None:
+        from botschool.envs.bullet import data_folder, import_pybullet
+
+        self.speed, self.bullet = speed, import_pybullet()
+        self.client = self.bullet.connect(self.bullet.DIRECT)
+        self.bullet.setTimeStep(0.01, self.client)
+        self.bullet.setGravity(0, 0, -10, self.client)
+        self.bullet.loadURDF(str(data_folder() / "plane.urdf"), physicsClientId=self.client)
+        with tempfile.NamedTemporaryFile("w", suffix=".urdf") as file:
+            file.write(urdf or robot_text())
+            file.flush()
+            self.robot = self.bullet.loadURDF(
+                file.name, [0, 0, 0.001], self.bullet.getQuaternionFromEuler([inclination, 0, 0]),
+                flags=self.bullet.URDF_USE_INERTIA_FROM_FILE, physicsClientId=self.client,
+            )  # fmt: skip
+
+    def __enter__(self) -> "World":
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.bullet.disconnect(self.client)
+
+    def seen(self) -> list[float]:
+        base = self.bullet.getBasePositionAndOrientation(self.robot, self.client)
+        velocity = self.bullet.getBaseVelocity(self.robot, self.client)
+        return [self.bullet.getEulerFromQuaternion(base[1])[0], velocity[1][0], self.speed]
+
+    def height(self) -> float:
+        return self.bullet.getBasePositionAndOrientation(self.robot, self.client)[0][2]
+
+    def turns(self) -> list[float]:
+        return [self.bullet.getJointState(self.robot, i, self.client)[1] for i in (0, 1)]
+
+    def act(self, action: float | None) -> None:
+        """A step; with None the motors are left alone."""
+        if action is not None:
+            self.speed = min(max(self.speed + min(max(action, -1.0), 1.0), -LIMIT), LIMIT)
+            self.bullet.setJointMotorControlArray(
+                self.robot, [0, 1], self.bullet.VELOCITY_CONTROL,
+                targetVelocities=[self.speed, -self.speed], physicsClientId=self.client,
+            )  # fmt: skip
+        self.bullet.stepSimulation(self.client)
+
+
+def on_stage(module, urdf, call, scenes):
+    """Calls a method in worlds that the grader has set up; beside a decoy with the number 0."""
+    import os
+
+    import numpy
+    import pybullet
+    import pybullet_data
+
+    def seen():
+        base = pybullet.getBasePositionAndOrientation(env.robot, env.client)
+        turning = pybullet.getBaseVelocity(env.robot, env.client)[1]
+        inclination = pybullet.getEulerFromQuaternion(base[1])[0]
+        return numpy.array([inclination, turning[0], env.speed], dtype=numpy.float32)
+
+    def turn(action):
+        change = numpy.clip(float(action[0]), -1, 1)
+        env.speed = float(numpy.clip(env.speed + change, -24.6, 24.6))
+        for i, target in enumerate((env.speed, -env.speed)):
+            pybullet.setJointMotorControl2(
+                env.robot,
+                i,
+                pybullet.VELOCITY_CONTROL,
+                targetVelocity=target,
+                physicsClientId=env.client,
+            )
+
+    with open("balance_bot.urdf", "w") as file:
+        file.write(urdf)
+    module.robot_file = lambda name: os.path.abspath("balance_bot.urdf")
+    plane = os.path.join(pybullet_data.getDataPath(), "plane.urdf")
+    decoy = pybullet.connect(pybullet.DIRECT)
+    pybullet.loadURDF(plane, physicsClientId=decoy)
+    pybullet.loadURDF("balance_bot.urdf", [0, 0, 0.5], physicsClientId=decoy)
+    env = module.BalanceBotEnv()
+    reports = []
+    if call == "spaces":
+        for space in (env.observation_space, env.action_space):
+            if type(space).__name__ != "Box":
+                return type(space).__name__
+            reports.append([space.low, space.high, str(space.dtype)])
+        return reports
+    if call == "reset":
+        env.observe = seen
+        for seed in scenes:
+            observation, info = env.reset(seed=seed) if seed != "no seed" else env.reset()
+            report = [observation, str(observation.dtype), env.speed, len(info)]
+            report.append(pybullet.getNumBodies(env.client))
+            for _ in range(30):
+                pybullet.stepSimulation(env.client)
+            reports.append([*report, seen()])
+            env.speed = 7.0
+        return reports
+    for inclination, others, turning, speed, actions in scenes:
+        pybullet.resetSimulation(physicsClientId=env.client)
+        pybullet.setTimeStep(0.01, env.client)
+        pybullet.setGravity(0, 0, -10, env.client)
+        pybullet.loadURDF(plane, physicsClientId=env.client)
+        env.robot = pybullet.loadURDF(
+            "balance_bot.urdf",
+            [0, 0, 0.001],
+            pybullet.getQuaternionFromEuler([inclination, *others]),
+            flags=pybullet.URDF_USE_INERTIA_FROM_FILE,
+            physicsClientId=env.client,
+        )
+        pybullet.resetBaseVelocity(env.robot, [0, 0, 0], turning, physicsClientId=env.client)
+        env.speed = speed
+        if call == "observe":
+            answer = env.observe()
+            reports.append([answer, str(answer.dtype)])
+        elif call == "drive":
+            for action in actions:
+                env.drive(numpy.array([action], dtype=numpy.float32))
+                pybullet.stepSimulation(env.client)
+                turns = [pybullet.getJointState(env.robot, i, env.client)[1] for i in (0, 1)]
+                reports.append([env.speed, *turns])
+        elif call == "step":
+            env.drive, env.observe = turn, seen
+            for action in actions:
+                answer = env.step(numpy.array([action], dtype=numpy.float32))
+                reports.append([list(answer[:4]), dict(answer[4]), len(answer)])
+    return reports
+
+
+def staged(student: Student, said: str, call: str, scenes: list) -> list:
+    answer = student.run(on_stage, robot_text(), call, scenes, said=said)
+    expect(isinstance(answer, list), f"{said}: {show(answer)} is no answer.")
+    return answer
+
+
+# ------------------------------------------------------------------ 10.1
+reading = exercise.task("10.1", "Read the robot")
+
+
+def random_robot(index: int, nlinks: int) -> tuple[str, dict]:
+    """A description of a robot that nobody has seen, and what there is to say about it."""
+    rng = rng_of(index)
+    names = [f"part_{letter}" for letter in rng.permutation(list("abcdefgh"))[:nlinks]]
+    masses = {name: float(rng.integers(1, 400)) / 100 for name in names}
+    lines, joints = [], []
+    frames, moment = {names[0]: np.zeros(3)}, np.zeros(3)
+
+    def text(values) -> str:
+        return " ".join(f"{value:g}" for value in values)
+
+    def link(name: str) -> None:
+        centre = rng.integers(-50, 50, 3) / 100 if rng.random() < 0.7 else np.zeros(3)
+        origin = f'<origin xyz="{text(centre)}"/>' if centre.any() else ""
+        moment[:] += masses[name] * (frames[name] + centre)
+        lines.append(
+            f'<link name="{name}"><visual><origin xyz="9 9 9"/></visual><inertial>{origin}'
+            f'<mass value="{masses[name]:g}"/></inertial></link>'
+        )
+
+    link(names[0])
+    for i, name in enumerate(names[1:]):
+        parent = names[rng.integers(0, i + 1)]
+        offset = rng.integers(-50, 50, 3) / 100 if rng.random() < 0.8 else np.zeros(3)
+        frames[name] = frames[parent] + offset
+        axis = np.eye(3)[rng.integers(0, 3)] * rng.choice([-1, 1])
+        given = rng.random() < 0.7
+        kind = str(rng.choice(["continuous", "revolute", "prismatic"]))
+        origin = f'<origin xyz="{text(offset)}"/>' if offset.any() else ""
+        link(name)
+        lines.append(
+            f'<joint type="{kind}" name="joint_{i}"><parent link="{parent}"/><child link="{name}"/>'
+            + origin
+            + (f'<axis xyz="{text(axis)}"/></joint>' if given else "</joint>")
+        )
+        axis = axis.tolist() if given else [1.0, 0.0, 0.0]
+        joints.append(
+            {"name": f"joint_{i}", "type": kind, "parent": parent, "child": name, "axis": axis}
+        )
+    mass = sum(masses.values())
+    urdf = f'<?xml version="1.0"?>\n<robot name="random">{"".join(lines)}</robot>'
+    return urdf, {"links": masses, "joints": joints, "mass": mass, "centre": moment / mass}
+
+
+def described(student: Student, index: int) -> tuple[str, list, dict]:
+    urdf, expected = random_robot(index, 3 + index)
+    answer = student.call("describe", urdf)
+    said = f"describe(a robot of {3 + index} links)"
+    return said, expect_fields(said, answer, "links", "joints", "mass", "centre"), expected
+
+
+@reading.check(4)
+def links_and_their_masses(student: Student):
+    for index in range(3):
+        said, (links, _, mass, _), expected = described(student, index)
+        expect(
+            isinstance(links, dict) and list(links) == list(expected["links"]),
+            f"{said}: links is {show(links)}, but its names should be "
+            f"{', '.join(expected['links'])}.",
+        )
+        for name, value in expected["links"].items():
+            expect_close(f"{said}: the mass of {name}", links[name], value)
+        expect_close(f"{said}: mass", mass, expected["mass"])
+
+
+@reading.check(4)
+def joints_and_what_they_join(student: Student):
+    for index in range(3):
+        said, (_, joints, *_), expected = described(student, index)
+        expect(
+            isinstance(joints, list) and len(joints) == len(expected["joints"]),
+            f"{said}: joints is {show(joints)}, but a list of {len(expected['joints'])} is needed.",
+        )
+        for i, (joint, wanted) in enumerate(zip(joints, expected["joints"], strict=True)):
+            keys = ("name", "type", "parent", "child")
+            found = expect_fields(f"{said}: joint {i}", joint, *keys, "axis")
+            for key, value in zip(keys, found, strict=False):
+                expect(
+                    value == wanted[key],
+                    f"{said}: the {key} of joint {i} is {show(value)}, but should be "
+                    f"{wanted[key]!r}.",
+                )
+            expect_close(f"{said}: the axis of joint {i}", found[-1], wanted["axis"])
+
+
+@reading.check(4)
+def centre_of_mass(student: Student):
+    for index in range(4):
+        said, (*_, centre), expected = described(student, index)
+        expect_close(f"{said}: centre", centre, expected["centre"], 1e-6)
+
+
+# ------------------------------------------------------------------ 10.2
+spaces = exercise.task("10.2", "The spaces")
+
+
+def expect_space(student: Student, which: int, name: str, high: list[float]) -> None:
+    answer = student.run(on_stage, robot_text(), "spaces", [], said="BalanceBotEnv()")
+    expect(isinstance(answer, list), f"BalanceBotEnv(): a Box is needed, not {show(answer)}.")
+    got_low, got_high, kind = answer[which]
+    for side, got, wanted in (("low", got_low, -np.array(high)), ("high", got_high, high)):
+        fits = isinstance(got, np.ndarray) and got.shape == np.shape(wanted)
+        expect(
+            fits and np.allclose(got, wanted, rtol=1e-6),
+            f"BalanceBotEnv(): {name}.{side} is {show(got)}, but should be {show(list(wanted))}.",
+        )
+    expect(kind == "float32", f"BalanceBotEnv(): {name} holds {kind}, but float32 is asked for.")
+
+
+@spaces.check(4)
+def what_it_observes(student: Student):
+    expect_space(student, 0, "observation_space", [np.pi, np.inf, LIMIT])
+
+
+@spaces.check(4)
+def what_it_does(student: Student):
+    expect_space(student, 1, "action_space", [1.0])
+
+
+# ------------------------------------------------------------------ 10.3
+observing = exercise.task("10.3", "What the robot feels")
+
+
+@observing.check(8)
+def observes(student: Student):
+    rng = rng_of(10)
+    scenes = [
+        (rng.uniform(-0.6, 0.6), rng.uniform(-0.3, 0.3, 2), rng.uniform(-3, 3, 3),
+         rng.uniform(-20, 20), [])
+        for _ in range(6)
+    ]  # fmt: skip
+    answers = staged(student, "observe()", "observe", scenes)
+    for (inclination, _, turning, speed, _), (answer, kind) in zip(scenes, answers, strict=True):
+        said = (
+            f"observe(), with inclination {inclination:.3f}, angular velocity {turning[0]:.3f} and "
+            f"wheel speed {speed:.2f}"
+        )
+        expect_close(said, answer, [inclination, turning[0], speed], 1e-4)
+        expect(kind == "float32", f"{said} is of type {kind}, but float32 is asked for.")
+
+
+# ------------------------------------------------------------------ 10.4
+resetting = exercise.task("10.4", "A new world")
+
+
+def after_resets(student: Student, index: int, seeds: list):
+    """For each reset its name, the report, and the inclination that it should begin with."""
+    reports = staged(student, "reset()", "reset", seeds)
+    generator = None
+    for seed, report in zip(seeds, reports, strict=True):
+        if seed != "no seed":
+            generator = seeding.np_random(seed)[0]
+        said = "reset()" if seed == "no seed" else f"reset(seed={seed})"
+        yield said, report, generator.uniform(-0.3, 0.3)
+
+
+@resetting.check(4)
+def begins_at_random(student: Student):
+    seeds = [exercise.seed(i) for i in (20, 21, 20)]
+    for said, (observation, kind, *_), inclination in after_resets(student, 20, seeds):
+        expect_close(f"{said}: observation", observation, [inclination, 0.0, 0.0], 1e-5)
+        expect(kind == "float32", f"{said}: the observation is {kind}, but should be float32.")
+
+
+@resetting.check(4)
+def goes_on_without_seed(student: Student):
+    seeds = [exercise.seed(22), "no seed", "no seed", exercise.seed(23), "no seed"]
+    for said, report, inclination in after_resets(student, 22, seeds):
+        observation, _, speed, info, _, _ = report
+        expect_close(
+            f"{said} after another episode: observation", observation[0], inclination, 1e-5
+        )
+        expect(speed == 0, f"{said} after another episode: self.speed is {show(speed)}, not 0.")
+        expect(info == 0, f"{said}: the info must be an empty dict.")
+
+
+@resetting.check(4)
+def makes_the_world(student: Student):
+    seeds = [exercise.seed(i) for i in (24, 25, 26)]
+    for said, report, inclination in after_resets(student, 24, seeds):
+        expect(
+            report[4] == 2,
+            f"{said}: there are {report[4]} bodies in the simulation, but a plane and a robot "
+            "are asked for.",
+        )
+        with World(inclination) as world:
+            for _ in range(30):
+                world.act(None)
+            expected = world.seen()
+        answer = expect_array(f"{said}: the observation 30 steps later", report[5], (3,))
+        expect(
+            np.allclose(answer[:2], expected[:2], atol=1e-4),
+            f"{said}: 30 steps later, without motors, inclination and angular velocity are "
+            f"{show(answer[:2])}, but should be {show(np.array(expected[:2]))}. Is everything in "
+            "this world as the text says?",
+        )
+
+
+# ------------------------------------------------------------------ 10.5
+driving = exercise.task("10.5", "The motors")
+
+
+def compare_drive(student: Student, speed: float, actions: list[float]) -> None:
+    scene = (0.1, [0.0, 0.0], [0.0, 0.0, 0.0], speed, actions)
+    answers = staged(student, "drive(action)", "drive", [scene])
+    with World(0.1, speed) as world:
+        for i, (action, answer) in enumerate(zip(actions, answers, strict=True), 1):
+            said = f"drive([{action:.3f}]), call {i}, beginning with self.speed = {speed:.2f}"
+            world.act(float(np.float32(action)))
+            expect_close(f"{said}: self.speed", answer[0], world.speed, 1e-5)
+            turns, wanted = np.array(answer[1:]), np.array(world.turns())
+            expect(
+                np.allclose(turns, wanted, atol=1e-3),
+                f"{said}: a step later the wheels turn at {show(turns)} rad/s, but should at "
+                f"{show(wanted)}.",
+            )
+
+
+@driving.check(5)
+def speeds_up_and_slows_down(student: Student):
+    rng = rng_of(30)
+    for speed in (0.0, 3.0, -5.0):
+        compare_drive(student, speed, rng.uniform(-1, 1, 6).tolist())
+
+
+@driving.check(5)
+def stays_within_limits(student: Student):
+    rng = rng_of(31)
+    compare_drive(student, 0.0, (rng.choice([-1, 1], 4) * rng.uniform(2, 30, 4)).tolist())
+    for side in (-1, 1):
+        compare_drive(student, side * 23.5, [side * 0.9, side * 0.8, side * 0.4, -side * 0.7])
+
+
+# ------------------------------------------------------------------ 10.6
+stepping = exercise.task("10.6", "Reward, end and step")
+
+
+def steps_of(student: Student, index: int):
+    """For each of many steps: what the student returned and what the grader has."""
+    rng = rng_of(index)
+    scenes = [
+        (rng.uniform(0.1, 0.3) * side, [0.0, 0.0], [0.0, 0.0, 0.0], speed,
+         rng.uniform(-1, 1, n).tolist())
+        for side, speed, n in ((1, 0.0, 110), (-1, 3.0, 12), (1, -3.0, 12))
+    ]  # fmt: skip
+    answers = iter(staged(student, "step(action)", "step", scenes))
+    for inclination, _, _, speed, actions in scenes:
+        with World(inclination, speed) as world:
+            for i, action in enumerate(actions, 1):
+                world.act(float(np.float32(action)))
+                said = f"step {i} of an episode that begins with self.speed = {speed:g}"
+                yield said, next(answers), world
+                if world.height() < 0.1:
+                    break
+            for _ in actions[i:]:
+                next(answers)
+
+
+@stepping.check(5)
+def moves_one_step(student: Student):
+    for said, ((observation, *_), info, count), world in steps_of(student, 40):
+        expect(count == 5, f"{said}: {count} values came back, but 5 are needed.")
+        expect(info == {}, f"{said}: info must be empty, not {show(info)}.")
+        if world.height() > 0.2:
+            expect_close(f"{said}: observation", observation, world.seen(), 2e-3)
+
+
+@stepping.check(4)
+def rewards(student: Student):
+    for said, ((_, reward, *_), *_), world in steps_of(student, 41):
+        wanted = 1 - 0.05 * abs(world.speed)
+        expect_close(f"{said}, with self.speed = {world.speed:.3f}: reward", reward, wanted, 1e-5)
+
+
+@stepping.check(5)
+def ends_when_fallen(student: Student):
+    for said, ((_, _, terminated, truncated), *_), world in steps_of(student, 42):
+        expect(truncated is False, f"{said}: truncated is {show(truncated)}, but should be False.")
+        height = world.height()
+        if abs(height - 0.15) > 1e-3:
+            expect(
+                terminated is (height < 0.15),
+                f"{said}: the centre of the body is {height:.3f} m high, and terminated is "
+                f"{show(terminated)}.",
+            )
+
+
+# ------------------------------------------------------------------ 10.7
+registering = exercise.task("10.7", "A name for the environment", seconds=40)
+
+
+def played(module, urdf, seed, gains, most):
+    """Plays an episode with a controller that the grader can compute again."""
+    import os
+
+    import gymnasium
+    import numpy
+
+    with open("balance_bot.urdf", "w") as file:
+        file.write(urdf)
+    module.robot_file = lambda name: os.path.abspath("balance_bot.urdf")
+    gymnasium.registry.pop("BalanceBotBulletEnv-v0", None)
+    module.register_robot()
+    env = gymnasium.make("BalanceBotBulletEnv-v0")
+    observation, _ = env.reset(seed=seed)
+    seen = [observation]
+    for _ in range(most):
+        action = numpy.clip([numpy.dot(gains, observation)], -1, 1).astype(numpy.float32)
+        observation, _, terminated, truncated, _ = env.step(action)
+        seen.append(observation)
+        if terminated or truncated:
+            return [numpy.array(seen), bool(terminated), bool(truncated)]
+    return [numpy.array(seen), False, False]
+
+
+def checked(module, urdf):
+    """Gymnasium's own checker, on the registered environment."""
+    import os
+    import warnings
+
+    import gymnasium
+    from gymnasium.utils.env_checker import check_env
+
+    with open("balance_bot.urdf", "w") as file:
+        file.write(urdf)
+    module.robot_file = lambda name: os.path.abspath("balance_bot.urdf")
+    gymnasium.registry.pop("BalanceBotBulletEnv-v0", None)
+    module.register_robot()
+    warnings.simplefilter("ignore")
+    check_env(gymnasium.make("BalanceBotBulletEnv-v0").unwrapped, skip_render_check=True)
+
+
+def compare_episode(student: Student, index: int, gains: np.ndarray) -> None:
+    seed = exercise.seed(index)
+    said = f'an episode of gymnasium.make("{NAME}") with seed {seed}'
+    answer = student.run(played, robot_text(), seed, gains, 600, said=said)
+    expect(isinstance(answer, list) and len(answer) == 3, f"{said}: no answer came back.")
+    seen, terminated, truncated = answer
+    observations = []
+    with World(seeding.np_random(seed)[0].uniform(-0.3, 0.3)) as world:
+        observations.append(world.seen())
+        while len(observations) <= 500 and world.height() >= 0.15:
+            observed = np.array(observations[-1], dtype=np.float32)
+            world.act(float(np.clip(np.float32(gains @ observed), -1, 1)))
+            observations.append(world.seen())
+        fell = world.height() < 0.15
+    steps = len(observations) - 1
+    expect(
+        isinstance(seen, np.ndarray) and seen.shape == (steps + 1, 3),
+        f"{said} had {len(seen) - 1} steps, but should have {steps}.",
+    )
+    expect(
+        (terminated, truncated) == (fell, not fell),
+        f"{said} ended after {steps} steps with terminated {terminated} and truncated "
+        f"{truncated}, but should with {fell} and {not fell}.",
+    )
+    off = np.abs(seen - np.array(observations)).max(axis=1) > 0.02
+    if off.any():
+        i = int(off.argmax())
+        raise Wrong(
+            f"{said}: observation {i} is {show(seen[i])}, but should be "
+            f"{show(np.array(observations[i]))}."
+        )
+
+
+@registering.check(5)
+def ends_after_500_steps(student: Student):
+    compare_episode(student, 50, rng_of(50).uniform(0.9, 1.1, 3) * [-10, -1, 0.0])
+
+
+@registering.check(3)
+def ends_when_it_falls(student: Student):
+    for index in (51, 52):
+        compare_episode(student, index, rng_of(index).uniform(0.1, 0.3, 3) * [1, 1, 0])
+
+
+@registering.check(4)
+def passes_gymnasiums_checker(student: Student):
+    student.run(checked, robot_text(), said="Gymnasium's check_env")
+
+
+# ------------------------------------------------------------------ 10.8
+packaging = exercise.task("10.8", "A package of its own")
+
+
+def imported(module, init, numbers):
+    """Installs __init__.py beside a class of the grader's, and lets Gymnasium make it by name."""
+    import os
+    import sys
+
+    import gymnasium
+
+    os.makedirs("site/balance_bot")
+    with open("site/balance_bot/__init__.py", "w") as file:
+        file.write(init)
+    with open("site/balance_bot/env.py", "w") as file:
+        file.write(
+            "import gymnasium\nimport numpy\n\nclass BalanceBotEnv(gymnasium.Env):\n"
+            "    observation_space = gymnasium.spaces.Box(-9, 9, (1,))\n"
+            "    action_space = gymnasium.spaces.Box(-1, 1, (1,))\n"
+            f"    numbers = {list(numbers)!r}\n"
+            "    def reset(self, *, seed=None, options=None):\n"
+            "        self.at = 0\n        return self.observe(), {}\n"
+            "    def observe(self):\n"
+            "        return numpy.array([self.numbers[self.at % 7]], dtype=numpy.float32)\n"
+            "    def step(self, action):\n"
+            "        self.at += 1\n        return self.observe(), 0.0, False, False, {}\n"
+        )
+    sys.path.insert(0, os.path.abspath("site"))
+    gymnasium.registry.pop("BalanceBotBulletEnv-v0", None)
+    import balance_bot
+
+    early = "balance_bot.env" in sys.modules
+    env = gymnasium.make("BalanceBotBulletEnv-v0", disable_env_checker=True)
+    seen = [env.reset()[0][0]]
+    for step in range(1, 1001):
+        observation, _, _, truncated, _ = env.step(env.action_space.sample())
+        seen.append(observation[0])
+        if truncated:
+            return [step, seen, early]
+    return [0, seen, early]
+
+
+@packaging.check(4)
+def says_what_it_needs(student: Student):
+    try:
+        import tomllib
+    except ModuleNotFoundError:  # Python 3.10
+        from pip._vendor import tomli as tomllib
+
+    files = student.call("package_files")
+    (text,) = expect_fields(student.said, files, "pyproject.toml")
+    said = 'package_files()["pyproject.toml"]'
+    expect(isinstance(text, str), f"{said} must be a text, not {show(text)}.")
+    try:
+        content = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise Wrong(f"{said} is not valid: {error}.") from None
+    (backend,) = expect_fields(f"{said}: [build-system]", content.get("build-system"), "requires")
+    expect(
+        isinstance(backend, list) and any("setuptools" in str(each) for each in backend),
+        f"{said}: [build-system] must require setuptools.",
+    )
+    project = content.get("project")
+    name, version, needs = expect_fields(
+        f"{said}: [project]", project, "name", "version", "dependencies"
+    )
+    expect(
+        str(name).replace("-", "_") == "balance_bot",
+        f"{said}: the project's name is {show(name)}, but should be balance_bot.",
+    )
+    expect(isinstance(version, str) and version != "", f"{said}: the version must be a text.")
+    for package in ("gymnasium", "numpy", "pybullet"):
+        expect(
+            isinstance(needs, list) and any(str(each).startswith(package) for each in needs),
+            f"{said}: the dependencies must name {package}.",
+        )
+    tool = content.get("tool", {}).get("setuptools", {})
+    packages, data = expect_fields(f"{said}: [tool.setuptools]", tool, "packages", "package-data")
+    expect(packages == ["balance_bot"], f"{said}: packages is {show(packages)}.")
+    patterns = data.get("balance_bot") if isinstance(data, dict) else None
+    expect(
+        isinstance(patterns, list) and any(fnmatch("balance_bot.urdf", str(p)) for p in patterns),
+        f"{said}: package-data leaves out balance_bot.urdf, so a robot without a body would be "
+        "installed.",
+    )
+
+
+@packaging.check(4)
+def registers_on_import(student: Student):
+    files = student.call("package_files")
+    (text,) = expect_fields(student.said, files, "balance_bot/__init__.py")
+    said = "import balance_bot, with your __init__.py"
+    numbers = rng_of(60).uniform(-9, 9, 7)
+    answer = student.run(imported, text, numbers.tolist(), said=said)
+    expect(isinstance(answer, list) and len(answer) == 3, f"{said}: no answer came back.")
+    steps, seen, early = answer
+    expect(
+        not early,
+        f"{said}, loads balance_bot.env at once: give the entry point as a text, so that it is "
+        "loaded only when it is needed.",
+    )
+    expect(
+        steps == 500,
+        f"{said}: episodes are cut after {steps} steps, but should be after 500."
+        if steps
+        else f"{said}: an episode of 1000 steps was not cut, but should be after 500.",
+    )
+    wanted = np.float32(np.resize(numbers, 501))
+    expect_close(f"{said}: the observations of a class in balance_bot/env.py", seen, wanted, 1e-6)
+
+
+# ------------------------------------------------------------------ 10.9
+evolving = exercise.task("10.9", "Evolve a controller", seconds=240)
+
+
+def learnt(module, urdf, name, seed):
+    """Calls evolve or train on the grader's own environment, for a robot of the grader's."""
+    import gymnasium
+    import numpy
+    import pybullet
+    import pybullet_data
+
+    with open("balance_bot.urdf", "w") as file:
+        file.write(urdf)
+
+    class GradersEnv(gymnasium.Env):
+        metadata = {"render_modes": ["rgb_array"], "render_fps": 100}  # noqa: RUF012
+
+        def __init__(self, render_mode=None):
+            self.render_mode = render_mode
+            self.world = pybullet.connect(pybullet.DIRECT)
+            limits = numpy.array([numpy.pi, numpy.inf, 24.6], dtype=numpy.float32)
+            self.observation_space = gymnasium.spaces.Box(-limits, limits)
+            self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (1,))
+
+        def look(self):
+            place, orientation = pybullet.getBasePositionAndOrientation(self.body, self.world)
+            turning = pybullet.getBaseVelocity(self.body, self.world)[1][0]
+            seen = [pybullet.getEulerFromQuaternion(orientation)[0], turning, self.speed]
+            return numpy.array(seen, dtype=numpy.float32), place[2]
+
+        def reset(self, *, seed=None, options=None):
+            super().reset(seed=seed)
+            lean = self.np_random.uniform(-0.3, 0.3)
+            world = {"physicsClientId": self.world}
+            pybullet.resetSimulation(**world)
+            pybullet.setTimeStep(0.01, **world)
+            pybullet.setGravity(0, 0, -10, **world)
+            pybullet.loadURDF(pybullet_data.getDataPath() + "/plane.urdf", **world)
+            self.body = pybullet.loadURDF(
+                "balance_bot.urdf",
+                [0, 0, 0.001],
+                pybullet.getQuaternionFromEuler([lean, 0, 0]),
+                flags=pybullet.URDF_USE_INERTIA_FROM_FILE,
+                **world,
+            )
+            self.speed = 0.0
+            return self.look()[0], {}
+
+        def step(self, action):
+            self.speed += float(numpy.clip(action[0], -1, 1))
+            self.speed = min(max(self.speed, -24.6), 24.6)
+            pybullet.setJointMotorControlArray(
+                self.body,
+                [0, 1],
+                pybullet.VELOCITY_CONTROL,
+                targetVelocities=[self.speed, -self.speed],
+                physicsClientId=self.world,
+            )
+            pybullet.stepSimulation(self.world)
+            seen, height = self.look()
+            return seen, 1 - 0.05 * abs(self.speed), height < 0.15, False, {}
+
+    gymnasium.registry.pop("BalanceBotBulletEnv-v0", None)
+    gymnasium.register(id="BalanceBotBulletEnv-v0", entry_point=GradersEnv, max_episode_steps=500)
+    return getattr(module, name)(seed)
+
+
+def balanced(layers: list[tuple[np.ndarray, np.ndarray]], turned: bool, index: int) -> list[int]:
+    """Steps of 20 episodes of a network in the grader's simulation, until it falls."""
+    steps = []
+    for inclination in rng_of(index).uniform(-0.3, 0.3, 20):
+        with World(inclination, urdf=robot_text(turned)) as world:
+            step = 0
+            while step < 500 and world.height() >= 0.15:
+                signal = np.array(world.seen())
+                for weights, biases in layers[:-1]:
+                    signal = np.tanh(weights @ signal + biases)
+                world.act(float((layers[-1][0] @ signal + layers[-1][1])[0]))
+                step += 1
+            steps.append(step if world.height() >= 0.15 else step - 1)
+    return steps
+
+
+def expect_balance(said: str, layers: list, turned: bool, index: int) -> None:
+    steps = balanced(layers, turned, index)
+    good = sum(count == 500 for count in steps)
+    robot = "a robot whose wheels turn the other way" if turned else "the robot"
+    expect(
+        good == 20,
+        f"{said}: {robot} balances for 500 steps in {good} of 20 new episodes (on average for "
+        f"{np.mean(steps):.0f} steps), but 20 of 20 are asked for.",
+    )
+
+
+def evolves(student: Student, index: int, turned: bool) -> None:
+    seed = exercise.seed(index) % 100_000
+    said = f"evolve(seed={seed})"
+    answer = student.run(learnt, robot_text(turned), "evolve", seed, said=said)
+    parameters = expect_array(said, answer, (4,))
+    expect_balance(said, [(parameters[None, 1:], parameters[:1])], turned, index + 1)
+
+
+@evolving.check(8)
+def balances_whichever_way_the_wheels_turn(student: Student):
+    evolves(student, 70, turned=False)
+    evolves(student, 72, turned=True)
+
+
+# ----------------------------------------------------------------- 10.10
+training = exercise.task("10.10", "Train a controller", seconds=300)
+
+
+@training.check(8)
+def balances_after_training(student: Student):
+    seed = exercise.seed(80) % 100_000
+    said = f"train(seed={seed})"
+    answer = student.run(learnt, robot_text(True), "train", seed, said=said)
+    expect(
+        isinstance(answer, list) and 0 < len(answer) < 10,
+        f"{said} returned {show(answer)}, but a list of layers is needed.",
+    )
+    layers, inputs = [], 3
+    for i, layer in enumerate(answer):
+        expect(
+            isinstance(layer, list) and len(layer) == 2 and np.ndim(layer[0]) == 2,
+            f"{said}: layer {i} must be weights (two dimensions) and biases.",
+        )
+        neurons = len(layer[0]) if i + 1 < len(answer) else 1
+        weights = expect_array(f"{said}: weights of layer {i}", layer[0], (neurons, inputs))
+        layers.append((weights, expect_array(f"{said}: biases of layer {i}", layer[1], (neurons,))))
+        inputs = neurons
+    expect_balance(said, layers, True, 81)
