@@ -13,6 +13,7 @@ from botschool.problems.native import NATIVE, NativeProblem
 
 __all__ = ["Episodes", "Interrupted", "Outcome", "Problem", "make", "names"]
 
+
 def make(name: str) -> Problem:
     """The problem of that name; raises BotschoolError (errors.py) when there is none."""
     if name in NATIVE:

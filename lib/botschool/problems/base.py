@@ -43,7 +43,9 @@ class Episodes:
     def part(self, chosen: slice) -> Episodes:
         """Some of the episodes."""
         collect = None if self.collect is None else self.collect[chosen]
-        return Episodes(self.candidate[..., chosen], self.seed[chosen], self.episode[chosen], collect)
+        return Episodes(
+            self.candidate[..., chosen], self.seed[chosen], self.episode[chosen], collect
+        )
 
     def __len__(self) -> int:
         return len(self.seed)

@@ -200,8 +200,8 @@ class GymProblem(Problem):
 
     def _unseen(self) -> BotschoolError:
         return BotschoolError(
-            f"{self.name} draws no pictures (render_mode rgb_array): leave out --video and --replay, "
-            "and add --render none."
+            f"{self.name} draws no pictures (render_mode rgb_array): leave out --video and "
+            "--replay, and add --render none."
         )
 
     def close(self) -> None:
