@@ -80,8 +80,10 @@ class Evaluator:
             self._owed_next -= collecting
             episodes.collect = (np.arange(len(episodes)) < collecting).astype(np.uint8)
         outcome = self._run(genotype[None], episodes)
+        robots = self.problem.interface.robots
         self._collected = [
-            (float(outcome.steps[i] * self.problem.interface.robots), *np.split(outcome.moments[i], 2)) for i in range(collecting)
+            (float(robots * outcome.steps[i]), *np.split(outcome.moments[i], 2))
+            for i in range(collecting)
         ]
         return Measured(outcome.fitness, int(outcome.steps.sum()))
 
