@@ -27,14 +27,17 @@ from running import (
 )
 from tiny_envs import DIE_ONCE
 
-NATIVE = ("CartPole-v1", "Pendulum-v1", "Acrobot-v1", "ErDpole")
+NATIVE = ("CartPole-v1", "Pendulum-v1", "Acrobot-v1", "ErDpole", "ErDiscrim", "ErPredprey")
 TINY = "tiny_envs:Tiny-v0"
 NORMALISED = {"normalize": 1, "clip": 1, "bias": 1, "action_noise": 1}
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
 
 
 def small(folder, environment, algo, **options):
-    return experiment(folder, environment, algo, NORMALISED, **options)
+    """A very small experiment; two robots have an LSTM each."""
+    two = {"nrobots": 2, "heterogeneous": 1, "architecture": 3}
+    policy = NORMALISED | (two if environment == "ErPredprey" else {})
+    return experiment(folder, environment, algo, policy, **options)
 
 
 # workers and instruction sets
@@ -101,7 +104,7 @@ def test_a_worker_killed_in_the_middle_does_not_show(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("algo", ALGORITHMS)
-@pytest.mark.parametrize("environment", ["CartPole-v1", TINY])
+@pytest.mark.parametrize("environment", ["CartPole-v1", "ErDiscrim", "ErPredprey", TINY])
 def test_stopping_after_some_steps_does_not_show(environment, algo, tmp_path):
     own = small(tmp_path, environment, algo, maxmsteps=0.004)
     assert run_seeds(own, tmp_path / "whole")

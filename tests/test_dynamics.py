@@ -156,11 +156,11 @@ def test_state_can_be_set_and_read(name):
     state = np.linspace(-0.3, 0.4, info["states"])
     stepper.state = state
     assert np.array_equal(stepper.state, state)
-    assert stepper.observation.shape == (info["observations"],)
+    assert stepper.observation.shape == (info["robots"] * info["observations"],)
     for bad in (state[1:], np.append(state, 0)):
         with pytest.raises(ValueError, match="the state has"):
             stepper.state = bad
     with pytest.raises(ValueError, match="the action has"):
-        stepper.step(np.zeros(2))
+        stepper.step(np.zeros(3))
     with pytest.raises(TypeError):
         stepper.state = "left"

@@ -244,6 +244,8 @@ LIMITS = {
     "MountainCarContinuous-v0": 999,
     "envSwingupCustom": 1000,
     "ErDpole": 1000,
+    "ErDiscrim": 500,
+    "ErPredprey": 2000,
 }
 
 
@@ -252,7 +254,8 @@ def test_longest_episodes(name):
     problem = problems.make(name)
     assert problem.limit == LIMITS[name]
     assert set(problems.names()) == set(LIMITS)
-    policy = Policy(name, problem.interface, PolicyConfig(nhiddens=0))
+    config = PolicyConfig(nhiddens=0, nrobots=problem.interface.robots)
+    policy = Policy(name, problem.interface, config)
     lengths = set()
     for maxsteps in (1, 7, 5000):
         genotypes = np.zeros((1, policy.genotype_size))

@@ -17,7 +17,7 @@ def good_arguments(policy):
     return {
         "genotypes": np.zeros((3, policy.genotype_size)),
         "normalisation": np.repeat([0.0, 1.0], policy.spec.inputs),
-        "candidates": np.array([0, 2], np.int32),
+        "candidates": np.array([[0, 2]], np.int32),
         "seeds": np.array([1, 2], np.uint64),
         "episodes": np.array([0, 0], np.uint32),
         "collect": np.array([0, 1], np.uint8),
@@ -39,14 +39,15 @@ BAD = {
     ],
     "normalisation": [lambda x: x[1:], lambda x: np.append(x, 1), lambda x: x[None], lambda x: 3],
     "candidates": [
-        lambda x: x[1:],
+        lambda x: x[:, 1:].copy(),
         lambda x: x[:0],
-        lambda x: np.append(x, 0).astype(np.int32),
-        lambda x: np.array([0, 3], np.int32),
-        lambda x: np.array([-1, 0], np.int32),
-        lambda x: np.array([0, 2**31 - 1], np.int32),
-        lambda x: np.array([0, -(2**31)], np.int32),
-        lambda x: x[None],
+        lambda x: np.append(x, 0).astype(np.int32)[None],
+        lambda x: np.array([[0, 3]], np.int32),
+        lambda x: np.array([[-1, 0]], np.int32),
+        lambda x: np.array([[0, 2**31 - 1]], np.int32),
+        lambda x: np.array([[0, -(2**31)]], np.int32),
+        lambda x: np.repeat(x, 2, axis=0),
+        lambda x: x[0],
         lambda x: None,
     ],
     "seeds": [lambda x: x[1:], lambda x: np.append(x, x), lambda x: x[None], lambda x: None],
@@ -114,11 +115,11 @@ def test_empty_batch():
     policy = policy_of("CartPole-v1")
     engine = _core.Engine("CartPole-v1", policy.spec.core())
     none = Episodes.of(np.arange(0), 3)
+    genotypes, candidates = np.zeros((0, policy.genotype_size)), none.candidate[None]
     for threads in (1, 4):
         fitness, steps, moments = engine.evaluate(
-            np.zeros((0, policy.genotype_size)), None, none.candidate, none.seed, none.episode,
-            np.zeros(0, np.uint8), 10, threads,
-        )  # fmt: skip
+            genotypes, None, candidates, none.seed, none.episode, np.zeros(0, np.uint8), 10, threads
+        )
         assert fitness.shape == steps.shape == (0,) and moments.shape == (0, 8)
 
 

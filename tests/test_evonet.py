@@ -104,17 +104,25 @@ def test_lanes_of_evolution_agree_with_the_reference(name, choices, nbins, seed)
     rng = np.random.default_rng(seed)
     problem = problems.make(name)
     discrete = problem.interface.discrete
-    config = PolicyConfig(nrobots=1, nbins=1 if discrete else nbins, **choices)
+    robots = problem.interface.robots
+    config = PolicyConfig(nrobots=robots, nbins=1 if discrete else nbins, **choices)
     policy = Policy(name, problem.interface, config)
     spec = policy.spec
     # memories fade at this scale, so what single precision loses does not grow over the steps
-    genotype, normalisation = random_genotype(spec, rng, 0.5), random_normalisation(spec, rng)
-    tape = problem.engine(policy).record(genotype, normalisation, seed, 3, 40)
-    reference = ReferenceNetwork(spec, genotype, normalisation)
+    genotypes = np.array([random_genotype(spec, rng, 0.5) for _ in range(robots)])
+    normalisation = random_normalisation(spec, rng)
+    tape = problem.engine(policy).record(genotypes, normalisation, seed, 3, 40)
     assert 0 < len(tape["rewards"]) <= 40
-    for observation, action, activations in zip(
-        tape["observations"], tape["actions"], tape["activations"], strict=True
-    ):
+    columns = [tape[kind] for kind in ("observations", "actions", "activations")]
+    for robot, genotype in enumerate(genotypes):
+        reference = ReferenceNetwork(spec, genotype, normalisation)
+        agrees(reference, discrete, *[np.split(c, robots, axis=1)[robot] for c in columns])
+
+
+def agrees(reference, discrete, *columns):
+    """A robot's observations, actions and activations are those of its reference network."""
+    spec = reference.spec
+    for observation, action, activations in zip(*columns, strict=True):
         _, expected = reference.step(observation)
         if output_activation(spec) == 4 and np.any(np.abs(reference.net_output - 0.5) < 1e-4):
             break  # single precision may decide otherwise, and then remember it

@@ -15,8 +15,7 @@ BOTSCHOOL_BEGIN
 template <template <int> class... Problem>
 struct ProblemList {};
 
-using NativeProblems =
-    ProblemList<CartPole, Pendulum, Acrobot, MountainCarContinuous, Swingup, DoublePole, Discrim,
-                Predprey>;
+using NativeProblems = ProblemList<CartPole, Pendulum, Acrobot, MountainCarContinuous, Swingup,
+                                   DoublePole, Discrim, Predprey>;
 
 BOTSCHOOL_END

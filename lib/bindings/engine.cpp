@@ -69,7 +69,8 @@ struct Table {
 Setting setting_of(int limit, std::optional<double> noise, const Table* wall, const Table* round) {
   if (limit < 1) throw std::invalid_argument("an episode needs at least one step.");
   if (noise && !(*noise >= 0)) throw std::invalid_argument("noise must not be negative.");
-  return {limit, noise.value_or(-1), wall ? &wall->table : nullptr, round ? &round->table : nullptr};
+  return {limit, noise.value_or(-1), wall ? &wall->table : nullptr,
+          round ? &round->table : nullptr};
 }
 
 /// `given` genotypes of one network each (one a robot), or genotypes that hold all networks.
@@ -278,7 +279,8 @@ void bind_engine(nb::module_& module) {
       .def_prop_rw("objects", &objects_of, &set_objects)
       .def("blocked", &Stepper::blocked)
       .def("step", [](Stepper& s, Vector<const double> action) {
-        expect_size(action, s.info().discrete ? 1 : s.info().outputs * s.info().robots, "the action");
+        expect_size(action, s.info().discrete ? 1 : s.info().outputs * s.info().robots,
+                    "the action");
         double reward = 0;
         const bool ended = s.step(action.data(), reward);
         return nb::make_tuple(reward, ended);

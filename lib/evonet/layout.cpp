@@ -68,7 +68,7 @@ class Placer {
     return place;
   }
   void connect(Layer& layer, int sender, int senders, bool previous) {
-    layer.block[layer.blocks++] = {sender, senders, previous, take(layer.neurons * senders),
+    layer.block[layer.blocks++] = {sender,  senders, previous, take(layer.neurons * senders),
                                    senders, 0};
   }
   /// Two blocks whose rows lie beside each other: the senders of now, then those of before.

@@ -17,6 +17,7 @@ from bodies import locomotors
 from bodybrain import bodybrain
 from processes import Neighbours, help_seconds, peak_memory
 from report import Table, machine, rate, verdict
+from roofline import roofline
 from speed import (
     CASES,
     DATA,
@@ -31,8 +32,6 @@ from speed import (
 
 from botschool import _core
 
-EPISODES = 2000
-"""In a large batch."""
 TWO_WORKERS = 1.8
 MEMORY = 300
 HELP = 0.3
@@ -44,20 +43,27 @@ def episodes_of_generation(experiment) -> int:
     return candidates * experiment.policy.episodes
 
 
+def _episodes() -> str:
+    """How many episodes a large batch has."""
+    most = CASES[0].episodes
+    others = [f"{case.file} {case.episodes}" for case in CASES if case.episodes != most]
+    return f"{most} episodes ({', '.join(others)})"
+
+
 def beside_gymnasium(seconds: float, repetitions: int) -> Table:
     """Native evaluation and Gymnasium's own loop, one core."""
     table = Table(
         "Steps/s of the whole policy-plus-problem evaluation, one core",
         f"Each experiment file's network with random initial genotypes; best of {repetitions} "
-        f"interleaved repetitions. Native: as many episodes as one generation has, and {EPISODES}; "
-        "the slower of the two counts. Gymnasium: a Python loop over gymnasium.make(id) with the "
-        "same network (double precision) and genotypes. Original library: published for another "
-        "machine of this kind, not measured here.",
+        "interleaved repetitions. Native: as many episodes as one generation has, and "
+        f"{_episodes()}; the slower of the two counts. Gymnasium: a Python loop over "
+        "gymnasium.make(id) with the same network (double precision) and genotypes. Original "
+        "library: published for another machine of this kind, not measured here.",
         [
             "experiment",
             "steps / episode",
             "native, a generation",
-            f"native, {EPISODES} episodes",
+            "native, a large batch",
             "Gymnasium's loop",
             "native / Gymnasium",
             "target",
@@ -68,7 +74,7 @@ def beside_gymnasium(seconds: float, repetitions: int) -> Table:
     for case in CASES:
         experiment = case.load()
         small = Batch(experiment, episodes_of_generation(experiment))
-        large = Batch(experiment, EPISODES)
+        large = Batch(experiment, case.episodes)
         contestants = [small.evaluate, large.evaluate]
         if case.gymnasium:
             contestants.append(GymnasiumLoop(large).evaluate)
@@ -76,7 +82,7 @@ def beside_gymnasium(seconds: float, repetitions: int) -> Table:
         native = min(best[:2])
         table.add(
             case.file,
-            f"{large.evaluate() / EPISODES:.0f}",
+            f"{large.evaluate() / case.episodes:.0f}",
             *(rate(r) for r in best[:2]),
             rate(best[2]) if case.gymnasium else "-",
             f"{native / best[2]:,.0f} x" if case.gymnasium else "-",
@@ -92,12 +98,12 @@ def instruction_sets(seconds: float, repetitions: int) -> Table:
     sets = _core.instruction_sets()
     table = Table(
         "Steps/s with each instruction set of this machine, one core",
-        f"Native evaluation of {EPISODES} episodes, as above. All give the same bits; a run takes "
+        f"Native evaluation of {_episodes()}, as above. All give the same bits; a run takes "
         "the last one.",
         ["experiment", *sets],
     )
     for case in CASES:
-        batches = [Batch(case.load(), EPISODES, name) for name in sets]
+        batches = [Batch(case.load(), case.episodes, name) for name in sets]
         measured = rates([batch.evaluate for batch in batches], seconds, repetitions)
         table.add(case.file, *(rate(max(results)) for results in measured))
     return table
@@ -107,12 +113,12 @@ def two_workers_evaluating(repetitions: int) -> Table:
     """Evaluation on one worker and on two."""
     table = Table(
         "Two workers against one: evaluation",
-        f"Steps/s of the native evaluation of {EPISODES} episodes; the fastest of {repetitions} "
+        f"Steps/s of the native evaluation of {_episodes()}; the fastest of {repetitions} "
         f"calls each, taking turns. The target is {TWO_WORKERS} times one.",
         ["experiment", "1 worker", "2 workers", "2 / 1", ""],
     )
     for case in CASES:
-        batch = Batch(case.load(), EPISODES)
+        batch = Batch(case.load(), case.episodes)
         one, two = best_call([partial(batch.evaluate, w) for w in (1, 2)], repetitions)
         table.add(
             case.file, rate(one), rate(two), f"{two / one:.2f}", verdict(two / one >= TWO_WORKERS)
@@ -132,6 +138,8 @@ def two_workers_running(seconds: float, repetitions: int) -> Table:
     )
     for case in CASES:
         experiment = case.load()
+        if experiment.exp.algo == "coevo2":
+            continue
         generations = generations_in(experiment, seconds)
         pairs = [
             [run_times(experiment, workers, generations) for workers in (1, 2)]
@@ -193,6 +201,7 @@ def main() -> None:
     for part, arguments in (
         (beside_gymnasium, (0.1, 2) if quick else (0.3, 5)),
         (instruction_sets, (0.05, 2) if quick else (0.15, 5)),
+        (roofline, (0.05, 2) if quick else (0.3, 5)),
         (two_workers_evaluating, (20,) if quick else (200,)),
         (two_workers_running, (0.15, 2) if quick else (0.5, 7)),
         (locomotors, (5,) if quick else (50,)),

@@ -29,6 +29,8 @@ class Case:
     target: float
     original: float | None
     gymnasium: bool = True
+    episodes: int = 2000
+    """In a large batch."""
 
     def load(self) -> Experiment:
         """The experiment."""
@@ -42,6 +44,8 @@ CASES = [
     Case("mountaincarcontinuous", 4e6, 279e3),
     Case("dpole", 4e6, 744e3, gymnasium=False),
     Case("swingup", 4e6, None, gymnasium=False),
+    Case("discrim", 5e6, 0.7e6, gymnasium=False),
+    Case("predprey", 1.0e6, 0.109e6, gymnasium=False, episodes=160),
 ]
 """The original library's figures were published for another machine of this kind."""
 

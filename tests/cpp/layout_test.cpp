@@ -105,7 +105,8 @@ TEST(every_parameter_has_one_place) {
             if (layer.bias >= 0) ++uses.at(layer.bias + r);
             for (int b = 0; b < layer.blocks; ++b)
               for (int s = 0; s < layer.block[b].senders; ++s)
-                ++uses.at(layer.block[b].weights + r * layer.block[b].stride + s);
+                ++uses.at(layer.block[b].weights + r * layer.block[b].stride +
+                          layer.block[b].offset + s);
           }
         };
         for (int i = 0; i < l.layers; ++i) count(l.layer[i]);

@@ -124,10 +124,11 @@ TEST(sine_and_cosine_of_special_angles) {
 
 TEST(logarithm_is_exact_to_units) {
   auto exact = [](auto x) { return std::log(x); };
-  CHECK((worst<double, Long>(logarithm, exact, 1e-300, 1) < 3));
-  CHECK((worst<double, Long>(logarithm, exact, 0.5, 2) < 3));
-  CHECK((worst<double, Long>(logarithm, exact, 1, 1e300) < 3));
-  CHECK(logarithm(1) == 0);
+  auto own = [](double x) { return logarithm(x); };
+  CHECK((worst<double, Long>(own, exact, 1e-300, 1) < 3));
+  CHECK((worst<double, Long>(own, exact, 0.5, 2) < 3));
+  CHECK((worst<double, Long>(own, exact, 1, 1e300) < 3));
+  CHECK(logarithm(1.0) == 0);
   for (int k = -1000; k < 1000; ++k)
     CHECK((k == 0 || ulps<double, Long>(logarithm(std::ldexp(1, k)), k * std::log(Long(2))) < 2));
 }

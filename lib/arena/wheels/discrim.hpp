@@ -11,7 +11,8 @@ template <int L>
 struct Discrim : World<L, kDiscrim> {
   using Senses = Noisy<Infrared>;
   static Info info() {
-    return {"ErDiscrim", Senses::size, 2, Discrim::kRows, 500, false, -1, 1, kStepSeconds, 1, &kDiscrim};
+    return {"ErDiscrim", Senses::size, 2, Discrim::kRows, 500, false, -1,
+            1,           kStepSeconds, 1, &kDiscrim};
   }
 
   void start(int lane, Random& random) {

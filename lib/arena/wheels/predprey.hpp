@@ -11,7 +11,8 @@ template <int L>
 struct Predprey : World<L, kPredprey> {
   using Senses = Suite<Infrared, Camera, Ground, Time, Bias>;
   static Info info() {
-    return {"ErPredprey", Senses::size, 2, Predprey::kRows, 2000, false, -1, 1, kStepSeconds, 2, &kPredprey};
+    return {"ErPredprey", Senses::size, 2, Predprey::kRows, 2000, false, -1, 1, kStepSeconds, 2,
+            &kPredprey};
   }
 
   void start(int lane, Random& random) {

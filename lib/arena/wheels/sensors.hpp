@@ -68,12 +68,12 @@ struct Infrared {
       add(world, robot, body, body.wall, setting.wall_table, 0.0, to_x, to_y, out);
     }
     for (int c = 0; c < W::cylinders; ++c)
-      add(world, robot, body, body.round, setting.round_table, world.radius[c],
-          world.cylinder_x(c), world.cylinder_y(c), out);
+      add(world, robot, body, body.round, setting.round_table, world.radius[c], world.cylinder_x(c),
+          world.cylinder_y(c), out);
     for (int other = 0; other < W::robots; ++other)
       if (other != robot)
-        add(world, robot, body, body.round, setting.round_table,
-            W::plan.robot[other].body->radius, world.x(other), world.y(other), out);
+        add(world, robot, body, body.round, setting.round_table, W::plan.robot[other].body->radius,
+            world.x(other), world.y(other), out);
     // nothing rather than nearly nothing: products with denormal numbers are very slow
     for (int i = 0; i < size * L; ++i) {
       const T most = out[i] < T(1) ? out[i] : T(1);
@@ -208,8 +208,7 @@ struct Camera {
         out[s * L + l] = seen > T(0) ? seen : T(0);
       }
     const T radius = static_cast<T>(W::plan.robot[other].body->radius);
-    for (int l = 0; l < L; ++l)
-      out[sectors * L + l] = T(2) * arctangent(radius, sight.distance[l]);
+    for (int l = 0; l < L; ++l) out[sectors * L + l] = T(2) * arctangent(radius, sight.distance[l]);
   }
 };
 
@@ -326,8 +325,8 @@ struct Laser {
     for (int l = 0; l < W::lanes; ++l) {
       const double px = w.x - world.x(robot)[l], py = w.y - world.y(robot)[l];
       const double cross = way_x[l] * uy - way_y[l] * ux;
-      const double t = (px * uy - py * ux) / cross;                  // along the ray
-      const double v = (px * way_y[l] - py * way_x[l]) / cross;      // along the wall
+      const double t = (px * uy - py * ux) / cross;                    // along the ray
+      const double v = (px * way_y[l] - py * way_x[l]) / cross;        // along the wall
       const bool hit = (cross != 0) & (t >= 0) & (v >= 0) & (v <= 1);  // parallel: never
       first[l] = hit & (t < first[l]) ? t : first[l];
     }

@@ -1,9 +1,14 @@
 // An arena with wheeled robots, L copies in lockstep: poses, motion, collisions. FACTS.md section 4.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "../problem.hpp"
 
 BOTSCHOOL_BEGIN
+
+constexpr double kLongestWay = 1e6;  ///< of a wheel in a step, mm
 
 /// What happened to a robot in a step, one value a lane.
 template <int L>
@@ -71,7 +76,7 @@ struct World : Arena {
 
   /// Moves a robot along the exact arc of its wheels (actions: left, right); one that would
   /// overlap a wall, a cylinder or another robot, or jump across a wall, stays where it was. So
-  /// does one whose action is not a number.
+  /// does one whose action is not a number, or more than kLongestWay.
   void drive(int robot, const double* BOTSCHOOL_RESTRICT left,
              const double* BOTSCHOOL_RESTRICT right, Bump<L>& bump) {
     const Body& body = *P.robot[robot].body;
@@ -86,7 +91,9 @@ struct World : Arena {
       // the chord of an arc of length (a + b) / 2; near 0 the sine's series
       const double ratio = half * half < 1e-8 ? 1 - half * half / 6 : s / half;
       const double chord = 0.5 * (a + b) * ratio;
-      to_x[l] = x(robot)[l] + chord * cosine;
+      // a way beyond all reason leads nowhere: sines of such turns are no sines any more
+      const bool sane = (std::fabs(a) < kLongestWay) & (std::fabs(b) < kLongestWay);
+      to_x[l] = sane ? x(robot)[l] + chord * cosine : std::numeric_limits<double>::quiet_NaN();
       to_y[l] = y(robot)[l] + chord * sine;
       const double turned = heading(robot)[l] + 2 * half;
       to_heading[l] = turned - 2 * kPi * floor_of(turned * (0.5 / kPi));

@@ -24,7 +24,7 @@ def show(frames: Iterable[np.ndarray], fps: float, title: str) -> bool:
     display.
     """
     pygame = import_pygame()
-    _open_display(pygame)
+    open_display(pygame)
     try:
         pygame.display.set_caption(title)
         clock = pygame.time.Clock()
@@ -45,7 +45,7 @@ def show(frames: Iterable[np.ndarray], fps: float, title: str) -> bool:
         pygame.display.quit()
 
 
-def _open_display(pygame: pygame) -> None:
+def open_display(pygame: pygame) -> None:
     """Opens the machine's display, in place of one that was opened for drawing offscreen."""
     pygame.display.quit()
     places = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")

@@ -1,0 +1,268 @@
+"""The arenas of wheeled robots, to step by hand: `make("discrim")`, `make("predprey")`.
+
+    arena = make("discrim")
+    arena.reset(seed=1)
+    arena.action = [0.8, 1.0]           # left and right wheel, shares of the greatest speed
+    while not arena.done:
+        reward = arena.step()
+
+Lengths are in mm, angles in radians, counter-clockwise from the x axis, and a step lasts 0.1 s.
+Whole episodes of evolution run in C++ without this (botschool.problems); what happens in a step is
+the same. The world itself is in lib/arena/wheels (FACTS.md section 4).
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from numbers import Integral, Real
+
+import numpy as np
+
+from botschool import _core, samples
+from botschool.errors import BotschoolError
+from botschool.inifile import nearest, shown
+
+_TASKS = {
+    info["name"].removeprefix("Er").lower(): info
+    for info in _core.native_problems()
+    if "plan" in info
+}
+
+
+@dataclass(frozen=True)
+class Robot:
+    """What a robot is built like."""
+
+    name: str
+    radius: float
+    axle: float
+    """Between the wheels."""
+    speed: float
+    """mm/s of a wheel at an action of 1."""
+    directions: tuple[float, ...]
+    """Of the infrared sensors, degrees counter-clockwise from the heading."""
+    range: float
+    """Infrared sensors see no farther than this from the robot's edge."""
+
+
+class Arena:
+    """One arena with its robots; `make` makes one.
+
+    All arrays are the arena's own and stay the same ones: write into them, or assign to them,
+    which copies. Anything that cannot be, such as a robot inside a wall, is a BotschoolError when
+    it is used.
+    """
+
+    def __init__(self, name: str, max_steps: int | None, noise, wall_table, round_table) -> None:
+        info = _TASKS[name]
+        self.name = name
+        self.problem: str = info["name"]
+        """Its name in experiment files."""
+        self.max_steps = _max_steps(info["limit"] if max_steps is None else max_steps)
+        self.width, self.height = info["plan"]["width"], info["plan"]["height"]
+        self.bodies = tuple(_body(robot) for robot in info["plan"]["robots"])
+        """What each robot is built like."""
+        self.cylinders: int = info["plan"]["cylinders"]
+        """How many rows of `objects` are cylinders; the others are walls."""
+        self.steps = 0
+        """Done in this episode."""
+        self.done = False
+        """Whether the episode has ended."""
+        self.terminated = False
+        """Whether it has ended for another reason than `max_steps`."""
+        self._stepper = _core.make_stepper(self.problem)
+        tables = [None if t is None else samples.load(t).core() for t in (wall_table, round_table)]
+        self._stepper.set(self.max_steps, _noise(noise), *tables)
+        self._seed, self._episode = 0, -1
+        self._robots = np.zeros((info["robots"], 3))
+        self._objects = self._stepper.objects
+        self._observation = np.zeros(info["robots"] * info["observations"])
+        self._action = np.zeros(info["robots"] * info["outputs"])
+        self.reset(seed=0)
+
+    @property
+    def observation(self) -> np.ndarray:
+        """What the robots sense, one robot after another, float64: 8 values in "discrim", twice 24
+        in "predprey". It is renewed by reset(), step() and sense()."""
+        return self._observation
+
+    @property
+    def action(self) -> np.ndarray:
+        """Left and right wheel of one robot after another, float64, shape (2 * robots,): shares
+        of the greatest speed, usually -1 to 1. step() reads it and leaves it as it is."""
+        return self._action
+
+    @action.setter
+    def action(self, values) -> None:
+        self._action[:] = _matching("The action", values, self._action)
+
+    @property
+    def robots(self) -> np.ndarray:
+        """Poses, float64, shape (robots, 3): rows x, y, heading. Write here to move a robot."""
+        return self._robots
+
+    @robots.setter
+    def robots(self, poses) -> None:
+        self._robots[:] = _matching("robots", poses, self._robots)
+
+    @property
+    def objects(self) -> np.ndarray:
+        """Cylinders, then walls, float64, shape (objects, 5): rows x, y, x2, y2, radius.
+
+        A cylinder's x2 and y2 are 0, and so is a wall's radius. reset() places the cylinders anew;
+        everything else stays as it is written here.
+        """
+        return self._objects
+
+    @objects.setter
+    def objects(self, rows) -> None:
+        self._objects[:] = _matching("objects", rows, self._objects)
+
+    @property
+    def state(self) -> np.ndarray:
+        """x, y, heading of each robot, x, y of each cylinder, steps done: what scenes draw."""
+        where = self._objects[: self.cylinders, :2]
+        return np.concatenate([self._robots.ravel(), where.ravel(), [self.steps]])
+
+    def reset(self, seed: int | None = None, episode: int = 0) -> np.ndarray:
+        """Starts an episode and returns the observation.
+
+        Seed and episode decide on everything that is random in it, as they do in evolution.
+        Without a seed the next episode of the seed before starts.
+        """
+        if seed is None:
+            seed, episode = self._seed, self._episode + 1
+        for name, value, most in (("seed", seed, 2**64), ("episode", episode, 2**32)):
+            if not isinstance(value, Integral) or not 0 <= value < most:
+                raise BotschoolError(
+                    f"The {name} is a whole number from 0 to {most - 1}, not {shown(value)}."
+                )
+        self._seed, self._episode = int(seed), int(episode)
+        self._stepper.start(self._seed, self._episode)
+        self._objects[: self.cylinders, :2] = self._stepper.objects[: self.cylinders, :2]
+        self._take(self._stepper.state)
+        self.done = self.terminated = False
+        return self.sense()
+
+    def sense(self) -> np.ndarray:
+        """Renews and returns the observation, from the poses as they stand; nothing moves."""
+        self._place()
+        self._observation[:] = self._stepper.observation
+        return self._observation
+
+    def step(self) -> float:
+        """Moves the robots by `action` from the poses as they stand, and returns the reward.
+
+        In "predprey" it is the predator's. The random noise of the sensors depends on seed,
+        episode and step.
+        After the episode's end it moves on all the same; `done` stays True until reset().
+        """
+        _finite("action", self._action)
+        self._place()
+        reward, ended = self._stepper.step(self._action)
+        self._take(self._stepper.state)
+        self.terminated |= ended
+        self.done = self.terminated or self.steps >= self.max_steps
+        self._observation[:] = self._stepper.observation
+        return reward
+
+    def _take(self, state: np.ndarray) -> None:
+        self._robots[:] = state[: self._robots.size].reshape(-1, 3)
+        self.steps = int(state[-1])
+
+    def _place(self) -> None:
+        """Puts robots and objects where the arrays say, if that can be."""
+        _finite("robots", self._robots)
+        self._check_objects()
+        self._stepper.objects = self._objects
+        self._stepper.state = self.state
+        robot = self._stepper.blocked()
+        if robot >= 0:
+            x, y, _ = self._robots[robot]
+            raise BotschoolError(
+                f"Robot {robot}, of radius {self.bodies[robot].radius:g} mm, cannot be at "
+                f"({x:.1f}, {y:.1f}): it would overlap a wall, a cylinder or another robot."
+            )
+
+    def _check_objects(self) -> None:
+        _finite("objects", self._objects)
+        for row, (_, _, x2, y2, radius) in enumerate(self._objects):
+            if row >= self.cylinders:
+                if radius != 0:
+                    raise BotschoolError(
+                        f"Row {row} of objects is a wall, whose radius is 0, not {radius:g}."
+                    )
+            elif radius <= 0:
+                raise BotschoolError(
+                    f"Row {row} of objects is a cylinder: its radius must be above 0 mm, "
+                    f"not {radius:g}."
+                )
+            elif x2 != 0 or y2 != 0:
+                raise BotschoolError(
+                    f"Row {row} of objects is a cylinder: its x2 and y2 must be 0, "
+                    f"not {x2:g} and {y2:g}."
+                )
+
+
+def make(
+    name: str,
+    max_steps: int | None = None,
+    noise: float | None = None,
+    wall_table: str | os.PathLike[str] | None = None,
+    round_table: str | os.PathLike[str] | None = None,
+) -> Arena:
+    """The arena of a task, at the start of episode 0 of seed 0.
+
+    "discrim": a Khepera, a cylinder. "predprey": two marXbots, the predator first.
+
+    max_steps: longest episode; None is the task's own (500, 2000). noise: standard deviation of
+    the infrared readings; None is the task's own (0.03, 0). wall_table, round_table: `.sample`
+    files (botschool.samples) with measured readings of walls and of round things; None is the
+    fitted model. Raises BotschoolError.
+    """
+    if not isinstance(name, str) or name not in _TASKS:
+        near = nearest(str(name), _TASKS)
+        raise BotschoolError(
+            f"There is no arena '{shown(name)}': {near}{'' if near.endswith('?') else '.'}"
+        )
+    return Arena(name, max_steps, noise, wall_table, round_table)
+
+
+def _body(robot: dict) -> Robot:
+    return Robot(**(robot | {"directions": tuple(robot["directions"])}))
+
+
+def _max_steps(value) -> int:
+    if not isinstance(value, Integral) or not 1 <= value < 2**31:
+        raise BotschoolError(f"max_steps is a whole number of at least 1, not {shown(value)}.")
+    return int(value)
+
+
+def _noise(value) -> float | None:
+    if value is None:
+        return None
+    if not isinstance(value, Real) or not 0 <= value < np.inf:
+        raise BotschoolError(f"noise is a standard deviation of at least 0, not {shown(value)}.")
+    return float(value)
+
+
+def _matching(what: str, values, array: np.ndarray) -> np.ndarray:
+    """The values as numbers of the array's shape."""
+    try:
+        given = np.asarray(values)
+    except ValueError:
+        given = np.zeros(0)
+    if given.dtype.kind not in "fiub" or given.shape != array.shape:
+        raise BotschoolError(
+            f"{what} needs {' x '.join(map(str, array.shape))} numbers, "
+            f"but was given {shown(' '.join(str(values).split()))}."
+        )
+    return given
+
+
+def _finite(name: str, array: np.ndarray) -> None:
+    if not np.isfinite(array).all():
+        place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+        index = ", ".join(map(str, place))
+        raise BotschoolError(f"{name}[{index}] is {array[place]}, but must be a finite number.")

@@ -1,0 +1,117 @@
+// What no task uses yet: light, laser, walls inside an arena; and bodies against published numbers.
+#include <cmath>
+
+#include "arena/wheels/sensors.hpp"
+#include "check.hpp"
+
+using namespace botschool;
+
+namespace {
+
+// 1000 x 800, two Kheperas, a cylinder, a wall inside, a light
+constexpr Plan kYard{
+    1000, 800, 2, {{&kKhepera, 144}, {&kKhepera, 144}}, 0, 1, 50, 1, {{200, 500, 260, 500}},
+    700,  500};
+
+template <int L>
+struct Yard : World<L, kYard> {
+  /// The same in every lane: a robot at (200, 300), another one, a cylinder to its right.
+  explicit Yard(double heading = 0) {
+    for (int l = 0; l < L; ++l) {
+      this->place(l, 0, 200, 300, heading);
+      this->place(l, 1, 100, 400, 0);
+      this->place_cylinder(l, 0, 500, 310);
+    }
+  }
+};
+
+bool near(double a, double b) { return std::fabs(a - b) < 1e-12; }
+
+double seen(double distance) { return 1 - (distance - 27.5) / 500; }
+
+}  // namespace
+
+TEST(laser_measures_to_what_comes_first) {
+  const Yard<1> yard;
+  double out[Laser::size];
+  Laser::read(yard, 0, out);
+  const double diagonal = std::sqrt(2.0);
+  CHECK(near(out[0], seen(300 - std::sqrt(50.0 * 50 - 10 * 10))));  // the cylinder
+  CHECK(out[1] == 0);                                               // 500 mm of nothing
+  CHECK(near(out[2], seen(200)));                                   // the end of the inner wall
+  CHECK(near(out[3], seen(100 * diagonal - 27.5)));                 // the other robot
+  CHECK(near(out[4], seen(200)));
+  CHECK(near(out[5], seen(200 * diagonal)));  // left wall, before the lower one
+  CHECK(near(out[6], seen(300)));
+  CHECK(near(out[7], seen(300 * diagonal)));
+}
+
+TEST(laser_turns_with_the_robot) {
+  double straight[Laser::size], turned[Laser::size];
+  Laser::read(Yard<1>(), 0, straight);
+  Laser::read(Yard<1>(kPi / 2), 0, turned);
+  // the ray that ended on the very end of the inner wall may miss it now
+  for (int r = 0; r < 8; ++r) CHECK(r == 0 || near(turned[r], straight[(r + 2) % 8]));
+}
+
+TEST(light_follows_its_law) {
+  for (double heading : {0.0, 1.0, -2.5, 9.0}) {
+    const Yard<1> yard(heading);
+    double out[Light::size];
+    Light::read(yard, 0, out);
+    const double distance = std::hypot(500, 200), angle = std::atan2(200, 500) - heading;
+    for (int s = 0; s < 8; ++s) {
+      const double cosine = std::fmax(0, std::cos(angle - s * kPi / 4));
+      CHECK(near(out[s], cosine / (1 + distance * distance / (200.0 * 200))));
+    }
+  }
+}
+
+TEST(lanes_see_alike_in_single_precision) {
+  const Yard<4> four(0.3);
+  const Yard<1> one(0.3);
+  using Senses = Suite<Infrared, Camera, Ground, Light, Laser, Time, Bias>;
+  float many[Senses::size * 4];
+  double few[Senses::size];
+  Senses::read(four, 0, many);
+  Senses::read(one, 0, few);
+  for (int i = 0; i < Senses::size; ++i)
+    for (int l = 0; l < 4; ++l) CHECK(std::fabs(many[4 * i + l] - few[i]) < 1e-4);
+}
+
+TEST(inner_walls_block_and_are_not_jumped) {
+  Yard<1> yard(kPi / 2);
+  yard.place(0, 0, 230, 460, kPi / 2);
+  const double slow = 0.5, fast = 10;  // 7.2 mm, 144 mm
+  Bump<1> bump;
+  yard.drive(0, &slow, &slow, bump);
+  CHECK(!bump.wall[0] && near(yard.y(0)[0], 467.2));
+  yard.drive(0, &slow, &slow, bump);
+  CHECK(bump.wall[0] && near(yard.y(0)[0], 467.2));
+  yard.drive(0, &fast, &fast, bump);
+  CHECK(bump.wall[0] && near(yard.y(0)[0], 467.2));
+  yard.place(0, 0, 150, 460, kPi / 2);  // beside it
+  yard.drive(0, &fast, &fast, bump);
+  CHECK(!bump.wall[0] && near(yard.y(0)[0], 604));
+}
+
+TEST(no_action_leads_out_of_the_arena) {
+  for (const double wild : {1e3, 1e5, 1e9, 1e17, 1e30, 1e300, std::nan(""), HUGE_VAL})
+    for (const double other : {wild, -wild, 0.5 * wild, 0.0, 1e-300}) {
+      Yard<1> yard(1.3);
+      Bump<1> bump;
+      yard.drive(0, &wild, &other, bump);
+      CHECK(yard.x(0)[0] > 27 && yard.x(0)[0] < 973 && yard.y(0)[0] > 27 && yard.y(0)[0] < 773);
+      CHECK(yard.heading(0)[0] >= 0 && yard.heading(0)[0] <= 2 * kPi);
+    }
+}
+
+TEST(an_epuck_has_the_mean_gain_of_the_khepera) {
+  double sum = 0;
+  for (const double gain : kKhepera.gain) sum += gain;
+  for (const double gain : kEpuck.gain) CHECK(near(gain, sum / kInfrared));
+  CHECK(kEpuck.wall.d0 == kKhepera.wall.d0 && kEpuck.round.w == kKhepera.round.w);
+  // clockwise, from the one at the front on the right
+  const double published[]{342.8, 314.1, 270.0, 208.5, 151.2, 90.0, 45.8, 17.1};
+  for (int i = 0; i < kInfrared; ++i) CHECK(kEpuck.direction[i] == published[i]);
+}

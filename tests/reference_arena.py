@@ -1,0 +1,162 @@
+"""Robots, walls and sensors written a second time from their description (FACTS.md section 4), for
+the tests: plain Python, one robot after another, angles as complex numbers where it is natural."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+
+PI = math.pi
+
+
+@dataclass
+class Response:
+    """What an infrared sensor reads of a kind of object."""
+
+    d0: float
+    w: float
+    m: float
+
+
+@dataclass
+class Body:
+    """One kind of robot."""
+
+    radius: float
+    axle: float
+    directions: list[float]
+    gains: list[float]
+    n: float
+    range: float
+    wall: Response
+    round: Response
+
+
+KHEPERA = Body(
+    27.5, 53.0,
+    [290.9, 318.1, 351.6, 15.7, 44.1, 74.1, 168.6, 193.9],
+    [47.8, 43.2, 32.2, 20.3, 51.7, 97.6, 36.3, 105.5],
+    1.0, 45.0, Response(5.24, 0.487, 2.0), Response(4.23, 0.308, 2.0),
+)  # fmt: skip
+MARXBOT = Body(
+    85.0, 104.0,
+    [202.5, 247.5, 292.5, 337.5, 22.5, 67.5, 112.5, 157.5],
+    [0.935] * 8,
+    1.5, 105.0, Response(40.0, 1.258, 22.2), Response(39.2, 0.583, 2.6),
+)  # fmt: skip
+
+
+def off(angle: float, other: float) -> float:
+    """Size of the angle between two directions, 0 to pi."""
+    return abs(cmath.phase(cmath.rect(1.0, angle - other)))
+
+
+def arc(x: float, y: float, heading: float, left: float, right: float, axle: float):
+    """The pose after the wheels have rolled that far: a turn about a centre beside the robot."""
+    turn = (right - left) / axle
+    if abs(turn) < 1e-7:
+        way = cmath.rect((left + right) / 2, heading + turn / 2)
+        return x + way.real, y + way.imag, heading + turn
+    radius = axle / 2 * (left + right) / (right - left)  # the centre is to the left
+    spoke = cmath.rect(radius, heading - PI / 2)
+    moved = spoke * (cmath.exp(1j * turn) - 1)
+    return x + moved.real, y + moved.imag, heading + turn
+
+
+def nearest_point(wall, x: float, y: float) -> tuple[float, float]:
+    """The point of a wall (x, y, x2, y2) that is nearest to (x, y)."""
+    start, end, point = complex(*wall[:2]), complex(*wall[2:4]), complex(x, y)
+    along = (point - start) / (end - start)  # in units of the wall
+    nearest = start + (end - start) * min(max(along.real, 0.0), 1.0)
+    return nearest.real, nearest.imag
+
+
+def crosses(wall, x: float, y: float, x2: float, y2: float) -> bool:
+    """Whether the way from (x, y) to (x2, y2) crosses a wall."""
+    start, end = complex(*wall[:2]), complex(*wall[2:4])
+    before, after = ((complex(*p) - start) / (end - start) for p in ((x, y), (x2, y2)))
+    if before.imag * after.imag >= 0:
+        return False
+    share = before.imag / (before.imag - after.imag)
+    return 0 < before.real + share * (after.real - before.real) < 1
+
+
+class World:
+    """Robots, walls and cylinders; `drive` moves a robot."""
+
+    def __init__(self, bodies, speeds, poses, walls, cylinders) -> None:
+        self.bodies, self.speeds = bodies, speeds
+        self.poses = [tuple(map(float, pose)) for pose in poses]
+        self.walls = [tuple(map(float, wall)) for wall in walls]
+        self.cylinders = [tuple(map(float, c)) for c in cylinders]  # x, y, radius
+
+    def drive(self, robot: int, left: float, right: float) -> str:
+        """Moves it for a step, unless it would bump: into what? "" is nothing."""
+        reach = self.speeds[robot] * 0.1
+        x, y, heading = arc(
+            *self.poses[robot], left * reach, right * reach, self.bodies[robot].axle
+        )
+        what = self.bump(robot, x, y)
+        if not what:
+            self.poses[robot] = (x, y, heading % (2 * PI))
+        return what
+
+    def bump(self, robot: int, x: float, y: float) -> str:
+        """What is in the way at (x, y)."""
+        own = self.bodies[robot].radius
+        before = self.poses[robot]
+        for wall in self.walls:
+            px, py = nearest_point(wall, x, y)
+            if math.hypot(px - x, py - y) < own or crosses(wall, *before[:2], x, y):
+                return "wall"
+        for cx, cy, radius in self.cylinders:
+            if math.hypot(cx - x, cy - y) < own + radius:
+                return "cylinder"
+        for other, (ox, oy, _) in enumerate(self.poses):
+            if other != robot and math.hypot(ox - x, oy - y) < own + self.bodies[other].radius:
+                return "robot"
+        return ""
+
+    def infrared(self, robot: int) -> list[float]:
+        """Eight readings."""
+        body, (x, y, heading) = self.bodies[robot], self.poses[robot]
+        seen = [(*nearest_point(wall, x, y), 0.0, body.wall) for wall in self.walls]
+        seen += [(*cylinder, body.round) for cylinder in self.cylinders]
+        for other, (ox, oy, _) in enumerate(self.poses):
+            if other != robot:
+                seen.append((ox, oy, self.bodies[other].radius, body.round))
+        totals = [0.0] * 8
+        for ox, oy, radius, response in seen:
+            d = max(math.hypot(ox - x, oy - y) - body.radius - radius, 0.0)
+            if d > body.range:
+                continue
+            direction = math.atan2(oy - y, ox - x) - heading
+            for sensor in range(8):
+                delta = off(direction, math.radians(body.directions[sensor]))
+                totals[sensor] += (
+                    body.gains[sensor]
+                    * math.exp(-((d / response.d0) ** body.n))
+                    * math.exp(-((delta / response.w) ** response.m))
+                )
+        return [min(total, 1.0) for total in totals]
+
+    def camera(self, robot: int) -> list[float]:
+        """Eight sectors that see the other robot of two, and its apparent size."""
+        (x, y, heading), (ox, oy, _) = self.poses[robot], self.poses[1 - robot]
+        direction = math.atan2(oy - y, ox - x) - heading
+        sector = PI / 4
+        sectors = [max(0.0, 1 - off(direction, (s + 0.5) * sector) / sector) for s in range(8)]
+        distance, radius = math.hypot(ox - x, oy - y), self.bodies[1 - robot].radius
+        return [*sectors, 2 * (PI / 2 - math.atan(distance / radius))]
+
+    def ground(self, robot: int, width: float, height: float) -> list[float]:
+        """Four sensors, then their mean."""
+        x, y, heading = self.poses[robot]
+        readings = []
+        for angle in (-0.0872, 0.0872, PI - 0.0872, PI + 0.0872):
+            spot = complex(x, y) + cmath.rect(0.9 * self.bodies[robot].radius, heading + angle)
+            half = abs(complex(width, height)) / 2
+            readings.append(abs(spot - complex(width, height) / 2) / half)
+        mean = math.fsum(readings) / 4
+        return [*(0.5 + 10 * (r - mean) for r in readings), mean]

@@ -1,0 +1,266 @@
+"""Our native problems as Gymnasium and PettingZoo environments."""
+
+import warnings
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+import botschool.envs
+from botschool import _core, arena
+from botschool.envs.stage import Stage
+from botschool.errors import BotschoolError
+from botschool.policy import Policy
+from botschool.problems import make
+
+gymnasium.register_envs(botschool.envs)
+LONGEST = {"Discrim": 500, "DoublePole": 1000, "SwingUp": 1000, "Predator": None, "Prey": None}
+PROBLEMS = {"Discrim": "ErDiscrim", "DoublePole": "ErDpole", "SwingUp": "envSwingupCustom"}
+SIDES = ("Predator", "Prey")
+
+
+def env_of(name, **options):
+    return gymnasium.make(f"botschool/{name}-v0", **options)
+
+
+def refused(call, *words):
+    with pytest.raises(BotschoolError) as caught:
+        call()
+    for word in words:
+        assert word in str(caught.value), caught.value
+
+
+@pytest.mark.parametrize("name", LONGEST)
+def test_passes_the_checker_without_a_warning(name):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with env_of(name, render_mode="rgb_array") as env:
+            check_env(env.unwrapped)
+            assert env.spec.max_episode_steps == LONGEST[name]
+            assert env.observation_space.dtype == env.action_space.dtype == np.float32
+
+
+@pytest.mark.parametrize("name", LONGEST)
+def test_seeds_decide(name):
+    def episode(env, seed):
+        actions = np.random.default_rng(1)
+        rows = [(env.reset(seed=seed)[0], 0.0, False, False)]
+        while not (rows[-1][2] or rows[-1][3]) and len(rows) < 60:
+            action = actions.uniform(-1, 1, env.action_space.shape).astype(np.float32)
+            rows.append(env.step(action)[:4])
+            assert env.observation_space.contains(rows[-1][0])
+        return [(row[0].tolist(), *row[1:]) for row in rows]
+
+    with env_of(name) as one, env_of(name) as other:
+        first = episode(one, 5)
+        assert first == episode(other, 5) == episode(one, 5)
+        following = [episode(env, None) for env in (one, other)]
+        assert following[0] == following[1]
+        if name not in SIDES:  # which start always alike
+            assert first != episode(one, 6) and first != following[0]
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_it_is_the_native_problem(name):
+    """From the same state, the same steps."""
+    stepper = _core.make_stepper(PROBLEMS[name])
+    with env_of(name, **({"noise": 0} if name == "Discrim" else {})) as env:
+        env.reset(seed=2)
+        stepper.state = env.unwrapped._stage.state
+        if name == "Discrim":
+            stepper.set(500, 0)
+        for _ in range(40):
+            action = env.action_space.sample()
+            observation, reward, terminated, truncated, _ = env.step(action)
+            assert (reward, terminated) == stepper.step(action.astype(float)) and not truncated
+            assert np.array_equal(observation, stepper.observation.astype(np.float32))
+            if terminated:
+                break
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_time_truncates(name):
+    with env_of(name) as env:
+        for seed in range(20):
+            env.reset(seed=seed)
+            steps, terminated, truncated = 0, False, False
+            while not (terminated or truncated):
+                _, _, terminated, truncated, _ = env.step(np.zeros(env.action_space.shape))
+                steps += 1
+            assert truncated == (steps == LONGEST[name]) and terminated != truncated
+            if truncated:
+                return
+    assert name == "DoublePole"  # falls without help
+
+
+@pytest.mark.parametrize("name", LONGEST)
+def test_bad_actions_are_refused_in_a_sentence(name):
+    with env_of(name) as env:
+        env.reset(seed=1)
+        size = env.action_space.shape[0]
+        for bad in (np.zeros(size + 1), np.zeros(0), np.zeros((size, 1)), ["left"] * size):
+            refused(lambda bad=bad: env.step(bad), f"has {size} number")
+        for bad in (np.nan, np.inf):
+            refused(lambda bad=bad: env.step(np.full(size, bad)), "finite")
+
+
+@pytest.mark.parametrize("name", LONGEST)
+def test_pictures_follow_the_robots(name):
+    with env_of(name, render_mode="rgb_array") as env:
+        refused(env.unwrapped.render, "before the first reset()")
+        env.reset(seed=3)
+        first = env.render()
+        assert first.dtype == np.uint8 and first.ndim == 3 and first.shape[2] == 3
+        for _ in range(4):
+            env.step(np.full(env.action_space.shape, 0.4, dtype=np.float32))
+        assert np.mean(np.any(env.render() != first, axis=2)) > 1e-4
+
+
+@pytest.mark.parametrize("name", ["SwingUp", "Prey"])
+def test_a_window_opens_and_closes(name):
+    with env_of(name, render_mode="human") as env:
+        env.reset(seed=3)
+        for _ in range(3):
+            env.step(np.zeros(env.action_space.shape, dtype=np.float32))
+
+
+def test_noise_and_steps_can_be_chosen():
+    with env_of("Discrim", noise=0) as env:
+        assert np.all(env.observation_space.low == 0)
+        assert env.reset(seed=1)[0].min() >= 0
+    refused(lambda: env_of("Discrim", noise=-1), "noise")
+    refused(lambda: env_of("Prey", max_steps=0), "max_steps")
+    refused(lambda: Stage("ErDiscrim", "ansi"), "human, rgb_array")
+
+
+# predator and prey
+
+
+def zoo():
+    pytest.importorskip("pettingzoo")
+    from botschool.envs.predprey import parallel_env
+
+    return parallel_env
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")  # pettingzoo's own
+def test_passes_the_tests_of_pettingzoo():
+    parallel_env = zoo()
+    from pettingzoo.test import parallel_api_test, parallel_seed_test
+
+    parallel_api_test(parallel_env(max_steps=60), num_cycles=200)
+    parallel_seed_test(parallel_env, num_cycles=30)
+
+
+def test_the_chase_of_two_agents_is_the_arena():
+    env, own = zoo()(max_steps=30), arena.make("predprey", 30)
+    rng = np.random.default_rng(2)
+    views, _ = env.reset(seed=1)
+    for _ in range(30):
+        action = rng.uniform(-1, 1, 4).astype(np.float32)
+        seen = np.concatenate([views["predator"], views["prey"]])
+        assert np.array_equal(seen, own.observation.astype(np.float32))
+        own.action = action
+        reward = own.step()
+        views, rewards, over, truncated, _ = env.step({"predator": action[:2], "prey": action[2:]})
+        assert env.state().tolist() == own.state.tolist()
+        assert rewards == {"predator": reward, "prey": 1.0 - reward if own.done else 0.0}
+        assert over == {"predator": own.done, "prey": own.done}
+        assert not any(truncated.values())
+    assert env.agents == []
+    refused(lambda: env.step({}), "has ended")
+    env.reset()
+    refused(lambda: env.step({"predator": np.zeros(2)}), "the prey has no action")
+    refused(lambda: env.step({"predator": np.zeros(3), "prey": np.zeros(2)}), "has 2 numbers")
+
+
+def test_who_is_caught_gets_the_time_before():
+    env = zoo()(max_steps=100)
+    env.reset(seed=1)
+    rewards, total = {}, dict.fromkeys(("predator", "prey"), 0.0)
+    while env.agents:
+        _, rewards, *_ = env.step({"predator": np.ones(2), "prey": np.zeros(2)})
+        total = {agent: total[agent] + rewards[agent] for agent in total}
+    assert total == rewards == {"predator": 1 - 21 / 100, "prey": 1 - (1 - 21 / 100)}
+
+
+def both_networks(**policy):
+    from botschool.config import PolicyConfig
+
+    config = PolicyConfig(nrobots=2, heterogeneous=1, **policy)
+    problem = make("ErPredprey")
+    return problem, Policy("ErPredprey", problem.interface, config)
+
+
+@pytest.mark.parametrize("name", SIDES)
+def test_the_opponent_is_the_one_that_was_evolved(name, tmp_path):
+    """Its side of an evaluated episode, when ours acts as there: nearly, evolution rounds more."""
+    problem, policy = both_networks(nhiddens=25, bias=1, architecture=3)
+    genotype = policy.initial(3)
+    path = tmp_path / "both.npy"
+    np.save(path, genotype)
+    one = policy.nparameters
+    theirs = genotype[one:] if name == "Predator" else genotype[:one]
+    own, other = (slice(0, 2), slice(2, 4)) if name == "Predator" else (slice(2, 4), slice(0, 2))
+    moments = list(problem.play(policy, genotype, None, 1, 0, 2000))[:100]
+    states = []
+    for opponent in (path, genotype, theirs):
+        with env_of(name, opponent=opponent) as env:
+            env.reset(seed=1)
+            for moment in moments:
+                env.step(moment.action[own])
+            states.append(env.unwrapped._chase.state)
+    assert np.array_equal(states[0], states[1]) and np.array_equal(states[0], states[2])
+    assert states[0] == pytest.approx(moments[-1].state, rel=0, abs=0.05)
+    assert other != own
+
+
+def test_opponents_that_cannot_be(tmp_path):
+    path = tmp_path / "bad.npy"
+    path.write_text("no genotype")
+    refused(lambda: env_of("Prey", opponent=path), "no genotype")
+    refused(lambda: env_of("Prey", opponent=tmp_path / "none.npy"), "none.npy")
+    refused(lambda: env_of("Prey", opponent=np.zeros(7)), "shape (7,)")
+    refused(lambda: env_of("Prey", opponent=np.full(10954, np.nan)), "")
+    refused(lambda: env_of("Prey", experiment=tmp_path / "none.ini"), "none.ini")
+
+
+def test_an_opponent_with_another_network(tmp_path):
+    ini = tmp_path / "own.ini"
+    ini.write_text(
+        "[EXP]\nenvironment = ErPredprey\nalgo = SSS\n[POLICY]\nnrobots = 2\nheterogeneous = 1\n"
+        "nhiddens = 3\nnormalize = 1\n[ALGO]\nmaxmsteps = 1\n"
+    )
+    _, policy = both_networks(nhiddens=3, normalize=1)
+    saved = policy.join(policy.initial(1), np.repeat([0.1, 1.0], 24))
+    with env_of("Predator", opponent=saved, experiment=ini) as env:
+        env.reset(seed=1)
+        env.step(np.zeros(2, dtype=np.float32))
+    with env_of("Prey", experiment=ini) as env:
+        env.reset(seed=1)
+        env.step(np.zeros(2, dtype=np.float32))
+    refused(lambda: env_of("Predator", opponent=saved), "shape")
+
+
+# training
+
+
+def trained(steps, n_steps):
+    sb3 = pytest.importorskip("stable_baselines3")
+    with env_of("Discrim") as env:
+        model = sb3.PPO("MlpPolicy", env, n_steps=n_steps, seed=1, device="cpu")
+        model.learn(steps)
+        assert model.num_timesteps >= steps
+        assert np.isfinite(model.logger.name_to_value["train/loss"])
+        action, _ = model.predict(env.reset(seed=1)[0])
+        assert env.action_space.contains(action)
+
+
+def test_ppo_trains_on_discrim():
+    trained(512, 256)
+
+
+@pytest.mark.long
+def test_ppo_trains_on_discrim_for_10_000_steps():
+    trained(10_000, 2048)
