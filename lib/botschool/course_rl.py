@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from pathlib import Path
 
@@ -112,3 +113,97 @@ def _draw_field(panel, neuron: int, layers: list, seen: np.ndarray, axes, hidden
     )  # fmt: skip
     some = seen[:: max(1, len(seen) // 300)]
     panel.plot(some[:, axes[0]], some[:, axes[1]], ".", color="black", markersize=1, alpha=0.5)
+
+
+VARIANTS = (BLUE, ORANGE, "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
+"""A colour for each variation of hyperparameters."""
+
+
+def draw_indicators(
+    file: str | Path,
+    trainings: dict[str, tuple[list[dict], list[dict]]],
+    names: tuple[str, ...],
+) -> None:
+    """What trainings have logged: some panels for each problem, a colour for each variation.
+
+    trainings: problem -> (runs, each with its "variant"; for each run name of the indicator ->
+    {"steps", "values"}). names: of the indicators.
+    """
+    from matplotlib.figure import Figure
+
+    rows = -(-len(names) // 4)
+    figure = Figure(figsize=(12, (2.2 * rows + 0.8) * len(trainings)), layout="constrained")
+    parts = figure.subfigures(len(trainings), 1, squeeze=False)[:, 0]
+    of_all = _colours(trainings)
+    for part, (title, (runs, logs)) in zip(parts, trainings.items(), strict=True):
+        part.suptitle(title, fontsize=12)
+        colours = {run["variant"]: of_all[run["variant"]] for run in runs}
+        panels = part.subplots(rows, 4, squeeze=False).ravel()
+        for name, panel in zip(names, panels, strict=False):
+            for run, log in zip(runs, logs, strict=True):
+                if name in log:
+                    steps, values = log[name]["steps"], log[name]["values"]
+                    colour = colours[run["variant"]]
+                    panel.plot(steps, values, color=colour, linewidth=1, alpha=0.8)
+            panel.set_title(name.split("/")[-1], fontsize=9)
+            panel.tick_params(labelsize=7)
+            panel.spines[["top", "right"]].set_visible(False)
+            panel.set_xlabel("steps", fontsize=8)
+            if name == "train/approx_kl":
+                panel.set_yscale("symlog", linthresh=0.01)
+                panel.set_ylim(bottom=0)
+            if name == "train/explained_variance":
+                panel.set_ylim(-1, 1.05)
+        lines = [panel.plot([], [], color=colour)[0] for colour in colours.values()]
+        part.legend(lines, colours, loc="outside lower center", ncols=6, frameon=False)
+    figure.savefig(file, dpi=100)
+    print(f"picture: {file}")
+
+
+def draw_trainings(
+    file: str | Path,
+    trainings: dict[str, tuple[list[dict], list[dict]]],
+    together: dict[str, np.ndarray],
+    curves: dict[str, list[dict]],
+) -> None:
+    """How trainings have ended, a panel for each problem; then learning curves of several kinds.
+
+    trainings: as for draw_indicators, runs with their "return". curves: name -> for each run
+    {"steps", "best"}; together: the "steps" that all have in common, and for each name what its
+    runs had reached then, shape (runs, steps).
+    """
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(4.2 * len(trainings) + 5.6, 4.2), layout="constrained")
+    colours = _colours(trainings)
+    *panels, last = figure.subplots(1, len(trainings) + 1, width_ratios=[3] * len(trainings) + [4])
+    for panel, (title, (runs, _)) in zip(panels, trainings.items(), strict=True):
+        names = list(dict.fromkeys(run["variant"] for run in runs))
+        for place, variant in enumerate(names):
+            returns = [run["return"] for run in runs if run["variant"] == variant]
+            colour = colours[variant]
+            panel.plot(np.full(len(returns), place), returns, "o", color=colour, alpha=0.6)
+            panel.hlines(np.mean(returns), place - 0.3, place + 0.3, color=colour, linewidth=3)
+        labels = [variant.replace(" ", "\n") for variant in names]
+        panel.set_xticks(range(len(names)), labels, fontsize=8)
+        panel.set(title=title, ylabel="return of the last post-evaluation", ylim=(0, None))
+        panel.set_xlim(-0.6, len(names) - 0.4)
+    for (name, group), colour in zip(curves.items(), VARIANTS, strict=False):
+        for curve in group:
+            last.step(curve["steps"], curve["best"], where="post", color=colour, lw=1, alpha=0.35)
+        mean = together[name].mean(axis=0)
+        last.plot(together["steps"], mean, color=colour, linewidth=3, label=f"{name}, mean")
+    last.axvspan(together["steps"][0], together["steps"][-1], color=GREY, alpha=0.15, lw=0)
+    last.set(xscale="log", xlabel="steps, those of post-evaluations included")
+    last.set(ylabel="best post-evaluation so far", title="equal steps (grey), and beyond")
+    last.legend(frameon=False, loc="upper left")
+    for panel in (*panels, last):
+        panel.spines[["top", "right"]].set_visible(False)
+    figure.savefig(file, dpi=100)
+    print(f"picture: {file}")
+
+
+def _colours(trainings: dict[str, tuple[list[dict], list[dict]]]) -> dict[str, str]:
+    """Variant -> colour, the same in all problems."""
+    variants = dict.fromkeys(run["variant"] for runs, _ in trainings.values() for run in runs)
+    return dict(zip(variants, itertools.cycle(VARIANTS), strict=False))

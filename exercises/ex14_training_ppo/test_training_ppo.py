@@ -1,0 +1,686 @@
+"""Grader of exercise 14; run it with `make test-ex14`.
+
+Nothing here is left to chance. Most logs are prepared: drawn from the grading seed, so that the
+answers are known. The few short trainings depend on their settings and seed alone, and are done
+again by the grader for comparison.
+"""
+
+import functools
+import io
+import itertools
+import os
+import tempfile
+import zipfile
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.grading import (
+    Exercise,
+    Student,
+    Wrong,
+    expect,
+    expect_array,
+    expect_close,
+    expect_fields,
+    show,
+)
+
+exercise = Exercise(
+    14,
+    "Training with PPO",
+    file="training_ppo.py",
+    imports=(
+        "torch",
+        "torch._dynamo",
+        "torch.utils.tensorboard",
+        "stable_baselines3",
+        "botschool.rl.callbacks",
+        "tensorboard.backend.event_processing.event_accumulator",
+    ),
+)
+CLOSE = 1e-6
+SHORT = {"n_steps": 16, "batch_size": 64, "n_epochs": 2, "normalize": False}
+"""Hyperparameters of trainings that take a fraction of a second."""
+STEPS, EVALUATIONS, EPISODES = 384, 2, 3
+LARGEST = 100_000
+"""Bytes of a file that such a training leaves behind."""
+
+
+def generator(index: int) -> np.random.Generator:
+    return np.random.default_rng(exercise.seed(index))
+
+
+def with_files(module, name, files, *arguments):
+    """Calls a function of the student's after writing files; files: path -> bytes as uint8."""
+    from pathlib import Path
+
+    for path, content in files.items():
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        Path(path).write_bytes(content.tobytes())
+    return getattr(module, name)(*arguments)
+
+
+def as_bytes(content: bytes) -> np.ndarray:
+    return np.frombuffer(content, dtype=np.uint8)
+
+
+@functools.cache
+def folder() -> tempfile.TemporaryDirectory:
+    """Where the grader's own trainings lie; removed at the end."""
+    return tempfile.TemporaryDirectory(prefix="botschool-")
+
+
+@functools.cache
+def training(environment: str, index: int, rate: float):
+    """A short training by the grader: its RunFolder."""
+    from botschool.rl.training import train
+
+    return train(
+        "ppo", environment, Path(folder().name), params={**SHORT, "learning_rate": rate},
+        steps=STEPS, seed=seed_of(index), evaluations=EVALUATIONS, episodes=EPISODES,
+    )  # fmt: skip
+
+
+def seed_of(index: int) -> int:
+    return exercise.seed(index) % 10_000
+
+
+def rate_of(index: int) -> float:
+    return round(float(generator(index).uniform(0.002, 0.02)), 5)
+
+
+# ------------------------------------------------------------------- 14.1
+varying = exercise.task("14.1", "Variations", seconds=60)
+
+
+def evidence(student: Student, record: dict, variant: str):
+    """The RunFolder that a record names, copied to where the student cannot change it."""
+    from botschool.rl.folder import RunFolder
+
+    (place,) = expect_fields(student.said, record, "folder")
+    expect(isinstance(place, str), f"{student.said}: folder is {show(place)}, but text is needed.")
+    place = os.path.normpath(place)
+    expect(
+        place.startswith(os.path.join("trainings", variant) + os.sep),
+        f"{student.said}: the folder of a training of {variant!r} is {show(place)}, but should lie "
+        f"in trainings/{variant}.",
+    )
+    for name in ("evaluations.npz", "config.yaml"):
+        found = student.scratch(os.path.join(place, name))
+        expect(size_of(found) < LARGEST, f"{student.said}: {name} in {show(place)} is too large.")
+    return RunFolder(found.parent)
+
+
+def size_of(file: Path) -> int:
+    """Bytes of what a file holds, unpacked."""
+    if not zipfile.is_zipfile(file):
+        return file.stat().st_size
+    with zipfile.ZipFile(file) as archive:
+        return sum(member.file_size for member in archive.infolist())
+
+
+def expect_training(student: Student, record: dict, environment: str, variant: str, rate, index):
+    """A record tells of a training with these settings, and of what it has reached."""
+    run = evidence(student, record, variant)
+    said = f"{student.said}: the training in {record['folder']}"
+    try:
+        settings, found = run.settings(), run.evaluations()
+    except BotschoolError as error:
+        raise Wrong(f"{said} cannot be read ({error}).") from None
+    wanted = {
+        "algo": "ppo", "env": environment, "seed": seed_of(index), "steps": STEPS,
+        "episodes": EPISODES, "evaluations": EVALUATIONS, "given": {**SHORT, "learning_rate": rate},
+    }  # fmt: skip
+    for key, value in wanted.items():
+        got = getattr(settings, key)
+        name = {"given": "params"}.get(key, key)
+        expect(got == value, f"{said} has {name} {show(got, 200)} instead of {show(value, 200)}.")
+    return found, said
+
+
+def varied(student: Student, environment: str, rates: dict[str, float], seeds: list[int]) -> list:
+    variations = {name: {**SHORT, "learning_rate": rate} for name, rate in rates.items()}
+    answer = student.call(
+        "train_variations", environment, variations, [seed_of(index) for index in seeds], STEPS,
+        "trainings", EVALUATIONS, EPISODES,
+    )  # fmt: skip
+    student.said = f"train_variations({environment!r}, ...)"
+    count = len(rates) * len(seeds)
+    expect(
+        isinstance(answer, list) and len(answer) == count,
+        f"{student.said} with {len(rates)} variations and {len(seeds)} seeds must return a list of "
+        f"{count} dicts, not {show(answer)}.",
+    )
+    for record in answer:
+        expect_fields(student.said, record, "variant", "seed", "return", "folder")
+    return answer
+
+
+def expect_same_numbers(said: str, found, reference) -> None:
+    """The post-evaluations are those of the grader's own training."""
+    for name in ("steps", "returns", "lengths"):
+        got, wanted = getattr(found, name), getattr(reference, name)
+        same = got.shape == wanted.shape and np.allclose(got, wanted, rtol=1e-4, atol=1e-4)
+        expect(same, f"{said} is not what PPO gives with these settings and this seed.")
+
+
+@varying.check(6)
+def one_training(student: Student):
+    rate = rate_of(1)
+    reference = training("Pendulum-v1", 2, rate).evaluations()
+    (record,) = varied(student, "Pendulum-v1", {"only": rate}, [2])
+    found, said = expect_training(student, record, "Pendulum-v1", "only", rate, 2)
+    expect_same_numbers(said, found, reference)
+    expect_close(f"{student.said}: return", record["return"], reference.last, CLOSE)
+
+
+@varying.check(10)
+def every_variation_with_every_seed(student: Student):
+    rates, seeds = {"default": 0.001, "varied": rate_of(3)}, [4, 5]
+    reference = training("CartPole-v1", 5, rates["varied"]).evaluations()
+    answer = varied(student, "CartPole-v1", rates, seeds)
+    records = {(record["variant"], record["seed"]): record for record in answer}
+    places = {record["folder"] for record in answer}
+    expect(len(places) == len(answer), f"{student.said}: two trainings have the same folder.")
+    for variant, index in itertools.product(rates, seeds):
+        key = variant, seed_of(index)
+        expect(key in records, f"{student.said}: no training of {key[0]!r} with seed {key[1]}.")
+        found, said = expect_training(
+            student, records[key], "CartPole-v1", variant, rates[variant], index
+        )
+        if (variant, index) == ("varied", 5):
+            expect_same_numbers(said, found, reference)
+        means = found.returns.mean(axis=1)
+        expect_close(f"{student.said}: return", records[key]["return"], means[-1], CLOSE)
+
+
+# ------------------------------------------------------------------- 14.2
+reading = exercise.task("14.2", "What was logged")
+NAMES = (
+    "rollout/ep_rew_mean", "rollout/ep_len_mean", "train/loss", "train/value_loss",
+    "train/policy_gradient_loss", "train/entropy_loss", "train/approx_kl", "train/clip_fraction",
+    "train/explained_variance",
+)  # fmt: skip
+
+
+def event_file(entries: list[tuple[str, int, float]], histograms: bool = False) -> bytes:
+    """A file as TensorBoard's, with (name, step, value) in this order."""
+    from tensorboard.compat.proto.event_pb2 import Event
+    from tensorboard.compat.proto.histogram_pb2 import HistogramProto
+    from tensorboard.compat.proto.summary_pb2 import Summary
+    from tensorboard.summary.writer.record_writer import RecordWriter
+
+    content = io.BytesIO()
+    writer = RecordWriter(content)
+    writer.write(Event(wall_time=1.0, file_version="brain.Event:2").SerializeToString())
+    values = [(step, Summary.Value(tag=name, simple_value=v)) for name, step, v in entries]
+    if histograms:
+        histogram = HistogramProto(
+            min=0, max=2, num=3, sum=3, sum_squares=5, bucket_limit=[0, 1, 2], bucket=[1, 1, 1]
+        )
+        values += [(step, Summary.Value(tag="actions/chosen", histo=histogram)) for step in (5, 9)]
+    for number, (step, value) in enumerate(values):
+        event = Event(wall_time=2.0 + number, step=step, summary=Summary(value=[value]))
+        writer.write(event.SerializeToString())
+    return content.getvalue()
+
+
+def drawn_log(index: int, names: tuple[str, ...], most: int = 30) -> dict[str, tuple]:
+    """Indicators of random lengths, rounded as the files hold them: name -> (steps, values)."""
+    rng, log = generator(index), {}
+    for name in names:
+        steps = np.cumsum(rng.integers(1, 500, rng.integers(2, most)))
+        log[name] = steps, rng.normal(size=len(steps)).astype(np.float32).astype(np.float64)
+    return log
+
+
+def read(student: Student, content: bytes) -> dict:
+    files = {"training/events.out.tfevents.1.grader": as_bytes(content)}
+    said = "read_indicators('training')"
+    answer = student.run(with_files, "read_indicators", files, "training", said=said)
+    expect(isinstance(answer, dict), f"{said} must return a dict, not {show(answer)}.")
+    return answer
+
+
+def compare_log(said: str, answer: dict, wanted: dict[str, tuple]) -> None:
+    missing, more = sorted(set(wanted) - set(answer)), sorted(set(answer) - set(wanted))
+    expect(not missing, f"{said}: {missing} are missing.")
+    expect(not more, f"{said}: {more} are no indicators that are single numbers.")
+    for name, columns in wanted.items():
+        got = expect_fields(f"{said}[{name!r}]", answer[name], "steps", "values")
+        for key, value, right in zip(("steps", "values"), got, columns, strict=True):
+            expect_close(f"{said}[{name!r}]: {key}", value, right, CLOSE)
+
+
+def entries_of(log: dict[str, tuple]) -> list[tuple[str, int, float]]:
+    """All values, one after another as they are logged."""
+    entries = [
+        (name, int(step), float(value))
+        for name, columns in log.items()
+        for step, value in zip(*columns, strict=True)
+    ]
+    return sorted(entries, key=lambda entry: entry[1])
+
+
+@reading.check(5)
+def all_indicators(student: Student):
+    for index, count in ((20, 2), (21, len(NAMES))):
+        log = drawn_log(index, NAMES[-count:])
+        answer = read(student, event_file(entries_of(log), histograms=index == 21))
+        compare_log(student.said, answer, log)
+
+
+@reading.check(3)
+def a_long_log(student: Student):
+    rng = generator(22)
+    values = rng.normal(size=10_400).astype(np.float32).astype(np.float64)
+    log = {"train/approx_kl": (8 * np.arange(1, len(values) + 1), values)}
+    compare_log("read_indicators(<10400 values>)", read(student, event_file(entries_of(log))), log)
+
+
+@reading.check(3)
+def without_nan(student: Student):
+    log = drawn_log(23, NAMES)
+    entries = entries_of(log)
+    entries.insert(3, ("train/explained_variance", 1, float("nan")))
+    entries.append(("train/explained_variance", 20_000, float("nan")))
+    compare_log(student.said, read(student, event_file(entries)), log)
+
+
+@reading.check(3)
+def a_training(student: Student):
+    run = training("CartPole-v1", 5, rate_of(3))
+    (file,) = run.path.glob("events.out.tfevents.*")
+    answer = read(student, file.read_bytes())
+    log, wanted = run.log(), {}
+    for name in NAMES:
+        known = np.isfinite(log[name])
+        wanted[name] = log["steps"][known], log[name][known]
+    compare_log(student.said, {name: answer.get(name) for name in wanted}, wanted)
+
+
+# ------------------------------------------------------------------- 14.3
+success = exercise.task("14.3", "How successful was it?")
+
+
+def drawn_evaluations(index: int, means: list[float] | None = None) -> tuple:
+    """Post-evaluations at uneven steps: steps (n,), returns (n, episodes)."""
+    rng = generator(index)
+    means = rng.uniform(0, 200, rng.integers(4, 12)) if means is None else np.array(means)
+    noise = rng.normal(size=(len(means), 5))
+    steps = np.cumsum(rng.integers(200, 3000, len(means))) - 200
+    return steps, means[:, None] + 10 * (noise - noise.mean(axis=1, keepdims=True))
+
+
+def measured(student: Student, steps, returns, goal: float, *keys: str) -> list:
+    answer = student.call("success_of", steps, returns, goal)
+    if len(steps) <= 6:
+        means = returns.mean(axis=1).round(2).tolist()
+        student.said = f"success_of({steps.tolist()}, <mean returns {means}>, {goal})"
+    return expect_fields(student.said, answer, *keys)
+
+
+@success.check(3)
+def last_and_best(student: Student):
+    for index in (30, 31, 32):
+        steps, returns = drawn_evaluations(index)
+        last, best = measured(student, steps, returns, 100.0, "last", "best")
+        expect_close(f"{student.said}: last", last, returns[-1].mean(), CLOSE)
+        expect_close(f"{student.said}: best", best, max(row.mean() for row in returns), CLOSE)
+
+
+@success.check(4)
+def average_over_the_training(student: Student):
+    for index, means in ((33, None), (34, [10.0, 20.0]), (35, None), (36, [42.5])):
+        steps, returns = drawn_evaluations(index, means)
+        (average,) = measured(student, steps, returns, 100.0, "average")
+        m, area = [float(row.mean()) for row in returns], 0.0
+        for i in range(1, len(m)):
+            area += (m[i - 1] + m[i]) / 2 * (steps[i] - steps[i - 1])
+        wanted = area / (steps[-1] - steps[0]) if len(m) > 1 else m[0]
+        expect_close(f"{student.said}: average", average, wanted, CLOSE)
+
+
+def expect_solved(student: Student, index: int, means: list[float], position: int | None) -> None:
+    steps, returns = drawn_evaluations(index, means)
+    (solved,) = measured(student, steps, returns, 100.0, "solved")
+    wanted = None if position is None else int(steps[position])
+    said = f"{student.said}: solved"
+    if wanted is None:
+        expect(solved is None, f"{said} is {show(solved)}, but None was expected.")
+    else:
+        expect(solved is not None, f"{said} is None, but {wanted} was expected.")
+        expect_close(said, solved, wanted, CLOSE)
+
+
+@success.check(5)
+def solved_for_good(student: Student):
+    expect_solved(student, 37, [5.0, 50.0, 110.0, 120.0, 180.0], 2)
+    expect_solved(student, 38, [5.0, 130.0, 60.0, 101.0, 150.0], 3)
+    expect_solved(student, 39, [120.0, 110.0, 150.0], 0)
+    expect_solved(student, 40, [5.0, 130.0, 140.0, 99.0], None)
+    expect_solved(student, 41, [5.0, 50.0, 60.0, 100.5], 3)
+
+
+# ------------------------------------------------------------------- 14.4
+table = exercise.task("14.4", "The table")
+
+
+def drawn_runs(index: int, sizes: dict[str, int]) -> list[dict]:
+    rng = generator(index)
+    runs = [
+        {"variant": name, "seed": 10 + seed, "return": round(float(rng.normal(100, 60)), 2)}
+        for name, size in sizes.items()
+        for seed in range(size)
+    ]
+    return [runs[i] for i in rng.permutation(len(runs))]
+
+
+def compare_table(student: Student, runs: list[dict], baseline: str, *keys: str) -> None:
+    """Compares the rows in their order; what counts is the first run of a variant and seed."""
+    results: dict[str, dict] = {}
+    for run in runs:
+        if run["seed"] not in results.setdefault(run["variant"], {}):
+            results[run["variant"]][run["seed"]] = Fraction(run["return"])
+    means = {name: sum(found.values()) / len(found) for name, found in results.items()}
+    order = sorted(means, key=lambda name: -means[name])
+    answer = student.call("table_of", runs, baseline)
+    student.said = f"table_of(<{len(runs)} runs>, {baseline!r})"
+    expect(isinstance(answer, list), f"{student.said} must return a list, not {show(answer)}.")
+    got = [expect_fields(student.said, row, "variant")[0] for row in answer]
+    expect(got == order, f"{student.said} has rows for {show(got, 150)} instead of {order}.")
+    for row, name in zip(answer, order, strict=True):
+        values = np.array([float(value) for value in results[name].values()])
+        wanted = {
+            "runs": len(values),
+            "mean": float(means[name]),
+            "deviation": np.std(values) * np.sqrt(len(values) / max(1, len(values) - 1)),
+            "gain": float(means[name] - means[baseline]),
+        }
+        said = f"{student.said}: row {name!r}"
+        for key, value in zip(keys, expect_fields(said, row, *keys), strict=True):
+            if key == "deviation" and len(values) == 1:
+                sentence = f"{said}: deviation of a single run is {show(value)} instead of None."
+                expect(value is None, sentence)
+            else:
+                expect_close(f"{said}: {key}", value, wanted[key], CLOSE)
+
+
+@table.check(5)
+def means_in_order(student: Student):
+    for index, sizes in ((50, {"default": 4, "fast": 4}), (51, {"a": 3, "b": 5, "c": 2, "d": 7})):
+        compare_table(student, drawn_runs(index, sizes), next(iter(sizes)), "runs", "mean")
+
+
+@table.check(4)
+def deviations_and_gains(student: Student):
+    for index, sizes in ((52, {"fast": 4, "default": 5}), (53, {"b": 2, "default": 3, "a": 6})):
+        compare_table(student, drawn_runs(index, sizes), "default", "deviation", "gain")
+    compare_table(student, drawn_runs(54, {"b": 3, "default": 1}), "default", "deviation", "gain")
+
+
+@table.check(3)
+def a_seed_counts_once(student: Student):
+    runs = drawn_runs(55, {"default": 4, "slow": 3})
+    again = [{**run, "return": run["return"] + 50} for run in runs[1:5]]
+    compare_table(student, runs + again, "default", "runs", "mean", "deviation", "gain")
+
+
+# ------------------------------------------------------------------- 14.5
+luck = exercise.task("14.5", "Is it more than luck?")
+
+
+def compare_chance(student: Student, first: list[float], second: list[float]) -> None:
+    """Exact, with fractions, so that equal differences are equal."""
+    numbers = [Fraction(str(value)) for value in (*first, *second)]
+    n, m, total = len(first), len(second), sum(numbers)
+    observed = abs(sum(numbers[:n]) / n - sum(numbers[n:]) / m)
+    ways = [sum(chosen) for chosen in itertools.combinations(numbers, n)]
+    hits = sum(abs(part / n - (total - part) / m) >= observed for part in ways)
+    answer = student.call("chance_of", first, second)
+    student.said = f"chance_of({first}, {second})"
+    expect_close(student.said, answer, hits / len(ways), CLOSE)
+
+
+@luck.check(4)
+def equally_many(student: Student):
+    for index, n in ((60, 2), (61, 3), (62, 5)):
+        rng = generator(index)
+        compare_chance(student, rng.normal(90, 9, n).round(2).tolist(),
+                       rng.normal(100, 9, n).round(2).tolist())  # fmt: skip
+
+
+@luck.check(3)
+def more_of_one(student: Student):
+    for index, n, m in ((63, 2, 6), (64, 5, 3), (65, 1, 4)):
+        rng = generator(index)
+        compare_chance(student, rng.normal(110, 20, n).round(2).tolist(),
+                       rng.normal(100, 9, m).round(2).tolist())  # fmt: skip
+
+
+@luck.check(3)
+def with_equal_results(student: Student):
+    compare_chance(student, [500.0, 500.0, 500.0], [500.0, 500.0, 500.0])
+    compare_chance(student, [0.1, 0.2, 0.3], [0.3, 0.6, 0.2])
+    rng = generator(66)
+    compare_chance(student, (rng.integers(0, 4, 4) / 10).tolist(),
+                   (rng.integers(1, 6, 4) / 10).tolist())  # fmt: skip
+
+
+# ------------------------------------------------------------------- 14.6
+signs = exercise.task("14.6", "Warning signs")
+
+
+def compare_phases(student: Student, steps, values, total: int, parts: int) -> None:
+    wanted = []
+    for part in range(parts):
+        low, high = Fraction(part * total, parts), Fraction((part + 1) * total, parts)
+        these = [
+            float(value)
+            for step, value in zip(steps.tolist(), values, strict=True)
+            if (low < step <= high or step == part == 0) and not np.isnan(value)
+        ]
+        wanted.append(sum(these) / len(these) if these else None)
+    answer = student.call("phase_means", steps, values, total, parts)
+    if len(steps) <= 6:
+        shown = f"{steps.tolist()}, {values.round(3).tolist()}, {total}, {parts}"
+        student.said = f"phase_means({shown})"
+    count = isinstance(answer, (list, np.ndarray)) and len(answer) == parts
+    expect(count, f"{student.said} must return a list of {parts}, not {show(answer)}.")
+    for part, (got, right) in enumerate(zip(answer, wanted, strict=True)):
+        said = f"{student.said}: part {part}"
+        if right is None:
+            expect(got is None, f"{said} holds nothing, but is {show(got)} instead of None.")
+        else:
+            expect_close(said, got, right, CLOSE)
+
+
+@signs.check(3)
+def parts_of_a_training(student: Student):
+    for index, parts in ((70, 3), (71, 3), (72, 4)):
+        rng, total = generator(index), 6000
+        steps = np.sort(rng.choice(np.arange(1, total), 60, replace=False))
+        compare_phases(student, steps, rng.normal(size=60), total, parts)
+    rng = generator(73)  # logged more often in the end
+    steps = np.concatenate([np.arange(100, 6000, 700), np.arange(6000, 9001, 50)])
+    compare_phases(student, steps, rng.normal(size=len(steps)), 9000, 3)
+
+
+@signs.check(3)
+def borders_gaps_and_nan(student: Student):
+    rng = generator(74)
+    compare_phases(student, np.array([0, 100, 200, 300]), rng.normal(size=4), 300, 3)
+    compare_phases(student, np.array([80, 290]), rng.normal(size=2), 300, 3)
+    values = rng.normal(size=12)
+    values[[0, 5]] = np.nan
+    compare_phases(student, np.arange(50, 650, 50), values, 600, 4)
+
+
+def expect_signs(student: Student, index: int, names: tuple[str, ...], missing: int = 0) -> None:
+    """Logs whose beginning says the opposite of their end; limits drawn on both sides of it."""
+    rng, total = generator(index), 3000
+    indicators, chosen, wanted = {}, {}, []
+    for number, name in enumerate(names):
+        late = round(float(rng.normal()), 3)
+        steps = np.arange(100, total + 1, 100)
+        values = np.where(steps > 2000, late, -30 * np.sign(rng.normal()))
+        values = values + np.where(steps % 200 == 0, 0.25, -0.25)
+        values += rng.normal(0, 1, len(steps)) * (steps <= 2000)
+        indicators[name] = {"steps": steps, "values": values}
+        side, shift = ("above", "below")[rng.integers(2)], (0.2, -0.2)[rng.integers(2)]
+        chosen[f"sign {number}"] = (name, side, round(late + shift, 3))
+        if (side == "above") == (shift < 0) and number >= missing:
+            wanted.append(f"sign {number}")
+    for number, name in enumerate(names[:missing]):
+        if number % 2:
+            del indicators[name]
+        else:
+            early = indicators[name]["steps"] <= 2000
+            indicators[name] = {key: array[early] for key, array in indicators[name].items()}
+    answer = student.call("warning_signs", indicators, total, chosen)
+    student.said = f"warning_signs(<{len(names)} indicators>, {total}, {chosen})"
+    expect(answer == wanted, f"{student.said} returned {show(answer, 200)} instead of {wanted}.")
+
+
+@signs.check(4)
+def signs_of_the_last_third(student: Student):
+    for index in (75, 76):
+        expect_signs(student, index, NAMES)
+
+
+@signs.check(2)
+def nothing_logged_no_sign(student: Student):
+    for index in (77, 78):
+        expect_signs(student, index, NAMES, missing=4)
+
+
+# ------------------------------------------------------------------- 14.7
+relating = exercise.task("14.7", "Which indicators go with success?")
+
+
+def ranks(numbers: np.ndarray) -> np.ndarray:
+    order = np.sort(numbers)
+    return np.array([np.flatnonzero(order == number).mean() for number in numbers])
+
+
+def compare_ranks(student: Student, first: np.ndarray, second: np.ndarray) -> None:
+    alike = len(set(first.tolist())) == 1 or len(set(second.tolist())) == 1
+    wanted = 0.0 if alike else np.corrcoef(ranks(first), ranks(second))[0, 1]
+    answer = student.call("rank_correlation", first, second)
+    if len(first) <= 8:
+        student.said = f"rank_correlation({first.tolist()}, {second.tolist()})"
+    expect_close(student.said, answer, wanted, CLOSE)
+
+
+@relating.check(4)
+def correlates_the_ranks(student: Student):
+    for index, n in ((80, 5), (81, 12), (82, 40)):
+        rng = generator(index)
+        first = rng.normal(size=n).round(3)
+        compare_ranks(student, first, np.exp(3 * (first + rng.normal(size=n))).round(6))
+
+
+@relating.check(4)
+def equal_numbers(student: Student):
+    rng = generator(83)
+    compare_ranks(student, np.array([5.0, 7.0, 7.0, 9.0]), rng.normal(size=4).round(2))
+    for n in (8, 25):
+        compare_ranks(student, rng.integers(0, 4, n) / 2, rng.integers(0, 3, n) + 0.5)
+    compare_ranks(student, np.full(6, 500.0), rng.normal(size=6).round(2))
+    compare_ranks(student, rng.normal(size=6).round(2), np.full(6, -0.7))
+
+
+@relating.check(4)
+def inside_variants(student: Student):
+    for index, kinds in ((84, 2), (85, 4)):
+        rng = generator(index)
+        which = rng.permutation(np.repeat(np.arange(kinds), rng.integers(2, 6, kinds)))
+        numbers = rng.normal(size=len(which)) + 100 * which
+        numbers[which == 0] = 0.1 + 0.7  # equal ones stay equal
+        wanted = numbers.copy()
+        for kind in range(kinds):
+            wanted[which == kind] -= numbers[which == kind].mean()
+        names = [f"variant {kind}" for kind in which]
+        answer = student.call("within_variants", numbers, names)
+        got = expect_array(student.said, answer, numbers.shape)
+        expect_close(student.said, got, wanted, CLOSE)
+        expect(
+            len(set(got[which == 0].tolist())) == 1 and np.array_equal(got, np.round(got, 9)),
+            f"{student.said} is not rounded to 9 decimals.",
+        )
+
+
+# ------------------------------------------------------------------- 14.8
+equal = exercise.task("14.8", "Evolution and PPO at equal steps")
+
+
+def saved(*arrays: np.ndarray, **named: np.ndarray) -> np.ndarray:
+    """The bytes of a .npy file, or of an .npz file with names."""
+    content = io.BytesIO()
+    np.savez(content, **named) if named else np.save(content, *arrays)
+    return as_bytes(content.getvalue())
+
+
+def expect_curve(student: Student, files: dict, place: str, wanted: dict) -> None:
+    said = f"curve_of({place!r})"
+    answer = student.run(with_files, "curve_of", files, place, said=said)
+    for key, got in zip(wanted, expect_fields(said, answer, *wanted), strict=True):
+        expect_close(f"{said}: {key}", got, wanted[key], CLOSE)
+
+
+@equal.check(3)
+def curve_of_evolution(student: Student):
+    rng = generator(90)
+    for number in (3, 14):
+        n = int(rng.integers(5, 30))
+        stat = rng.normal(size=(n, 6))
+        stat[:, 0] = np.cumsum(rng.integers(100, 900, n))
+        stat[:, 1], stat[:, 2] = np.sort(rng.normal(size=n)) + 5, np.sort(rng.normal(size=n))
+        place = f"evolved/statS{number}.npy"
+        wanted = {"steps": stat[:, 0], "best": stat[:, 2]}
+        expect_curve(student, {place: saved(stat.ravel())}, place, wanted)
+
+
+@equal.check(4)
+def curve_of_a_training(student: Student):
+    rng = generator(91)
+    for number in (1, 2):
+        n, episodes = int(rng.integers(4, 15)), int(rng.integers(2, 8))
+        steps = np.cumsum(rng.integers(100, 900, n))
+        returns, lengths = rng.normal(size=(n, episodes)), rng.integers(5, 90, (n, episodes))
+        place = f"trained/CartPole-v1_{number}"
+        content = saved(timesteps=steps, results=returns, ep_lengths=lengths)
+        best = [max(row.mean() for row in returns[: i + 1]) for i in range(n)]
+        spent = [steps[i] + lengths[: i + 1].sum() for i in range(n)]
+        wanted = {"steps": np.array(spent), "best": np.array(best)}
+        expect_curve(student, {f"{place}/evaluations.npz": content}, place, wanted)
+
+
+@equal.check(5)
+def at_the_same_steps(student: Student):
+    rng = generator(92)
+    for sizes, points in (({"PPO": 1, "ES": 1}, 4), ({"a": 3, "b": 2, "c": 4}, 25)):
+        groups, curves = {}, []
+        for name, size in sizes.items():
+            groups[name] = []
+            for _ in range(size):
+                n = int(rng.integers(10, 30))
+                steps = np.cumsum(rng.uniform(1, 60, n))
+                groups[name].append({"steps": steps, "best": np.cumsum(rng.uniform(0, 9, n))})
+            curves += groups[name]
+        start = max(curve["steps"][0] for curve in curves)
+        end = min(curve["steps"][-1] for curve in curves)
+        marks = start + (end - start) * np.arange(points) / (points - 1)
+        answer = student.call("at_equal_steps", groups, points)
+        student.said = f"at_equal_steps({sizes} runs, {points})"
+        got = expect_fields(student.said, answer, "steps", *groups)
+        expect_close(f"{student.said}: steps", got[0], marks, CLOSE)
+        for (name, group), values in zip(groups.items(), got[1:], strict=True):
+            wanted = [
+                [curve["best"][curve["steps"] <= mark + 1e-9][-1] for mark in marks]
+                for curve in group
+            ]
+            expect_close(f"{student.said}: {name}", values, np.array(wanted), CLOSE)
