@@ -110,7 +110,7 @@ def test_coevo2_is_not_there_yet(refused, tmp_path):
         ("Walk-on-water-v0", "is the package that has it installed?"),
         ("tiny_envs:Tyny-v0", "did you mean tiny_envs:Tiny-v0?"),
         ("tyny_envs:Tiny-v0", "tyny_envs"),
-        ("ErPredprey", "not in this version of botschool yet"),
+        ("ErPredprey", "set nrobots = 2"),
         ("a/b/c-v0", "Malformed"),
         ("LunarLander-v2", "LunarLander-v3"),
         ("tiny_envs:Tinypackage-v0", "a_package_that_is_not_there"),

@@ -93,11 +93,11 @@ def _learn(model: BaseAlgorithm, watching: PostEvaluation) -> None:
     except OSError as error:
         raise cannot_write(folder, error.strerror or str(error)) from error
     except ValueError as error:
-        if "nan" not in str(error):
+        if "Expected parameter" not in str(error):  # of the action's distribution, by torch
             raise
         raise BotschoolError(
             f"The training in {folder} broke down after {model.num_timesteps} steps: the "
-            "network's outputs are no longer numbers, so lower learning_rate or max_grad_norm."
+            "network's outputs are no longer usable numbers, so lower learning_rate or max_grad_norm."
         ) from error
 
 
