@@ -24,7 +24,7 @@ from pathlib import Path
 import botschool
 from botschool.errors import BotschoolError
 
-START_SECONDS = 60
+START_SECONDS = 180
 """Longest time for the imports, and for a child to start."""
 BASIC = ("gymnasium.envs.classic_control", "numpy.random", "botschool.evolution.run")
 """What every child has imported."""
