@@ -96,8 +96,8 @@ def _learn(model: BaseAlgorithm, watching: PostEvaluation) -> None:
         if "Expected parameter" not in str(error):  # of the action's distribution, by torch
             raise
         raise BotschoolError(
-            f"The training in {folder} broke down after {model.num_timesteps} steps: the "
-            "network's outputs are no longer usable numbers, so lower learning_rate or max_grad_norm."
+            f"The training in {folder} broke down after {model.num_timesteps} steps: the network's "
+            "outputs are no longer usable numbers, so lower learning_rate or max_grad_norm."
         ) from error
 
 
