@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from botschool.evolution.run import Run
@@ -40,6 +41,13 @@ def _line(run: Run) -> None:
 
 @contextmanager
 def _bar(budget: int, seed: int):
+    with progress_bar(budget, seed) as show:
+        yield lambda run: show(run.record.steps, 2, _numbers(run) if run.record.generation else "")
+
+
+@contextmanager
+def progress_bar(budget: int, seed: int) -> Iterator[Callable[[int, int, str], None]]:
+    """Gives a function to call with the steps so far, decimals of their millions, and a text."""
     from rich.progress import (
         BarColumn,
         Progress,
@@ -59,10 +67,8 @@ def _bar(budget: int, seed: int):
     with Progress(*columns, refresh_per_second=5) as progress:
         task = progress.add_task("", total=budget, seed=seed, steps="", numbers="")
 
-        def report(run: Run) -> None:
-            fields = {"steps": f"{run.record.steps / 1e6:.2f}M"}
-            if run.record.generation:
-                fields["numbers"] = _numbers(run)
-            progress.update(task, completed=min(run.record.steps, budget), **fields)
+        def show(steps: int, decimals: int, numbers: str) -> None:
+            millions = f"{steps / 1e6:.{decimals}f}M"
+            progress.update(task, completed=min(steps, budget), steps=millions, numbers=numbers)
 
-        yield report
+        yield show

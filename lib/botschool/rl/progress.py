@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from botschool.evolution.progress import progress_bar
 from botschool.rl.folder import Evaluations
 
 
@@ -14,8 +15,8 @@ def reporting(
 ) -> Iterator[Callable[[int, Evaluations], None]]:
     """Gives a function to call with the steps and the post-evaluations so far."""
     if terminal:
-        with _bar(budget, seed) as report:
-            yield report
+        with progress_bar(budget, seed) as show:
+            yield lambda steps, evaluations: show(steps, 3, _numbers(evaluations))
         return
     printed = 0
 
@@ -36,31 +37,3 @@ def _numbers(evaluations: Evaluations) -> str:
     return (
         f"post-evaluated {evaluations.last:.1f} \u00b1 {sd:.1f}  best so far {evaluations.best:.1f}"
     )
-
-
-@contextmanager
-def _bar(budget: int, seed: int) -> Iterator[Callable[[int, Evaluations], None]]:
-    from rich.progress import (
-        BarColumn,
-        Progress,
-        TaskProgressColumn,
-        TextColumn,
-        TimeRemainingColumn,
-    )
-
-    columns = (
-        TextColumn("seed {task.fields[seed]}"),
-        BarColumn(bar_width=8),
-        TaskProgressColumn(),
-        TextColumn("{task.fields[steps]}"),
-        TimeRemainingColumn(compact=True),
-        TextColumn("{task.fields[numbers]}"),
-    )
-    with Progress(*columns, refresh_per_second=5) as progress:
-        task = progress.add_task("", total=budget, seed=seed, steps="", numbers="")
-
-        def report(steps: int, evaluations: Evaluations) -> None:
-            fields = {"steps": f"{steps / 1e6:.3f}M", "numbers": _numbers(evaluations)}
-            progress.update(task, completed=min(steps, budget), **fields)
-
-        yield report
