@@ -24,15 +24,25 @@ struct Sight {
   alignas(64) T distance[L];  ///< between centres, mm
   alignas(64) T angle[L];     ///< counter-clockwise from the heading, in [-pi, pi]
 
+  /// Of something dx, dy away.
+  void look(const T* BOTSCHOOL_RESTRICT dx, const T* BOTSCHOOL_RESTRICT dy,
+            const T* BOTSCHOOL_RESTRICT heading) {
+    for (int l = 0; l < L; ++l) {
+      distance[l] = std::sqrt(dx[l] * dx[l] + dy[l] * dy[l]);
+      angle[l] = wrapped(arctangent(dy[l], dx[l]) - heading[l]);
+    }
+  }
+
   template <class W>
   void look(const W& world, int robot, const double* BOTSCHOOL_RESTRICT to_x,
             const double* BOTSCHOOL_RESTRICT to_y) {
+    alignas(64) T dx[L], dy[L], heading[L];
     for (int l = 0; l < L; ++l) {
-      const T dx = static_cast<T>(to_x[l] - world.x(robot)[l]);
-      const T dy = static_cast<T>(to_y[l] - world.y(robot)[l]);
-      distance[l] = std::sqrt(dx * dx + dy * dy);
-      angle[l] = wrapped(arctangent(dy, dx) - static_cast<T>(world.heading(robot)[l]));
+      dx[l] = static_cast<T>(to_x[l] - world.x(robot)[l]);
+      dy[l] = static_cast<T>(to_y[l] - world.y(robot)[l]);
+      heading[l] = static_cast<T>(world.heading(robot)[l]);
     }
+    look(dx, dy, heading);
   }
 };
 
@@ -60,20 +70,24 @@ struct Infrared {
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
     constexpr int L = W::lanes;
     const Body& body = *W::plan.robot[robot].body;
-    const Setting& setting = world.setting;
     for (int i = 0; i < size * L; ++i) out[i] = 0;
+
+    Near<W, T, W::walls> walls(world, robot, world.setting.wall_table);
     alignas(64) double to_x[L], to_y[L];
     for (const Wall& wall : world.wall) {
       nearest_points(world, robot, wall, to_x, to_y);
-      add(world, robot, body, body.wall, setting.wall_table, 0.0, to_x, to_y, out);
+      walls.look(0, to_x, to_y);
     }
+    walls.add(body.wall, out);
+
+    Near<W, T, W::cylinders + W::robots> round(world, robot, world.setting.round_table);
     for (int c = 0; c < W::cylinders; ++c)
-      add(world, robot, body, body.round, setting.round_table, world.radius[c], world.cylinder_x(c),
-          world.cylinder_y(c), out);
+      round.look(world.radius[c], world.cylinder_x(c), world.cylinder_y(c));
     for (int other = 0; other < W::robots; ++other)
       if (other != robot)
-        add(world, robot, body, body.round, setting.round_table, W::plan.robot[other].body->radius,
-            world.x(other), world.y(other), out);
+        round.look(W::plan.robot[other].body->radius, world.x(other), world.y(other));
+    round.add(body.round, out);
+
     // nothing rather than nearly nothing: products with denormal numbers are very slow
     for (int i = 0; i < size * L; ++i) {
       const T most = out[i] < T(1) ? out[i] : T(1);
@@ -82,6 +96,73 @@ struct Infrared {
   }
 
  private:
+  /// The objects of one kind within reach, those of all lanes in one row: few are, so that a full
+  /// row takes many lanes' objects.
+  template <class W, class T, int objects>
+  class Near {
+    static constexpr int L = W::lanes;
+
+   public:
+    Near(const W& world, int robot, const InfraredTable* table)
+        : world_(world), robot_(robot), body_(*W::plan.robot[robot].body), table_(table) {}
+
+    /// Keeps what is within reach: objects of that radius at (to_x, to_y), one a lane.
+    void look(double radius, const double* BOTSCHOOL_RESTRICT to_x,
+              const double* BOTSCHOOL_RESTRICT to_y) {
+      const double edges = body_.radius + radius;
+      const double reach = edges + (table_ ? range_of(*table_) : body_.range);
+      alignas(64) double dx[L], dy[L];
+      alignas(64) std::int64_t near[L];
+      std::int64_t any = 0;
+      for (int l = 0; l < L; ++l) {
+        dx[l] = to_x[l] - world_.x(robot_)[l];
+        dy[l] = to_y[l] - world_.y(robot_)[l];
+        near[l] = dx[l] * dx[l] + dy[l] * dy[l] <= reach * reach;
+        any |= near[l];
+      }
+      if (!any) return;
+      for (int l = 0; l < L; ++l) {
+        lane_[count_] = l;
+        dx_[count_] = static_cast<T>(dx[l]);
+        dy_[count_] = static_cast<T>(dy[l]);
+        edges_[count_] = static_cast<T>(edges);
+        count_ += static_cast<int>(near[l]);
+      }
+    }
+
+    /// Adds their readings to each lane's, in the order in which they were looked at.
+    void add(const Response& response, T* BOTSCHOOL_RESTRICT out) {
+      for (int i = count_; i < count_ + L; ++i) lane_[i] = 0, dx_[i] = dy_[i] = edges_[i] = T(0);
+      for (int first = 0; first < count_; first += L) {
+        const int* lane = lane_ + first;
+        alignas(64) T heading[L], gap[L], reading[size * L];
+        for (int i = 0; i < L; ++i) heading[i] = static_cast<T>(world_.heading(robot_)[lane[i]]);
+        Sight<T, L> sight;
+        sight.look(dx_ + first, dy_ + first, heading);
+        for (int i = 0; i < L; ++i) {
+          const T d = sight.distance[i] - edges_[first + i];
+          gap[i] = d > T(0) ? d : T(0);
+        }
+        if (table_)
+          measured<T, L>(*table_, sight.angle, gap, reading);
+        else
+          modelled<T, L>(body_, response, sight.angle, gap, reading);
+        const int found = count_ - first < L ? count_ - first : L;
+        for (int i = 0; i < found; ++i)
+          for (int s = 0; s < size; ++s) out[s * L + lane[i]] += reading[s * L + i];
+      }
+    }
+
+   private:
+    const W& world_;
+    const int robot_;
+    const Body& body_;
+    const InfraredTable* table_;
+    int count_ = 0;
+    int lane_[(objects + 1) * L];
+    T dx_[(objects + 1) * L], dy_[(objects + 1) * L], edges_[(objects + 1) * L];
+  };
+
   template <class W>
   static void nearest_points(const W& world, int robot, const Wall& w,
                              double* BOTSCHOOL_RESTRICT to_x, double* BOTSCHOOL_RESTRICT to_y) {
@@ -95,37 +176,10 @@ struct Infrared {
     }
   }
 
-  /// Adds what an object of that radius at (to_x, to_y) gives.
-  template <class W, class T>
-  static void add(const W& world, int robot, const Body& body, const Response& response,
-                  const InfraredTable* table, double radius, const double* BOTSCHOOL_RESTRICT to_x,
-                  const double* BOTSCHOOL_RESTRICT to_y, T* BOTSCHOOL_RESTRICT out) {
-    constexpr int L = W::lanes;
-    const double range = table ? range_of(*table) : body.range;
-    const double reach = body.radius + radius + range;
-    std::int64_t near = 0;
-    for (int l = 0; l < L; ++l) {
-      const double dx = to_x[l] - world.x(robot)[l], dy = to_y[l] - world.y(robot)[l];
-      near |= dx * dx + dy * dy <= reach * reach;
-    }
-    if (!near) return;  // out of every lane's range
-    Sight<T, L> sight;
-    sight.look(world, robot, to_x, to_y);
-    alignas(64) T gap[L];
-    for (int l = 0; l < L; ++l) {
-      const T d = sight.distance[l] - static_cast<T>(body.radius + radius);
-      gap[l] = d > T(0) ? d : T(0);
-    }
-    if (table)
-      add_measured<T, L>(*table, sight.angle, gap, out);
-    else
-      add_modelled<T, L>(body, response, sight.angle, gap, out);
-  }
-
   template <class T, int L>
-  static void add_modelled(const Body& body, const Response& response,
-                           const T* BOTSCHOOL_RESTRICT angle, const T* BOTSCHOOL_RESTRICT gap,
-                           T* BOTSCHOOL_RESTRICT out) {
+  static void modelled(const Body& body, const Response& response,
+                       const T* BOTSCHOOL_RESTRICT angle, const T* BOTSCHOOL_RESTRICT gap,
+                       T* BOTSCHOOL_RESTRICT out) {
     alignas(64) T fade[L], seen[L];
     const T d0 = static_cast<T>(response.d0), range = static_cast<T>(body.range);
     for (int l = 0; l < L; ++l) {
@@ -141,23 +195,23 @@ struct Infrared {
       if (response.m == 2)
         for (int l = 0; l < L; ++l) {
           const T off = wrapped(angle[l] - direction) / width;
-          reading[l] += seen[l] * gain * exponential(-(fade[l] + off * off));
+          reading[l] = seen[l] * gain * exponential(-(fade[l] + off * off));
         }
       else
         for (int l = 0; l < L; ++l) {
           const T off = std::fabs(wrapped(angle[l] - direction)) / width;
           const T raised = exponential(power * logarithm(off > T(1e-6) ? off : T(1e-6)));
-          reading[l] += seen[l] * gain * exponential(-(fade[l] + raised));
+          reading[l] = seen[l] * gain * exponential(-(fade[l] + raised));
         }
     }
   }
 
   template <class T, int L>
-  static void add_measured(const InfraredTable& table, const T* angle, const T* gap, T* out) {
+  static void measured(const InfraredTable& table, const T* angle, const T* gap, T* out) {
     for (int l = 0; l < L; ++l) {
       const double* readings = readings_of(table, angle[l], gap[l]);
-      if (!readings) continue;
-      for (int s = 0; s < size; ++s) out[s * L + l] += static_cast<T>(readings[s]);
+      for (int s = 0; s < size; ++s)
+        out[s * L + l] = readings ? static_cast<T>(readings[s]) : T(0);
     }
   }
 };
