@@ -109,12 +109,14 @@ class Rollout {
       memory_[r].inputs = observations_ + std::ptrdiff_t(r) * layout.spec.inputs * L;
       bytes += brain_bytes(layout);
       for (int l = 0; l < L; ++l) candidate_[r][l] = -1;
+      shared_[r] = -1;
     }
     moments_ = reinterpret_cast<double*>(bytes);
   }
 
   void run() {
     for (int l = 0; l < L; ++l) fill(l);
+    share();
     while (active_ > 0) {
       problem_.observe(observations_);
       if (collecting_ > 0) collect();
@@ -166,8 +168,7 @@ class Rollout {
   void load(int lane, int robot, std::int32_t candidate) {
     if (candidate != candidate_[robot][lane]) {
       candidate_[robot][lane] = candidate;
-      const double* genotype = jobs_.genotypes + jobs_.genotype_stride * candidate;
-      brain(robot).load(lane, genotype + robot * jobs_.robot_offset, jobs_.normalisation);
+      brain(robot).load(lane, genotype(robot, candidate), jobs_.normalisation);
     }
     brain(robot).clear(lane);
   }
@@ -186,6 +187,29 @@ class Rollout {
       --active_;
       fill(l);
     }
+    share();
+  }
+
+  /// Notes which robots have the same candidate in all lanes that work, so that its parameters are
+  /// read once for all (a block of candidates meets one competitor after another).
+  void share() {
+    for (int r = 0; r < robots_; ++r) {
+      std::int32_t one = -1;
+      bool same = true;
+      for (int l = 0; l < L; ++l) {
+        if (job_[l] < 0) continue;
+        if (one < 0) one = candidate_[r][l];
+        same &= candidate_[r][l] == one;
+      }
+      memory_[r].sharing = same && one >= 0;
+      if (!memory_[r].sharing || shared_[r] == one) continue;
+      shared_[r] = one;
+      brain(r).share(genotype(r, one));
+    }
+  }
+
+  const double* genotype(int robot, std::int32_t candidate) const {
+    return jobs_.genotypes + jobs_.genotype_stride * candidate + robot * jobs_.robot_offset;
   }
 
   bool wants_moments(std::ptrdiff_t job) const { return jobs_.collect && jobs_.collect[job]; }
@@ -245,6 +269,7 @@ class Rollout {
   NoiseKey keys_[kMostRobots][L];
   std::ptrdiff_t job_[L];
   std::int32_t candidate_[kMostRobots][L];
+  std::int32_t shared_[kMostRobots];  ///< whose parameters all lanes can share
   int active_ = 0, collecting_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 
 #include "layout.hpp"
 #include "philox.hpp"
@@ -14,6 +15,7 @@ BOTSCHOOL_BEGIN
 template <class T, int L>
 struct BrainMemory {
   T* parameters;
+  T* shared;  ///< parameters of one network that all lanes have, if `sharing`
   T* mean;         ///< inputs
   T* deviation;    ///< inputs
   T* inputs;       ///< raw observation
@@ -23,6 +25,7 @@ struct BrainMemory {
   T* state;        ///< cells
   T* noise;        ///< outputs: standard deviation of the action noise
   T* actions;      ///< outputs: what the actuators get
+  bool sharing = false;
 
   /// Number of T that the buffer must hold.
   static std::size_t size(const Layout& l) {
@@ -37,6 +40,7 @@ struct BrainMemory {
       return place;
     };
     parameters = take(l.parameters);
+    shared = L > 1 ? take((l.parameters + L - 1) / L) : parameters;
     mean = take(l.spec.inputs);
     deviation = take(l.spec.inputs);
     inputs = take(l.spec.inputs);
@@ -57,10 +61,7 @@ class Brain {
 
   /// Puts a genotype into a lane; `normalisation` is all means, then all deviations, or null.
   void load(int lane, const double* genotype, const double* normalisation) {
-    for (int i = 0; i < l_.parameters; ++i)
-      m_.parameters[i * L + lane] = static_cast<T>(genotype[i]);
-    if (l_.cells > 0) pack(l_.gates, lane, genotype);
-    for (int i = 0; i < l_.layers; ++i) pack(l_.layer[i], lane, genotype);
+    place(genotype, m_.parameters + lane, L);
     for (int i = 0; i < l_.spec.inputs; ++i) {
       m_.mean[i * L + lane] = normalisation ? static_cast<T>(normalisation[i]) : T(0);
       m_.deviation[i * L + lane] =
@@ -68,6 +69,9 @@ class Brain {
     }
     set_noise(lane);
   }
+
+  /// Lets all lanes share the parameters of this genotype, which each has been given.
+  void share(const double* genotype) { place(genotype, m_.shared, 1); }
 
   /// Standard deviations of the action noise, from the parameters of the lane.
   void set_noise(int lane) {
@@ -99,19 +103,30 @@ class Brain {
   }
 
  private:
-  /// Receivers whose sums run side by side: independent chains keep the adders busy.
+  /// Receivers whose weights lie side by side, and groups of them whose sums run side by side:
+  /// independent chains keep the adders busy, as far as there are registers.
   static constexpr int kGroup = 4;
+  static constexpr int kGroups = 2;
+  /// Lanes in a register.
+  static constexpr int kWidth = L * sizeof(T) < kRegister ? L : kRegister / sizeof(T);
+
+  /// Writes a genotype to `parameters`, every `stride`-th place.
+  void place(const double* genotype, T* parameters, int stride) const {
+    for (int i = 0; i < l_.parameters; ++i) parameters[i * stride] = static_cast<T>(genotype[i]);
+    if (l_.cells > 0) pack(l_.gates, genotype, parameters, stride);
+    for (int i = 0; i < l_.layers; ++i) pack(l_.layer[i], genotype, parameters, stride);
+  }
 
   /// Lays the rows of a whole group of receivers beside each other, sender by sender, so that
   /// sum() reads the weights as one stream. Those of the last receivers stay as they are.
-  void pack(const Layer& layer, int lane, const double* genotype) {
+  static void pack(const Layer& layer, const double* genotype, T* parameters, int stride) {
     for (int b = 0; b < layer.blocks; ++b) {
       const Connections& c = layer.block[b];
       for (int r = 0; r < layer.neurons / kGroup * kGroup; ++r) {
         const int row = c.weights + r * c.stride + c.offset;
         const int first = c.weights + r / kGroup * kGroup * c.stride + r % kGroup;
         for (int s = 0; s < c.senders; ++s)
-          m_.parameters[(first + (c.offset + s) * kGroup) * L + lane] =
+          parameters[(first + (c.offset + s) * kGroup) * stride] =
               static_cast<T>(genotype[row + s]);
       }
     }
@@ -130,32 +145,53 @@ class Brain {
       for (int i = 0; i < n; ++i) out[i] = clamp(out[i], T(-5), T(5));
   }
 
-  /// Sums over the senders of R receivers at a time; each sum runs over the blocks and their
-  /// senders in order, whatever R is.
-  template <int R>
-  void sum(const Layer& layer, int receiver, T* BOTSCHOOL_RESTRICT out) const {
-    T total[R * L];
-    for (int r = 0; r < R; ++r)
-      for (int l = 0; l < L; ++l)
-        total[r * L + l] =
-            layer.bias < 0 ? T(0) : m_.parameters[(layer.bias + receiver + r) * L + l];
-    for (int b = 0; b < layer.blocks; ++b) {
-      const Connections& c = layer.block[b];
-      const T* BOTSCHOOL_RESTRICT from =
-          (c.previous ? m_.previous : m_.activations) + std::ptrdiff_t(c.sender) * L;
-      const T* BOTSCHOOL_RESTRICT weights =
-          m_.parameters + (c.weights + std::ptrdiff_t(receiver) * c.stride + R * c.offset) * L;
-      for (int s = 0; s < c.senders; ++s, from += L, weights += R * L)
-        for (int r = 0; r < R; ++r)
-          for (int l = 0; l < L; ++l) total[r * L + l] += weights[r * L + l] * from[l];
+  /// Sums over the senders of G groups of R receivers at a time; each sum runs over the blocks and
+  /// their senders in order, whatever G and R are. W is the number of weights side by side: one for
+  /// each lane, or a single one that all share.
+  template <int G, int R, int W>
+  void sum(const Layer& layer, int receiver, T* out) const {
+    using Lanes = LanesOf<T, kWidth>;
+    const T* parameters = W == 1 ? m_.shared : m_.parameters;
+    for (int l = 0; l < L; l += kWidth) {
+      const auto parameter = [&](std::ptrdiff_t i) {
+        if constexpr (W == 1)
+          return parameters[i];
+        else
+          return *reinterpret_cast<const Lanes*>(parameters + i * W + l);
+      };
+      Lanes total[G * R] = {};
+      if (layer.bias >= 0)
+        for (int r = 0; r < G * R; ++r) total[r] += parameter(layer.bias + receiver + r);
+      for (int b = 0; b < layer.blocks; ++b) {
+        const Connections& c = layer.block[b];
+        const T* from =
+            (c.previous ? m_.previous : m_.activations) + std::ptrdiff_t(c.sender) * L + l;
+        const std::ptrdiff_t group = std::ptrdiff_t(R) * c.stride;
+        std::ptrdiff_t weight = c.weights + std::ptrdiff_t(receiver) * c.stride + R * c.offset;
+        for (int s = 0; s < c.senders; ++s, weight += R, from += L) {
+          const Lanes x = *reinterpret_cast<const Lanes*>(from);
+          for (int g = 0; g < G; ++g)
+            for (int r = 0; r < R; ++r) total[g * R + r] += parameter(weight + g * group + r) * x;
+        }
+      }
+      for (int r = 0; r < G * R; ++r) *reinterpret_cast<Lanes*>(out + r * L + l) = total[r];
     }
-    for (int i = 0; i < R * L; ++i) out[i] = total[i];
+  }
+
+  template <int W>
+  void sum_all(const Layer& layer, T* out) const {
+    int r = 0;
+    for (; r + kGroups * kGroup <= layer.neurons; r += kGroups * kGroup)
+      sum<kGroups, kGroup, W>(layer, r, out + r * L);
+    for (; r + kGroup <= layer.neurons; r += kGroup) sum<1, kGroup, W>(layer, r, out + r * L);
+    for (; r < layer.neurons; ++r) sum<1, 1, W>(layer, r, out + r * L);
   }
 
   void net_inputs(const Layer& layer, T* out) const {
-    int r = 0;
-    for (; r + kGroup <= layer.neurons; r += kGroup) sum<kGroup>(layer, r, out + r * L);
-    for (; r < layer.neurons; ++r) sum<1>(layer, r, out + r * L);
+    if (L > 1 && m_.sharing)
+      sum_all<1>(layer, out);
+    else
+      sum_all<L>(layer, out);
   }
 
   static void activate(int activation, T* BOTSCHOOL_RESTRICT x, int n) {
@@ -177,19 +213,25 @@ class Brain {
   void update_cells() {
     net_inputs(l_.gates, m_.gates);
     T* BOTSCHOOL_RESTRICT hidden = m_.activations + l_.spec.inputs * L;
-    for (int u = 0; u < l_.cells; ++u) {
-      const T* BOTSCHOOL_RESTRICT gate = m_.gates + 4 * u * L;
-      T* BOTSCHOOL_RESTRICT state = m_.state + u * L;
+    T* BOTSCHOOL_RESTRICT state = m_.state;
+    // logistic(x) = 1 / (1 + exp(-x)) and tanh(x) = e / (e + 2), e = exp(2x) - 1; each product of the
+    // two takes one division. Two passes, as each by itself is short enough for several units at once
+    for (int u = 0; u < l_.cells; ++u, state += L) {
+      T* BOTSCHOOL_RESTRICT gate = m_.gates + 4 * u * L;
       for (int l = 0; l < L; ++l) {
-        // logistic(x) = 1 / (1 + exp(-x)) and tanh(x) = e / (e + 2), e = exp(2x) - 1; each product
-        // of the two takes one division
         const T forget = logistic(gate[l] + T(1));
         const T input = T(1) + exponential(-gate[L + l]);
-        const T output = T(1) + exponential(-gate[2 * L + l]);
         const T candidate = expm1_twice(gate[3 * L + l]);
         state[l] = state[l] * forget + candidate / ((candidate + T(2)) * input);
+      }
+    }
+    state = m_.state;
+    for (int u = 0; u < l_.cells; ++u, state += L, hidden += L) {
+      const T* BOTSCHOOL_RESTRICT gate = m_.gates + 4 * u * L;
+      for (int l = 0; l < L; ++l) {
+        const T output = T(1) + exponential(-gate[2 * L + l]);
         const T squashed = expm1_twice(state[l]);
-        hidden[u * L + l] = squashed / ((squashed + T(2)) * output);
+        hidden[l] = squashed / ((squashed + T(2)) * output);
       }
     }
   }

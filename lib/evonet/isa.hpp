@@ -21,3 +21,16 @@
 #define BOTSCHOOL_RESTRICT __restrict__
 #define BOTSCHOOL_INLINE inline __attribute__((always_inline))
 #endif
+
+BOTSCHOOL_BEGIN
+
+/// Bytes of a vector register.
+#if defined(__AVX512F__)
+constexpr int kRegister = 64;
+#elif defined(__AVX__)
+constexpr int kRegister = 32;
+#else
+constexpr int kRegister = 16;
+#endif
+
+BOTSCHOOL_END

@@ -10,6 +10,10 @@
 
 BOTSCHOOL_BEGIN
 
+/// L values side by side, anywhere in an array of T.
+template <class T, int L>
+using LanesOf [[gnu::vector_size(sizeof(T) * L), gnu::aligned(alignof(T)), gnu::may_alias]] = T;
+
 template <class To, class From>
 BOTSCHOOL_INLINE To bits_of(From from) {
   static_assert(sizeof(To) == sizeof(From));
