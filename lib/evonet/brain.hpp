@@ -15,7 +15,7 @@ BOTSCHOOL_BEGIN
 template <class T, int L>
 struct BrainMemory {
   T* parameters;
-  T* shared;  ///< parameters of one network that all lanes have, if `sharing`
+  T* shared;       ///< parameters of one network that all lanes have, if `sharing`
   T* mean;         ///< inputs
   T* deviation;    ///< inputs
   T* inputs;       ///< raw observation

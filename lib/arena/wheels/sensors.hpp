@@ -210,8 +210,7 @@ struct Infrared {
   static void measured(const InfraredTable& table, const T* angle, const T* gap, T* out) {
     for (int l = 0; l < L; ++l) {
       const double* readings = readings_of(table, angle[l], gap[l]);
-      for (int s = 0; s < size; ++s)
-        out[s * L + l] = readings ? static_cast<T>(readings[s]) : T(0);
+      for (int s = 0; s < size; ++s) out[s * L + l] = readings ? static_cast<T>(readings[s]) : T(0);
     }
   }
 };
