@@ -281,3 +281,27 @@ def test_wild_genotypes_end_like_others(name, value):
         others = batch.episodes.candidate != 4
         assert same([x[others] for x in result], [x[others] for x in expected])
         assert np.all(result[1] <= LIMIT)
+
+
+@pytest.mark.parametrize("isa", _core.instruction_sets())
+def test_a_block_of_pairs_is_made_of_single_episodes(isa):
+    """One competitor after another for all candidates, when lanes share its weights, or mixed."""
+    policy = policy_of("ErPredprey", "LSTM")
+    engine = _core.Engine("ErPredprey", policy.spec.core(), isa)
+    genotypes = np.array([policy.initial(3, i)[: policy.nparameters] for i in range(23)])
+    pairs = np.array([(c, k) for k in (20, 21, 22) for c in range(20)], dtype=np.int32).T
+
+    def fitness(pairs, threads=1):
+        n = pairs.shape[1]
+        ones = np.ones(n, dtype=np.uint64), np.zeros(n, dtype=np.uint32)
+        return engine.evaluate(genotypes, None, pairs, *ones, None, 120, threads)[:2]
+
+    alone = [fitness(pairs[:, i : i + 1].copy()) for i in range(pairs.shape[1])]
+    expected = [np.concatenate(part) for part in zip(*alone, strict=True)]
+    assert len(set(expected[1].tolist())) > 1  # episodes end at different times
+    order = np.random.default_rng(1).permutation(pairs.shape[1])
+    for threads in (1, 3):
+        assert same(fitness(pairs, threads), expected)
+        assert same(
+            fitness(np.ascontiguousarray(pairs[:, order]), threads), [x[order] for x in expected]
+        )
