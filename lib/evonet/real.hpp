@@ -11,8 +11,30 @@
 BOTSCHOOL_BEGIN
 
 /// L values side by side, anywhere in an array of T.
+#if defined(__GNUC__)
 template <class T, int L>
 using LanesOf [[gnu::vector_size(sizeof(T) * L), gnu::aligned(alignof(T)), gnu::may_alias]] = T;
+#else
+template <class T, int L>
+struct LanesOf {
+  T value[L];
+  void operator+=(T x) {
+    for (T& v : value) v += x;
+  }
+  void operator+=(const LanesOf& x) {
+    for (int l = 0; l < L; ++l) value[l] += x.value[l];
+  }
+  LanesOf operator*(const LanesOf& x) const {
+    LanesOf product = *this;
+    for (int l = 0; l < L; ++l) product.value[l] *= x.value[l];
+    return product;
+  }
+  friend LanesOf operator*(T x, LanesOf y) {
+    for (T& v : y.value) v *= x;
+    return y;
+  }
+};
+#endif
 
 template <class To, class From>
 BOTSCHOOL_INLINE To bits_of(From from) {
