@@ -17,6 +17,35 @@ BETA1, BETA2, EPSILON = 0.9, 0.999, 1e-8
 DECAY = 0.005
 
 
+def gradient(fitness: np.ndarray, samples: np.ndarray) -> np.ndarray:
+    """In which direction fitness rises, estimated from ranks; shape (parameters,).
+
+    samples: directions, shape (samplesize, parameters); fitness: that of the two candidates of
+    each, centre + s e and centre - s e, shape (2 * samplesize,).
+    """
+    # rank the candidates: utilities from -0.5 (worst) to 0.5 (best)
+    utilities = np.empty(len(fitness))
+    utilities[np.argsort(fitness, kind="stable")] = np.linspace(-0.5, 0.5, len(fitness))
+
+    # directions weighted by how much better + is than -
+    weights = utilities[0::2] - utilities[1::2]
+    # summed row by row, so that no BLAS can change the last bits
+    return np.add.reduce(weights[:, None] * samples, axis=0) / len(fitness)
+
+
+def adam(
+    m: np.ndarray, v: np.ndarray, gradient: np.ndarray, centre: np.ndarray, wdecay: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Adam's next first and second moment, m and v, before any bias correction."""
+    # Adam climbs, so it descends on the negative gradient
+    descent = -gradient
+    if wdecay == 1:
+        descent += DECAY * centre
+    elif wdecay == 2:
+        descent += DECAY * np.sign(centre)
+    return BETA1 * m + (1 - BETA1) * descent, BETA2 * v + (1 - BETA2) * descent**2
+
+
 class OpenAIES:
     """ask() -> candidates to evaluate; tell(their fitness) -> one step of the centre."""
 
@@ -51,26 +80,10 @@ class OpenAIES:
     def tell(self, fitness: np.ndarray) -> None:
         """Moves the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
         config = self.config
-
-        # rank the candidates: utilities from -0.5 (worst) to 0.5 (best)
-        utilities = np.empty(len(fitness))
-        utilities[np.argsort(fitness, kind="stable")] = np.linspace(-0.5, 0.5, len(fitness))
-
-        # gradient estimate: directions weighted by how much better + is than -
-        weights = utilities[0::2] - utilities[1::2]
-        # summed row by row, so that no BLAS can change the last bits
-        gradient = np.add.reduce(weights[:, None] * self.samples, axis=0) / len(fitness)
-
-        # Adam climbs, so it descends on the negative gradient
-        descent = -gradient
-        if config.wdecay == 1:
-            descent += DECAY * self.centre
-        elif config.wdecay == 2:
-            descent += DECAY * np.sign(self.centre)
+        rising = gradient(fitness, self.samples)
+        m, v = adam(self.m, self.v, rising, self.centre, config.wdecay)
         t = self.generation + 1
         step = config.stepsize * np.sqrt(1 - BETA2**t) / (1 - BETA1**t)
-        m = BETA1 * self.m + (1 - BETA1) * descent
-        v = BETA2 * self.v + (1 - BETA2) * descent**2
         self.centre = self.centre - step * m / (np.sqrt(v) + EPSILON)
         self.m, self.v, self.generation = m, v, t
 

@@ -1,0 +1,307 @@
+"""coevo2 against a small implementation of FACTS.md section 3 in plain Python."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from botschool.config import Coevo2Config
+from botschool.evolution import coevo2
+from botschool.evolution.coevo2 import Coevo2, differing, ranking, seen_by
+
+SIZE = 5
+SETTINGS = {"popsize": 7, "selsize": 3, "samplesize": 4, "noiseStdDev": 0.1, "stepsize": 0.03}
+
+
+def initial(index):
+    """Two networks in a row."""
+    return np.random.default_rng(index).normal(size=2 * SIZE)
+
+
+def play(predators, prey):
+    """Some game in which it depends on the opponent what is good."""
+    near = np.abs(predators[:, None] - np.roll(prey, 1, axis=1)[None]).sum(axis=2)
+    return np.round(1 / (1 + near), 3)
+
+
+def game(**options):
+    algorithm = Coevo2(Coevo2Config(**SETTINGS | options), initial, seed=9)
+    algorithm.meet(play)
+    return algorithm
+
+
+class Individual:
+    """Of the plain implementation."""
+
+    def __init__(self, x, m, v):
+        self.x, self.m, self.v = list(x), list(m), list(v)
+
+
+def meeting(side, ours, theirs):
+    """Own fitness of an individual of one side."""
+    predator, prey = (ours, theirs) if side == 0 else (theirs, ours)
+    near = sum(abs(predator[j] - prey[j - 1]) for j in range(SIZE))
+    fitness = round(1 / (1 + near), 3)
+    return fitness if side == 0 else 1 - fitness
+
+
+def average(values):
+    return math.fsum(values) / len(values)
+
+
+class Plain:
+    """The same algorithm, individual by individual and number by number."""
+
+    def __init__(self, config, seed):
+        self.c, self.seed, self.generation = config, seed, 0
+        zeros = [0.0] * SIZE
+        self.sides = [
+            [
+                Individual(initial(i)[side * SIZE :][:SIZE], zeros, zeros)
+                for i in range(config.popsize)
+            ]
+            for side in (0, 1)
+        ]
+        self.sort()
+
+    def against_all(self, side, one):
+        return average([meeting(side, one.x, rival.x) for rival in self.sides[1 - side]])
+
+    def sort(self):
+        orders = [
+            sorted(population, key=lambda one: -self.against_all(side, one))
+            for side, population in enumerate(self.sides)
+        ]
+        self.sides = orders
+
+    def advance(self):
+        side = self.generation % 2
+        ours, theirs = self.sides[side], self.sides[1 - side]
+        numbers = np.random.Generator(np.random.Philox(key=[self.seed, self.generation]))
+        rivals = self.choose(side, int(numbers.integers(self.c.popsize)))
+        opponents = [theirs[i].x for i in rivals]
+
+        def fitness(x):
+            return average([meeting(side, x, opponent) for opponent in opponents])
+
+        chosen = sorted(ours, key=lambda one: -fitness(one.x))[: self.c.selsize]
+        copies = [Individual(one.x, one.m, one.v) for one in chosen]
+        for _ in range(20):
+            e = numbers.standard_normal((self.c.selsize, self.c.samplesize, SIZE))
+            for one, directions in zip(copies, e.tolist(), strict=True):
+                self.improve(one, directions, fitness)
+        progress = average([fitness(one.x) for one in copies]) - average(
+            [fitness(one.x) for one in chosen]
+        )
+        everyone = copies + ours
+        everyone.sort(key=lambda one: -self.against_all(side, one))
+        self.sides[side] = everyone[: self.c.popsize]
+        self.sort()
+        self.generation += 1
+        return progress
+
+    def choose(self, side, first):
+        ours, theirs = self.sides[side], self.sides[1 - side]
+        profiles = [[meeting(1 - side, one.x, other.x) for other in ours] for one in theirs]
+        chosen = [first]
+        while len(chosen) < self.c.selsize:
+            others = [i for i in range(len(theirs)) if i not in chosen]
+            gaps = [min(math.dist(profiles[i], profiles[k]) for k in chosen) for i in others]
+            chosen.append(others[gaps.index(max(gaps))])
+        return chosen
+
+    def improve(self, one, directions, fitness):
+        scores = []
+        for e in directions:
+            for sign in (1, -1):
+                step = sign * self.c.noiseStdDev
+                scores.append(fitness([x + step * d for x, d in zip(one.x, e, strict=True)]))
+        n = len(scores)
+        utility = [0.0] * n
+        for rank, i in enumerate(sorted(range(n), key=lambda i: scores[i])):
+            utility[i] = rank / (n - 1) - 0.5
+        for j in range(SIZE):
+            pairs = [utility[2 * b] - utility[2 * b + 1] for b in range(n // 2)]
+            g = -sum(w * e[j] for w, e in zip(pairs, directions, strict=True)) / n
+            if self.c.wdecay == 1:
+                g += 0.005 * one.x[j]
+            if self.c.wdecay == 2:
+                g += 0.005 * math.copysign(1, one.x[j])
+            one.m[j] = 0.9 * one.m[j] + 0.1 * g
+            one.v[j] = 0.999 * one.v[j] + 0.001 * g * g
+            one.x[j] -= self.c.stepsize * one.m[j] / (math.sqrt(one.v[j]) + 1e-8)
+
+
+@pytest.mark.parametrize("wdecay", [0, 1, 2])
+def test_generations_agree_with_plain_python(wdecay):
+    algorithm = game(wdecay=wdecay)
+    plain = Plain(Coevo2Config(**SETTINGS, wdecay=wdecay), 9)
+    for generation in range(3):
+        before = algorithm.parameters.copy()
+        progress = algorithm.advance(play)
+        assert progress == pytest.approx(plain.advance(), abs=1e-12)
+        for name, part in (("parameters", "x"), ("m", "m"), ("v", "v")):
+            expected = [[getattr(one, part) for one in side] for side in plain.sides]
+            found = getattr(algorithm, name)
+            np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-12)
+        assert np.array_equal(algorithm.fitness, play(*algorithm.parameters))
+        same = [
+            np.array_equal(*(np.sort(a[side], axis=0) for a in (before, algorithm.parameters)))
+            for side in (0, 1)
+        ]
+        assert same[1 - generation % 2] and not same[generation % 2]
+
+
+def test_before_the_first_meeting_there_is_no_fitness():
+    algorithm = Coevo2(Coevo2Config(**SETTINGS), initial, seed=9)
+    assert not algorithm.met
+    for i in range(7):
+        assert np.array_equal(np.concatenate(algorithm.parameters[:, i]), initial(i))
+    algorithm.meet(play)
+    assert algorithm.met and algorithm.generation == 0
+    assert not algorithm.m.any() and not algorithm.v.any()
+
+
+def test_both_populations_are_sorted():
+    algorithm = game()
+    for _ in range(6):
+        for side in (0, 1):
+            assert (np.diff(coevo2.means(seen_by(side, algorithm.fitness))) <= 0).all()
+        algorithm.advance(play)
+
+
+def test_what_happens_in_a_sub_generation_is_one_call():
+    asked = []
+
+    def spying(predators, prey):
+        asked.append((len(predators), len(prey)))
+        return play(predators, prey)
+
+    algorithm = game()
+    algorithm.advance(spying)
+    assert asked == [(3 * 2 * 4, 3)] * 20 + [(3, 7)]
+    asked.clear()
+    algorithm.advance(spying)
+    assert asked == [(3, 3 * 2 * 4)] * 20 + [(7, 3)]
+
+
+def test_momentum_is_kept_with_the_individual():
+    algorithm = game()
+    for _ in range(8):
+        kept = {
+            (side, algorithm.parameters[side, i].tobytes()): (
+                algorithm.m[side, i].copy(),
+                algorithm.v[side, i].copy(),
+            )
+            for side, i in itertools.product((0, 1), range(7))
+        }
+        algorithm.advance(play)
+        new = 0
+        for side, i in itertools.product((0, 1), range(7)):
+            before = kept.get((side, algorithm.parameters[side, i].tobytes()))
+            if before is None:
+                new += 1
+                assert algorithm.v[side, i].any()
+                continue
+            assert np.array_equal(before[0], algorithm.m[side, i])
+            assert np.array_equal(before[1], algorithm.v[side, i])
+        assert new <= 3
+
+
+def test_a_generation_that_breaks_off_leaves_no_trace():
+    algorithm = game()
+    algorithm.advance(play)
+    before = {name: value.copy() for name, value in algorithm.state().items()}
+    for calls in range(21):
+        done = 0
+
+        def breaking(predators, prey, calls=calls):
+            nonlocal done
+            if done == calls:
+                raise InterruptedError
+            done += 1
+            return play(predators, prey)
+
+        with pytest.raises(InterruptedError):
+            algorithm.advance(breaking)
+        after = algorithm.state()
+        assert all(np.array_equal(before[name], after[name]) for name in before)
+
+
+def test_a_state_that_is_restored_goes_on_alike():
+    one, two = game(), Coevo2(Coevo2Config(**SETTINGS), lambda index: initial(index + 1), 9)
+    one.advance(play)
+    two.restore({name: value.copy() for name, value in one.state().items()})
+    for _ in range(3):
+        assert one.advance(play) == two.advance(play)
+    assert all(np.array_equal(one.state()[name], two.state()[name]) for name in one.state())
+
+
+@given(
+    st.integers(0, 2**32), st.integers(1, 9), st.integers(1, 5), st.integers(1, 9), st.booleans()
+)
+def test_competitors_by_brute_force(seed, rows, columns, count, coarse):
+    numbers = np.random.default_rng(seed)
+    fitness = numbers.random((rows, columns)).round(1 if coarse else 15)
+    count, first = min(count, rows), int(numbers.integers(rows))
+    chosen = differing(fitness, count, first).tolist()
+    assert chosen[0] == first and len(set(chosen)) == len(chosen) == count
+    for k in range(1, count):
+
+        def gap(row, k=k):
+            return min(math.dist(fitness[row], fitness[i]) for i in chosen[:k])
+
+        farthest = max(gap(row) for row in range(rows) if row not in chosen[:k])
+        assert gap(chosen[k]) == pytest.approx(farthest, abs=1e-12)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 2**32), st.integers(1, 6), st.integers(1, 6), st.integers(1, 3))
+def test_who_is_dropped_is_the_worst(seed, popsize, selsize, generations):
+    """None of those who have to go is better than one who stays."""
+    selsize = min(selsize, popsize)
+    config = Coevo2Config(popsize=popsize, selsize=selsize, samplesize=2, noiseStdDev=0.5)
+    algorithm = Coevo2(config, lambda index: initial([seed, index]), seed)
+    algorithm.meet(play)
+    for _ in range(generations):
+        side, played = algorithm.side, []
+
+        def spying(predators, prey, played=played):
+            played.append((predators.copy(), prey.copy()))
+            return play(predators, prey)
+
+        before, rivals = algorithm.parameters[side].copy(), algorithm.parameters[1 - side].copy()
+        algorithm.advance(spying)
+        candidates = np.concatenate([played[-1][side], before])
+
+        def fitness(individuals, side=side, rivals=rivals):
+            met = play(individuals, rivals) if side == 0 else play(rivals, individuals)
+            return coevo2.means(seen_by(side, met))
+
+        best = np.sort(fitness(candidates))[::-1][:popsize]
+        assert np.array_equal(fitness(algorithm.parameters[side]), best)
+        known = {row.tobytes() for row in candidates}
+        assert {row.tobytes() for row in algorithm.parameters[side]} <= known
+
+
+def test_of_equals_the_newcomers_stay():
+    """Else populations in which nobody ever wins could not change."""
+    config = Coevo2Config(**SETTINGS)
+    algorithm = Coevo2(config, initial, seed=9)
+
+    def nobody(predators, prey):
+        return np.zeros((len(predators), len(prey)))
+
+    algorithm.meet(nobody)
+    before = algorithm.parameters.copy()
+    algorithm.advance(nobody)
+    assert np.array_equal(algorithm.parameters[0, 3:], before[0, :4])
+    assert not (algorithm.parameters[0, :3] == before[0, :3]).any()
+
+
+def test_ranking_is_stable():
+    fitness = np.array([[0.5, 0.5], [1, 0], [0.25, 1], [0, 1]])
+    assert ranking(fitness).tolist() == [2, 0, 1, 3]
