@@ -95,13 +95,6 @@ def test_missing_experiment(refused, tmp_path):
     refused("es", "-f", tmp_path, says=["folder"])
 
 
-def test_coevo2_is_not_there_yet(refused, tmp_path):
-    ini = tmp_path / "own.ini"
-    ini.write_text("[EXP]\nenvironment = CartPole-v1\nalgo = coevo2\n[POLICY]\n[ALGO]\n")
-    refused("es", "-f", ini, "-o", tmp_path / "new", says=["coevo2", "OpenAI-ES or SSS"])
-    assert not (tmp_path / "new").exists()
-
-
 @pytest.mark.parametrize(
     ("environment", "says"),
     [

@@ -30,9 +30,10 @@ from speed import (
     undisturbed,
 )
 
-from botschool import _core
+from botschool import _core, config
 
 TWO_WORKERS = 1.8
+GENERATION = 60
 MEMORY = 300
 HELP = 0.3
 
@@ -139,7 +140,7 @@ def two_workers_running(seconds: float, repetitions: int) -> Table:
     for case in CASES:
         experiment = case.load()
         if experiment.exp.algo == "coevo2":
-            continue
+            continue  # see coevolution()
         generations = generations_in(experiment, seconds)
         pairs = [
             [run_times(experiment, workers, generations) for workers in (1, 2)]
@@ -156,6 +157,33 @@ def two_workers_running(seconds: float, repetitions: int) -> Table:
             f"{ratio:.2f}",
             f"{1 / (1 - share / 2):.2f}",
             verdict(ratio >= TWO_WORKERS),
+        )
+    return table
+
+
+def coevolution(popsize: int, generations: int) -> Table:
+    """The first meeting and the first generations of co-evolution, one core."""
+    table = Table(
+        "Generations of co-evolution, one core",
+        f"The first generations of predprey.ini with seed 1 and popsize {popsize}, once each, no "
+        f"files; before them everyone meets everyone. The target is {GENERATION} s a generation. "
+        "Evaluating: the share of the time that is the native call.",
+        ["predprey.ini", "seconds", "steps", "steps/s", "evaluating", ""],
+    )
+    experiment = config.load(DATA / "predprey.ini")
+    experiment.algo.popsize = popsize
+    times = run_times(experiment, 1, 1 + generations)
+    names = ["everyone meets everyone", *(f"generation {g + 1}" for g in range(generations))]
+    for name, steps, whole, evaluating in zip(
+        names, times.steps, times.whole, times.evaluating, strict=True
+    ):
+        table.add(
+            name,
+            f"{whole:.1f}",
+            rate(steps),
+            rate(steps / whole),
+            f"{100 * evaluating / whole:.1f} %",
+            verdict(whole < GENERATION) if name.startswith("generation") else "",
         )
     return table
 
@@ -204,6 +232,7 @@ def main() -> None:
         (roofline, (0.05, 2) if quick else (0.3, 5)),
         (two_workers_evaluating, (20,) if quick else (200,)),
         (two_workers_running, (0.15, 2) if quick else (0.5, 7)),
+        (coevolution, (20, 0) if quick else (80, 4)),
         (locomotors, (5,) if quick else (50,)),
         (bodybrain, (5,) if quick else (30,)),
         (memory_and_start, (2, 3) if quick else (8, 10)),

@@ -12,6 +12,7 @@ import numpy as np
 
 from botschool import config
 from botschool.config import Experiment
+from botschool.evolution.coevolve import Coevolution
 from botschool.evolution.run import Run
 from botschool.policy import Policy
 from botschool.problems import Episodes
@@ -147,7 +148,8 @@ class RunTimes:
 
 def run_times(experiment: Experiment, workers: int, generations: int) -> RunTimes:
     """Times the first generations of a run: the same work whenever it is repeated."""
-    run = Run(experiment, SEED, workers)
+    kind = Coevolution if experiment.exp.algo == "coevo2" else Run
+    run = kind(experiment, SEED, workers)
     evaluate = run.problem.evaluate
     steps, whole, evaluating = np.zeros((3, generations))
     generation = 0

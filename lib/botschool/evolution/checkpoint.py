@@ -12,7 +12,7 @@ from botschool.errors import BotschoolError
 from botschool.output import save_npz
 
 FORMAT = 1
-FREE = {("algo", "maxmsteps"), ("algo", "saveeach")}
+FREE = {("algo", "maxmsteps"), ("algo", "ngenerations"), ("algo", "saveeach")}
 """Hyperparameters that may change between a run and its continuation."""
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -19,14 +20,14 @@ class Events:
     """Appends generations to an event file, at most about POINTS of them in a whole run."""
 
     def __init__(self, folder: Path, whole: float) -> None:
-        """whole: steps of the whole run. What is in the folder is replaced."""
+        """whole: steps of the whole run, 0 to keep all. What is in the folder is replaced."""
         self._folder = folder
         self._spacing = whole / POINTS
         self._next = 0.0
         self._file: Path | None = None
 
-    def append(self, first: int, rows: np.ndarray) -> None:
-        """Generations from number `first`; rows as in the stat file, shape (generations, 6)."""
+    def append(self, first: int, rows: np.ndarray, columns: Sequence[str] = STAT) -> None:
+        """Generations from number `first`; rows: shape (generations, columns), steps first."""
         from tensorboard.compat.proto.event_pb2 import Event
         from tensorboard.compat.proto.summary_pb2 import Summary
         from tensorboard.summary.writer.record_writer import RecordWriter
@@ -38,7 +39,7 @@ class Events:
             self._next = row[0] + self._spacing
             values = [
                 Summary.Value(tag=name, simple_value=value)
-                for name, value in zip(STAT[1:], row[1:], strict=True)
+                for name, value in zip(columns[1:], row[1:], strict=True)
             ]
             values.append(Summary.Value(tag="generation", simple_value=generation))
             summary = Summary(value=values)

@@ -56,17 +56,29 @@ class RunFiles:
         """Folder of the TensorBoard event file."""
         return self.folder / f"tensorboardS{self.seed}"
 
+    def populations(self, generation: int | str) -> Path:
+        """Co-evolution: the populations after a generation; "*" stands for all generations."""
+        return self.folder / f"S{self.seed}G{generation}.npy"
+
+    def fitness(self, generation: int | str) -> Path:
+        """Co-evolution: their fitness; "*" stands for all generations."""
+        return self.folder / f"S{self.seed}FitG{generation}.npy"
+
     def all(self) -> list[Path]:
-        """Every one of them."""
-        return [self.stat, self.best, self.bestg, self.fit, self.checkpoint, self.events]
+        """Every one of them; those that have a generation in their name, with a star for it."""
+        named = [self.stat, self.best, self.bestg, self.fit, self.checkpoint, self.events]
+        return [*named, self.populations("*"), self.fitness("*")]
 
     def existing(self) -> list[Path]:
         """Those that exist."""
-        return [file for file in self.all() if file.exists()]
+        return [path for file in self.all() for path in sorted(self.folder.glob(file.name))]
 
 
 class Record:
     """Steps, curves and best genotypes of a run."""
+
+    columns: tuple[str, ...] = STAT
+    """What is known of each generation; the stat file holds the first six."""
 
     def __init__(self) -> None:
         self.steps = 0
@@ -94,19 +106,19 @@ class Record:
 
     @property
     def last(self) -> dict[str, float]:
-        """The newest row of the stat file, by the names in STAT."""
-        return dict(zip(STAT, self._rows[-1], strict=True))
+        """The newest row, by the names of its columns."""
+        return dict(zip(self.columns, self._rows[-1], strict=True))
 
     def rows(self, first: int = 0) -> np.ndarray:
-        """Rows of the stat file from generation `first`, shape (generations, 6)."""
-        return np.array(self._rows[first:], dtype=np.float64).reshape(-1, len(STAT))
+        """Rows from generation `first`, shape (generations, columns)."""
+        return np.array(self._rows[first:], dtype=np.float64).reshape(-1, len(self.columns))
 
     def write(self, files: RunFiles) -> None:
         """Writes all run files but the checkpoint, each atomically."""
-        save_npy(files.stat, self.rows().ravel())
-        if self.generation:
-            save_npy(files.best, self.best)
-            save_npy(files.bestg, self.bestg)
+        save_npy(files.stat, self.rows()[:, : len(STAT)].ravel())
+        for path, genotype in ((files.best, self.best), (files.bestg, self.bestg)):
+            if genotype.size:
+                save_npy(path, genotype)
         values = {
             "seed": files.seed,
             "gen": self.generation,

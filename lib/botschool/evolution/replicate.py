@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from botschool.config import Experiment
+from botschool.evolution.coevolve import Coevolution
 from botschool.evolution.progress import reporting
 from botschool.evolution.record import RunFiles
 from botschool.evolution.run import Run, claim, evolve
@@ -20,16 +21,17 @@ def replicate(
     resume: bool,
     force: bool,
     terminal: bool,
+    generations: int | None = None,
 ) -> bool:
     """Runs every seed and prints where the results are; False when the user stopped it."""
+    kind = Coevolution if experiment.exp.algo == "coevo2" else Run
     with stoppable() as stopping:
-        runs = [Run(experiment, seed, workers, stopping) for seed in seeds[:1]]
+        runs = [kind(experiment, seed, workers, stopping) for seed in seeds[:1]]
         claim(folder, seeds, resume, force)
         for seed in seeds:
-            run = runs.pop() if runs else Run(experiment, seed, workers, stopping)
-            budget = run.max_steps if steps is None else min(steps, run.max_steps)
-            with reporting(budget, seed, terminal) as report:
-                finished = evolve(run, folder, budget, resume, report)
+            run = runs.pop() if runs else kind(experiment, seed, workers, stopping)
+            with reporting(seed, terminal) as report:
+                finished = evolve(run, folder, steps, resume, report, generations)
             _print_result(run, RunFiles(folder, seed), finished)
             if not finished:
                 return False
@@ -37,14 +39,10 @@ def replicate(
 
 
 def _print_result(run: Run, files: RunFiles, finished: bool) -> None:
-    record = run.record
     if not finished:
         print(
-            f"seed {run.seed}: stopped after {record.generation} generations; all is saved, "
+            f"seed {run.seed}: stopped after {run.record.generation} generations; all is saved, "
             "add --resume to the same command to go on."
         )
-    elif record.generation:
-        print(
-            f"seed {run.seed}: best {record.best_fitness:.2f}, best post-evaluated "
-            f"{record.bestg_fitness:.2f} after {record.steps} steps; best robot: {files.bestg}"
-        )
+    elif run.record.generation:
+        print(run.result(files))

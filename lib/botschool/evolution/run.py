@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -26,12 +28,48 @@ ALGORITHMS = {"OpenAI-ES": OpenAIES, "SSS": SSS}
 EVENT_SECONDS = 10
 
 
+@dataclass(frozen=True)
+class Limit:
+    """When a run ends: after so many steps or generations, whichever comes first."""
+
+    steps: float = math.inf
+    generations: float = math.inf
+
+    def and_also(self, steps: int | None, generations: int | None) -> Limit:
+        """The same, or earlier; None does not limit."""
+        return Limit(
+            min(self.steps, math.inf if steps is None else steps),
+            min(self.generations, math.inf if generations is None else generations),
+        )
+
+    def reached(self, run: Run) -> bool:
+        """Whether the run is at its end."""
+        record = run.record
+        return record.steps >= self.steps or record.generation >= self.generations
+
+    def share(self, run: Run) -> float:
+        """How much is done, from 0 to 1."""
+        generations = run.record.generation + run.part
+        return min(1.0, max(run.record.steps / self.steps, generations / self.generations))
+
+
 class Run:
     """An experiment with a seed: made, then advanced generation by generation.
 
     Everything it computes is a pure function of (experiment, seed): neither the number of workers
     nor interruptions show in its files.
     """
+
+    parts = ("algorithm", "evaluator", "record")
+    """Attributes that a checkpoint holds."""
+    part = 0.0
+    """How much of the present generation is done."""
+    budget: Limit
+    """Where it ends by its experiment."""
+    limit: Limit
+    """Where it ends this time: there, or earlier if the user says so."""
+    report: Callable[[Run], None]
+    """For a run that has something to show during a generation."""
 
     def __init__(
         self,
@@ -40,11 +78,6 @@ class Run:
         workers: int = 1,
         stopping: Callable[[], bool] = lambda: False,
     ) -> None:
-        if experiment.exp.algo not in ALGORITHMS:
-            raise BotschoolError(
-                f"The algorithm {experiment.exp.algo} is not in this version of botschool yet: "
-                f"use {' or '.join(ALGORITHMS)}."
-            )
         self.experiment = experiment
         self.seed = seed
         self.stopping = stopping
@@ -55,11 +88,47 @@ class Run:
         )
         self.evaluator = Evaluator(self.problem, self.policy, seed, workers, stopping)
         self.record = Record()
+        self.budget = self.limit = Limit(steps=self.max_steps)
+        self.report: Callable[[Run], None] = lambda run: None
 
     @property
     def max_steps(self) -> int:
         """The budget, in steps."""
         return max(1, round(self.experiment.algo.maxmsteps * 1e6))
+
+    def due(self, seconds: float) -> bool:
+        """Whether to save, so many seconds after the last time."""
+        return seconds >= 60 * self.experiment.algo.saveeach
+
+    def write(self, files: RunFiles, ended: bool) -> None:
+        """Writes the run files; ended: the run ends here, at least for now."""
+        self.record.write(files)
+
+    def numbers(self) -> str:
+        """What it has reached, in short."""
+        last = self.record.last
+        return (
+            f"best {last['best fitness']:.1f}  post-evaluated {last['best post-evaluated']:.1f}  "
+            f"mean {last['average']:.1f}"
+        )
+
+    def line(self) -> str:
+        """A line about the last generation."""
+        last = self.record.last
+        return (
+            f"seed {self.seed}  generation {self.record.generation}  steps {self.record.steps} "
+            f"({100 * self.record.steps / self.max_steps:.1f}%)  {self.numbers()}  "
+            f"of this generation {last['best of generation']:.1f}  "
+            f"parameter {last['average parameter']:.3f}"
+        )
+
+    def result(self, files: RunFiles) -> str:
+        """A sentence about the whole run."""
+        record = self.record
+        return (
+            f"seed {self.seed}: best {record.best_fitness:.2f}, best post-evaluated "
+            f"{record.bestg_fitness:.2f} after {record.steps} steps; best robot: {files.bestg}"
+        )
 
     def advance(self) -> None:
         """One generation. Raises Interrupted on request; a generation that fails is dropped."""
@@ -85,7 +154,7 @@ class Run:
         """All that a checkpoint holds, as arrays."""
         return {
             f"{part}.{name}": value
-            for part in ("algorithm", "evaluator", "record")
+            for part in self.parts
             for name, value in getattr(self, part).state().items()
         }
 
@@ -98,7 +167,7 @@ class Run:
                 given.shape[free:] != value.shape[free:]
             ):
                 raise ValueError(f"{name} has another type or shape")
-        for part in ("algorithm", "evaluator", "record"):
+        for part in self.parts:
             prefix = part + "."
             values = {k.removeprefix(prefix): v for k, v in state.items() if k.startswith(prefix)}
             getattr(self, part).restore(values)
@@ -110,11 +179,13 @@ def evolve(
     steps: int | None = None,
     resume: bool = False,
     report: Callable[[Run], None] = lambda run: None,
+    generations: int | None = None,
 ) -> bool:
-    """Runs until the budget, or `steps`, is spent, saving every `saveeach` minutes and at the end.
+    """Runs until the budget, or `steps` or `generations`, is spent; saves when due and at the end.
 
     Returns whether it got there; False when it was asked to stop (all is saved then). Errors that
-    break a run off save what was finished first.
+    break a run off save what was finished first. `report` is called after each generation, and
+    may be called during one.
     """
     files = RunFiles(folder, run.seed)
     if resume and files.checkpoint.exists():
@@ -126,43 +197,44 @@ def evolve(
                 f"{path} does not fit this run (the environment has changed, or parts are "
                 "missing): restore it from a copy, or use --force to start anew."
             ) from None
-    budget = run.max_steps if steps is None else min(steps, run.max_steps)
-    events = Events(files.events, budget)
+    limit = run.budget.and_also(steps, generations)
+    events = Events(files.events, limit.steps if limit.steps < math.inf else 0)
     logged = 0
+    run.report, run.limit = report, limit
     report(run)
 
     def log() -> None:
         nonlocal logged
-        events.append(logged, run.record.rows(logged))
+        events.append(logged, run.record.rows(logged), run.record.columns)
         logged = run.record.generation
 
-    def save() -> None:
+    def save(ended: bool = False) -> None:
         checkpoint.save(files.checkpoint, run.experiment, run.seed, run.state())
-        run.record.write(files)
+        run.write(files, ended)
         log()
 
     save()
     saved = recorded = time.monotonic()
     try:
-        while run.record.steps < budget:
+        while not limit.reached(run):
             if run.stopping():
                 raise Interrupted
             run.advance()
             report(run)
             now = time.monotonic()
-            if now - saved >= 60 * run.experiment.algo.saveeach:
+            if run.due(now - saved):
                 save()
                 saved = recorded = time.monotonic()
             elif now - recorded >= EVENT_SECONDS:
                 log()
                 recorded = time.monotonic()
-        save()
+        save(ended=True)
     except Interrupted:
-        save()
+        save(ended=True)
         return False
     except Exception:
         with suppress(BotschoolError):
-            save()
+            save(ended=True)
         raise
     finally:
         run.problem.close()
@@ -197,7 +269,8 @@ def _claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:
                 f"{existing[0]} exists: use --resume to continue that run, another seed (-s) or "
                 "folder (-o) to keep it, or --force to overwrite it."
             )
-    for path in [path for seed in seeds for path in RunFiles(folder, seed).all()]:
-        remove_leftovers(path)
-        if force and path.exists():
+    for files in [RunFiles(folder, seed) for seed in seeds]:
+        for path in files.all():
+            remove_leftovers(path)
+        for path in files.existing() if force else []:
             shutil.rmtree(path) if path.is_dir() else path.unlink()

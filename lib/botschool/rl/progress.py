@@ -15,8 +15,8 @@ def reporting(
 ) -> Iterator[Callable[[int, Evaluations], None]]:
     """Gives a function to call with the steps and the post-evaluations so far."""
     if terminal:
-        with progress_bar(budget, seed) as show:
-            yield lambda steps, evaluations: show(steps, 3, _numbers(evaluations))
+        with progress_bar(seed) as show:
+            yield lambda steps, evaluations: show(steps / budget, steps, 3, _numbers(evaluations))
         return
     printed = 0
 
