@@ -12,6 +12,7 @@ from typing import Annotated
 import typer
 
 from botschool.cli_rl import rl
+from botschool.cli_tournament import post_evaluate, tournament
 from botschool.errors import BotschoolError
 
 UsageError = typer.BadParameter.__base__
@@ -75,14 +76,22 @@ def es(
         bool, typer.Option("-p", "--postevaluate", help="Evaluate and show a robot instead.")
     ] = False,
     genotype: Annotated[
-        Path | None,
-        typer.Option("-g", "--genotype", help="With -p: a saved robot.", metavar="FILE"),
+        str | None,
+        typer.Option(
+            "-g",
+            "--genotype",
+            help="With -p: a saved robot; for coevo2 also P-100-5 and the like, see above.",
+            metavar="FILE",
+        ),
     ] = None,
     neurons: Annotated[
         bool, typer.Option("-d", "--neurons", help="With -p: show the neurons' activations.")
     ] = False,
     steps: Annotated[
         int | None, typer.Option(min=1, help="Stop after so many steps (--resume goes on).")
+    ] = None,
+    generations: Annotated[
+        int | None, typer.Option(min=1, help="Stop after so many generations, likewise.")
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Continue interrupted runs.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing runs.")] = False,
@@ -104,7 +113,18 @@ def es(
         int | None, typer.Option(min=1, help="With -p: episodes to evaluate or show.")
     ] = None,
 ) -> None:
-    """Evolve robots, or look at an evolved one (-p). Without -f: list all hyperparameters."""
+    """Evolve robots, or look at an evolved one (-p). Without -f: list all hyperparameters.
+
+    For predators and prey (coevo2) -g may also be, with -o naming the folder of the run:
+
+    - `P-100-5`: watch the 5 best predators of generation 100 chase its 5 best prey;
+      `p-100-5`: only measure them
+    - `m-100-20`: measure generation 100 against those of generations 100, 80, 60 ... that are
+      saved; `M-100-20`: measure all of these against each other
+    - `c-FILE1-FILE2`: measure the populations of two runs against each other
+
+    As in: botschool es -f predprey.ini -s 12 -o results -p -g m-100-20
+    """
     if file is None:
         if post or genotype or video or replay or resume or force:
             raise BotschoolError("Say which experiment: add -f FILE.ini.")
@@ -116,7 +136,10 @@ def es(
     if replay and not (post or genotype):
         raise BotschoolError("--replay shows a robot: add -p, and -g FILE for a saved one.")
     if post or genotype or video or render or neurons:
-        _watch(experiment, seed, genotype, neurons, render, video, replay, episodes)
+        from botschool.render.watch import Watching
+
+        watching = Watching(neurons, render, video, replay, episodes)
+        post_evaluate(experiment, seed, genotype, output, workers, watching)
         return
     from botschool.evolution.replicate import replicate
 
@@ -124,7 +147,9 @@ def es(
         raise BotschoolError("--resume continues a run and --force replaces it: give one of them.")
     seeds = list(range(seed, seed + replications))
     terminal = sys.stdout.isatty()
-    if not replicate(experiment, seeds, output, workers, steps, resume, force, terminal):
+    if not replicate(
+        experiment, seeds, output, workers, steps, resume, force, terminal, generations
+    ):
         raise typer.Exit(130)
 
 
@@ -142,6 +167,11 @@ def plotave(folders: Folders = None, output: Picture = None) -> None:
     from botschool.analysis.plots import plot_ave
 
     plot_ave(folders or [Path(".")], output)
+
+
+app.command(epilog="Example: botschool tournament results -f predprey.ini -o tournament.png")(
+    tournament
+)
 
 
 @app.command(epilog="Example: botschool showrobot ant --sheet ant.png")
@@ -274,28 +304,6 @@ def _list_hyperparameters() -> None:
     console = Console()
     console.print(table)
     console.print("To evolve: botschool es -f FILE.ini -s SEED (see botschool es --help)")
-
-
-def _watch(experiment, seed, genotype, neurons, render, video, replay, episodes) -> None:
-    from botschool.render.watch import (
-        REPLAY_EPISODES,
-        VIDEO_EPISODES,
-        PostEvaluation,
-        has_display,
-        read_genotype,
-        watch,
-    )
-
-    if render not in (None, "human", "none"):
-        raise BotschoolError(f"--render is '{render}', but must be human or none.")
-    if video and replay:
-        raise BotschoolError("--video makes a film and --replay a page: give one of them.")
-    saved = None if genotype is None else read_genotype(genotype)
-    robot = PostEvaluation(experiment, seed, saved, genotype.name if genotype else "random robot")
-    window = render == "human" or (render is None and not (video or replay) and has_display())
-    most = VIDEO_EPISODES if video else REPLAY_EPISODES if replay else sys.maxsize
-    wanted = episodes or min(experiment.policy.pepisodes, most)
-    watch(robot, wanted, window, video, neurons, replay)
 
 
 def main() -> None:

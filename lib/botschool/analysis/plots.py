@@ -65,7 +65,7 @@ def plot_stat(
     evolved, trained = _read_targets(targets, warn)
     experiments = evolved | trained
     words = _Words.of(bool(evolved), bool(trained))
-    with _figure(output) as figure:
+    with new_figure(output) as figure:
         axes = figure.add_subplot()
         if len(experiments) > 1:
             for (name, curves), colour in zip(experiments.items(), _cycle(), strict=False):
@@ -134,7 +134,7 @@ def plot_ave(
         for name, folder in _named(folders).items()
     }
     _print_table(fitness)
-    with _figure(output, height=max(5.0, 1.6 + 0.6 * len(fitness))) as figure:
+    with new_figure(output, height=max(5.0, 1.6 + 0.6 * len(fitness))) as figure:
         _draw_bars(figure.add_subplot(), fitness)
 
 
@@ -181,24 +181,26 @@ def _cycle() -> Iterator[str]:
         yield from COLOURS
 
 
-def _layout(height: float) -> dict[str, object]:
+def _layout(height: float, width: float) -> dict[str, object]:
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
     engine = ConstrainedLayoutEngine(w_pad=0.12, h_pad=0.12)
-    return {"figsize": (8.0, height), "dpi": 100, "layout": engine}
+    return {"figsize": (width, height), "dpi": 100, "layout": engine}
 
 
 @contextmanager
-def _figure(output: Path | str | None, height: float = 5.0) -> Iterator[Figure]:
-    """A figure of 8 inches by `height`, shown or written when the block ends."""
+def new_figure(
+    output: Path | str | None, height: float = 5.0, width: float = 8.0
+) -> Iterator[Figure]:
+    """A figure of `width` by `height` inches, shown or written when the block ends."""
     if output is None:
-        with _shown_figure(height) as figure:
+        with _shown_figure(height, width) as figure:
             yield figure
         return
     from matplotlib.figure import Figure
 
     output = check_output(output, PICTURE_SUFFIXES)
-    figure = Figure(**_layout(height))
+    figure = Figure(**_layout(height, width))
     yield figure
     with written_whole(output) as temporary:
         try:
@@ -208,7 +210,7 @@ def _figure(output: Path | str | None, height: float = 5.0) -> Iterator[Figure]:
 
 
 @contextmanager
-def _shown_figure(height: float) -> Iterator[Figure]:
+def _shown_figure(height: float, width: float) -> Iterator[Figure]:
     import matplotlib
     from matplotlib import pyplot
 
@@ -216,7 +218,7 @@ def _shown_figure(height: float) -> Iterator[Figure]:
         "there is no display to show the picture on: write it to a file with `-o FILE.png`."
     )
     try:
-        figure = pyplot.figure(**_layout(height))
+        figure = pyplot.figure(**_layout(height, width))
     except Exception as error:  # each window toolkit raises its own kind
         raise headless from error
     try:

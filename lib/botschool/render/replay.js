@@ -125,6 +125,8 @@ async function choose(number, step = 0) {
   shown = await unpacked(data.episodes[episode]);
   picture = null;
   byId("episode").textContent = `${episode + 1} / ${data.episodes.length}`;
+  const { label } = data.episodes[episode];
+  byId("about").textContent = data.about + (label ? ` · ${label}` : "");
   byId("bar").max = shown.rows;
   [...byId("episodes").children].forEach((pill, i) => {
     pill.setAttribute("aria-pressed", i === episode);
@@ -216,7 +218,6 @@ function pressed(event) {
 function prepare() {
   document.title = `${data.title} · botschool replay`;
   byId("title").textContent = data.title;
-  byId("about").textContent = data.about;
   const returns = data.episodes.map(({ fitness }) => fitness);
   const mean = returns.reduce((sum, fitness) => sum + fitness, 0) / returns.length;
   byId("summary").textContent = `${returns.length} episode${returns.length > 1 ? "s" : ""}, mean fitness ${show(mean)}`;

@@ -12,6 +12,7 @@ from base64 import b64encode
 from collections.abc import Iterable
 from importlib.resources import files
 from io import BytesIO
+from itertools import repeat
 from pathlib import Path
 from typing import NamedTuple
 
@@ -39,21 +40,23 @@ def write_replay(
     fps: float,
     neurons: tuple[int, int],
     scene: Scene | None = None,
+    labels: Iterable[str] = repeat(""),
 ) -> None:
     """Writes the page.
 
     title: the problem's name; about: a line on the robot and the experiment. fps: steps a second.
     neurons: inputs and outputs of one robot's network. Without a scene the moments must hold
-    frames. Raises BotschoolError if the file cannot be written or there are no steps to show.
+    frames. labels: what tells each episode from the others, shown while it plays.
+    Raises BotschoolError if the file cannot be written or there are no steps to show.
     """
     path = check_output(path, REPLAY_SUFFIXES)
     frames = Frames()
     played = []
     count = 0
-    for moments in episodes:
+    for moments, label in zip(episodes, labels, strict=False):
         steps = [_Step.of(moment, scene, frames, len(played)) for moment in moments]
         if steps:
-            played.append(_episode(steps))
+            played.append(_episode(steps) | ({"label": label} if label else {}))
             count = len(steps[0].activations)
     if not played:
         raise BotschoolError(f"{path} is not written: there were no steps to show.")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -62,18 +63,33 @@ class PostEvaluation:
         else:
             self._robot = self.policy.split(saved)
 
+    @property
+    def available(self) -> int:
+        """Episodes of a whole post-evaluation."""
+        return self.policy.config.pepisodes
+
+    def cast(self, episode: int) -> tuple[np.ndarray, np.ndarray | None, int]:
+        """Genotype, normalisation and number of an episode."""
+        return *self._robot, episode
+
+    def label(self, episode: int) -> str:
+        """What tells this episode from the others, beside its number."""
+        return ""
+
     def play(self, episode: int, render: bool = False) -> Iterator[Moment]:
         """Plays one episode, then keeps its fitness and steps and prints them."""
+        genotype, normalisation, number = self.cast(episode)
         seed = self.seed + POST_EVALUATION_SEED
         moment = None
         for moment in self.problem.play(
-            self.policy, *self._robot, seed, episode, self.maxsteps, render
+            self.policy, genotype, normalisation, seed, number, self.maxsteps, render
         ):
             yield moment
         if moment is not None:
             self.fitness.append(moment.total)
             self.steps.append(moment.step)
-            print(f"episode {episode + 1}  fitness {moment.total:.2f}  steps {moment.step}")
+            name = "  ".join(filter(None, [f"episode {episode + 1}", self.label(episode)]))
+            print(f"{name}  fitness {moment.total:.2f}  steps {moment.step}")
 
     def frames(self, episodes: int, activations: bool) -> Iterator[np.ndarray]:
         """Pictures of the first episodes with a caption, and with the neurons on request."""
@@ -113,6 +129,7 @@ class PostEvaluation:
             self.problem.fps,
             self.neurons,
             make_scene(self.problem.dynamics) if self.problem.native else None,
+            [self.label(episode) for episode in range(episodes)],
         )
 
     def print_summary(self) -> None:
@@ -122,6 +139,40 @@ class PostEvaluation:
                 f"mean {np.mean(self.fitness):.2f}  standard deviation {np.std(self.fitness):.2f}"
                 f"  steps {np.mean(self.steps):.1f}  episodes {len(self.fitness)}"
             )
+
+
+@dataclass(frozen=True)
+class Watching:
+    """How a robot is looked at: the options of `botschool es -p`.
+
+    Raises BotschoolError for options that do not go together.
+    """
+
+    neurons: bool = False
+    render: str | None = None
+    """human (a window), none, or None: a window if there is a display."""
+    video: Path | None = None
+    replay: Path | None = None
+    episodes: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.render not in (None, "human", "none"):
+            raise BotschoolError(f"--render is '{self.render}', but must be human or none.")
+        if self.video and self.replay:
+            raise BotschoolError("--video makes a film and --replay a page: give one of them.")
+
+    @property
+    def asked(self) -> bool:
+        """Whether the options ask for something to look at."""
+        return bool(self.neurons or self.video or self.replay or self.render == "human")
+
+    def show(self, robot: PostEvaluation) -> None:
+        """Plays and prints the episodes; to a window, a video file or a page if wanted."""
+        film = self.video or self.replay
+        window = self.render == "human" or (self.render is None and not film and has_display())
+        most = VIDEO_EPISODES if self.video else REPLAY_EPISODES if self.replay else sys.maxsize
+        episodes = self.episodes or min(robot.available, most)
+        watch(robot, episodes, window, self.video, self.neurons, self.replay)
 
 
 def watch(

@@ -1,0 +1,157 @@
+"""The populations that a run of coevo2 leaves in a folder (FACTS.md section 2).
+
+`S12G200.npy` holds the populations of seed 12 after 200 generations: first all predators, then all
+prey, a network a row. `S12FitG200.npy` holds the fitness of each of them against each competitor.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.evolution.evaluate import mean
+from botschool.policy import Policy
+
+POPULATIONS = re.compile(r"S(?P<seed>\d+)G(?P<generation>\d+)\.npy", re.ASCII)
+"""Names of the files."""
+_LISTED = 12
+"""Generations that a sentence lists in full."""
+
+
+@dataclass(frozen=True)
+class Population:
+    """Predators and prey of one generation, the best first; each (individuals, nparameters)."""
+
+    name: str
+    predators: np.ndarray
+    prey: np.ndarray
+
+    def best(self, individuals: int) -> Population:
+        """The n best of both. Raises BotschoolError if there are not as many."""
+        if individuals > len(self.prey):
+            raise BotschoolError(
+                f"{self.name} has {len(self.prey)} predators and as many prey, so it cannot give "
+                f"the {individuals} best: ask for at most {len(self.prey)}."
+            )
+        return Population(self.name, self.predators[:individuals], self.prey[:individuals])
+
+
+class Populations:
+    """The saved generations of the run with this seed.
+
+    Raises BotschoolError, which says what is there, if the folder holds none of them.
+    """
+
+    def __init__(self, folder: Path, seed: int, policy: Policy) -> None:
+        self.folder = folder
+        self.seed = seed
+        self.policy = policy
+        found = seeds_of(folder)
+        if seed not in found:
+            there = ", ".join(map(str, found)) or "none at all"
+            raise BotschoolError(
+                f"{folder} holds no populations of seed {seed}, such as S{seed}G0.npy (seeds "
+                f"there: {there}): name the run's seed with -s and its folder."
+            )
+        self.generations = found[seed]
+        """Sorted."""
+
+    def check(self, generation: int) -> None:
+        """Raises BotschoolError if there is no such generation."""
+        if generation not in self.generations:
+            raise BotschoolError(f"There is no generation {generation}: {self.there()}.")
+
+    def load(self, generation: int) -> Population:
+        """All individuals of a generation. Raises BotschoolError."""
+        self.check(generation)
+        path = self.folder / f"S{self.seed}G{generation}.npy"
+        return read_population(path, self.policy, f"generation {generation}")
+
+    def there(self) -> str:
+        """What is there, as the end of a sentence."""
+        return f"{self.folder} holds {counted(self.generations)} of seed {self.seed}"
+
+
+def seeds_of(folder: Path) -> dict[int, list[int]]:
+    """Seed -> generations of which the folder holds populations, both sorted."""
+    try:
+        names = [path.name for path in folder.iterdir()]
+    except FileNotFoundError:
+        raise BotschoolError(f"There is no folder {folder}: check its name.") from None
+    except OSError as error:
+        raise BotschoolError(f"{folder} cannot be read ({error.strerror or error}).") from error
+    found: dict[int, list[int]] = {}
+    for match in filter(None, map(POPULATIONS.fullmatch, names)):
+        found.setdefault(int(match["seed"]), []).append(int(match["generation"]))
+    return {seed: sorted(found[seed]) for seed in sorted(found)}
+
+
+def counted(generations: list[int]) -> str:
+    """The generations as a piece of a sentence; many are shortened."""
+    if len(generations) == 1:
+        return f"generation {generations[0]} alone"
+    numbers = [str(generation) for generation in generations]
+    if len(numbers) > _LISTED:
+        numbers = [*numbers[:3], "...", *numbers[-2:]]
+        return f"generations {', '.join(numbers)} ({len(generations)} of them)"
+    return f"generations {', '.join(numbers[:-1])} and {numbers[-1]}"
+
+
+def read_population(path: Path, policy: Policy, name: str) -> Population:
+    """The populations in a file, by the mean of the Fit file beside it, or as they stand.
+
+    Raises BotschoolError if a file is damaged or its networks are not the policy's.
+    """
+    genotypes = _numbers(path, "populations")
+    count, length = genotypes.shape
+    if length != policy.nparameters:
+        raise BotschoolError(
+            f"{path} holds {count} networks of {length} parameters, but this experiment's have "
+            f"{policy.nparameters}: it is of an experiment with other [POLICY] settings."
+        )
+    if count % 2 or not count:
+        raise BotschoolError(
+            f"{path} holds {count} networks, but populations are as many predators as prey."
+        )
+    order = _order(path, count)
+    half = count // 2
+    return Population(name, genotypes[order[:half]], genotypes[order[half:]])
+
+
+def _order(path: Path, count: int) -> np.ndarray:
+    """Rows of the predators, then of the prey, the best first; equal ones as they stand."""
+    half = count // 2
+    beside = path.with_name(re.sub(r"(S\d+)(G\d+\.npy)", r"\1Fit\2", path.name))
+    if beside == path or not beside.exists():
+        return np.arange(count)
+    fitness = _numbers(beside, "fitness")
+    if len(fitness) != count or not fitness.shape[1]:
+        raise BotschoolError(
+            f"{beside} holds the fitness of {len(fitness)} individuals, but {path.name} has "
+            f"{count}: the two are not of one run."
+        )
+    means = np.array([mean(row) for row in fitness]).reshape(2, half)
+    predators, prey = np.argsort(-means, axis=1, kind="stable")
+    return np.concatenate([predators, half + prey])
+
+
+def _numbers(path: Path, what: str) -> np.ndarray:
+    """A table of finite numbers, float64."""
+    try:
+        with open(path, "rb") as stream:
+            table = np.lib.format.read_array(stream, allow_pickle=False)
+    except FileNotFoundError:
+        raise BotschoolError(f"There is no file {path}: check its name.") from None
+    except OSError as error:
+        raise BotschoolError(f"{path} cannot be read ({error.strerror or error}).") from error
+    except Exception:  # a damaged file can fail in any way
+        raise BotschoolError(
+            f"{path} holds no {what}: it is damaged, or not a .npy file of numbers."
+        ) from None
+    if table.dtype.kind not in "fiu" or table.ndim != 2 or not np.isfinite(table).all():
+        raise BotschoolError(f"{path} holds no {what}: it is not a table of finite numbers.")
+    return table.astype(np.float64)

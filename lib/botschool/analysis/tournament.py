@@ -1,0 +1,244 @@
+"""The master tournament: predators and prey of all generations against each other.
+
+The fitness of contemporaries hardly changes in an arms race, since both sides improve; progress
+shows when each generation meets the competitors of all others. What is asked then is due to
+Miconi (2009), "Why coevolution doesn't 'work': superiority and progress in coevolution": progress
+is *historical* if later generations do better against the competitors that came before them, and
+*global* if they do better against competitors at large.
+
+A table of fitness has the shape (..., generations, generations of competitors); row and column are
+in the order of time. The prey's table follows from the predators', as its fitness is 1 - theirs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool import problems
+from botschool.analysis.populations import Population
+from botschool.config import Experiment
+from botschool.errors import BotschoolError
+from botschool.evolution.evaluate import POST_EVALUATION_SEED
+from botschool.evolution.rng import generator
+from botschool.policy import Policy
+from botschool.problems import Episodes
+
+ROLES = ("predators", "prey")
+RESAMPLES = 1000
+LEVEL = 0.95
+
+
+class Contest:
+    """Lets predators meet prey, each pair in `pepisodes` episodes of the run's post-evaluation.
+
+    Raises BotschoolError if the experiment's environment has no two robots.
+    """
+
+    def __init__(self, experiment: Experiment, seed: int, workers: int = 1) -> None:
+        self.problem = problems.make(experiment.exp.environment)
+        robots = self.problem.interface.robots
+        if robots != 2:
+            raise BotschoolError(
+                f"{self.problem.name} has {'one robot' if robots == 1 else f'{robots} robots'}: "
+                "predators and prey meet in ErPredprey, so give its experiment with -f."
+            )
+        self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
+        self.seed = seed
+        self._workers = workers
+
+    def meet(self, predators: np.ndarray, prey: np.ndarray) -> np.ndarray:
+        """The predators' fitness, shape (predators, prey); both given as (n, nparameters)."""
+        repeats = self.policy.config.pepisodes
+        # Neighbouring episodes share a predator, so its parameters stay at hand.
+        pairs = np.indices((len(predators), len(prey)), dtype=np.int32).reshape(2, -1)
+        pairs[1] += len(predators)
+        count = pairs.shape[1] * repeats
+        episodes = Episodes(
+            np.repeat(pairs, repeats, axis=1),
+            np.full(count, self.seed + POST_EVALUATION_SEED, dtype=np.uint64),
+            np.tile(np.arange(repeats, dtype=np.uint32), pairs.shape[1]),
+        )
+        outcome = self.problem.evaluate(
+            self.policy,
+            np.concatenate([predators, prey]),
+            None,
+            episodes,
+            self.policy.config.maxsteps,
+            self._workers,
+        )
+        return outcome.fitness.reshape(len(predators), len(prey), repeats).mean(axis=2)
+
+
+def play(
+    contest: Contest,
+    predators: Sequence[np.ndarray],
+    prey: Sequence[np.ndarray],
+    report: Callable[[int], None] = lambda done: None,
+) -> np.ndarray:
+    """Predators of several generations against prey of several generations.
+
+    All of one side have as many individuals. Returns the predators' fitness, float64, of shape
+    (generations of predators, generations of prey, predators, prey); `report` gets the
+    generations of predators that are done.
+    """
+    competitors = np.concatenate(prey)
+    parts = []
+    for done, group in enumerate(predators, 1):
+        fitness = contest.meet(group, competitors)
+        parts.append(fitness.reshape(len(group), len(prey), -1).transpose(1, 0, 2))
+        report(done)
+    return np.array(parts)
+
+
+@dataclass(frozen=True)
+class Table:
+    """Mean fitness of a side's generations (rows) against those of the other side (columns)."""
+
+    role: str
+    mean: np.ndarray
+    """(generations, generations of competitors)."""
+    samples: np.ndarray
+    """(RESAMPLES, generations, generations of competitors): the means, had other individuals been
+    drawn from the same populations."""
+
+    @property
+    def interval(self) -> tuple[np.ndarray, np.ndarray]:
+        """Lower and upper end of the 95 % interval of each mean."""
+        return interval(self.samples)
+
+
+def summarised(fitness: np.ndarray, seed: int) -> tuple[Table, Table]:
+    """The predators' and the prey's table from what `play` returns.
+
+    Intervals are by the bootstrap over individuals: in each resample every generation of both
+    sides is drawn anew from its own individuals, with replacement, and all cells of the table use
+    that one draw, so that indices made of several cells get their due interval too. Drawing both
+    sides is slightly conservative (Owen 2007, "The pigeonhole bootstrap"). The draws depend on the
+    seed alone.
+    """
+    rng = generator(seed, POST_EVALUATION_SEED)
+    rows, columns, predators, prey = fitness.shape
+    own = rng.multinomial(predators, np.full(predators, 1 / predators), (RESAMPLES, rows))
+    met = rng.multinomial(prey, np.full(prey, 1 / prey), (RESAMPLES, columns))
+    samples = [
+        np.einsum("ijm,jm->ij", np.einsum("in,ijnm->ijm", own[k] / predators, fitness), met[k])
+        for k in range(RESAMPLES)
+    ]
+    mean, samples = fitness.mean(axis=(2, 3)), np.array(samples) / prey
+    prey_table = Table(ROLES[1], 1 - mean.T, 1 - samples.transpose(0, 2, 1))
+    return Table(ROLES[0], mean, samples), prey_table
+
+
+def interval(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Lower and upper end of the 95 % interval: percentiles over the first axis."""
+    low, high = np.quantile(samples, [(1 - LEVEL) / 2, (1 + LEVEL) / 2], axis=0)
+    return low, high
+
+
+def historical_progress(fitness: np.ndarray) -> np.ndarray:
+    """How much better a later generation does against ancient competitors than an earlier one.
+
+    With f(g, k) the mean fitness of generation g against the competitors of generation k:
+
+        mean over all pairs i < j of   mean over all k <= i of   f(j, k) - f(i, k)
+
+    Both generations of a pair meet the same competitors: those that i and the generations before
+    it had. In units of fitness: 0 without progress, below 0 if later generations have lost what
+    earlier ones could do (a little so if strategies come and go in cycles, as each is at its best
+    against those of its own time). fitness: (..., g, g) with g >= 2; returns (...).
+    """
+    count = fitness.shape[-1]
+    ancient = np.cumsum(fitness, axis=-1) / np.arange(1, count + 1)
+    earlier, later = np.triu_indices(count, 1)
+    return (ancient[..., later, earlier] - ancient[..., earlier, earlier]).mean(axis=-1)
+
+
+def global_progress(fitness: np.ndarray) -> np.ndarray:
+    """How much better a later generation does against everybody than an earlier one.
+
+        mean over all pairs i < j of   mean over all k of   f(j, k) - f(i, k)
+
+    "Everybody" are the competitors of all generations of the run, ancient and future: the best
+    sample of all possible ones that a run has. Shapes and units as in historical_progress.
+    """
+    overall = fitness.mean(axis=-1)
+    earlier, later = np.triu_indices(fitness.shape[-1], 1)
+    return (overall[..., later] - overall[..., earlier]).mean(axis=-1)
+
+
+PROGRESS = {"historical progress": historical_progress, "global progress": global_progress}
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A number and its 95 % interval."""
+
+    value: float
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, value: float, samples: np.ndarray) -> Estimate:
+        """The number and the interval of its resamples, shape (RESAMPLES,)."""
+        low, high = interval(samples)
+        return cls(float(value), float(low), float(high))
+
+
+def progress(table: Table) -> dict[str, Estimate]:
+    """Both indices of a side, by name."""
+    return {
+        name: Estimate.of(index(table.mean), index(table.samples))
+        for name, index in PROGRESS.items()
+    }
+
+
+def verdict(table: Table, names: Sequence[str]) -> str:
+    """Whether later generations of a side beat ancient competitors more than earlier ones did.
+
+    A sentence with numbers; it is certain if 0 is outside the interval of the historical progress.
+    names: those of the generations.
+    """
+    own, other = ROLES if table.role == ROLES[0] else ROLES[::-1]
+    found = progress(table)
+    historical = found["historical progress"]
+    if historical.low > 0:
+        said = f"Later {own} do better against ancient {other} than earlier {own} did"
+    elif historical.high < 0:
+        said = f"Later {own} do worse against ancient {other} than earlier {own} did"
+    else:
+        said = f"Later {own} do neither clearly better nor worse against ancient {other}"
+    numbers = "; ".join(f"{name} {in_words(estimate, '+')}" for name, estimate in found.items())
+    last = table.mean[-1]
+    return (
+        f"{said}: {numbers}; the {own} of {names[-1]} reach {last[0]:.2f} against the {other} of "
+        f"{names[0]} and {last[-1]:.2f} against those of their own generation."
+    )
+
+
+def in_words(estimate: Estimate, sign: str = "") -> str:
+    """The number with its interval, as "0.31 (95 % interval 0.25 to 0.36)".
+
+    A difference, whose sign matters ("+"), gets a decimal more.
+    """
+    form = f"{sign}.{3 if sign else 2}f"
+    return (
+        f"{estimate.value:{form}} (95 % interval {estimate.low:{form}} to {estimate.high:{form}})"
+    )
+
+
+def master_tournament(
+    contest: Contest,
+    populations: Sequence[Population],
+    report: Callable[[int], None] = lambda done: None,
+) -> tuple[Table, Table]:
+    """All against all: the predators' and the prey's table over these populations."""
+    fitness = play(
+        contest,
+        [population.predators for population in populations],
+        [population.prey for population in populations],
+        report,
+    )
+    return summarised(fitness, contest.seed)

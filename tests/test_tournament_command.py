@@ -1,0 +1,241 @@
+"""Post-evaluation of co-evolved populations, `es -p -g M-100-20`, and `botschool tournament`."""
+
+import csv
+import re
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from botschool import config
+from botschool.analysis import coevolved
+from botschool.analysis.populations import Populations
+from botschool.analysis.tournament import Contest, master_tournament
+from botschool.errors import BotschoolError
+from browser import Browser, find_browser
+from chases import GENERATIONS, STILL, STRAIGHT, experiment, write_run
+from test_analysis import drawn  # noqa: F401
+from test_replay import held
+
+
+@pytest.fixture
+def results(tmp_path):
+    return write_run(tmp_path / "results")
+
+
+# Strings
+
+
+@pytest.mark.parametrize("text", ["P-100-5", "p-0-1", "m-40-10", "M-1000-100"])
+def test_strings_are_read(text, tmp_path):
+    request = coevolved.parse(text, tmp_path)
+    assert f"{request.kind}-{request.generation}-{request.number}" == text
+
+
+GOOD = re.compile(r"[PpmM]-[0-9]{1,9}-0*[1-9][0-9]*|c-.*", re.DOTALL)
+
+
+@given(
+    st.text(alphabet="PpmMcQ-0123456789 ./\n\0é", max_size=14).filter(
+        lambda t: not GOOD.fullmatch(t)
+    )
+)
+@example("P-10")
+@example("P-10-0")
+@example("P--1-5")
+@example("P-10-5\n")
+@example("p-10-5-2")
+@example("P-１-2")
+def test_malformed_strings_are_refused_in_a_sentence_that_lists_what_is_there(text):
+    import tempfile
+    from pathlib import Path
+
+    with tempfile.TemporaryDirectory() as folder:
+        for generation in (0, 30):
+            np.save(Path(folder) / f"S7G{generation}.npy", np.zeros((2, 2)))
+        with pytest.raises(BotschoolError) as refused:
+            coevolved.parse(text, Path(folder))
+    sentence = str(refused.value)
+    assert "P-100-5" in sentence and "generations 0 and 30 of seed 7" in sentence
+    assert "\n" not in sentence
+
+
+def test_file_names_in_a_cross_test_may_hold_dashes(tmp_path):
+    one, two = tmp_path / "my-run", tmp_path / "your-run-2"
+    for folder in (one, two):
+        folder.mkdir()
+        np.save(folder / "S1G0.npy", np.zeros((2, 2)))
+    request = coevolved.parse(f"c-{one}/S1G0.npy-{two}/S1G0.npy", tmp_path)
+    assert request.files == (one / "S1G0.npy", two / "S1G0.npy")
+    within = coevolved.parse("c-my-run/S1G0.npy-your-run-2/S1G0.npy", tmp_path)
+    assert within.files == request.files
+    with pytest.raises(BotschoolError, match="not name two files"):
+        coevolved.parse("c-my-run/S1G0.npy-", tmp_path)
+    for name in ("a", "b-c", "a-b", "c"):
+        (tmp_path / name).touch()
+    with pytest.raises(BotschoolError, match="more ways than one"):
+        coevolved.parse("c-a-b-c", tmp_path)
+
+
+# The command
+
+
+@pytest.fixture
+def es(results, command):
+    return lambda text, *more: command(
+        "es", "-f", results / "own.ini", "-s", 12, "-o", results, "-p", "-g", text, *more
+    )
+
+
+def test_pairs_are_measured_and_shown(es):
+    code, measured, _ = es("p-10-2")
+    assert code == 0 and "generation 10" in measured and "mean fitness of the prey: " in measured
+    code, shown, _ = es("P-10-2", "--render", "none")
+    assert code == 0 and shown.endswith(measured)
+    assert re.findall(r"predator \d, prey \d", shown) == [
+        f"predator {i}, prey {j}" for i in (1, 2) for j in (1, 2)
+    ]
+    code, single, _ = es("p-10-1")
+    assert code == 0 and "interval" not in single
+
+
+def test_one_generation_meets_those_before_it(es):
+    code, said, _ = es("m-40-20")
+    assert code == 0
+    assert re.findall(r"^ ?generation (\d+)  ", said, re.M) == ["0", "20", "40"]
+    assert len(re.findall(r"\d\.\d\d \(\d\.\d\d to \d\.\d\d\)", said)) == 6
+
+
+def test_all_generations_meet(es, results):
+    code, said, _ = es("M-40-10", "-w", 2)
+    assert code == 0
+    for words in ("Later predators do ", "Later prey do ", "historical progress", "before it"):
+        assert words in said
+    code, other, _ = es("M-40-10")
+    assert other == said
+
+
+def test_two_runs_meet(es, results):
+    code, said, _ = es("c-S12G0.npy-S12G40.npy")
+    assert code == 0
+    assert "A is " in said and "predators of B minus those of A" in said
+
+
+def test_the_table_of_one_generation_is_a_row_of_that_of_all(es):
+    _, row, _ = es("m-40-10")
+    _, all_of_them, _ = es("M-40-10")
+    fitness = re.findall(r"^ generation \d+ +(\d\.\d\d) ", row, re.M)
+    assert len(fitness) == 4 and f" 40 {' '.join(fitness)} " in " ".join(all_of_them.split())
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("p-11-2", "generations 0, 10, 20 and 40 of seed 12"),
+        ("p-10-4", "at most 3"),
+        ("m-40-7", "generations 0, 10, 20 and 40 of seed 12"),
+        ("m-0-1", "no generation before 0"),
+        ("Q-1-2", "generations 0, 10, 20 and 40 of seed 12"),
+        ("missing.npy", "no genotype file missing.npy"),
+        ("c-one.npy-two.npy", "generations 0, 10, 20 and 40 of seed 12"),
+    ],
+)
+def test_what_cannot_be_is_refused(results, refused, text, says):
+    file = results / "own.ini"
+    refused("es", "-f", file, "-s", 12, "-o", results, "-p", "-g", text, says=says)
+
+
+def test_the_wrong_seed_folder_experiment_or_option_is_refused(results, refused, tmp_path):
+    other = experiment(tmp_path / "other", nhiddens=4)
+    own = ("-f", results / "own.ini", "-o", results, "-p", "-g")
+    refused("es", *own, "p-10-2", "-s", 3, says="seeds there: 12")
+    refused(
+        "es", "-f", other, "-o", results, "-s", 12, "-p", "-g", "p-10-2", says="holds 6 networks"
+    )
+    refused("es", *own[:2], "-o", tmp_path / "none", "-p", "-g", "p-10-2", says="no folder")
+    refused("es", *own, "m-40-10", "-s", 12, "--video", "a.mp4", says="only measures")
+    refused("es", *own, results / "S12G10.npy", says="whole populations")
+
+
+def test_a_saved_pair_is_still_shown(es, results):
+    np.save(results / "pair.npy", np.concatenate([STRAIGHT, STILL]))
+    code, said, _ = es(results / "pair.npy", "--render", "none")
+    assert code == 0 and f"fitness {1 - 21 / 60:.2f}  steps 21" in said
+
+
+def test_a_replay_says_who_meets_whom(es, results):
+    page = results / "chase.html"
+    code, _, _ = es("P-10-2", "--replay", page)
+    data = held(page)
+    assert code == 0 and "generation 10" in data["about"] and "predator's" in data["about"]
+    assert [episode["label"] for episode in data["episodes"]][2] == "predator 2, prey 1"
+    assert {name for name, *_ in data["scene"]["closeups"]} == {"predator", "prey"}
+
+
+@pytest.mark.skipif(not find_browser(), reason="no Chromium")
+def test_the_replay_shows_the_pair_of_the_episode(es, results, tmp_path):
+    es("P-10-2", "--replay", results / "chase.html")
+    browser = Browser(tmp_path / "profile")
+    try:
+        browser.open(results / "chase.html", "#episode=3")
+        about = "document.querySelector('#about').innerText"
+        assert browser.run(about).endswith("predator 2, prey 1")
+        browser.press("PageDown")
+        browser.wait(f"{about}.endsWith('predator 2, prey 2')")
+        assert not browser.errors
+    finally:
+        browser.close()
+
+
+def test_the_tournament_is_drawn_with_its_numbers_beside_it(results, command, drawn):  # noqa: F811
+    picture = results / "all.png"
+    code, said, _ = command("tournament", results, "-f", results / "own.ini", "-o", picture)
+    assert code == 0 and "Later prey do " in said and str(picture) in said
+    axes = [axes for part in drawn[-1].subfigs for axes in part.axes]
+    titles = [axes.get_title() for axes in axes]
+    assert "fitness of the predators" in titles and any("progress" in title for title in titles)
+
+    contest = Contest(config.load(results / "own.ini"), 12)
+    populations = Populations(results, 12, contest.policy)
+    tables = master_tournament(contest, coevolved.select(populations, list(GENERATIONS)))
+    expected = {table.role: table for table in tables}
+    rows = list(csv.DictReader((results / "all.csv").open()))
+    assert len(rows) == 2 * len(GENERATIONS) ** 2
+    for row in rows:
+        table = expected[row["side"]]
+        place = [GENERATIONS.index(int(row[name])) for name in ("generation", "competitors")]
+        assert float(row["fitness"]) == pytest.approx(table.mean[tuple(place)], abs=1e-6)
+        assert float(row["low"]) <= float(row["fitness"]) <= float(row["high"])
+    image = axes[0].images[0].get_array()
+    np.testing.assert_array_equal(image, expected["predators"].mean)
+
+
+def test_generations_and_individuals_are_chosen(results, command):
+    own = ("tournament", results, "-f", results / "own.ini", "--best", 2)
+    _, listed, _ = command(*own, "--generations", "40, 0,20")
+    _, every, _ = command(*own, "--every", 20)
+    assert listed == every and "the 2 best predators and prey of each of 3" in every
+    assert "generation 40 reach" in every and "-o PICTURE.png" in every
+
+
+def test_a_tournament_that_cannot_be_is_refused(results, refused, tmp_path):
+    own = ("tournament", results, "-f", results / "own.ini")
+    refused("tournament", results, says="-f FILE.ini")
+    refused(*own, "--generations", "0;10", says="0,100,200")
+    refused(*own, "--generations", "0,5", says="generations 0, 10, 20 and 40")
+    refused(*own, "--generations", "10", says="two generations")
+    refused(*own, "--generations", "0,10", "--every", 10, says="one of them")
+    refused(*own, "--every", 30, says="generations 0, 10, 20 and 40")
+    refused(*own, "--best", 9, says="at most 3")
+    refused(*own, "-o", results / "all.txt", says=".png")
+    refused("tournament", tmp_path, "-f", results / "own.ini", says="no populations")
+    np.save(results / "S13G0.npy", np.zeros((6, 50)))
+    refused(*own, says="several seeds (12, 13)")
+
+
+def test_an_experiment_of_one_robot_has_no_tournament(tmp_path, refused):
+    path = tmp_path / "own.ini"
+    path.write_text("[EXP]\nenvironment = ErDiscrim\nalgo = coevo2\n[POLICY]\n[ALGO]\n")
+    np.save(tmp_path / "S1G0.npy", np.zeros((2, 2)))
+    refused("tournament", tmp_path, "-f", path, says="ErDiscrim has one robot")
