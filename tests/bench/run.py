@@ -217,27 +217,32 @@ def memory_and_start(seconds: float, repetitions: int) -> Table:
     return table
 
 
+PARTS = {
+    "gymnasium": (beside_gymnasium, (0.1, 2), (0.3, 5)),
+    "instructions": (instruction_sets, (0.05, 2), (0.15, 5)),
+    "roofline": (roofline, (0.05, 2), (0.3, 5)),
+    "workers": (two_workers_evaluating, (20,), (200,)),
+    "runs": (two_workers_running, (0.15, 2), (0.5, 7)),
+    "coevolution": (coevolution, (20, 0), (80, 4)),
+    "bodies": (locomotors, (5,), (50,)),
+    "bodybrain": (bodybrain, (5,), (30,)),
+    "memory": (memory_and_start, (2, 3), (8, 10)),
+}
+"""What is measured: a function that gives a table, its arguments with --quick and without."""
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description="Speed, memory and start-up of botschool.")
     parser.add_argument("--quick", action="store_true", help="rougher, in about 20 s")
+    parser.add_argument("--only", nargs="+", choices=PARTS, metavar="PART", help=" ".join(PARTS))
     parser.add_argument("--markdown", action="store_true", help="tables for docs/results.md")
     parser.add_argument("--json", type=Path, metavar="FILE", help="also write all numbers there")
     options = parser.parse_args()
-    quick = options.quick
     print(f"Machine: {machine()}\n")
     tables, neighbours = [], Neighbours()
-    for part, arguments in (
-        (beside_gymnasium, (0.1, 2) if quick else (0.3, 5)),
-        (instruction_sets, (0.05, 2) if quick else (0.15, 5)),
-        (roofline, (0.05, 2) if quick else (0.3, 5)),
-        (two_workers_evaluating, (20,) if quick else (200,)),
-        (two_workers_running, (0.15, 2) if quick else (0.5, 7)),
-        (coevolution, (20, 0) if quick else (80, 4)),
-        (locomotors, (5,) if quick else (50,)),
-        (bodybrain, (5,) if quick else (30,)),
-        (memory_and_start, (2, 3) if quick else (8, 10)),
-    ):
-        tables.append(part(*arguments))
+    for name in options.only or PARTS:
+        part, rough, thorough = PARTS[name]
+        tables.append(part(*(rough if options.quick else thorough)))
         tables[-1].show(options.markdown)
     print(neighbours.sentence())
     if options.json:
