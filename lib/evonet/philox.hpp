@@ -23,20 +23,37 @@ struct NoiseKey {
   std::uint32_t episode;
 };
 
+/// A block for each of L lanes: word w of lane l is at word[w][l].
+template <int L>
+BOTSCHOOL_INLINE void philox_lanes(const NoiseKey* key, Stream stream, const std::uint32_t* step,
+                                   std::uint32_t index, std::uint32_t (*word)[L]) {
+  alignas(64) std::uint32_t k0[L], k1[L];
+  for (int l = 0; l < L; ++l) {
+    word[0][l] = index;
+    word[1][l] = step[l];
+    word[2][l] = static_cast<std::uint32_t>(stream);
+    word[3][l] = key[l].episode;
+    k0[l] = static_cast<std::uint32_t>(key[l].seed);
+    k1[l] = static_cast<std::uint32_t>(key[l].seed >> 32);
+  }
+  for (int round = 0; round < 10; ++round)
+    for (int l = 0; l < L; ++l) {
+      const std::uint64_t p0 = 0xD2511F53ull * word[0][l], p1 = 0xCD9E8D57ull * word[2][l];
+      word[0][l] = static_cast<std::uint32_t>(p1 >> 32) ^ word[1][l] ^ k0[l];
+      word[1][l] = static_cast<std::uint32_t>(p1);
+      word[2][l] = static_cast<std::uint32_t>(p0 >> 32) ^ word[3][l] ^ k1[l];
+      word[3][l] = static_cast<std::uint32_t>(p0);
+      k0[l] += 0x9E3779B9u;
+      k1[l] += 0xBB67AE85u;
+    }
+}
+
 BOTSCHOOL_INLINE Block philox(std::uint64_t seed, std::uint32_t episode, Stream stream,
                               std::uint32_t step, std::uint32_t index) {
-  std::uint32_t c0 = index, c1 = step, c2 = static_cast<std::uint32_t>(stream), c3 = episode;
-  std::uint32_t k0 = static_cast<std::uint32_t>(seed), k1 = static_cast<std::uint32_t>(seed >> 32);
-  for (int round = 0; round < 10; ++round) {
-    const std::uint64_t p0 = 0xD2511F53ull * c0, p1 = 0xCD9E8D57ull * c2;
-    c0 = static_cast<std::uint32_t>(p1 >> 32) ^ c1 ^ k0;
-    c1 = static_cast<std::uint32_t>(p1);
-    c2 = static_cast<std::uint32_t>(p0 >> 32) ^ c3 ^ k1;
-    c3 = static_cast<std::uint32_t>(p0);
-    k0 += 0x9E3779B9u;
-    k1 += 0xBB67AE85u;
-  }
-  return {{c0, c1, c2, c3}};
+  const NoiseKey key{seed, episode};
+  std::uint32_t word[4][1];
+  philox_lanes<1>(&key, stream, &step, index, word);
+  return {{word[0][0], word[1][0], word[2][0], word[3][0]}};
 }
 
 /// Uniform in [0, 1), 53 bits.

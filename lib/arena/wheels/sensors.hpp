@@ -104,27 +104,30 @@ struct Infrared {
 
    public:
     Near(const W& world, int robot, const InfraredTable* table)
-        : world_(world), robot_(robot), body_(*W::plan.robot[robot].body), table_(table) {}
+        : world_(world), robot_(robot), body_(*W::plan.robot[robot].body), table_(table) {
+      for (int l = 0; l < L; ++l) heading_[l] = static_cast<T>(world.heading(robot)[l]);
+    }
 
     /// Keeps what is within reach: objects of that radius at (to_x, to_y), one a lane.
     void look(double radius, const double* BOTSCHOOL_RESTRICT to_x,
               const double* BOTSCHOOL_RESTRICT to_y) {
       const double edges = body_.radius + radius;
       const double reach = edges + (table_ ? range_of(*table_) : body_.range);
-      alignas(64) double dx[L], dy[L];
+      alignas(64) T away_x[L], away_y[L];
       alignas(64) std::int64_t near[L];
       std::int64_t any = 0;
       for (int l = 0; l < L; ++l) {
-        dx[l] = to_x[l] - world_.x(robot_)[l];
-        dy[l] = to_y[l] - world_.y(robot_)[l];
-        near[l] = dx[l] * dx[l] + dy[l] * dy[l] <= reach * reach;
+        const double dx = to_x[l] - world_.x(robot_)[l], dy = to_y[l] - world_.y(robot_)[l];
+        near[l] = dx * dx + dy * dy <= reach * reach;
         any |= near[l];
+        away_x[l] = static_cast<T>(dx);
+        away_y[l] = static_cast<T>(dy);
       }
       if (!any) return;
       for (int l = 0; l < L; ++l) {
         lane_[count_] = l;
-        dx_[count_] = static_cast<T>(dx[l]);
-        dy_[count_] = static_cast<T>(dy[l]);
+        dx_[count_] = away_x[l];
+        dy_[count_] = away_y[l];
         edges_[count_] = static_cast<T>(edges);
         count_ += static_cast<int>(near[l]);
       }
@@ -136,7 +139,7 @@ struct Infrared {
       for (int first = 0; first < count_; first += L) {
         const int* lane = lane_ + first;
         alignas(64) T heading[L], gap[L], reading[size * L];
-        for (int i = 0; i < L; ++i) heading[i] = static_cast<T>(world_.heading(robot_)[lane[i]]);
+        for (int i = 0; i < L; ++i) heading[i] = heading_[lane[i]];
         Sight<T, L> sight;
         sight.look(dx_ + first, dy_ + first, heading);
         for (int i = 0; i < L; ++i) {
@@ -158,6 +161,7 @@ struct Infrared {
     const int robot_;
     const Body& body_;
     const InfraredTable* table_;
+    T heading_[L];
     int count_ = 0;
     int lane_[(objects + 1) * L];
     T dx_[(objects + 1) * L], dy_[(objects + 1) * L], edges_[(objects + 1) * L];
@@ -227,14 +231,16 @@ struct Noisy {
     const T deviation = static_cast<T>(world.setting.noise);
     if (deviation == T(0)) return;
     constexpr int kBlocks = (size + 3) / 4;
+    alignas(64) std::uint32_t step[L];
+    for (int l = 0; l < L; ++l) step[l] = static_cast<std::uint32_t>(world.state[W::kSteps][l]);
     for (int b = 0; b < kBlocks; ++b) {
+      alignas(64) std::uint32_t word[4][L];
       alignas(64) T draw[4][L];
+      philox_lanes<L>(world.key, Stream::sensor, step,
+                      static_cast<std::uint32_t>(robot * kBlocks + b), word);
       for (int l = 0; l < L; ++l) {
-        const Block block = philox(world.key[l].seed, world.key[l].episode, Stream::sensor,
-                                   static_cast<std::uint32_t>(world.state[W::kSteps][l]),
-                                   static_cast<std::uint32_t>(robot * kBlocks + b));
-        gaussian_pair(block.word[0], block.word[1], draw[0][l], draw[1][l]);
-        gaussian_pair(block.word[2], block.word[3], draw[2][l], draw[3][l]);
+        gaussian_pair(word[0][l], word[1][l], draw[0][l], draw[1][l]);
+        gaussian_pair(word[2][l], word[3][l], draw[2][l], draw[3][l]);
       }
       for (int i = 4 * b; i < size && i < 4 * b + 4; ++i)
         for (int l = 0; l < L; ++l) out[i * L + l] += deviation * draw[i % 4][l];
