@@ -39,7 +39,7 @@ solution-ex%: .venv/.module FORCE ## run the solution of exercise N in results/e
 	@$(BIN)/python -m botschool.grading.solution $*
 
 # What these exercises train and simulate with is large, so only they ask for it.
-LARGE := 5 9 10 11 12 13 14 15
+LARGE := 5 9 10 11 12 13 14
 $(LARGE:%=test-ex%) $(LARGE:%=solution-ex%): .venv/.bodies
 
 skeletons: .venv/.module ## generate the exercises' files from the solutions
