@@ -314,7 +314,7 @@ def test_ppo_repeats_from_its_seed(env):
 def test_ppo_solves_cartpole():
     import ppo
 
-    history = ppo.train(ppo.Hyperparameters(total_timesteps=50_000))
+    history = ppo.train(ppo.Hyperparameters())
     assert ppo.evaluate(history.agent, "CartPole-v1", 20, 1000).mean() >= 475
 
 
@@ -359,6 +359,59 @@ def test_an_update_is_that_of_stable_baselines3(env):
         assert not torch.allclose(theirs.weight, start, atol=1e-3)
         assert torch.allclose(ours.weight, theirs.weight, atol=1e-4)
         assert torch.allclose(ours.bias, theirs.bias, atol=1e-4)
+
+
+@pytest.mark.parametrize("env", ["CartPole-v1", "Pendulum-v1"])
+def test_with_the_same_random_numbers_a_training_is_that_of_stable_baselines3(env):
+    """Collecting, time limits, annealing and learning, until rounding errors grow."""
+    pytest.importorskip("stable_baselines3")
+    import ppo
+    from stable_baselines3 import PPO
+    from stable_baselines3.common.env_util import make_vec_env
+    from stable_baselines3.common.utils import LinearSchedule
+
+    settings = {"n_steps": 64, "batch_size": 64, "n_epochs": 3, "gamma": 0.9, "gae_lambda": 0.8}
+    total = 1792  # 7 updates of 4 environments; episodes of Pendulum end after 200 steps of each
+    falling = {"learning_rate": LinearSchedule(1e-3, 0, 1), "clip_range": LinearSchedule(0.2, 0, 1)}
+    model = PPO(
+        "MlpPolicy", make_vec_env(env, 4, seed=1), seed=1, device="cpu", **settings, **falling
+    )
+    h = ppo.Hyperparameters(env=env, n_envs=4, total_timesteps=total, **settings)
+    experience = ppo.Experience(h)
+    agent = ppo.Agent(
+        experience.envs.single_observation_space, experience.envs.single_action_space, 64
+    )
+    pairs = list(zip([*agent.actor[::2], *agent.critic[::2]], layers_of(model.policy), strict=True))
+    for ours, theirs in pairs:
+        assert ours.weight.norm().item() == pytest.approx(theirs.weight.norm().item())
+        ours.load_state_dict(theirs.state_dict())
+
+    class Shuffled:
+        """numpy's global generator, for data whose first axis is time and not environments."""
+
+        def permutation(self, n):
+            envs, times = np.divmod(np.random.permutation(n), h.n_steps)  # noqa: NPY002
+            return times * h.n_envs + envs
+
+    def seed():
+        torch.manual_seed(7)
+        np.random.seed(7)  # noqa: NPY002
+
+    seed()
+    model.learn(total)
+    seed()
+    learner = ppo.Learner(agent, h)
+    learner.rng = Shuffled()
+    while experience.steps < total:
+        data = experience.collect(agent)
+        learner.update(data, experience.steps / total)
+    buffer = model.rollout_buffer
+    for name in ("observations", "values", "log_probs"):
+        theirs = torch.as_tensor(getattr(buffer, name))
+        theirs = theirs.reshape(4, 64, -1).transpose(0, 1).reshape(getattr(data, name).shape)
+        assert torch.allclose(getattr(data, name), theirs, atol=0.01), name
+    for ours, theirs in pairs:
+        assert torch.allclose(ours.weight, theirs.weight, atol=1e-3)
 
 
 def layers_of(policy):

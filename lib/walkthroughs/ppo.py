@@ -282,7 +282,7 @@ class Learner:
                 "policy_gradient_loss": policy_loss,
                 "value_loss": value_loss,
                 "entropy_loss": -entropy,
-                "approx_kl": (ratio - 1 - log_ratio).mean(),  # never negative (Schulman, 2020)
+                "approx_kl": (log_ratio.expm1() - log_ratio).mean(),  # ratio - 1 - log ratio >= 0
                 "clip_fraction": ((ratio - 1).abs() > clip_range).float().mean(),
             }
         return loss, {name: value.item() for name, value in indicators.items()}

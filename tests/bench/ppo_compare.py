@@ -11,6 +11,7 @@ import argparse
 import multiprocessing
 import sys
 from concurrent.futures import ProcessPoolExecutor
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "lib" / "walkthroughs"))
 
 SETTINGS = {
     "CartPole-v1": {
-        "total_timesteps": 50_000, "n_envs": 8, "n_steps": 32, "batch_size": 256, "n_epochs": 20,
+        "total_timesteps": 100_000, "n_envs": 8, "n_steps": 32, "batch_size": 256, "n_epochs": 20,
         "gamma": 0.98, "gae_lambda": 0.8, "learning_rate": 0.001, "clip_range": 0.2, "anneal": 1,
     },
     "Pendulum-v1": {
@@ -28,7 +29,7 @@ SETTINGS = {
         "gamma": 0.9, "gae_lambda": 0.95, "learning_rate": 0.001, "clip_range": 0.2, "anneal": 0,
     },
 }  # fmt: skip
-"""Those of rl-zoo, but half the steps for CartPole, and a plain Gaussian for Pendulum."""
+"""Those of rl-zoo, but a plain Gaussian for Pendulum."""
 LIBRARIES = {"walkthrough": "#0072b2", "Stable-Baselines3": "#d55e00"}
 POINTS = 20
 """Of a learning curve, equally spaced; each is the mean of the last 20 training episodes."""
@@ -109,17 +110,34 @@ def add_rows(table: Table, env: str, curves: dict, new: dict) -> None:
         )  # fmt: skip
 
 
-def agreement(env: str, curves: dict) -> str:
-    """In words, how far apart the two mean curves are, in units of the spread over seeds."""
+def agreement(env: str, curves: dict, new: dict) -> str:
+    """In words, whether the two could be one algorithm.
+
+    Distance of two groups of curves: the mean over the points of the difference of their means, in
+    standard deviations over the seeds. If both are one algorithm, each way of dealing all curves
+    into two groups of the same sizes is as likely as the one that was found.
+    """
     one, other = curves.values()
+    both, n = np.concatenate([one, other]), len(one)
+    groups = [list(group) for group in combinations(range(len(both)), n)]
+    found, *others = (distance(both[g], np.delete(both, g, axis=0)) for g in groups)
+    further = 1 + sum(each >= found - 1e-12 for each in others)
+    overlap = (one.min(axis=0) <= other.max(axis=0)) & (other.min(axis=0) <= one.max(axis=0))
+    last = distance(*(each[:, None] for each in new.values()))
+    return (
+        f"{env}: the mean curves are {found:.2f} standard deviations apart (mean over {POINTS} "
+        f"points); of the {len(groups)} ways to deal the {len(both)} curves into two groups, "
+        f"{further} ({further / len(groups):.0%}) are at least as far apart. The ranges of the "
+        f"seeds overlap at {overlap.sum()} of {POINTS} points. In new episodes they are "
+        f"{last:.2f} standard deviations apart."
+    )
+
+
+def distance(one: np.ndarray, other: np.ndarray) -> float:
+    """Mean over the points of |difference of the means| / pooled standard deviation."""
     spread = np.sqrt((one.var(axis=0, ddof=1) + other.var(axis=0, ddof=1)) / 2)
     apart = np.abs(one.mean(axis=0) - other.mean(axis=0))
-    within = apart <= spread
-    overlap = (one.min(axis=0) <= other.max(axis=0)) & (other.min(axis=0) <= one.max(axis=0))
-    return (
-        f"{env}: the mean curves are within one standard deviation of each other at "
-        f"{within.sum()} of {POINTS} points; the ranges of the seeds overlap at {overlap.sum()}."
-    )
+    return float(np.mean(apart / np.maximum(spread, 1e-9)))
 
 
 def draw(file: Path, found: dict) -> None:
@@ -130,11 +148,10 @@ def draw(file: Path, found: dict) -> None:
     for axes, (env, (curves, _)) in zip(np.atleast_1d(panels), found.items(), strict=True):
         steps = np.arange(1, POINTS + 1) * SETTINGS[env]["total_timesteps"] / POINTS / 1000
         for library, rows in curves.items():
-            colour, mean, deviation = LIBRARIES[library], rows.mean(axis=0), rows.std(0, ddof=1)
-            band = (mean - deviation, mean + deviation)
-            axes.fill_between(steps, *band, alpha=0.2, color=colour, lw=0)
+            colour = LIBRARIES[library]
+            axes.fill_between(steps, rows.min(0), rows.max(0), alpha=0.2, color=colour, lw=0)
             axes.plot(steps, rows.T, color=colour, linewidth=0.5, alpha=0.5)
-            axes.plot(steps, mean, color=colour, linewidth=2.2, label=library)
+            axes.plot(steps, rows.mean(0), color=colour, linewidth=2.2, label=library)
         axes.set(title=env, xlabel="thousand steps", ylabel="return, last 20 training episodes")
         axes.grid(alpha=0.3)
         axes.spines[["top", "right"]].set_visible(False)
@@ -176,8 +193,8 @@ def main() -> None:
         found[env] = curves, new
         add_rows(table, env, curves, new)
     table.show(markdown=True)
-    for env, (curves, _) in found.items():
-        print(agreement(env, curves))
+    for env, (curves, new) in found.items():
+        print(agreement(env, curves, new))
     if options.picture:
         draw(options.picture, found)
 
