@@ -1,9 +1,11 @@
 """`botschool rl`: tiny trainings, their files, and agents that are what was measured."""
 
+import json
 import os
 import signal
 import subprocess
 import sys
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -94,6 +96,13 @@ def test_the_saved_models_are_those_that_were_measured(trained):
     found = trained.evaluations()
     assert again(trained, trained.best).mean() == found.best
     np.testing.assert_array_equal(again(trained, trained.last), found.returns[-1])
+
+
+def test_of_equally_good_models_the_later_one_is_the_best(tmp_path):
+    run = tiny(tmp_path, params=SMALL | {"learning_rate": 0.0})
+    assert np.unique(run.evaluations().returns.mean(axis=1)).size == 1
+    with ZipFile(run.best) as model:
+        assert json.loads(model.read("data"))["num_timesteps"] == 256
 
 
 @pytest.mark.parametrize("policy", ["mlp", "lstm"])

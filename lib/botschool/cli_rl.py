@@ -57,7 +57,7 @@ def rl_train(
     ] = 20,
     episodes: Annotated[
         int, typer.Option(min=1, max=10_000, help="Episodes of a post-evaluation.")
-    ] = 10,
+    ] = 20,
     output: RlFolder = Path("results/rl"),
 ) -> None:
     """Train an agent in a new folder; defaults depend on algorithm and environment."""

@@ -83,7 +83,7 @@ class PostEvaluation(BaseCallback):
         returns, lengths = play(agent, self._envs, self._seeds)
         best = -np.inf if self.found is None else self.found.best
         self._append(returns, lengths)
-        if returns.mean() > best:
+        if returns.mean() >= best:  # of two that did equally well, the one that learned longer
             save_model(self.model, self.run.best)
         self.save()
         self.run.save_evaluations(self.found)

@@ -55,7 +55,7 @@ def choose(
     steps: int | None = None,
     seed: int = 1,
     evaluations: int = 20,
-    episodes: int = 10,
+    episodes: int = 20,
 ) -> Settings:
     """Settings of a training: what is given, then defaults.yaml. Raises BotschoolError."""
     algo = check_algorithm(algo)

@@ -34,7 +34,7 @@ def train(
     steps: int | None = None,
     seed: int = 1,
     evaluations: int = 20,
-    episodes: int = 10,
+    episodes: int = 20,
     report: Callable[[int, Evaluations], None] = lambda steps, evaluations: None,
 ) -> RunFolder:
     """Trains an agent in folder/algo/env_N and gives that folder.
