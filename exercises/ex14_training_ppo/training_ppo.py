@@ -354,6 +354,7 @@ if __name__ == "__main__":
     from botschool.course_rl import draw_indicators, draw_trainings
     from botschool.evolution.run import Run, evolve
 
+    experiment = config.load(experiment_file("cartpole_openaies.ini"))
     trainings = {}
     for environment, variations in PROBLEMS.items():
         title = environment.split("/")[-1]
@@ -365,7 +366,6 @@ if __name__ == "__main__":
         report(title, runs, logs)
         trainings[title] = runs, logs
 
-    experiment = config.load(experiment_file("cartpole_openaies.ini"))
     Path("evolution").mkdir(exist_ok=True)
     for seed in SEEDS:
         evolve(Run(experiment, seed), Path("evolution"), steps=100 * TOTAL)
