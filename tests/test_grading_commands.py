@@ -1,6 +1,7 @@
 """The commands of grading: what they print and write, and how they refuse."""
 
 import base64
+import contextlib
 import csv
 import ctypes
 import json
@@ -153,6 +154,21 @@ def test_watch_ends_with_ctrl_c(course):
     process.send_signal(signal.SIGINT)
     code, _, errors = finish(process, 60)
     assert code == 0 and "Traceback" not in errors
+
+
+def test_watch_ends_though_an_interrupt_was_dropped(course, monkeypatch, capsys):
+    """As Python does with one that meets a destructor."""
+    from botschool.grading import commands, watching
+
+    def dropping(exercise, file, tasks, screen, wait):
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        wait(60)
+
+    monkeypatch.setattr(watching, "watch", dropping)
+    before = signal.getsignal(signal.SIGINT)
+    commands.watch_command("3.1", None)
+    assert signal.getsignal(signal.SIGINT) is before
 
 
 # --- a copy for students

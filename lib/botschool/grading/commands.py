@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+import signal
+import time
 import traceback
 from pathlib import Path
 
@@ -128,10 +130,25 @@ def watch_command(what: str, submission: str | None) -> None:
     exercise = load_exercise(number)
     tasks = [exercise.find(what)] if task else exercise.tasks
     file = submission_file(number, submission)
+    asked = False
+
+    def stop(number: int, frame: object) -> None:
+        nonlocal asked
+        asked = True
+        raise KeyboardInterrupt
+
+    def wait(seconds: float) -> None:
+        if asked:  # Python drops an exception that meets a destructor
+            raise KeyboardInterrupt
+        time.sleep(seconds)
+
+    before = signal.signal(signal.SIGINT, stop)
     try:
-        watch(exercise, file, tasks, Screen())
+        watch(exercise, file, tasks, Screen(), wait)
     except KeyboardInterrupt:
         print()
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def release_command(folder: Path) -> None:
