@@ -149,7 +149,7 @@ install_bodies() {
 }
 
 install_tests() {
-    say "Installing what the tests need (up to a minute)"
+    say "Installing what the tests need (one to three minutes)"
     # shellcheck disable=SC2046
     pip_install 'botschool[all]' $(own_environments)
 }
