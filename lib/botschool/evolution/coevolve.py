@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from datetime import timedelta
+from functools import partial
 
 import numpy as np
 
-from botschool import problems
-from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution.coevo2 import (
     PREDATORS,
@@ -24,7 +22,6 @@ from botschool.evolution.coevo2 import (
 from botschool.evolution.record import STAT, Record, RunFiles
 from botschool.evolution.run import Limit, Run
 from botschool.output import save_npy
-from botschool.policy import Policy
 from botschool.problems import Episodes
 
 CHECKPOINT_SECONDS = 60
@@ -66,30 +63,16 @@ class Coevolution(Run):
 
     parts = ("algorithm", "record")
 
-    def __init__(
-        self,
-        experiment: Experiment,
-        seed: int,
-        workers: int = 1,
-        stopping: Callable[[], bool] = lambda: False,
-    ) -> None:
-        self.experiment = experiment
-        self.seed = seed
-        self.workers = workers
-        self.stopping = stopping
-        self.problem = problems.make(experiment.exp.environment)
-        self._check()
-        self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
-        self.algorithm = Coevo2(
-            experiment.algo, lambda index: self.policy.initial(seed, index), seed
-        )
+    def begin(self) -> None:
+        """Makes the two populations, the record and the budget."""
+        config = self.experiment.algo
+        self.algorithm = Coevo2(config, partial(self.policy.initial, self.seed), self.seed)
         self.record = CoevolutionRecord()
-        self.budget = self.limit = Limit(generations=experiment.algo.ngenerations)
-        self.report: Callable[[Run], None] = lambda run: None
+        self.budget = self.limit = Limit(generations=config.ngenerations)
         self._steps = self._plays = 0  # of the present generation
         self._started: tuple[float, float] | None = None
 
-    def _check(self) -> None:
+    def check(self) -> None:
         """Raises BotschoolError for experiments that coevo2 cannot run."""
         config, problem = self.experiment.policy, self.problem
         if not problem.native or problem.interface.robots != 2:

@@ -80,16 +80,27 @@ class Run:
     ) -> None:
         self.experiment = experiment
         self.seed = seed
+        self.workers = workers
         self.stopping = stopping
         self.problem = problems.make(experiment.exp.environment)
+        self.check()
         self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
-        self.algorithm = ALGORITHMS[experiment.exp.algo](
-            experiment.algo, partial(self.policy.initial, seed), seed
+        self.report: Callable[[Run], None] = lambda run: None
+        self.begin()
+
+    def check(self) -> None:
+        """Raises BotschoolError for a problem or a policy that the algorithm cannot evolve."""
+
+    def begin(self) -> None:
+        """Makes the algorithm, who evaluates for it, the record and the budget."""
+        self.algorithm = ALGORITHMS[self.experiment.exp.algo](
+            self.experiment.algo, partial(self.policy.initial, self.seed), self.seed
         )
-        self.evaluator = Evaluator(self.problem, self.policy, seed, workers, stopping)
+        self.evaluator = Evaluator(
+            self.problem, self.policy, self.seed, self.workers, self.stopping
+        )
         self.record = Record()
         self.budget = self.limit = Limit(steps=self.max_steps)
-        self.report: Callable[[Run], None] = lambda run: None
 
     @property
     def max_steps(self) -> int:
