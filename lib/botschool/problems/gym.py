@@ -179,7 +179,7 @@ class GymProblem(Problem):
         if flat.shape != (self.interface.observations,):
             what = f"an observation {shown(raw)}, which its observation_space does not contain,"
             raise self.broken(what, seed, episode)
-        if not np.all(np.isfinite(flat)):
+        if not np.isfinite(flat).all():
             raise self.broken("an observation with NaN or infinity", seed, episode)
         return flat
 
@@ -215,7 +215,10 @@ def _fitted(action: np.ndarray | int, space):
     """An action that the space contains: discrete ones start where it does, others are clipped."""
     if isinstance(space, spaces.Discrete):
         return space.start + action
-    return np.clip(np.nan_to_num(action), space.low, space.high).astype(space.dtype)
+    if not np.isfinite(action).all():
+        action = np.nan_to_num(action)
+    fitted = np.minimum(np.maximum(action, space.low), space.high)  # a third of np.clip's time
+    return fitted.astype(space.dtype, copy=False)
 
 
 def make_env(name: str, **options) -> gymnasium.Env:
