@@ -175,10 +175,11 @@ def tournament(
     report.print_tournament(tables, [population.name for population in chosen])
     if files:
         save_csv(files[1], tables, generations)
-        print(f"picture: {files[0]}, its numbers: {files[1]}")
     if files or window:
         draw(tables, generations, _title(contest, chosen), picture)
-    else:
+    if files:
+        print(f"picture: {files[0]}, its numbers: {files[1]}")
+    elif not window:
         print("For a picture of it add -o PICTURE.png.")
 
 

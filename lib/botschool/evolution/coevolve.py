@@ -70,7 +70,7 @@ class Coevolution(Run):
         self.record = CoevolutionRecord()
         self.budget = self.limit = Limit(generations=config.ngenerations)
         self._steps = self._plays = 0  # of the present generation
-        self._started: tuple[float, float] | None = None
+        self._started: tuple[float, int, float] | None = None
 
     def check(self) -> None:
         """Raises BotschoolError for experiments that coevo2 cannot run."""
@@ -97,7 +97,8 @@ class Coevolution(Run):
         """
         algorithm = self.algorithm
         if algorithm.met and self._started is None:
-            self._started = (time.monotonic(), self.limit.share(self))
+            now = time.monotonic()
+            self._started = (now, self.record.generation, self.limit.share(self))
         self._steps = self._plays = 0
         try:
             if algorithm.met:
@@ -192,11 +193,13 @@ class Coevolution(Run):
         )
 
     def _left(self) -> str:
-        """The time left, at the pace since this process has begun to play."""
-        share = self.limit.share(self)
-        if self._started is None or share <= self._started[1]:
+        """The time left, at the pace of this process; both sides must have had a turn, as one
+        may take a hundred times as long as the other.
+        """
+        if self._started is None or self.record.generation < self._started[1] + 2:
             return ""
-        start, first = self._started
+        start, _, first = self._started
+        share = self.limit.share(self)
         left = (time.monotonic() - start) / (share - first) * (1 - share)
         return f"  time left {timedelta(seconds=round(left))}"
 
