@@ -13,6 +13,7 @@ from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 
+import numpy as np
 from bodies import locomotors
 from bodybrain import bodybrain
 from processes import Neighbours, help_seconds, peak_memory
@@ -31,9 +32,12 @@ from speed import (
 )
 
 from botschool import _core, config
+from botschool.analysis.populations import Population, Populations
+from botschool.evolution.coevolve import Coevolution
 
 TWO_WORKERS = 1.8
 GENERATION = 60
+EVOLVED, EVOLVED_SEED = DATA.parent / "genotypes" / "predprey", 12
 MEMORY = 300
 HELP = 0.3
 
@@ -161,30 +165,45 @@ def two_workers_running(seconds: float, repetitions: int) -> Table:
     return table
 
 
+def fill(population: Population | None, run: Coevolution) -> None:
+    """Replaces the random networks of both sides, each repeated until there are enough."""
+    if population is not None:
+        for side, networks in enumerate((population.predators, population.prey)):
+            run.algorithm.parameters[side] = np.resize(networks, run.algorithm.parameters[0].shape)
+
+
 def coevolution(popsize: int, generations: int) -> Table:
     """The first meeting and the first generations of co-evolution, one core."""
     table = Table(
         "Generations of co-evolution, one core",
         f"The first generations of predprey.ini with seed 1 and popsize {popsize}, once each, no "
-        f"files; before them everyone meets everyone. The target is {GENERATION} s a generation. "
+        "files; before them everyone meets everyone. They begin with random networks, or with "
+        "those of data/genotypes/predprey, ten of each side, as often as it takes to fill the "
+        f"population. The target is {GENERATION} s a generation once robots catch each other. "
         "Evaluating: the share of the time that is the native call.",
-        ["predprey.ini", "seconds", "steps", "steps/s", "evaluating", ""],
+        ["begins with", "", "seconds", "steps", "steps/s", "evaluating", ""],
     )
     experiment = config.load(DATA / "predprey.ini")
     experiment.algo.popsize = popsize
-    times = run_times(experiment, 1, 1 + generations)
-    names = ["everyone meets everyone", *(f"generation {g + 1}" for g in range(generations))]
-    for name, steps, whole, evaluating in zip(
-        names, times.steps, times.whole, times.evaluating, strict=True
-    ):
-        table.add(
-            name,
-            f"{whole:.1f}",
-            rate(steps),
-            rate(steps / whole),
-            f"{100 * evaluating / whole:.1f} %",
-            verdict(whole < GENERATION) if name.startswith("generation") else "",
-        )
+    kept = Populations(EVOLVED, EVOLVED_SEED, Coevolution(experiment, 1).policy)
+    names = ["everyone meets everyone", "predators evolve", "prey evolve"][: 1 + generations]
+    for number in (None, *kept.generations[2::2]):
+        prepare = partial(fill, None if number is None else kept.load(number))
+        times = run_times(experiment, 1, len(names), prepare)
+        begins = "random" if number is None else f"generation {number}"
+        for name, steps, whole, evaluating in zip(
+            names, times.steps, times.whole, times.evaluating, strict=True
+        ):
+            judged = number is not None and name.endswith("evolve")
+            table.add(
+                begins,
+                name,
+                f"{whole:.1f}",
+                rate(steps),
+                rate(steps / whole),
+                f"{100 * evaluating / whole:.1f} %",
+                verdict(whole < GENERATION) if judged else "",
+            )
     return table
 
 
@@ -223,7 +242,7 @@ PARTS = {
     "roofline": (roofline, (0.05, 2), (0.3, 5)),
     "workers": (two_workers_evaluating, (20,), (200,)),
     "runs": (two_workers_running, (0.15, 2), (0.5, 7)),
-    "coevolution": (coevolution, (20, 0), (80, 4)),
+    "coevolution": (coevolution, (20, 0), (80, 2)),
     "bodies": (locomotors, (5,), (50,)),
     "bodybrain": (bodybrain, (5,), (30,)),
     "memory": (memory_and_start, (2, 3), (8, 10)),

@@ -146,10 +146,13 @@ class RunTimes:
     evaluating: np.ndarray
 
 
-def run_times(experiment: Experiment, workers: int, generations: int) -> RunTimes:
+def run_times(
+    experiment: Experiment, workers: int, generations: int, prepare=lambda run: None
+) -> RunTimes:
     """Times the first generations of a run: the same work whenever it is repeated."""
     kind = Coevolution if experiment.exp.algo == "coevo2" else Run
     run = kind(experiment, SEED, workers)
+    prepare(run)
     evaluate = run.problem.evaluate
     steps, whole, evaluating = np.zeros((3, generations))
     generation = 0
