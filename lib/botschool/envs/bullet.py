@@ -77,8 +77,9 @@ def connect(window: bool = False) -> int:
     bullet = import_pybullet()
     if window and sys.platform == "linux" and not os.environ.get("DISPLAY"):
         raise BotschoolError(
-            "there is no display to open a window on: draw to a file instead, or set "
-            "render_mode='rgb_array'."
+            "there is no display to open a window on: make a film or a picture instead (in a "
+            "command with --video FILE.mp4 or --sheet FILE.png, in Python with "
+            "render_mode='rgb_array')."
         )
     with hushed():
         client = bullet.connect(bullet.GUI if window else bullet.DIRECT)
