@@ -156,12 +156,12 @@ class Locomotor(gymnasium.Env):
         self._distance = self._to_target
         self._steps, self._picture = 0, None
         self._show()
-        return np.clip(self._observation, -5.0, 5.0), {}
+        return _within(self.observation_space, self._observation), {}
 
     def step(self, action: np.ndarray):
         """One step. Raises BotschoolError if the action holds a number that is not finite."""
         action = np.asarray(action)
-        torques = (self._gains * np.minimum(np.maximum(action, -1.0), 1.0)).tolist()
+        torques = (self._gains * _within(self.action_space, action)).tolist()
         if not math.isfinite(sum(torques)):
             raise BotschoolError(f"{action.tolist()} is no action: it holds NaN.")
         world, robot = self._client, self._robot
@@ -172,12 +172,13 @@ class Locomotor(gymnasium.Env):
         self._steps += 1
         observation = self._observe()
         if self._exploded:
-            return np.clip(self._observation, -5.0, 5.0), 0.0, True, False, {"exploded": True}
+            observed = _within(self.observation_space, self._observation)
+            return observed, 0.0, True, False, {"exploded": True}
         self._observation = observation
-        observed = np.minimum(np.maximum(observation, -5.0), 5.0)
+        observed = _within(self.observation_space, observation)
         alive = self.body.alive(float(observed[0]) + self._height, self._pitch, self._contacts)
         measured = self._measure(action, alive, observation)
-        self._touching = max(map(self._contacts.__getitem__, self._shins), default=0.0)
+        self._touching = max([self._contacts[i] for i in self._shins], default=0.0)
         touching = self._bullet.getContactPoints(robot, self._floor, physicsClientId=world)
         links = {contact[3] for contact in touching}
         self._contacts = [1.0 if foot in links else 0.0 for foot in self._feet]
@@ -193,7 +194,8 @@ class Locomotor(gymnasium.Env):
         links = query.getLinkStates(
             robot, self._links, computeLinkVelocity=torso >= 0, physicsClientId=world
         )
-        x, y = sum([link[0][0] for link in links]), sum([link[0][1] for link in links])
+        xs, ys, _ = zip(*[link[0] for link in links], strict=True)
+        x, y = sum(xs), sum(ys)
         if torso >= 0:
             link = links[torso]
             place, turn, velocity = link[0], link[1], link[6]
@@ -287,3 +289,8 @@ class Locomotor(gymnasium.Env):
     def close(self) -> None:
         """Ends the physics world."""
         self._end()
+
+
+def _within(space: spaces.Box, values: np.ndarray) -> np.ndarray:
+    """np.clip, which takes twice as long for a few numbers."""
+    return np.minimum(np.maximum(values, space.low), space.high)
