@@ -92,7 +92,8 @@ def main() -> None:
         "Locomotors, version 5",
         f"Seed {SEED}. New episodes: mean and standard deviation of {NEW_EPISODES} which had no "
         "part in choosing the robot. Projected: best post-evaluated fitness if each doubling of "
-        "the steps goes on to bring as much as the last two did. Published: means of 10 seeds at the file's budget.",
+        "the steps goes on to bring as much as the last two did. Published: means of 10 seeds at "
+        "the file's budget.",
         [
             "robot",
             "steps",
