@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 import time
+from functools import partial
 from importlib.util import find_spec
+from pathlib import Path
 
 import gymnasium
 import numpy as np
-from report import Table, verdict
+from report import Table, rate, verdict
+from speed import best_call
 
+from botschool import config
 from botschool.envs.bullet import hushed
 from botschool.envs.locomotors import Locomotor
+from botschool.policy import Policy
+from botschool.problems import Episodes, make
 
 BODIES = ("Hopper", "HalfCheetah", "Ant", "Walker2D", "Humanoid")
-TARGET = 1.6
+DATA = Path(__file__).parents[2] / "data"
+TARGET, TWO_WORKERS = 1.6, 1.8
+CANDIDATES = 40
 EPISODE = 200
 """Steps, or fewer if the robot falls."""
 
@@ -125,5 +133,53 @@ def locomotors(repetitions: int) -> Table:
     return table
 
 
+class Generation:
+    """The candidates of one generation around an evolved robot, an episode each."""
+
+    def __init__(self, robot: str) -> None:
+        experiment = config.load(DATA / "experiments" / f"{robot}.ini")
+        self.maxsteps = experiment.policy.maxsteps
+        self.problem = make(experiment.exp.environment)
+        self.policy = Policy(robot, self.problem.interface, experiment.policy)
+        saved = np.load(DATA / "genotypes" / f"{robot}.npy")
+        centre, self.normalisation = self.policy.split(saved)
+        noise = np.random.default_rng(0).standard_normal((CANDIDATES, len(centre)))
+        self.genotypes = centre + experiment.algo.noiseStdDev * noise
+        self.episodes = Episodes.of(np.arange(CANDIDATES), 1)
+
+    def evaluate(self, workers: int) -> int:
+        """Returns the steps done."""
+        outcome = self.problem.evaluate(
+            *(self.policy, self.genotypes, self.normalisation, self.episodes),
+            *(self.maxsteps, workers),
+        )
+        return int(outcome.steps.sum())
+
+
+def two_workers(repetitions: int) -> Table:
+    """A generation of each locomotor, in one process and in two."""
+    table = Table(
+        "A generation of the locomotors: two workers against one",
+        f"Steps/s of the whole evaluation of {CANDIDATES} candidates around the robot of "
+        f"data/genotypes; the fastest of {repetitions} calls each, taking turns. The target is "
+        f"{TWO_WORKERS} times one.",
+        ["robot", "steps / episode", "1 worker", "2 workers", "2 / 1", ""],
+    )
+    if find_spec("pybullet") is None:
+        table.add("PyBullet is not installed", *["-"] * 5)
+        return table
+    for body in BODIES:
+        own = Generation(body.lower())
+        steps = own.evaluate(2)  # starts the workers
+        one, two = best_call([partial(own.evaluate, w) for w in (1, 2)], repetitions)
+        table.add(
+            *(body, f"{steps / CANDIDATES:.0f}", rate(one), rate(two)),
+            *(f"{two / one:.2f}", verdict(two >= TWO_WORKERS * one)),
+        )
+        own.problem.close()
+    return table
+
+
 if __name__ == "__main__":
     locomotors(50).show(markdown=False)
+    two_workers(3).show(markdown=False)

@@ -133,7 +133,8 @@ def _draw_profiles(page: Figure | SubFigure, tables: tuple[Table, Table], genera
         axes.set_title(f"{table.role} against ancient and future {_other(table)}")
         axes.set_xlabel(f"generation of the {_other(table)} (dot: of the same generation)")
         _tidy(axes)
-        axes.legend(frameon=False, fontsize=9)
+        axes.set(ylim=(-0.05, 1.25), yticks=np.linspace(0, 1, 6))  # with room for the legend
+        axes.legend(frameon=False, fontsize=9, loc="upper center", ncols=2)
     panels[0].set_ylabel("mean fitness, 95 % interval")
 
 

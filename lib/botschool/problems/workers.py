@@ -19,7 +19,7 @@ from botschool.errors import BotschoolError
 from botschool.problems.base import Episodes, Interrupted, Outcome
 
 # A batch is cut into this many chunks per worker: small enough to even out long episodes.
-CHUNKS = 4
+CHUNKS = 10
 # How often the workers may die without finishing a single chunk.
 PATIENCE = 3
 
