@@ -508,8 +508,8 @@ def played(module, urdf, seed, gains, most):
     return [numpy.array(seen), False, False]
 
 
-def checked(module, urdf):
-    """Gymnasium's own checker, on the registered environment."""
+def checked(module, urdf, seed):
+    """Gymnasium's own checker, on the registered environment; how an episode begins after it."""
     import os
     import warnings
 
@@ -522,7 +522,9 @@ def checked(module, urdf):
     gymnasium.registry.pop("BalanceBotBulletEnv-v0", None)
     module.register_robot()
     warnings.simplefilter("ignore")
-    check_env(gymnasium.make("BalanceBotBulletEnv-v0").unwrapped, skip_render_check=True)
+    env = gymnasium.make("BalanceBotBulletEnv-v0").unwrapped
+    check_env(env, skip_render_check=True)
+    return env.reset(seed=seed)[0]
 
 
 def compare_episode(student: Student, index: int, gains: np.ndarray) -> None:
@@ -541,9 +543,10 @@ def compare_episode(student: Student, index: int, gains: np.ndarray) -> None:
         fell = world.height() < 0.15
     steps = len(observations) - 1
     expect(
-        isinstance(seen, np.ndarray) and seen.shape == (steps + 1, 3),
-        f"{said} had {len(seen) - 1} steps, but should have {steps}.",
+        isinstance(seen, np.ndarray) and seen.ndim == 2 and seen.shape[1] == 3,
+        f"{said}: no observations of three numbers came back.",
     )
+    expect(len(seen) == steps + 1, f"{said} had {len(seen) - 1} steps, but should have {steps}.")
     expect(
         (terminated, truncated) == (fell, not fell),
         f"{said} ended after {steps} steps with terminated {terminated} and truncated "
@@ -571,7 +574,11 @@ def ends_when_it_falls(student: Student):
 
 @registering.check(4)
 def passes_gymnasiums_checker(student: Student):
-    student.run(checked, robot_text(), said="Gymnasium's check_env")
+    seed = exercise.seed(53)
+    said = f"Gymnasium's check_env, and then reset(seed={seed})"
+    begins = student.run(checked, robot_text(), seed, said=said)
+    with World(seeding.np_random(seed)[0].uniform(-0.3, 0.3)) as world:
+        expect_close(said, begins, np.array(world.seen()), tolerance=0.02)
 
 
 # ------------------------------------------------------------------ 10.8

@@ -42,7 +42,7 @@ class Trap:
 
     def __init__(self, base: Path) -> None:
         self.course, self.home, self.temporary = base / "course", base / "home", base / "tmp"
-        for name in ("exercises", "solutions"):
+        for name in ("exercises", "solutions", "data/robots"):
             shutil.copytree(building.ROOT / name, self.course / name)
         for folder in (self.home, self.temporary / "neighbour", self.course / "tests"):
             folder.mkdir(parents=True)
