@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from botschool.config import OpenAIESConfig, SSSConfig
-from botschool.evolution.openaies import OpenAIES
-from botschool.evolution.sss import SSS
+from botschool.evolution.algorithms.openaies import OpenAIES
+from botschool.evolution.algorithms.sss import SSS
 from running import ALGORITHMS, experiment, run_seeds
 
 SIZE = 7

@@ -259,13 +259,13 @@ def test_it_is_the_world_of_evolution(name, problem):
     for seed, episode in ((3, 0), (2**63, 7)):
         own.reset(seed, episode)
         total = 0.0
-        for moment in made.play(policy, policy.initial(2), None, seed, episode, 200):
+        for transition in made.play(policy, policy.initial(2), None, seed, episode, 200):
             # single precision is what evolution's policies see
-            assert own.observation == pytest.approx(moment.observation, rel=0, abs=1e-4)
-            own.action = moment.action
+            assert own.observation == pytest.approx(transition.observation, rel=0, abs=1e-4)
+            own.action = transition.action
             total += own.step()
-            assert own.state.tolist() == moment.state.tolist()
-        assert own.done and total == moment.total
+            assert own.state.tolist() == transition.state.tolist()
+        assert own.done and total == transition.total
 
 
 # the face

@@ -276,12 +276,12 @@ def test_genotypes_end_with_the_body(problem):
     assert policy.genotype_size == 35 * 4 + 4 * 10 + 64
     assert not policy.initial(1)[-64:].any()
     genotype = genotypes_of(policy)[0]
-    moment = next(problem.play(policy, genotype, None, 7, 0, 10))
+    transition = next(problem.play(policy, genotype, None, 7, 0, 10))
     env = made(genotype[-64:])
     observation, _ = env.reset(seed=7)
-    np.testing.assert_array_equal(moment.observation.astype(np.float32), observation)
-    reward = env.step(np.clip(moment.action, -1, 1))[1]  # as the action space has it
-    assert reward == moment.reward
+    np.testing.assert_array_equal(transition.observation.astype(np.float32), observation)
+    reward = env.step(np.clip(transition.action, -1, 1))[1]  # as the action space has it
+    assert reward == transition.reward
 
 
 def test_fitness_is_a_pure_function(problem):

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from botschool.config import Coevo2Config
-from botschool.evolution import coevo2
-from botschool.evolution.coevo2 import Coevo2, differing, ranking, seen_by
+from botschool.evolution.algorithms import coevo2
+from botschool.evolution.algorithms.coevo2 import Coevo2, differing, ranking, seen_by
 
 SIZE = 5
 SETTINGS = {"popsize": 7, "selsize": 3, "samplesize": 4, "noiseStdDev": 0.1, "stepsize": 0.03}

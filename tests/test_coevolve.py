@@ -10,7 +10,7 @@ import pytest
 
 import running
 from botschool import config, problems
-from botschool.evolution.coevolve import Coevolution
+from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.record import STAT
 from botschool.evolution.replicate import replicate
 from botschool.evolution.run import evolve

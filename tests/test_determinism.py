@@ -316,7 +316,7 @@ def test_a_second_ctrl_c_ends_at_once_and_harms_nothing(tmp_path):
 @posix
 def test_a_second_request_is_not_discussed():
     program = (
-        "import os, signal\nfrom botschool.evolution.signals import stoppable\n"
+        "import os, signal\nfrom botschool.terminal import stoppable\n"
         "with stoppable() as stopping:\n"
         "    os.kill(os.getpid(), signal.SIGTERM)\n"
         "    print(stopping(), flush=True)\n"

@@ -9,7 +9,7 @@ from gymnasium.utils.env_checker import check_env
 
 import botschool.envs
 from botschool import _core, arena
-from botschool.envs.stage import Stage
+from botschool.envs.simulation import Simulation
 from botschool.errors import BotschoolError
 from botschool.policy import Policy
 from botschool.problems import make
@@ -131,7 +131,7 @@ def test_noise_and_steps_can_be_chosen():
         assert env.reset(seed=1)[0].min() >= 0
     refused(lambda: env_of("Discrim", noise=-1), "noise")
     refused(lambda: env_of("Prey", max_steps=0), "max_steps")
-    refused(lambda: Stage("ErDiscrim", "ansi"), "human, rgb_array")
+    refused(lambda: Simulation("ErDiscrim", "ansi"), "human, rgb_array")
 
 
 # predator and prey
@@ -203,16 +203,16 @@ def test_the_opponent_is_the_one_that_was_evolved(name, tmp_path):
     one = policy.nparameters
     theirs = genotype[one:] if name == "Predator" else genotype[:one]
     own, other = (slice(0, 2), slice(2, 4)) if name == "Predator" else (slice(2, 4), slice(0, 2))
-    moments = list(problem.play(policy, genotype, None, 1, 0, 2000))[:100]
+    transitions = list(problem.play(policy, genotype, None, 1, 0, 2000))[:100]
     states = []
     for opponent in (path, genotype, theirs):
         with env_of(name, opponent=opponent) as env:
             env.reset(seed=1)
-            for moment in moments:
-                env.step(moment.action[own])
+            for transition in transitions:
+                env.step(transition.action[own])
             states.append(env.unwrapped._chase.state)
     assert np.array_equal(states[0], states[1]) and np.array_equal(states[0], states[2])
-    assert states[0] == pytest.approx(moments[-1].state, rel=0, abs=0.05)
+    assert states[0] == pytest.approx(transitions[-1].state, rel=0, abs=0.05)
     assert other != own
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from botschool.errors import BotschoolError
-from botschool.problems.moment import Moment
+from botschool.problems.transition import Transition
 from botschool.render import panel, scene, shapes, video, window
 
 STATES = {
@@ -174,7 +174,7 @@ def test_groups_larger_than_the_network_are_refused():
 
 
 def test_the_caption():
-    moment = Moment(120, 1.0, -120.0, np.zeros(1), np.zeros(1), np.zeros(1))
+    moment = Transition(120, 1.0, -120.0, np.zeros(1), np.zeros(1), np.zeros(1))
     assert panel.caption(3, moment) == ("episode 3", "step 120", "reward 1.00", "return -120.0")
     frame = np.full((61, 301, 3), 255, np.uint8)
     out = panel.with_caption(frame, 3, moment)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from botschool.errors import BotschoolError
-from botschool.problems.moment import Moment
+from botschool.problems.transition import Transition
 from botschool.render import replay
 from botschool.render.scene import make_scene
 from browser import Browser, find_browser
@@ -33,7 +33,7 @@ def circling(name, steps=STEPS, seed=0):
         state = np.array([*poses.ravel(), *objects, step])
         observation, action = rng.uniform(0, 1, seen), rng.uniform(-1, 1, 2 * robots)
         reward = float(step == steps)
-        yield Moment(step, reward, reward, observation, action, state[:-1] / side, state)
+        yield Transition(step, reward, reward, observation, action, state[:-1] / side, state)
 
 
 def arena(path, name="ErDiscrim", episodes=2):
@@ -133,12 +133,11 @@ def test_an_arena_refuses_what_it_cannot_draw():
 
 def test_a_trail_shows_where_the_robot_was_and_ends_with_its_episode():
     scene = make_scene("ErDiscrim")
-    moments = list(circling("ErDiscrim", 12))
-    for moment in moments:
-        followed = scene.draw_moment(moment)
-    alone = scene.draw(
-        moments[-1].state, moments[-1].action, moments[-1].observation, moments[-1].reward
-    )
+    transitions = list(circling("ErDiscrim", 12))
+    for transition in transitions:
+        followed = scene.draw_transition(transition)
+    last = transitions[-1]
+    alone = scene.draw(last.state, last.action, last.observation, last.reward)
     assert (followed != alone).any(axis=2).sum() > 300
     fresh = make_scene("ErDiscrim").draw_moment(moments[-1])
     assert (alone == fresh).all()
@@ -317,7 +316,9 @@ def test_pictures_are_shown_as_they_were(page, tmp_path):
     def coloured():
         for number, colour in enumerate(colours, start=1):
             frame = np.full((100, 150, 3), colour, np.uint8)
-            yield Moment(number, 1.0, number, np.zeros(1), np.zeros(1), np.zeros(2), frame=frame)
+            yield Transition(
+                number, 1.0, number, np.zeros(1), np.zeros(1), np.zeros(2), frame=frame
+            )
 
     path = tmp_path / "a.html"
     replay.write_replay(path, "Frames", "x", [coloured()], 30.0, (1, 1))

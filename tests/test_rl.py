@@ -12,12 +12,12 @@ import pytest
 import yaml
 
 from botschool.errors import BotschoolError
-from botschool.evolution.evaluate import POST_EVALUATION_SEED
 from botschool.rl import settings
 from botschool.rl.agent import Agent, play
 from botschool.rl.folder import RunFolder, find_runs
 from botschool.rl.parameters import complete
 from botschool.rl.training import train
+from botschool.seeds import POST_EVALUATION_SEED
 from running import TESTS, call, finish, one_sentence, start
 
 pytest.importorskip("stable_baselines3")

@@ -8,9 +8,9 @@ import pytest
 
 pytest.importorskip("pybullet")
 
+from botschool.envs import showrobot
+from botschool.envs.showrobot import Model, find_model, show_robot
 from botschool.errors import BotschoolError
-from botschool.render import showrobot
-from botschool.render.showrobot import Model, find_model, show_robot
 
 ARM = """<robot name="arm">
   <link name="base"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"

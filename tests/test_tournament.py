@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from botschool import config
-from botschool.analysis import coevolved
+from botschool.analysis import coevolution
 from botschool.analysis.populations import Populations, read_population
 from botschool.analysis.tournament import (
     RESAMPLES,
@@ -18,7 +18,7 @@ from botschool.analysis.tournament import (
     verdict,
 )
 from botschool.errors import BotschoolError
-from botschool.evolution.evaluate import POST_EVALUATION_SEED
+from botschool.seeds import POST_EVALUATION_SEED
 from chases import (
     STILL,
     STRAIGHT,
@@ -126,7 +126,7 @@ def test_workers_change_nothing_and_neither_does_a_second_time(results):
     def found(workers):
         contest = Contest(config.load(results / "own.ini"), 12, workers)
         populations = Populations(results, 12, contest.policy)
-        return master_tournament(contest, coevolved.select(populations, [0, 10, 20]))
+        return master_tournament(contest, coevolution.select(populations, [0, 10, 20]))
 
     for one, other in zip(found(1), found(3), strict=True):
         np.testing.assert_array_equal(one.mean, other.mean)

@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from botschool import config
-from botschool.analysis import coevolved
+from botschool.analysis import coevolution
 from botschool.analysis.populations import Populations
 from botschool.analysis.tournament import Contest, master_tournament
 from botschool.errors import BotschoolError
@@ -29,7 +29,7 @@ def results(tmp_path):
 
 @pytest.mark.parametrize("text", ["P-100-5", "p-0-1", "m-40-10", "M-1000-100"])
 def test_strings_are_read(text, tmp_path):
-    request = coevolved.parse(text, tmp_path)
+    request = coevolution.parse(text, tmp_path)
     assert f"{request.kind}-{request.generation}-{request.number}" == text
 
 
@@ -55,7 +55,7 @@ def test_malformed_strings_are_refused_in_a_sentence_that_lists_what_is_there(te
         for generation in (0, 30):
             np.save(Path(folder) / f"S7G{generation}.npy", np.zeros((2, 2)))
         with pytest.raises(BotschoolError) as refused:
-            coevolved.parse(text, Path(folder))
+            coevolution.parse(text, Path(folder))
     sentence = str(refused.value)
     assert "P-100-5" in sentence and "generations 0 and 30 of seed 7" in sentence
     assert "\n" not in sentence
@@ -66,16 +66,16 @@ def test_file_names_in_a_cross_test_may_hold_dashes(tmp_path):
     for folder in (one, two):
         folder.mkdir()
         np.save(folder / "S1G0.npy", np.zeros((2, 2)))
-    request = coevolved.parse(f"c-{one}/S1G0.npy-{two}/S1G0.npy", tmp_path)
+    request = coevolution.parse(f"c-{one}/S1G0.npy-{two}/S1G0.npy", tmp_path)
     assert request.files == (one / "S1G0.npy", two / "S1G0.npy")
-    within = coevolved.parse("c-my-run/S1G0.npy-your-run-2/S1G0.npy", tmp_path)
+    within = coevolution.parse("c-my-run/S1G0.npy-your-run-2/S1G0.npy", tmp_path)
     assert within.files == request.files
     with pytest.raises(BotschoolError, match="not name two files"):
-        coevolved.parse("c-my-run/S1G0.npy-", tmp_path)
+        coevolution.parse("c-my-run/S1G0.npy-", tmp_path)
     for name in ("a", "b-c", "a-b", "c"):
         (tmp_path / name).touch()
     with pytest.raises(BotschoolError, match="more ways than one"):
-        coevolved.parse("c-a-b-c", tmp_path)
+        coevolution.parse("c-a-b-c", tmp_path)
 
 
 # The command
@@ -198,7 +198,7 @@ def test_the_tournament_is_drawn_with_its_numbers_beside_it(results, command, dr
 
     contest = Contest(config.load(results / "own.ini"), 12)
     populations = Populations(results, 12, contest.policy)
-    tables = master_tournament(contest, coevolved.select(populations, list(GENERATIONS)))
+    tables = master_tournament(contest, coevolution.select(populations, list(GENERATIONS)))
     expected = {table.role: table for table in tables}
     rows = list(csv.DictReader((results / "all.csv").open()))
     assert len(rows) == 2 * len(GENERATIONS) ** 2
@@ -209,6 +209,16 @@ def test_the_tournament_is_drawn_with_its_numbers_beside_it(results, command, dr
         assert float(row["low"]) <= float(row["fitness"]) <= float(row["high"])
     image = axes[0].images[0].get_array()
     np.testing.assert_array_equal(image, expected["predators"].mean)
+
+
+def test_a_picture_is_named_when_it_is_there(results, command, monkeypatch):
+    def interrupted(*arguments):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(coevolution, "draw", interrupted)
+    picture = results / "all.png"
+    code, said, _ = command("tournament", results, "-f", results / "own.ini", "-o", picture)
+    assert code == 130 and "Later prey do " in said and "all.png" not in said
 
 
 def test_generations_and_individuals_are_chosen(results, command):

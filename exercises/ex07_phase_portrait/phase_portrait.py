@@ -24,7 +24,7 @@ import numpy as np
 
 from botschool.config import OpenAIESConfig
 from botschool.course import Robot, controller_of
-from botschool.evolution.openaies import OpenAIES
+from botschool.evolution.algorithms.openaies import OpenAIES
 
 # %% [markdown]
 # ## Task 7.1. From observation to state

@@ -1,14 +1,14 @@
 // The native problems. A new one is a header and a line here.
 #pragma once
 
-#include "classic/acrobot.hpp"
-#include "classic/cartpole.hpp"
-#include "classic/dpole.hpp"
-#include "classic/mountaincar.hpp"
-#include "classic/pendulum.hpp"
-#include "classic/swingup.hpp"
-#include "wheels/discrim.hpp"
-#include "wheels/predprey.hpp"
+#include "problems/acrobot.hpp"
+#include "problems/cartpole.hpp"
+#include "problems/dpole.hpp"
+#include "problems/mountaincar.hpp"
+#include "problems/pendulum.hpp"
+#include "problems/swingup.hpp"
+#include "problems/discrim.hpp"
+#include "problems/predprey.hpp"
 
 BOTSCHOOL_BEGIN
 

@@ -1,4 +1,4 @@
-#include "arena/engine.hpp"
+#include "arena/engine/engine.hpp"
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>

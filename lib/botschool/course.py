@@ -43,7 +43,7 @@ class Robot:
         return outcome.fitness.reshape(-1, episodes).mean(axis=1)
 
     def play(self, parameters: np.ndarray, seed: int, maxsteps: int = 1000):
-        """One episode, step by step: yields botschool.problems.moment.Moment objects."""
+        """One episode, step by step: yields botschool.problems.transition.Transition objects."""
         parameters = np.ascontiguousarray(parameters, dtype=np.float64)
         return self._problem.play(self.policy, parameters, None, seed, 0, maxsteps)
 
@@ -82,8 +82,8 @@ def film(file: str | Path, environment: str, parameters: np.ndarray, seed: int =
     draw_offscreen()
     scene = make_scene(NATIVE[environment][0])
     frames = (
-        with_caption(scene.draw_moment(moment), 1, moment)
-        for moment in Robot(environment).play(parameters, seed)
+        with_caption(scene.draw_transition(transition), 1, transition)
+        for transition in Robot(environment).play(parameters, seed)
     )
     write_video(Path(file), frames, scene.fps)
     print(f"film: {file}")
@@ -143,7 +143,7 @@ def film_agent(
 
 
 def _frames(env, act, episodes: int, seed: int, maxsteps: int):
-    from botschool.problems.moment import Moment
+    from botschool.problems.transition import Transition
     from botschool.render.panel import with_caption
 
     for episode in range(episodes):
@@ -153,10 +153,10 @@ def _frames(env, act, episodes: int, seed: int, maxsteps: int):
             action = act(observation)
             following, reward, terminated, truncated, _ = env.step(action)
             total += float(reward)
-            moment = Moment(
+            transition = Transition(
                 step, float(reward), total, observation, np.atleast_1d(action), np.zeros(0)
             )
-            yield with_caption(env.render(), episode + 1, moment)
+            yield with_caption(env.render(), episode + 1, transition)
             observation = following
             if terminated or truncated:
                 break
@@ -235,14 +235,14 @@ def draw_verdicts(
 
 def experiment_file(name: str) -> Path:
     """An experiment file of the course, as "acrobot.ini". Raises BotschoolError."""
-    from botschool.grading.exercise import course_root
+    from botschool.paths import course_root
 
     return course_root() / "data" / "experiments" / name
 
 
 def genotype_file(name: str) -> Path:
     """A pre-evolved robot of the course, as "bodybrainS1.npy". Raises BotschoolError."""
-    from botschool.grading.exercise import course_root
+    from botschool.paths import course_root
 
     return course_root() / "data" / "genotypes" / name
 
@@ -283,11 +283,11 @@ class SavedRobot:
 
         robot, maxsteps = (self._genotype, self._normalisation), self._policy.config.maxsteps
         for episode in range(episodes):
-            for moment in self._problem.play(
+            for transition in self._problem.play(
                 self._policy, *robot, seed, episode, maxsteps, render=scene is None
             ):
-                frame = scene.draw_moment(moment) if scene else moment.frame
-                yield with_caption(frame, episode + 1, moment)
+                frame = scene.draw_transition(transition) if scene else transition.frame
+                yield with_caption(frame, episode + 1, transition)
 
 
 def draw_bands(

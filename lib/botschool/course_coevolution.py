@@ -34,7 +34,7 @@ def load_run(
     were saved. best: individuals of each population. Raises BotschoolError.
     """
     from botschool.analysis.populations import Populations, seeds_of
-    from botschool.grading.exercise import course_root
+    from botschool.paths import course_root
 
     own = course_root() / folder
     found = seeds_of(own) if own.is_dir() else {}

@@ -17,7 +17,7 @@ def replications(folder: str) -> dict[str, np.ndarray]:
     BotschoolError.
     """
     from botschool.course import genotype_file
-    from botschool.grading.exercise import course_root
+    from botschool.paths import course_root
 
     files = list((course_root() / folder).glob("bestgS*.npy"))
     if not files:

@@ -120,7 +120,7 @@ def strip(environment: str, genotype: np.ndarray, seed: int, pictures: int = 7) 
     wanted = set(np.linspace(1, steps, pictures).astype(int).tolist())
     problem, found = problems.make(environment), []
     play = problem.play(runner.policy, *runner.policy.split(genotype), seed, 0, 1000, render=True)
-    for moment in play:
-        if moment.step in wanted:
-            found.append(moment.frame)
+    for transition in play:
+        if transition.step in wanted:
+            found.append(transition.frame)
     return np.hstack(found)

@@ -29,7 +29,7 @@ def robot_file(name):
 
 def robot_file(name: str) -> Path:
     """A robot's description, as "balance_bot.urdf". Raises BotschoolError."""
-    from botschool.grading.exercise import course_root
+    from botschool.paths import course_root
 
     return course_root() / "data" / "robots" / name
 
@@ -84,7 +84,7 @@ def film_balance(file: str | Path, env, act, seeds: list[int], every: int = 4) -
 
 
 def _pictures(env, act, seeds: list[int], every: int):
-    from botschool.problems.moment import Moment
+    from botschool.problems.transition import Transition
     from botschool.render.panel import with_caption
 
     for number, seed in enumerate(seeds, 1):
@@ -95,5 +95,5 @@ def _pictures(env, act, seeds: list[int], every: int):
             observation, reward, terminated, truncated, _ = env.step(action)
             step, total, ended = step + 1, total + reward, terminated or truncated
             if step % every == 0 or ended:
-                moment = Moment(step, reward, total, observation, action, np.zeros(0))
-                yield with_caption(env.render(), number, moment)
+                transition = Transition(step, reward, total, observation, action, np.zeros(0))
+                yield with_caption(env.render(), number, transition)

@@ -1,5 +1,5 @@
 // One or several policy networks for stepwise use, in double precision, on buffers that the caller
-// owns. Counterpart of the lanes that arena/rollout.hpp evaluates.
+// owns. Counterpart of the lanes that arena/engine/rollout.hpp evaluates.
 #pragma once
 
 #include <cstdint>

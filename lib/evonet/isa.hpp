@@ -1,6 +1,6 @@
 // One source, several instruction sets: every header of the inner loops opens its code with
 // BOTSCHOOL_BEGIN, so that each build of it (plain, AVX2, AVX-512) has names of its own and the
-// linker never mixes them. See arena/kernel.cpp.
+// linker never mixes them. See arena/engine/kernel.cpp.
 #pragma once
 
 #ifndef BOTSCHOOL_ISA

@@ -34,7 +34,7 @@ from speed import (
 
 from botschool import _core, config
 from botschool.analysis.populations import Population, Populations
-from botschool.evolution.coevolve import Coevolution
+from botschool.evolution.coevolution import Coevolution
 
 TWO_WORKERS = 1.8
 GENERATION = 60

@@ -12,7 +12,7 @@ import numpy as np
 
 from botschool import config
 from botschool.config import Experiment
-from botschool.evolution.coevolve import Coevolution
+from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.run import Run
 from botschool.policy import Policy
 from botschool.problems import Episodes

@@ -155,7 +155,7 @@ def test_release_tells_no_answers(tmp_path):
     assert not find_leaks(building.ROOT, files)
     names = {path.relative_to(tmp_path / "copy").as_posix() for path in files}
     for needed in ("Makefile", "tools/setup.sh", "pyproject.toml", "constraints.txt", "README.md",
-                   "LICENSE", "lib/CMakeLists.txt", "lib/botschool/cli.py"):  # fmt: skip
+                   "LICENSE", "lib/CMakeLists.txt", "lib/botschool/cli/app.py"):  # fmt: skip
         assert needed in names
     assert not [
         name for name in names if re.search(r"solutions/|tests/course|mutants|\.git/", name)

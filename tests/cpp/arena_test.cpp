@@ -1,7 +1,7 @@
 // What no task uses yet: light, laser, walls inside an arena; and bodies against published numbers.
 #include <cmath>
 
-#include "arena/wheels/sensors.hpp"
+#include "arena/robots/sensors.hpp"
 #include "check.hpp"
 
 using namespace botschool;

@@ -1,5 +1,5 @@
 // Whole episodes: the same bits on every instruction set, for any number of threads and of jobs.
-#include "arena/engine.hpp"
+#include "arena/engine/engine.hpp"
 
 #include <cmath>
 #include <cstring>

@@ -21,10 +21,9 @@ from botschool import problems
 from botschool.analysis.populations import Population
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
-from botschool.evolution.evaluate import POST_EVALUATION_SEED
-from botschool.evolution.rng import generator
 from botschool.policy import Policy
 from botschool.problems import Episodes
+from botschool.seeds import POST_EVALUATION_SEED, generator
 
 ROLES = ("predators", "prey")
 RESAMPLES = 1000

@@ -32,7 +32,7 @@ for _id, _problem, _steps in (
 for _side in ("Predator", "Prey"):
     gymnasium.register(
         f"botschool/{_side}-v0",
-        entry_point="botschool.envs.chase:OneSide",
+        entry_point="botschool.envs.predprey_sides:OneSide",
         kwargs={"side": _side.lower()},
     )
 

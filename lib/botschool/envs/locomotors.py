@@ -80,6 +80,8 @@ class Locomotor(gymnasium.Env):
         self.action_space = spaces.Box(-1.0, 1.0, (n,), np.float32)
         size = 8 + 2 * n + len(self._feet)
         self.observation_space = spaces.Box(-5.0, 5.0, (size,), np.float32)
+        self._full = self.action_space.low, self.action_space.high
+        self._seen = self.observation_space.low, self.observation_space.high
         self._next_frame = 0.0
         self._place = (0.0, 0.0, 1.0)
         self._steps, self._drawn, self._picture = 0, 0, None
@@ -156,12 +158,12 @@ class Locomotor(gymnasium.Env):
         self._distance = self._to_target
         self._steps, self._picture = 0, None
         self._show()
-        return _within(self.observation_space, self._observation), {}
+        return self._observation.clip(*self._seen), {}
 
     def step(self, action: np.ndarray):
         """One step. Raises BotschoolError if the action holds a number that is not finite."""
         action = np.asarray(action)
-        torques = (self._gains * _within(self.action_space, action)).tolist()
+        torques = (self._gains * action.clip(*self._full)).tolist()
         if not math.isfinite(sum(torques)):
             raise BotschoolError(f"{action.tolist()} is no action: it holds NaN.")
         world, robot = self._client, self._robot
@@ -172,10 +174,9 @@ class Locomotor(gymnasium.Env):
         self._steps += 1
         observation = self._observe()
         if self._exploded:
-            observed = _within(self.observation_space, self._observation)
-            return observed, 0.0, True, False, {"exploded": True}
+            return self._observation.clip(*self._seen), 0.0, True, False, {"exploded": True}
         self._observation = observation
-        observed = _within(self.observation_space, observation)
+        observed = observation.clip(*self._seen)
         alive = self.body.alive(float(observed[0]) + self._height, self._pitch, self._contacts)
         measured = self._measure(action, alive, observation)
         self._touching = max([self._contacts[i] for i in self._shins], default=0.0)
@@ -289,8 +290,3 @@ class Locomotor(gymnasium.Env):
     def close(self) -> None:
         """Ends the physics world."""
         self._end()
-
-
-def _within(space: spaces.Box, values: np.ndarray) -> np.ndarray:
-    """np.clip, which takes twice as long for a few numbers."""
-    return np.minimum(np.maximum(values, space.low), space.high)

@@ -8,7 +8,7 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
-from botschool.envs.stage import INFOS, RENDER_MODES, Stage
+from botschool.envs.simulation import INFOS, RENDER_MODES, Simulation
 from botschool.errors import BotschoolError
 
 _FAR = float(np.finfo(np.float32).max)
@@ -39,7 +39,7 @@ class NativeEnv(gymnasium.Env):
         self, problem: str, render_mode: str | None = None, noise: float | None = None
     ) -> None:
         self.render_mode = render_mode
-        self._stage = Stage(problem, render_mode, noise=noise)
+        self._stage = Simulation(problem, render_mode, noise=noise)
         info = INFOS[problem]
         self.metadata = self.metadata | {"render_fps": round(1 / info["seconds"])}
         self.observation_space = _observation_space(info, noise)

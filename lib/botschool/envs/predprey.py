@@ -8,8 +8,15 @@ import numpy as np
 from gymnasium import spaces
 from gymnasium.utils import seeding
 
-from botschool.envs.chase import FPS, ROBOTS, Chase, action_space, observation_space, wheels
-from botschool.envs.stage import RENDER_MODES
+from botschool.envs.predprey_sides import (
+    FPS,
+    ROBOTS,
+    Chase,
+    action_space,
+    observation_space,
+    wheels,
+)
+from botschool.envs.simulation import RENDER_MODES
 from botschool.errors import BotschoolError
 
 try:

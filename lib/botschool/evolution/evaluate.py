@@ -11,9 +11,8 @@ import numpy as np
 from botschool import _core
 from botschool.policy import Policy
 from botschool.problems import Episodes, Outcome, Problem
+from botschool.seeds import POST_EVALUATION_SEED
 
-POST_EVALUATION_SEED = 100_000
-"""Post-evaluation of a run with seed S uses seed S + 100000 and episodes 0, 1, ..."""
 COLLECTED = 0.01
 """Share of the evaluation episodes in which normalisation data are collected."""
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from botschool.evolution.run import Run
+from botschool.terminal import progress_bar
 
 
 @contextmanager
@@ -29,33 +30,3 @@ def reporting(seed: int, terminal: bool) -> Iterator[Callable[[Run], None]]:
             print(run.line(), flush=True)
 
     yield line
-
-
-@contextmanager
-def progress_bar(seed: int) -> Iterator[Callable[[float, int, int, str], None]]:
-    """Gives a function to call with the share done, the steps so far, decimals of their millions,
-    and a text."""
-    from rich.progress import (
-        BarColumn,
-        Progress,
-        TaskProgressColumn,
-        TextColumn,
-        TimeRemainingColumn,
-    )
-
-    columns = (
-        TextColumn("seed {task.fields[seed]}"),
-        BarColumn(bar_width=8),
-        TaskProgressColumn(),
-        TextColumn("{task.fields[steps]}"),
-        TimeRemainingColumn(compact=True),
-        TextColumn("{task.fields[numbers]}"),
-    )
-    with Progress(*columns, refresh_per_second=5) as progress:
-        task = progress.add_task("", total=1.0, seed=seed, steps="", numbers="")
-
-        def show(share: float, steps: int, decimals: int, numbers: str) -> None:
-            millions = f"{steps / 1e6:.{decimals}f}M"
-            progress.update(task, completed=min(share, 1.0), steps=millions, numbers=numbers)
-
-        yield show

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from botschool.config import Experiment
-from botschool.evolution.coevolve import Coevolution
+from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.progress import reporting
 from botschool.evolution.record import RunFiles
 from botschool.evolution.run import Run, claim, evolve
-from botschool.evolution.signals import stoppable
+from botschool.terminal import stoppable
 
 
 def replicate(

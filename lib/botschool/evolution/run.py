@@ -15,11 +15,11 @@ from botschool import problems
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution import checkpoint
+from botschool.evolution.algorithms.openaies import OpenAIES
+from botschool.evolution.algorithms.sss import SSS
 from botschool.evolution.evaluate import Evaluator, mean
 from botschool.evolution.events import Events
-from botschool.evolution.openaies import OpenAIES
 from botschool.evolution.record import Record, RunFiles
-from botschool.evolution.sss import SSS
 from botschool.output import cannot_write, remove_leftovers
 from botschool.policy import Policy
 from botschool.problems import Interrupted

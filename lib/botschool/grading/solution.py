@@ -8,7 +8,8 @@ import sys
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.exercise import course_root, load_exercise
+from botschool.grading.exercise import load_exercise
+from botschool.paths import course_root
 
 
 def run_solution(number: int, root: Path | None = None) -> list[Path]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.policy import Interface, Policy
-from botschool.problems.moment import Moment
+from botschool.problems.transition import Transition
 
 
 class Interrupted(Exception):
@@ -101,7 +101,7 @@ class Problem(ABC):
         episode: int,
         maxsteps: int,
         render: bool = False,
-    ) -> Iterator[Moment]:
+    ) -> Iterator[Transition]:
         """Runs one episode, the same that `evaluate` runs, and yields every step.
 
         With `render`, an environment in Python adds its pictures; those of native problems are

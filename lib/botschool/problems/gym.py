@@ -18,8 +18,8 @@ from botschool.errors import BotschoolError
 from botschool.inifile import shown
 from botschool.policy import Interface, Policy
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
-from botschool.problems.moment import Moment
 from botschool.problems.native import NATIVE
+from botschool.problems.transition import Transition
 
 SUPPORTED = (
     "policies read flat observations (a Box of one dimension, Discrete, MultiDiscrete or "
@@ -107,12 +107,12 @@ class GymProblem(Problem):
             wanted = episodes.collect is not None and episodes.collect[i]
             moments = outcome.moments[i] if wanted else None
             seed, episode = int(episodes.seed[i]), int(episodes.episode[i])
-            for moment in self._episode(self._env, policy, seed, episode, maxsteps):
-                outcome.fitness[i] = moment.total
-                outcome.steps[i] = moment.step
+            for transition in self._episode(self._env, policy, seed, episode, maxsteps):
+                outcome.fitness[i] = transition.total
+                outcome.steps[i] = transition.step
                 if moments is not None:
-                    moments[:size] += moment.observation
-                    moments[size:] += moment.observation**2
+                    moments[:size] += transition.observation
+                    moments[size:] += transition.observation**2
         return outcome
 
     def play(
@@ -124,16 +124,16 @@ class GymProblem(Problem):
         episode: int,
         maxsteps: int,
         render: bool = False,
-    ) -> Iterator[Moment]:
+    ) -> Iterator[Transition]:
         if render and "rgb_array" not in (self._env.metadata.get("render_modes") or ()):
             raise self._unseen()
         policy.load(genotype, normalisation)
         env = make_env(self.name, render_mode="rgb_array") if render else self._env
         try:
-            for moment in self._episode(env, policy, seed, episode, maxsteps):
+            for transition in self._episode(env, policy, seed, episode, maxsteps):
                 if render:
-                    moment.frame = self._picture(env)
-                yield moment
+                    transition.frame = self._picture(env)
+                yield transition
         finally:
             if render:
                 env.close()
@@ -154,7 +154,7 @@ class GymProblem(Problem):
             )
             reward = self._number(reward, step, seed, episode)
             total += reward
-            yield Moment(
+            yield Transition(
                 step, reward, total, observation, np.atleast_1d(action), policy.network.activations
             )
             if terminated or truncated:

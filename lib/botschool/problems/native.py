@@ -9,7 +9,7 @@ import numpy as np
 from botschool import _core
 from botschool.policy import Interface, Policy
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
-from botschool.problems.moment import Moment
+from botschool.problems.transition import Transition
 
 _CORE = {info["name"]: info for info in _core.native_problems()}
 
@@ -102,7 +102,7 @@ class NativeProblem(Problem):
         episode: int,
         maxsteps: int,
         render: bool = False,
-    ) -> Iterator[Moment]:
+    ) -> Iterator[Transition]:
         tape = self.engine(policy).record(
             np.atleast_2d(genotype),
             normalisation,
@@ -114,7 +114,7 @@ class NativeProblem(Problem):
         total = 0.0
         for t, reward in enumerate(tape["rewards"]):
             total += reward
-            yield Moment(
+            yield Transition(
                 step=t + 1,
                 reward=float(reward),
                 total=total,

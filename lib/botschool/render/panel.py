@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from botschool.problems.moment import Moment
+from botschool.problems.transition import Transition
 from botschool.render.canvas import BLACK, GREY, WHITE, blank, to_frame, write_text
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def neuron_groups(
     ]
 
 
-def with_caption(frame: np.ndarray, episode: int, moment: Moment) -> np.ndarray:
+def with_caption(frame: np.ndarray, episode: int, transition: Transition) -> np.ndarray:
     """The frame with a line below: episode, step, reward and return.
 
     `frame` is (height, width, 3) uint8. Returns a new frame; its sides are even.
@@ -86,19 +86,19 @@ def with_caption(frame: np.ndarray, episode: int, moment: Moment) -> np.ndarray:
     width = frame.shape[1]
     strip = blank(width, CAPTION_HEIGHT)
     size = 20 if width >= 400 else 14
-    texts = caption(episode, moment)
+    texts = caption(episode, transition)
     for column, text in zip((0.0, 0.22, 0.42, 0.68), texts, strict=True):
         write_text(strip, text, (8 + column * (width - 8), (CAPTION_HEIGHT - size) // 2 + 2), size)
     return np.vstack([frame, to_frame(strip)])
 
 
-def caption(episode: int, moment: Moment) -> tuple[str, str, str, str]:
+def caption(episode: int, transition: Transition) -> tuple[str, str, str, str]:
     """What `with_caption` writes."""
     return (
         f"episode {episode}",
-        f"step {moment.step}",
-        f"reward {moment.reward:.2f}",
-        f"return {moment.total:.1f}",
+        f"step {transition.step}",
+        f"reward {transition.reward:.2f}",
+        f"return {transition.total:.1f}",
     )
 
 

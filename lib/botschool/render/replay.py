@@ -20,7 +20,7 @@ import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.output import check_output, save_bytes
-from botschool.problems.moment import Moment
+from botschool.problems.transition import Transition
 from botschool.render.panel import neuron_groups
 from botschool.render.scene import Scene
 from botschool.render.shapes import PALETTE
@@ -36,7 +36,7 @@ def write_replay(
     path: Path | str,
     title: str,
     about: str,
-    episodes: Iterable[Iterable[Moment]],
+    episodes: Iterable[Iterable[Transition]],
     fps: float,
     neurons: tuple[int, int],
     scene: Scene | None = None,
@@ -45,7 +45,7 @@ def write_replay(
     """Writes the page.
 
     title: the problem's name; about: a line on the robot and the experiment. fps: steps a second.
-    neurons: inputs and outputs of one robot's network. Without a scene the moments must hold
+    neurons: inputs and outputs of one robot's network. Without a scene the transitions must hold
     frames. labels: what tells each episode from the others, shown while it plays.
     Raises BotschoolError if the file cannot be written or there are no steps to show.
     """
@@ -53,8 +53,8 @@ def write_replay(
     frames = Frames()
     played = []
     count = 0
-    for moments, label in zip(episodes, labels, strict=False):
-        steps = [_Step.of(moment, scene, frames, len(played)) for moment in moments]
+    for transitions, label in zip(episodes, labels, strict=False):
+        steps = [_Step.of(transition, scene, frames, len(played)) for transition in transitions]
         if steps:
             played.append(_episode(steps) | ({"label": label} if label else {}))
             count = len(steps[0].activations)
@@ -100,14 +100,16 @@ class _Step(NamedTuple):
     numbers: np.ndarray
 
     @classmethod
-    def of(cls, moment: Moment, scene: Scene | None, frames: Frames, episode: int) -> _Step:
-        """What is kept of a moment; its picture goes to `frames` where there is no scene."""
+    def of(cls, transition: Transition, scene: Scene | None, frames: Frames, episode: int) -> _Step:
+        """What is kept of a transition; its picture goes to `frames` where there is no scene."""
         numbers = np.zeros(0)
         if scene is None:
-            frames.add(episode, moment.step - 1, moment.frame)
+            frames.add(episode, transition.step - 1, transition.frame)
         else:
-            numbers = scene.numbers(moment.state, moment.action, moment.observation, moment.reward)
-        return cls(moment.total, np.array(moment.activations), numbers)
+            numbers = scene.numbers(
+                transition.state, transition.action, transition.observation, transition.reward
+            )
+        return cls(transition.total, np.array(transition.activations), numbers)
 
 
 def _episode(steps: list[_Step]) -> dict:

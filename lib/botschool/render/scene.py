@@ -10,7 +10,7 @@ from math import atan, cos, sin
 import numpy as np
 
 from botschool.errors import BotschoolError
-from botschool.problems.moment import Moment
+from botschool.problems.transition import Transition
 from botschool.render.canvas import Painter, draw_offscreen
 from botschool.render.shapes import Shape, arrow, bent_arrow, rectangle
 
@@ -108,9 +108,11 @@ class Scene(ABC):
             self._painter = Painter(self.shapes, self.view, self.scale)
         return self._painter.frame(self._past)
 
-    def draw_moment(self, moment: Moment) -> np.ndarray:
+    def draw_transition(self, transition: Transition) -> np.ndarray:
         """The frame of a step that `Problem.play` yielded; see draw."""
-        return self.draw(moment.state, moment.action, moment.observation, moment.reward)
+        return self.draw(
+            transition.state, transition.action, transition.observation, transition.reward
+        )
 
     def _follows(self, state: np.ndarray) -> bool:
         """Whether the state comes after those drawn before, in the same episode."""

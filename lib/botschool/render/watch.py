@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,9 +12,10 @@ import numpy as np
 from botschool import problems
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
-from botschool.evolution.evaluate import POST_EVALUATION_SEED
 from botschool.policy import Policy
-from botschool.problems.moment import Moment
+from botschool.problems.transition import Transition
+from botschool.seeds import POST_EVALUATION_SEED
+from botschool.terminal import has_display
 
 VIDEO_EPISODES = 3
 REPLAY_EPISODES = 5
@@ -76,20 +76,20 @@ class PostEvaluation:
         """What tells this episode from the others, beside its number."""
         return ""
 
-    def play(self, episode: int, render: bool = False) -> Iterator[Moment]:
+    def play(self, episode: int, render: bool = False) -> Iterator[Transition]:
         """Plays one episode, then keeps its fitness and steps and prints them."""
         genotype, normalisation, number = self.cast(episode)
         seed = self.seed + POST_EVALUATION_SEED
-        moment = None
-        for moment in self.problem.play(
+        transition = None
+        for transition in self.problem.play(
             self.policy, genotype, normalisation, seed, number, self.maxsteps, render
         ):
-            yield moment
-        if moment is not None:
-            self.fitness.append(moment.total)
-            self.steps.append(moment.step)
+            yield transition
+        if transition is not None:
+            self.fitness.append(transition.total)
+            self.steps.append(transition.step)
             name = "  ".join(filter(None, [f"episode {episode + 1}", self.label(episode)]))
-            print(f"{name}  fitness {moment.total:.2f}  steps {moment.step}")
+            print(f"{name}  fitness {transition.total:.2f}  steps {transition.step}")
 
     def frames(self, episodes: int, activations: bool) -> Iterator[np.ndarray]:
         """Pictures of the first episodes with a caption, and with the neurons on request."""
@@ -101,11 +101,11 @@ class PostEvaluation:
         scene = make_scene(self.problem.dynamics) if self.problem.native else None
         robots = scene.robots if scene else ("",)
         for episode in range(episodes):
-            for moment in self.play(episode, render=True):
-                frame = scene.draw_moment(moment) if scene else moment.frame
-                frame = with_caption(frame, episode + 1, moment)
+            for transition in self.play(episode, render=True):
+                frame = scene.draw_transition(transition) if scene else transition.frame
+                frame = with_caption(frame, episode + 1, transition)
                 if activations:
-                    frame = with_activations(frame, moment.activations, *self.neurons, robots)
+                    frame = with_activations(frame, transition.activations, *self.neurons, robots)
                 yield frame
 
     @property
@@ -199,18 +199,10 @@ def watch(
         show(robot.frames(episodes, activations), robot.problem.fps, title)
     else:
         for episode in range(episodes):
-            for moment in robot.play(episode):
+            for transition in robot.play(episode):
                 if activations:
-                    values = " ".join(f"{value:.3f}" for value in moment.activations)
-                    print(f"step {moment.step}  reward {moment.reward:.2f}  activations {values}")
+                    values = " ".join(f"{value:.3f}" for value in transition.activations)
+                    step = f"step {transition.step}  reward {transition.reward:.2f}"
+                    print(f"{step}  activations {values}")
     robot.print_summary()
     robot.problem.close()
-
-
-def has_display() -> bool:
-    """Whether a window can be expected to open."""
-    if os.environ.get("SDL_VIDEODRIVER") in ("dummy", "offscreen"):
-        return False
-    if sys.platform in ("win32", "darwin"):
-        return True
-    return any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))

@@ -11,11 +11,11 @@ from gymnasium import spaces
 from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.on_policy_algorithm import OnPolicyAlgorithm
 
-from botschool.evolution.evaluate import POST_EVALUATION_SEED
 from botschool.rl.agent import Agent, play, save_model
 from botschool.rl.environments import make
 from botschool.rl.folder import Evaluations, RunFolder
 from botschool.rl.settings import Settings
+from botschool.seeds import POST_EVALUATION_SEED
 
 SAVE_SECONDS = 60.0
 """The last model is saved this often, and after every post-evaluation."""

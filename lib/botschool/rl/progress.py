@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from botschool.evolution.progress import progress_bar
 from botschool.rl.folder import Evaluations
+from botschool.terminal import progress_bar
 
 
 @contextmanager

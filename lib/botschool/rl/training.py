@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from botschool.errors import BotschoolError
-from botschool.evolution.signals import stoppable
 from botschool.output import cannot_write
 from botschool.rl.folder import Evaluations, RunFolder, next_folder
 from botschool.rl.model import build, choose
 from botschool.rl.parameters import parse
 from botschool.rl.progress import reporting
 from botschool.rl.settings import Settings
+from botschool.terminal import stoppable
 
 if TYPE_CHECKING:
     from stable_baselines3.common.base_class import BaseAlgorithm

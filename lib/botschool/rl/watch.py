@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from botschool.errors import BotschoolError
-from botschool.problems.moment import Moment
+from botschool.problems.transition import Transition
 from botschool.rl.agent import Agent, play, stacked
 from botschool.rl.environments import make
 from botschool.rl.folder import RunFolder, find_runs
@@ -45,7 +45,7 @@ class Player:
             for env in envs:
                 env.close()
 
-    def moments(self, number: int) -> Iterator[Moment]:
+    def transitions(self, number: int) -> Iterator[Transition]:
         """Plays episode `number`, from 0, yielding each step with its picture."""
         env = make(self.env, render_mode="rgb_array")
         try:
@@ -57,7 +57,7 @@ class Player:
                 observation, reward, terminated, truncated, _ = env.step(actions[0])
                 step, total, ended = step + 1, total + reward, terminated or truncated
                 frame = _picture(env, self.env)
-                yield Moment(step, reward, total, seen, actions[0], np.zeros(0), frame=frame)
+                yield Transition(step, reward, total, seen, actions[0], np.zeros(0), frame=frame)
         finally:
             env.close()
         self._keep(total, step)
@@ -77,8 +77,8 @@ class Player:
 
         draw_offscreen()
         for number in range(episodes):
-            for moment in self.moments(number):
-                yield with_caption(moment.frame, number + 1, moment)
+            for transition in self.transitions(number):
+                yield with_caption(transition.frame, number + 1, transition)
 
     @property
     def fps(self) -> float:
@@ -136,7 +136,7 @@ def enjoy_command(
     last: bool,
 ) -> None:
     """`botschool rl enjoy`."""
-    from botschool.render.watch import has_display
+    from botschool.terminal import has_display
 
     if render == "human" and not has_display():
         raise BotschoolError(

@@ -1,0 +1,211 @@
+#include "engine.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+#include <type_traits>
+
+#include "cpu.hpp"
+#include "kernel.hpp"
+#include "../problems.hpp"
+
+namespace botschool {
+namespace {
+
+KernelTable table_for(const std::string& instruction_set) {
+  const auto known = instruction_sets();
+  const std::string& name = instruction_set.empty() ? known.back() : instruction_set;
+  bool found = false;
+  for (const auto& each : known) found |= each == name;
+  if (!found) throw std::invalid_argument("this machine has no instruction set '" + name + "'.");
+#ifdef BOTSCHOOL_X86
+  if (name == "avx512") return kernel_table_avx512();
+  if (name == "avx2") return kernel_table_avx2();
+#endif
+  return kernel_table_baseline();
+}
+
+const Kernel* find_kernel(const std::string& problem, const std::string& instruction_set) {
+  const KernelTable table = table_for(instruction_set);
+  for (std::size_t i = 0; i < table.count; ++i)
+    if (problem == table.kernel[i].info.name) return &table.kernel[i];
+  throw std::invalid_argument("there is no native problem '" + problem + "'.");
+}
+
+class SharedQueue final : public Queue {
+ public:
+  explicit SharedQueue(std::size_t count) : count_(static_cast<std::ptrdiff_t>(count)) {}
+  std::ptrdiff_t next() override {
+    const std::ptrdiff_t job = next_.fetch_add(1, std::memory_order_relaxed);
+    return job < count_ ? job : -1;
+  }
+
+ private:
+  std::atomic<std::ptrdiff_t> next_{0};
+  std::ptrdiff_t count_;
+};
+
+template <template <int> class Problem>
+class ProblemStepper : public Stepper {
+ public:
+  ProblemStepper() {
+    ProblemStepper::set({Problem<1>::info().limit});
+    ProblemStepper::start(0, 0);
+  }
+  Info info() const override { return Problem<1>::info(); }
+  void set(const Setting& setting) override { problem_.set(setting); }
+  void start(std::uint64_t seed, std::uint32_t episode) override {
+    Random random(seed, episode, Stream::start);
+    problem_.start(0, random);
+  }
+  void set_state(const double* state) override {
+    for (int i = 0; i < info().states; ++i) problem_.state[i][0] = state[i];
+    problem_.refresh(0);
+  }
+  void get_state(double* state) const override {
+    for (int i = 0; i < info().states; ++i) state[i] = problem_.state[i][0];
+  }
+  void observe(double* observation) const override { problem_.observe(observation); }
+  bool step(const double* action, double& reward) override {
+    std::int64_t ended = 0;
+    problem_.step(action, &reward, &ended);
+    return ended != 0;
+  }
+
+ protected:
+  Problem<1> problem_{};
+};
+
+/// With the objects of an arena; where its cylinders are is part of the state, too.
+template <template <int> class Problem>
+class ArenaStepper final : public ProblemStepper<Problem> {
+  using P = Problem<1>;
+  using ProblemStepper<Problem>::problem_;
+
+  int objects() const override { return P::cylinders + P::walls; }
+  void get_objects(double* row) const override {
+    for (int c = 0; c < P::cylinders; ++c, row += kObject) {
+      const double values[]{problem_.cylinder_x(c)[0], problem_.cylinder_y(c)[0], 0, 0,
+                            problem_.radius[c]};
+      std::copy(values, values + kObject, row);
+    }
+    for (const Wall& wall : problem_.wall) {
+      const double values[]{wall.x, wall.y, wall.x2, wall.y2, 0};
+      std::copy(values, values + kObject, row);
+      row += kObject;
+    }
+  }
+  void set_objects(const double* row) override {
+    for (int c = 0; c < P::cylinders; ++c, row += kObject) {
+      problem_.place_cylinder(0, c, row[0], row[1]);
+      problem_.radius[c] = row[4];
+    }
+    for (Wall& wall : problem_.wall) {
+      wall = {row[0], row[1], row[2], row[3]};
+      row += kObject;
+    }
+  }
+  int blocked() const override {
+    for (int robot = 0; robot < P::robots; ++robot)
+      if (problem_.blocked(robot, 0)) return robot;
+    return -1;
+  }
+};
+
+template <template <int> class Problem>
+std::unique_ptr<Stepper> new_stepper() {
+  if constexpr (std::is_base_of_v<Arena, Problem<1>>)
+    return std::make_unique<ArenaStepper<Problem>>();
+  else
+    return std::make_unique<ProblemStepper<Problem>>();
+}
+
+template <template <int> class... Problem>
+std::unique_ptr<Stepper> find_stepper(const std::string& name, ProblemList<Problem...>) {
+  std::unique_ptr<Stepper> found;
+  ((Problem<1>::info().name == name ? void(found = new_stepper<Problem>()) : void()), ...);
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> instruction_sets() {
+  std::vector<std::string> names{"baseline"};
+#ifdef BOTSCHOOL_X86
+  if (cpu_has_avx2()) names.push_back("avx2");
+  if (cpu_has_avx2() && cpu_has_avx512()) names.push_back("avx512");
+#endif
+  return names;
+}
+
+std::vector<Info> native_problems() {
+  const KernelTable table = kernel_table_baseline();
+  std::vector<Info> infos;
+  for (std::size_t i = 0; i < table.count; ++i) infos.push_back(table.kernel[i].info);
+  return infos;
+}
+
+Engine::Engine(const std::string& problem, const Spec& spec, const std::string& instruction_set)
+    : layout_(make_layout(spec)), kernel_(find_kernel(problem, instruction_set)) {
+  const Info& info = kernel_->info;
+  if (spec.inputs != info.observations || spec.outputs != info.outputs)
+    throw std::invalid_argument(std::string(info.name) + " needs a network of " +
+                                std::to_string(info.observations) + " inputs and " +
+                                std::to_string(info.outputs) + " outputs.");
+}
+
+void Engine::run(const Jobs& jobs, Queue& queue, Recorder* recorder) const {
+  constexpr std::align_val_t alignment{64};
+  const auto release = [&](void* p) { ::operator delete(p, alignment); };
+  const std::unique_ptr<void, decltype(release)> workspace(
+      ::operator new(kernel_->workspace(layout_), alignment), release);
+  kernel_->run(layout_, jobs, queue, recorder, workspace.get());
+}
+
+void Engine::evaluate(const Jobs& jobs, int threads) const {
+  const std::size_t count = jobs.count;
+  SharedQueue queue(count);
+  // a thread's lanes cost the same whether they are used or not: fill them before using another;
+  // and a batch that takes no longer than starting a thread is done by one
+  const auto begin = std::chrono::steady_clock::now();
+  const std::size_t loads = (count + kernel_->lanes - 1) / kernel_->lanes;
+  const bool small = seconds_per_job_ * static_cast<double>(count) < 200e-6;
+  const int useful = small ? 1 : static_cast<int>(std::min<std::size_t>(threads, loads));
+  std::vector<std::thread> others;
+  std::vector<std::exception_ptr> errors(std::max(useful, 1));
+  const auto work = [&](int t) {
+    try {
+      run(jobs, queue, nullptr);
+    } catch (...) {
+      errors[t] = std::current_exception();
+    }
+  };
+  try {
+    for (int t = 1; t < useful; ++t) others.emplace_back(work, t);
+  } catch (const std::system_error&) {
+    // the system gives no more threads: those that there are do all the work
+  }
+  work(0);
+  for (auto& thread : others) thread.join();
+  for (const auto& error : errors)
+    if (error) std::rethrow_exception(error);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  if (count > 0) seconds_per_job_ = took.count() * useful / static_cast<double>(count);
+}
+
+void Engine::record(const Jobs& jobs, Recorder& recorder) const {
+  SharedQueue queue(1);
+  run(jobs, queue, &recorder);
+}
+
+std::unique_ptr<Stepper> make_stepper(const std::string& problem) {
+  auto stepper = find_stepper(problem, NativeProblems());
+  if (!stepper) throw std::invalid_argument("there is no native problem '" + problem + "'.");
+  return stepper;
+}
+
+}  // namespace botschool

@@ -1,0 +1,276 @@
+// Whole episodes of one problem, L at a time in lockstep. A lane whose episode has ended is refilled
+// with the next job; what happens in a lane depends on its own job alone.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <new>
+
+#include "../../evonet/brain.hpp"
+#include "problem.hpp"
+
+namespace botschool {
+
+/// The scalar of evolution's networks.
+using Real = float;
+
+/// (candidate, seed, episode) triples to evaluate, and where the results go. Plain pointers into
+/// arrays of the caller's; see Engine::evaluate for their meaning.
+struct Jobs {
+  const double* genotypes;
+  std::size_t genotype_stride;
+  const double* normalisation;
+  std::size_t count;
+  const std::int32_t* candidate;  ///< of robot r in job j: candidate[r * count + j]
+  std::size_t robot_offset;       ///< a genotype's parameters of robot r begin at r * this
+  const std::uint64_t* seed;
+  const std::uint32_t* episode;
+  const std::uint8_t* collect;
+  Setting setting;
+  double* fitness;
+  std::int32_t* steps;
+  double* moments;
+};
+
+/// Hands out the numbers of jobs to whoever asks; -1 when none is left.
+class Queue {
+ public:
+  virtual std::ptrdiff_t next() = 0;
+
+ protected:
+  ~Queue() = default;
+};
+
+/// Is told each step of the first lane (for watching one episode).
+class Recorder {
+ public:
+  virtual void start(const double* state) = 0;
+  /// A robot's neurons; activation i is at activations[i * stride]. Robot by robot, before step().
+  virtual void neurons(const Real* activations, int stride) = 0;
+  virtual void step(const double* observation, const double* action, const double* state,
+                    double reward) = 0;
+
+ protected:
+  ~Recorder() = default;
+};
+
+/// One problem's episodes, built for one instruction set.
+struct Kernel {
+  Info info;
+  int lanes;                                ///< episodes in lockstep
+  std::size_t (*workspace)(const Layout&);  ///< bytes that run() needs, 64-byte aligned
+  void (*run)(const Layout&, const Jobs&, Queue&, Recorder*, void* workspace);
+};
+
+}  // namespace botschool
+
+BOTSCHOOL_BEGIN
+
+template <template <int> class Problem, int L>
+class Rollout {
+ public:
+  using Memory = BrainMemory<Real, L>;
+
+  static std::size_t workspace(const Layout& layout) {
+    return kHeader + kRobots() * brain_bytes(layout) + observation_bytes(layout) +
+           moments_bytes(layout);
+  }
+
+  static void run(const Layout& layout, const Jobs& jobs, Queue& queue, Recorder* recorder,
+                  void* workspace) {
+    // lanes that never get a job compute too: with zeros, as leftovers may be slow (denormal)
+    std::memset(workspace, 0, Rollout::workspace(layout));
+    auto* bytes = static_cast<unsigned char*>(workspace);
+    auto& problem = *new (bytes) Problem<L>();
+    problem.set(jobs.setting);
+    Rollout(layout, jobs, queue, recorder, problem, bytes + kHeader).run();
+  }
+
+ private:
+  static constexpr std::size_t kHeader = (sizeof(Problem<L>) + 63) / 64 * 64;
+  static int kRobots() { return Problem<L>::info().robots; }
+  static std::size_t brain_bytes(const Layout& layout) {
+    return (Memory::size(layout) * sizeof(Real) + 63) / 64 * 64;
+  }
+  static std::size_t observation_bytes(const Layout& layout) {
+    return (kRobots() * layout.spec.inputs * L * sizeof(Real) + 63) / 64 * 64;
+  }
+  static std::size_t moments_bytes(const Layout& layout) {
+    return 2 * layout.spec.inputs * L * sizeof(double);
+  }
+
+  Rollout(const Layout& layout, const Jobs& jobs, Queue& queue, Recorder* recorder,
+          Problem<L>& problem, unsigned char* bytes)
+      : layout_(layout), jobs_(jobs), queue_(queue), recorder_(recorder), problem_(problem) {
+    observations_ = reinterpret_cast<Real*>(bytes);
+    bytes += observation_bytes(layout);
+    for (int r = 0; r < robots_; ++r) {
+      memory_[r].carve(layout, reinterpret_cast<Real*>(bytes));
+      memory_[r].inputs = observations_ + std::ptrdiff_t(r) * layout.spec.inputs * L;
+      bytes += brain_bytes(layout);
+      for (int l = 0; l < L; ++l) candidate_[r][l] = -1;
+      shared_[r] = -1;
+    }
+    moments_ = reinterpret_cast<double*>(bytes);
+  }
+
+  void run() {
+    for (int l = 0; l < L; ++l) fill(l);
+    share();
+    while (active_ > 0) {
+      problem_.observe(observations_);
+      if (collecting_ > 0) collect();
+      for (int r = 0; r < robots_; ++r) {
+        brain(r).step(keys_[r], steps_);
+        choose_actions(r);
+      }
+      problem_.step(action_, reward_, ended_);
+      if (recorder_) record();
+      std::int64_t any = 0;
+      for (int l = 0; l < L; ++l) {
+        total_[l] += reward_[l];
+        steps_[l] += 1;
+        ended_[l] |= steps_[l] >= jobs_.setting.limit;
+        any |= ended_[l];
+      }
+      if (any) finish_ended();
+    }
+  }
+
+  Brain<Real, L> brain(int robot) { return {layout_, memory_[robot]}; }
+
+  /// Takes the next job into a lane, or leaves the lane idle.
+  void fill(int lane) {
+    const std::ptrdiff_t job = queue_.next();
+    const bool unused = candidate_[0][lane] < 0;
+    job_[lane] = job;
+    total_[lane] = 0;
+    steps_[lane] = 0;
+    if (job < 0 && !unused) return;
+    const NoiseKey key = job < 0 ? NoiseKey{0, 0} : NoiseKey{jobs_.seed[job], jobs_.episode[job]};
+    Random random(key.seed, key.episode, Stream::start);
+    problem_.start(lane, random);  // an unused lane gets harmless contents
+    for (int r = 0; r < robots_; ++r) keys_[r][lane] = robot_key(key, r);
+    if (job < 0) return;
+    ++active_;
+    for (int r = 0; r < robots_; ++r) load(lane, r, jobs_.candidate[r * jobs_.count + job]);
+    if (wants_moments(job)) {
+      ++collecting_;
+      for (int i = 0; i < 2 * layout_.spec.inputs; ++i) moments_[i * L + lane] = 0;
+    }
+    if (recorder_ && lane == 0) {
+      double state[kMost];
+      for (int i = 0; i < kStates; ++i) state[i] = problem_.state[i][0];
+      recorder_->start(state);
+    }
+  }
+
+  void load(int lane, int robot, std::int32_t candidate) {
+    if (candidate != candidate_[robot][lane]) {
+      candidate_[robot][lane] = candidate;
+      brain(robot).load(lane, genotype(robot, candidate), jobs_.normalisation);
+    }
+    brain(robot).clear(lane);
+  }
+
+  void finish_ended() {
+    for (int l = 0; l < L; ++l) {
+      if (!ended_[l] || job_[l] < 0) continue;
+      const std::ptrdiff_t job = job_[l];
+      jobs_.fitness[job] = total_[l];
+      jobs_.steps[job] = steps_[l];
+      if (wants_moments(job)) {
+        --collecting_;
+        const int n = 2 * layout_.spec.inputs;
+        for (int i = 0; i < n; ++i) jobs_.moments[job * n + i] = moments_[i * L + l];
+      }
+      --active_;
+      fill(l);
+    }
+    share();
+  }
+
+  /// Notes which robots have the same candidate in all lanes that work, so that its parameters are
+  /// read once for all (a block of candidates meets one competitor after another).
+  void share() {
+    for (int r = 0; r < robots_; ++r) {
+      std::int32_t one = -1;
+      bool same = true;
+      for (int l = 0; l < L; ++l) {
+        if (job_[l] < 0) continue;
+        if (one < 0) one = candidate_[r][l];
+        same &= candidate_[r][l] == one;
+      }
+      memory_[r].sharing = same && one >= 0;
+      if (!memory_[r].sharing || shared_[r] == one) continue;
+      shared_[r] = one;
+      brain(r).share(genotype(r, one));
+    }
+  }
+
+  const double* genotype(int robot, std::int32_t candidate) const {
+    return jobs_.genotypes + jobs_.genotype_stride * candidate + robot * jobs_.robot_offset;
+  }
+
+  bool wants_moments(std::ptrdiff_t job) const { return jobs_.collect && jobs_.collect[job]; }
+
+  /// Sums and sums of squares of the raw observations of all robots.
+  void collect() {
+    const int n = layout_.spec.inputs * L;
+    for (int r = 0; r < robots_; ++r)
+      for (int i = 0; i < n; ++i) {
+        const double x = observations_[r * n + i];
+        moments_[i] += x;
+        moments_[n + i] += x * x;
+      }
+  }
+
+  void choose_actions(int robot) {
+    const Real* chosen = memory_[robot].actions;
+    double* action = action_ + robot * kActions * L;
+    if (Problem<L>::info().discrete) {
+      int winner[L];
+      Brain<Real, L>::argmax(chosen, layout_.spec.outputs, winner);
+      for (int l = 0; l < L; ++l) action[l] = winner[l];
+    } else {
+      for (int i = 0; i < kActions * L; ++i) action[i] = chosen[i];
+    }
+  }
+
+  void record() {
+    if (job_[0] < 0) return;
+    double observation[kMost], action[kMost], state[kMost];
+    for (int i = 0; i < robots_ * kObservations; ++i) observation[i] = observations_[i * L];
+    for (int i = 0; i < robots_ * kActions; ++i) action[i] = action_[i * L];
+    for (int i = 0; i < kStates; ++i) state[i] = problem_.state[i][0];
+    for (int r = 0; r < robots_; ++r) recorder_->neurons(memory_[r].activations, L);
+    recorder_->step(observation, action, state, reward_[0]);
+  }
+
+  static constexpr int kMost = 64;
+  static constexpr int kStates = sizeof(Problem<1>::state) / sizeof(double);
+  const int robots_ = kRobots();
+  const int kActions = Problem<L>::info().discrete ? 1 : Problem<L>::info().outputs;
+  const int kObservations = Problem<L>::info().observations;
+
+  const Layout& layout_;
+  const Jobs& jobs_;
+  Queue& queue_;
+  Recorder* recorder_;
+  Problem<L>& problem_;
+  Memory memory_[kMostRobots];
+  Real* observations_;
+  double* moments_;
+
+  alignas(64) double action_[kMost * L];
+  alignas(64) double reward_[L], total_[L];
+  alignas(64) std::int64_t ended_[L];
+  alignas(64) int steps_[L];
+  NoiseKey keys_[kMostRobots][L];
+  std::ptrdiff_t job_[L];
+  std::int32_t candidate_[kMostRobots][L];
+  std::int32_t shared_[kMostRobots];  ///< whose parameters all lanes can share
+  int active_ = 0, collecting_ = 0;
+};
+
+BOTSCHOOL_END

@@ -1,0 +1,46 @@
+// A Khepera that has to find a cylinder by infrared, and to stay near it. FACTS.md section 4.
+#pragma once
+
+#include "../robots/sensors.hpp"
+
+BOTSCHOOL_BEGIN
+
+inline constexpr Plan kDiscrim{400, 400, 1, {{&kKhepera, 144}}, 0.03, 1, 12.5};
+
+template <int L>
+struct Discrim : World<L, kDiscrim> {
+  using Senses = Noisy<Infrared>;
+  static Info info() {
+    return {"ErDiscrim", Senses::size, 2, Discrim::kRows, 500, false, -1,
+            1,           kStepSeconds, 1, &kDiscrim};
+  }
+
+  void start(int lane, Random& random) {
+    this->begin(lane, random);
+    const double cylinder_x = random.uniform(100, 300), cylinder_y = random.uniform(100, 200);
+    this->place_cylinder(lane, 0, cylinder_x, cylinder_y);
+    const double heading = random.uniform(0, 2 * kPi), x = random.uniform(150, 250);
+    this->place(lane, 0, x, random.uniform(270, 370), heading);
+  }
+
+  template <class T>
+  void observe(T* out) const {
+    Senses::read(*this, 0, out);
+  }
+
+  void step(const double* action, double* BOTSCHOOL_RESTRICT reward,
+            std::int64_t* BOTSCHOOL_RESTRICT ended) {
+    Bump<L> bump;
+    this->drive(0, action, action + L, bump);
+    this->tick();
+    const double near = kKhepera.radius + this->radius[0] + 60;
+    for (int l = 0; l < L; ++l) {
+      const double dx = this->x(0)[l] - this->cylinder_x(0)[l];
+      const double dy = this->y(0)[l] - this->cylinder_y(0)[l];
+      ended[l] = bump.wall[l] | bump.cylinder[l];
+      reward[l] = !ended[l] & (dx * dx + dy * dy < near * near) ? 1 : 0;
+    }
+  }
+};
+
+BOTSCHOOL_END

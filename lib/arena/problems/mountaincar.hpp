@@ -1,0 +1,44 @@
+// Gymnasium's MountainCarContinuous (Moore 1990). As there, the state is rounded to single
+// precision after each step and the cost is that of the action before clipping.
+#pragma once
+
+#include "../engine/problem.hpp"
+
+BOTSCHOOL_BEGIN
+
+template <int L>
+struct MountainCarContinuous : AnyProblem {
+  static Info info() { return {"MountainCarContinuous-v0", 2, 1, 2, 999, false, -1, 1, 1.0 / 30}; }
+
+  double state[2][L];  // position, velocity
+
+  void start(int lane, Random& random) {
+    state[0][lane] = random.uniform(-0.6, -0.4);
+    state[1][lane] = 0.0;
+  }
+  void refresh(int) {}
+
+  template <class T>
+  void observe(T* BOTSCHOOL_RESTRICT out) const {
+    for (int i = 0; i < 2; ++i)
+      for (int l = 0; l < L; ++l) out[i * L + l] = static_cast<T>(state[i][l]);
+  }
+
+  void step(const double* BOTSCHOOL_RESTRICT action, double* BOTSCHOOL_RESTRICT reward,
+            std::int64_t* BOTSCHOOL_RESTRICT ended) {
+    for (int l = 0; l < L; ++l) {
+      const double force = limited(action[l], -1.0, 1.0);
+      double sine, cosine;
+      sine_cosine(3 * state[0][l], sine, cosine);
+      double velocity = clamp(state[1][l] + (force * 0.0015 - 0.0025 * cosine), -0.07, 0.07);
+      const double position = clamp(state[0][l] + velocity, -1.2, 0.6);
+      velocity = ((position == -1.2) & (velocity < 0)) ? 0.0 : velocity;
+      ended[l] = (position >= 0.45) & (velocity >= 0);
+      reward[l] = (ended[l] ? 100.0 : 0.0) - action[l] * action[l] * 0.1;
+      state[0][l] = static_cast<float>(position);
+      state[1][l] = static_cast<float>(velocity);
+    }
+  }
+};
+
+BOTSCHOOL_END

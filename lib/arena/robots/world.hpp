@@ -1,0 +1,158 @@
+// An arena with wheeled robots, L copies in lockstep: poses, motion, collisions. FACTS.md section 4.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "../engine/problem.hpp"
+
+BOTSCHOOL_BEGIN
+
+constexpr double kLongestWay = 1e6;  ///< of a wheel in a step, mm
+
+/// What happened to a robot in a step, one value a lane.
+template <int L>
+struct Bump {
+  std::int64_t wall[L];
+  std::int64_t cylinder[L];
+  std::int64_t robot[L];
+};
+
+template <int L, const Plan& P>
+struct World : Arena {
+  static constexpr int lanes = L, robots = P.robots, cylinders = P.cylinders, walls = 4 + P.walls;
+  static constexpr const Plan& plan = P;
+  /// Rows: x, y, heading of each robot; x, y of each cylinder; steps done.
+  static constexpr int kCylinder = 3 * robots, kSteps = kCylinder + 2 * cylinders;
+  static constexpr int kRows = kSteps + 1;
+
+  double state[kRows][L] = {};
+  NoiseKey key[L] = {};
+  Setting setting;
+  double radius[cylinders + 1];  ///< of the cylinders
+  Wall wall[walls];
+
+  World() {
+    set({1});
+    wall[0] = {0, 0, P.width, 0};
+    wall[1] = {P.width, 0, P.width, P.height};
+    wall[2] = {P.width, P.height, 0, P.height};
+    wall[3] = {0, P.height, 0, 0};
+    for (int w = 4; w < walls; ++w) wall[w] = P.wall[w - 4];
+    for (int c = 0; c < cylinders; ++c) radius[c] = P.cylinder_radius;
+  }
+
+  void set(const Setting& given) {
+    setting = given;
+    if (setting.noise < 0) setting.noise = P.noise;
+  }
+  void refresh(int) {}
+
+  /// Begins an episode in a lane.
+  void begin(int lane, const Random& random) {
+    key[lane] = random.key();
+    state[kSteps][lane] = 0;
+  }
+  void place(int lane, int robot, double x, double y, double heading) {
+    state[3 * robot][lane] = x;
+    state[3 * robot + 1][lane] = y;
+    state[3 * robot + 2][lane] = heading;
+  }
+  void place_cylinder(int lane, int cylinder, double x, double y) {
+    state[kCylinder + 2 * cylinder][lane] = x;
+    state[kCylinder + 2 * cylinder + 1][lane] = y;
+  }
+
+  const double* x(int robot) const { return state[3 * robot]; }
+  const double* y(int robot) const { return state[3 * robot + 1]; }
+  const double* heading(int robot) const { return state[3 * robot + 2]; }
+  const double* cylinder_x(int c) const { return state[kCylinder + 2 * c]; }
+  const double* cylinder_y(int c) const { return state[kCylinder + 2 * c + 1]; }
+
+  /// Counts a step.
+  void tick() {
+    for (int l = 0; l < L; ++l) state[kSteps][l] += 1;
+  }
+
+  /// Moves a robot along the exact arc of its wheels (actions: left, right); one that would
+  /// overlap a wall, a cylinder or another robot, or jump across a wall, stays where it was. So
+  /// does one whose action is not a number, or more than kLongestWay.
+  void drive(int robot, const double* BOTSCHOOL_RESTRICT left,
+             const double* BOTSCHOOL_RESTRICT right, Bump<L>& bump) {
+    const Body& body = *P.robot[robot].body;
+    const double reach = P.robot[robot].speed * kStepSeconds;
+    alignas(64) double to_x[L], to_y[L], to_heading[L];
+    for (int l = 0; l < L; ++l) {
+      const double a = left[l] * reach, b = right[l] * reach;
+      const double half = (b - a) / (2 * body.axle);
+      double s, c, sine, cosine;
+      sine_cosine(half, s, c);
+      sine_cosine(heading(robot)[l] + half, sine, cosine);
+      // the chord of an arc of length (a + b) / 2; near 0 the sine's series
+      const double ratio = half * half < 1e-8 ? 1 - half * half / 6 : s / half;
+      const double chord = 0.5 * (a + b) * ratio;
+      // a way beyond all reason leads nowhere: sines of such turns are no sines any more
+      const bool sane = (std::fabs(a) < kLongestWay) & (std::fabs(b) < kLongestWay);
+      to_x[l] = sane ? x(robot)[l] + chord * cosine : std::numeric_limits<double>::quiet_NaN();
+      to_y[l] = y(robot)[l] + chord * sine;
+      const double turned = heading(robot)[l] + 2 * half;
+      to_heading[l] = turned - 2 * kPi * floor_of(turned * (0.5 / kPi));
+    }
+    find_bumps(robot, to_x, to_y, bump);
+    for (int l = 0; l < L; ++l) {
+      const bool free = !(bump.wall[l] | bump.cylinder[l] | bump.robot[l]);
+      state[3 * robot][l] = free ? to_x[l] : state[3 * robot][l];
+      state[3 * robot + 1][l] = free ? to_y[l] : state[3 * robot + 1][l];
+      state[3 * robot + 2][l] = free ? to_heading[l] : state[3 * robot + 2][l];
+    }
+  }
+
+  /// What a robot would bump into at (to_x, to_y). Every comparison is false for NaN, and what is
+  /// not known to be free counts as a wall.
+  void find_bumps(int robot, const double* BOTSCHOOL_RESTRICT to_x,
+                  const double* BOTSCHOOL_RESTRICT to_y, Bump<L>& bump) const {
+    const double own = P.robot[robot].body->radius;
+    for (int l = 0; l < L; ++l) bump.wall[l] = bump.cylinder[l] = bump.robot[l] = 0;
+    for (const Wall& w : wall) {
+      const double ux = w.x2 - w.x, uy = w.y2 - w.y, length2 = ux * ux + uy * uy;
+      const double inverse = length2 > 0 ? 1 / length2 : 0;
+      for (int l = 0; l < L; ++l) {
+        const double px = to_x[l] - w.x, py = to_y[l] - w.y;
+        const double qx = x(robot)[l] - w.x, qy = y(robot)[l] - w.y;
+        const double t = clamp((px * ux + py * uy) * inverse, 0.0, 1.0);
+        const double dx = px - t * ux, dy = py - t * uy;
+        const bool apart = dx * dx + dy * dy >= own * own;
+        // the way crosses the wall: its ends are on two sides of the wall, and the wall's of it
+        const double mx = px - qx, my = py - qy;
+        const double side_to = ux * py - uy * px, side_from = ux * qy - uy * qx;
+        const double end = mx * qy - my * qx, end2 = end + (ux * my - uy * mx);
+        const bool crosses = (side_to * side_from < 0) & (end * end2 < 0);
+        bump.wall[l] |= !apart | crosses;
+      }
+    }
+    for (int c = 0; c < cylinders; ++c) {
+      const double sum = own + radius[c];
+      for (int l = 0; l < L; ++l) {
+        const double dx = to_x[l] - cylinder_x(c)[l], dy = to_y[l] - cylinder_y(c)[l];
+        bump.cylinder[l] |= dx * dx + dy * dy < sum * sum;
+      }
+    }
+    for (int other = 0; other < robots; ++other) {
+      if (other == robot) continue;
+      const double sum = own + P.robot[other].body->radius;
+      for (int l = 0; l < L; ++l) {
+        const double dx = to_x[l] - x(other)[l], dy = to_y[l] - y(other)[l];
+        bump.robot[l] |= dx * dx + dy * dy < sum * sum;
+      }
+    }
+  }
+
+  /// Whether a lane's robot overlaps something where it stands.
+  bool blocked(int robot, int lane) const {
+    Bump<L> bump;
+    find_bumps(robot, x(robot), y(robot), bump);
+    return bump.wall[lane] | bump.cylinder[lane] | bump.robot[lane];
+  }
+};
+
+BOTSCHOOL_END

@@ -1,0 +1,82 @@
+"""The command `botschool`: its groups of subcommands, and how errors end it.
+
+A module of this package is a group of subcommands, one short function each. Heavy imports are made
+where they are used.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from contextlib import suppress
+
+import typer
+
+from botschool.cli import course, es, plots, rl, tournament
+from botschool.errors import BotschoolError
+
+UsageError = typer.BadParameter.__base__
+
+app = typer.Typer(
+    help="Train robots in simulation by evolution and by reinforcement learning.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="markdown",
+    pretty_exceptions_enable=False,
+)
+for _group in (es, plots, tournament, course):
+    app.add_typer(_group.app)
+app.add_typer(rl.app, name="rl")
+
+
+@app.callback()
+def botschool() -> None:
+    pass
+
+
+def main() -> None:
+    """Runs the command; errors for learners are one sentence and exit code 2."""
+    with suppress(AttributeError):  # in a notebook
+        sys.stdout.reconfigure(errors="backslashreplace")  # names that the terminal cannot show
+    try:
+        code = app(standalone_mode=False) or 0
+        sys.stdout.flush()
+    except BotschoolError as error:
+        code = _refuse(str(error))
+    except UsageError as error:
+        message = " ".join(error.format_message().split()).rstrip(".")
+        command = error.ctx.command_path.removeprefix("python -m ") if error.ctx else "botschool"
+        code = _refuse(f"{message}: see {command} --help.") if message else 2
+    except MemoryError:
+        code = _refuse(
+            "There is not enough memory: lower samplesize, popsize, nhiddens or the number of "
+            "workers (-w)."
+        )
+    except (KeyboardInterrupt, typer.Abort):
+        code = 130
+    except BrokenPipeError:
+        code = _silence(1)
+    except OSError as error:
+        place = error.filename or "Standard output"
+        code = _refuse(
+            f"{place} cannot be read or written ({error.strerror or error}): free some space or "
+            "choose another place."
+        )
+        code = _silence(code)
+    if code == 130:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # impatience is no error
+    sys.exit(code)
+
+
+def _refuse(sentence: str) -> int:
+    print(f"error: {sentence}", file=sys.stderr)
+    return 2
+
+
+def _silence(code: int) -> int:
+    """Drops what the interpreter would still print to a broken standard output at its end."""
+    with suppress(OSError):
+        sys.stdout.flush()
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return code

@@ -1,0 +1,120 @@
+"""The course's subcommands: those of students, then those of instructors."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+app = typer.Typer()
+
+Submission = Annotated[
+    str | None,
+    typer.Option(help="Grade another folder; `solutions` is the reference.", metavar="FOLDER"),
+]
+GradingWorkers = Annotated[
+    int | None,
+    typer.Option(
+        "-w", "--workers", min=1, max=1024, help="Submissions at a time.", show_default="all cores"
+    ),
+]
+
+
+@app.command(epilog="Example: botschool grade 3, or botschool grade 3.2 for one task")
+def grade(
+    what: Annotated[str, typer.Argument(help="Exercise N or task N.T.", metavar="N[.T]")],
+    submission: Submission = None,
+    json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+    debug: Annotated[
+        bool, typer.Option(help="One task in this process, without points, for breakpoints.")
+    ] = False,
+) -> None:
+    """Grade your solution of an exercise, or of one task."""
+    from botschool.grading.commands import grade_command
+
+    if not grade_command(what, submission, json, debug):
+        raise typer.Exit(1)
+
+
+@app.command(epilog="Example: botschool hint 3.2")
+def hint(
+    task: Annotated[str, typer.Argument(help="Task N.T.", metavar="N.T")],
+) -> None:
+    """Show one more hint for a task, each time it is called."""
+    from botschool.grading.commands import hint_command
+
+    hint_command(task)
+
+
+@app.command(epilog="Example: botschool progress")
+def progress(workers: GradingWorkers = None) -> None:
+    """Show your points in all exercises, and what comes next."""
+    from botschool.grading.commands import progress_command
+
+    progress_command(workers)
+
+
+@app.command(epilog="Example: botschool watch 3, or botschool watch 3.2 for one task")
+def watch(
+    what: Annotated[str, typer.Argument(help="Exercise N or task N.T.", metavar="N[.T]")],
+    submission: Submission = None,
+) -> None:
+    """Grade again whenever you save; Ctrl-C ends."""
+    from botschool.grading.commands import watch_command
+
+    watch_command(what, submission)
+
+
+@app.command(epilog="Example: botschool release ../course-for-students")
+def release(
+    folder: Annotated[Path, typer.Argument(help="A new folder.", metavar="FOLDER")],
+) -> None:
+    """For instructors: make a copy of the repository for students, without solutions."""
+    from botschool.grading.commands import release_command
+
+    release_command(folder)
+
+
+@app.command("grade-all", epilog="Example: botschool grade-all submissions --exercise 3 -o grades")
+def grade_all(
+    folder: Annotated[
+        Path, typer.Argument(help="Holds a sub-folder per student.", metavar="FOLDER")
+    ],
+    exercise: Annotated[
+        str, typer.Option("-e", "--exercise", help="A number, or all.", metavar="N")
+    ] = "all",
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="Folder of table and feedback.", metavar="FOLDER")
+    ] = Path("results/grades"),
+    workers: GradingWorkers = None,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", help="Grade again what has not changed since.")
+    ] = False,
+) -> None:
+    """For instructors: grade a class into a table and a page of feedback per student."""
+    from botschool.grading.commands import grade_all_command
+
+    grade_all_command(folder, output, exercise, workers, fresh)
+
+
+@app.command(epilog="Example: botschool nbgrader results/nbgrader")
+def nbgrader(
+    folder: Annotated[
+        Path, typer.Argument(help="The course folder to make or bring up to date.", metavar="DIR")
+    ] = Path("results/nbgrader"),
+) -> None:
+    """For instructors: make a course folder for nbgrader, with the exercises as notebooks."""
+    from botschool.grading.nbgrader import nbgrader_command
+
+    nbgrader_command(folder)
+
+
+@app.command()
+def skeletons() -> None:
+    """Generate the exercises' skeletons from the solutions (edited files are left alone)."""
+    from botschool.grading.skeleton import write_skeletons
+    from botschool.paths import course_root
+
+    for path in write_skeletons(course_root()):
+        print(f"left alone, because it was edited: {path}")

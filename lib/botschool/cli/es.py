@@ -1,0 +1,128 @@
+"""`botschool es`: evolve robots, or look at an evolved one."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from botschool.errors import BotschoolError
+
+app = typer.Typer()
+
+
+@app.command(epilog="Example: botschool es -f data/experiments/acrobot.ini -s 11 -w 2 -o results")
+def es(
+    file: Annotated[
+        Path | None, typer.Option("-f", "--file", help="Experiment file (.ini).", metavar="FILE")
+    ] = None,
+    seed: Annotated[int, typer.Option("-s", "--seed", min=0, max=2**62, help="Seed.")] = 1,
+    replications: Annotated[
+        int,
+        typer.Option(
+            "-n", "--replications", min=1, max=100_000, help="Runs, with consecutive seeds."
+        ),
+    ] = 1,
+    workers: Annotated[
+        int, typer.Option("-w", "--workers", min=1, max=1024, help="Cores to use.")
+    ] = 1,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="Folder of the run's files.", metavar="FOLDER")
+    ] = Path("."),
+    post: Annotated[
+        bool, typer.Option("-p", "--postevaluate", help="Evaluate and show a robot instead.")
+    ] = False,
+    genotype: Annotated[
+        str | None,
+        typer.Option(
+            "-g",
+            "--genotype",
+            help="With -p: a saved robot; for coevo2 also P-100-5 and the like, see above.",
+            metavar="FILE",
+        ),
+    ] = None,
+    neurons: Annotated[
+        bool, typer.Option("-d", "--neurons", help="With -p: show the neurons' activations.")
+    ] = False,
+    steps: Annotated[
+        int | None, typer.Option(min=1, help="Stop after so many steps (--resume goes on).")
+    ] = None,
+    generations: Annotated[
+        int | None, typer.Option(min=1, help="Stop after so many generations, likewise.")
+    ] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Continue interrupted runs.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite existing runs.")] = False,
+    render: Annotated[
+        str | None, typer.Option(help="With -p: human (a window) or none.", metavar="MODE")
+    ] = None,
+    video: Annotated[
+        Path | None, typer.Option(help="With -p: a film (.mp4, .webm, .gif).", metavar="FILE")
+    ] = None,
+    replay: Annotated[
+        Path | None,
+        typer.Option(
+            help="With -p: a page that plays the episodes in a browser, as "
+            "`es -f acrobot.ini -p -g bestgS1.npy --replay acrobot.html`.",
+            metavar="FILE",
+        ),
+    ] = None,
+    episodes: Annotated[
+        int | None, typer.Option(min=1, help="With -p: episodes to evaluate or show.")
+    ] = None,
+) -> None:
+    """Evolve robots, or look at an evolved one (-p). Without -f: list all hyperparameters.
+
+    For predators and prey (coevo2) -g may also be, with -o naming the folder of the run:
+
+    - `P-100-5`: watch the 5 best predators of generation 100 chase its 5 best prey;
+      `p-100-5`: only measure them
+    - `m-100-20`: measure generation 100 against those of generations 100, 80, 60 ... that are
+      saved; `M-100-20`: measure all of these against each other
+    - `c-FILE1-FILE2`: measure the populations of two runs against each other
+
+    As in: botschool es -f predprey.ini -s 12 -o results -p -g m-100-20
+    """
+    if file is None:
+        if post or genotype or video or replay or resume or force:
+            raise BotschoolError("Say which experiment: add -f FILE.ini.")
+        _list_hyperparameters()
+        return
+    from botschool import config
+
+    experiment = config.load(file)
+    if replay and not (post or genotype):
+        raise BotschoolError("--replay shows a robot: add -p, and -g FILE for a saved one.")
+    if post or genotype or video or render or neurons:
+        from botschool.render.watch import Watching
+
+        watching = Watching(neurons, render, video, replay, episodes)
+        from botschool.cli.tournament import post_evaluate
+
+        post_evaluate(experiment, seed, genotype, output, workers, watching)
+        return
+    from botschool.evolution.replicate import replicate
+
+    if resume and force:
+        raise BotschoolError("--resume continues a run and --force replaces it: give one of them.")
+    seeds = list(range(seed, seed + replications))
+    terminal = sys.stdout.isatty()
+    if not replicate(
+        experiment, seeds, output, workers, steps, resume, force, terminal, generations
+    ):
+        raise typer.Exit(130)
+
+
+def _list_hyperparameters() -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    from botschool.config import describe
+
+    table = Table("Section", "Hyperparameter", "Default", "Meaning", title="Hyperparameters")
+    for section, name, default, meaning in describe():
+        table.add_row(f"\\[{section}]", name, "" if default is None else str(default), meaning)
+    console = Console()
+    console.print(table)
+    console.print("To evolve: botschool es -f FILE.ini -s SEED (see botschool es --help)")

@@ -1,0 +1,54 @@
+"""`botschool plotstat`, `plotave` and `showrobot`: pictures of runs and robots."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+app = typer.Typer()
+
+Picture = Annotated[
+    Path | None,
+    typer.Option("-o", "--output", help="Write a picture instead of a window.", metavar="FILE"),
+]
+Folders = Annotated[
+    list[Path] | None,
+    typer.Argument(help="Folders of runs, or stat files; default: here.", show_default=False),
+]
+
+
+@app.command(epilog="Example: botschool plotstat results -o curves.png")
+def plotstat(folders: Folders = None, output: Picture = None) -> None:
+    """Plot fitness against steps: one run, or mean and band of all runs in a folder."""
+    from botschool.analysis.plots import plot_stat
+
+    plot_stat(folders or [Path(".")], output)
+
+
+@app.command(epilog="Example: botschool plotave results/acrobot results/pendulum -o average.png")
+def plotave(folders: Folders = None, output: Picture = None) -> None:
+    """Mean, standard deviation and number of runs of the best post-evaluated fitness."""
+    from botschool.analysis.plots import plot_ave
+
+    plot_ave(folders or [Path(".")], output)
+
+
+@app.command(epilog="Example: botschool showrobot ant --sheet ant.png")
+def showrobot(
+    name: Annotated[
+        str,
+        typer.Argument(help="A locomotor, balancebot, or a .urdf or .xml file.", metavar="NAME"),
+    ],
+    video: Annotated[
+        Path | None, typer.Option(help="A film of each joint's range.", metavar="FILE")
+    ] = None,
+    sheet: Annotated[
+        Path | None, typer.Option(help="A picture of each joint's range.", metavar="FILE")
+    ] = None,
+) -> None:
+    """Show a robot: a window with a slider for each joint and for gravity, a film or a sheet."""
+    from botschool.envs.showrobot import show_robot
+
+    show_robot(name, video, sheet)

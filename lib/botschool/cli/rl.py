@@ -1,0 +1,116 @@
+"""`botschool rl`: one short function per subcommand, see app.py."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+app = typer.Typer(
+    help="Train agents by reinforcement learning (Stable-Baselines3), and watch them.",
+    no_args_is_help=True,
+    rich_markup_mode="markdown",
+)
+
+RlFolder = Annotated[
+    Path, typer.Option("-o", "--output", help="Folder of the trainings.", metavar="FOLDER")
+]
+RlRun = Annotated[
+    Path | None,
+    typer.Argument(
+        help="Folder of a training, or a model in it (.zip); default: the newest.",
+        show_default=False,
+        metavar="RUN",
+    ),
+]
+RlEnv = Annotated[str | None, typer.Option(help="Another environment for the agent.", metavar="ID")]
+RlEpisodes = Annotated[int, typer.Option(min=1, max=1_000_000, help="Episodes to play.")]
+RlSeed = Annotated[int, typer.Option("-s", "--seed", min=0, max=2**31, help="Seed.")]
+RlLast = Annotated[bool, typer.Option("--last", help="The last model instead of the best one.")]
+
+
+@app.command(
+    "train",
+    epilog="Example: botschool rl train --algo ppo --env CartPole-v1 --params gamma=0.9 n_epochs=5",
+)
+def rl_train(
+    algo: Annotated[str, typer.Option(help="ppo, a2c, sac, td3 or dqn.", metavar="NAME")],
+    env: Annotated[str, typer.Option(help="A Gymnasium id.", metavar="ID")],
+    params: Annotated[
+        list[str] | None,
+        typer.Option(help="Hyperparameters; several may follow.", metavar="KEY=VALUE ..."),
+    ] = None,
+    more: Annotated[list[str] | None, typer.Argument(hidden=True, metavar="")] = None,
+    policy: Annotated[
+        str | None,
+        typer.Option(help="mlp, lstm or cnn.", metavar="NAME", show_default="cnn for images"),
+    ] = None,
+    envs: Annotated[
+        int | None, typer.Option(min=1, max=1024, help="Environments side by side.")
+    ] = None,
+    steps: Annotated[int | None, typer.Option(min=1, max=10**12, help="Length.")] = None,
+    seed: RlSeed = 1,
+    evaluations: Annotated[
+        int, typer.Option(min=1, max=100_000, help="Post-evaluations during the training.")
+    ] = 20,
+    episodes: Annotated[
+        int, typer.Option(min=1, max=10_000, help="Episodes of a post-evaluation.")
+    ] = 20,
+    output: RlFolder = Path("results/rl"),
+) -> None:
+    """Train an agent in a new folder; defaults depend on algorithm and environment."""
+    from botschool.rl.training import train_command
+
+    items = [*(params or []), *(more or [])]
+    options = {"policy": policy, "envs": envs, "steps": steps, "seed": seed}
+    options |= {"evaluations": evaluations, "episodes": episodes}
+    if not train_command(algo, env, items, output, sys.stdout.isatty(), **options):
+        raise typer.Exit(130)
+
+
+@app.command("enjoy", epilog="Example: botschool rl enjoy results/rl/ppo/CartPole-v1_1")
+def rl_enjoy(
+    run: RlRun = None,
+    env: RlEnv = None,
+    episodes: RlEpisodes = 10,
+    seed: RlSeed = 1,
+    render: Annotated[
+        str | None, typer.Option(help="human (a window) or none.", metavar="MODE")
+    ] = None,
+    last: RlLast = False,
+    output: RlFolder = Path("results/rl"),
+) -> None:
+    """Play new episodes with a trained agent: returns, mean and standard deviation."""
+    from botschool.rl.watch import enjoy_command
+
+    enjoy_command(run, output, env, episodes, seed, render, last)
+
+
+@app.command("video", epilog="Example: botschool rl video results/rl/ppo/CartPole-v1_1 -f pole.mp4")
+def rl_video(
+    run: RlRun = None,
+    file: Annotated[
+        Path, typer.Option("-f", "--file", help="The film (.mp4, .webm, .gif).", metavar="FILE")
+    ] = Path("agent.mp4"),
+    env: RlEnv = None,
+    episodes: RlEpisodes = 3,
+    seed: RlSeed = 1,
+    last: RlLast = False,
+    output: RlFolder = Path("results/rl"),
+) -> None:
+    """Film new episodes of a trained agent."""
+    from botschool.rl.watch import video_command
+
+    video_command(run, output, env, episodes, seed, file, last)
+
+
+@app.command("list", epilog="Example: botschool rl list results/rl")
+def rl_list(
+    folder: Annotated[Path, typer.Argument(metavar="FOLDER")] = Path("results/rl"),
+) -> None:
+    """Show the trainings in a folder and what they reached."""
+    from botschool.rl.watch import list_command
+
+    list_command(folder)

@@ -1,0 +1,104 @@
+"""`botschool tournament`, and what `botschool es -p` does: robots that are evolved meet."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from botschool.errors import BotschoolError
+
+if TYPE_CHECKING:
+    from botschool.config import Experiment
+    from botschool.render.watch import Watching
+
+
+app = typer.Typer()
+
+
+@app.command(epilog="Example: botschool tournament results -f predprey.ini -o tournament.png")
+def tournament(
+    folder: Annotated[
+        Path, typer.Argument(help="Folder of a run of coevo2.", metavar="FOLDER")
+    ] = Path("."),
+    file: Annotated[
+        Path | None, typer.Option("-f", "--file", help="Its experiment (.ini).", metavar="FILE")
+    ] = None,
+    seed: Annotated[
+        int | None,
+        typer.Option(
+            "-s", "--seed", min=0, max=2**62, help="Its seed.", show_default="the only one there"
+        ),
+    ] = None,
+    generations: Annotated[
+        str | None,
+        typer.Option(
+            help="Which take part.", metavar="0,100,200", show_default="11, evenly spaced"
+        ),
+    ] = None,
+    every: Annotated[
+        int | None, typer.Option(min=1, help="Instead: those that this number divides.")
+    ] = None,
+    best: Annotated[
+        int | None,
+        typer.Option(min=2, help="How many of each population.", show_default="the 10 best"),
+    ] = None,
+    workers: Annotated[
+        int, typer.Option("-w", "--workers", min=1, max=1024, help="Cores to use.")
+    ] = 1,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o", "--output", help="Write a picture, and a .csv beside it.", metavar="FILE"
+        ),
+    ] = None,
+) -> None:
+    """Let predators and prey of all generations meet, and tell whether they made progress.
+
+    Prints the mean fitness of each generation against each, with 95 % intervals, and draws it.
+    """
+    if file is None:
+        raise BotschoolError("Say which experiment the run is of: add -f FILE.ini.")
+    from botschool import config
+    from botschool.analysis import coevolution
+    from botschool.terminal import has_display
+
+    experiment = config.load(file)
+    wanted = coevolution.generations_in(generations, every)
+    coevolution.tournament(
+        experiment, folder, seed, wanted, every, best, workers, output, has_display()
+    )
+
+
+def post_evaluate(
+    experiment: Experiment,
+    seed: int,
+    genotype: str | None,
+    folder: Path,
+    workers: int,
+    watching: Watching,
+) -> None:
+    """Shows a robot, by chance or from a file; or lets the populations of a folder meet."""
+    from botschool.analysis import coevolution
+    from botschool.render.pairs import Chases
+    from botschool.render.watch import PostEvaluation, read_genotype
+
+    if genotype is None:
+        watching.show(PostEvaluation(experiment, seed))
+    elif experiment.exp.algo != "coevo2" or coevolution.names_file(genotype):
+        path = Path(genotype)
+        watching.show(PostEvaluation(experiment, seed, read_genotype(path), path.name))
+    else:
+        request = coevolution.parse(genotype, folder)
+        if watching.asked and request.kind != "P":
+            raise BotschoolError(
+                f"-g {genotype} only measures: to see robots use P, as -g P-100-5 (n best of a "
+                "generation), or leave the options of pictures out."
+            )
+
+        def show(population) -> None:
+            pairs = population.predators, population.prey
+            watching.show(Chases(experiment, seed, *pairs, population.name))
+
+        coevolution.post_evaluate(experiment, seed, folder, request, workers, show)

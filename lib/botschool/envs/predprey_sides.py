@@ -1,0 +1,145 @@
+"""Predator and prey (ErPredprey): rules that all its faces share, and one side as a Gymnasium
+environment against a fixed opponent: botschool/Predator-v0 and botschool/Prey-v0."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from typing import ClassVar
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+
+from botschool import config
+from botschool.config import PolicyConfig
+from botschool.envs.simulation import INFOS, RENDER_MODES, Simulation
+from botschool.errors import BotschoolError
+from botschool.policy import Interface, Policy
+
+PROBLEM = "ErPredprey"
+ROBOTS = ("predator", "prey")
+FPS = round(1 / INFOS[PROBLEM]["seconds"])
+_SEES, _WHEELS = INFOS[PROBLEM]["observations"], INFOS[PROBLEM]["outputs"]
+
+POLICY = PolicyConfig(nhiddens=25, bias=1, architecture=3)
+"""The opponent's network unless an experiment file says otherwise: that of predprey.ini."""
+
+
+def observation_space() -> spaces.Box:
+    """What one of the two senses: infrared, camera, ground, elapsed time, the constant 1."""
+    return spaces.Box(0.0, 1.0, (_SEES,), np.float32)
+
+
+def action_space() -> spaces.Box:
+    """Left and right wheel of one of the two."""
+    return spaces.Box(-1.0, 1.0, (_WHEELS,), np.float32)
+
+
+def wheels(robot: str, action) -> np.ndarray:
+    """A robot's action. Raises BotschoolError unless it has two numbers."""
+    given = np.asarray(action)
+    if given.shape != (_WHEELS,) or given.dtype.kind not in "fiub":
+        raise BotschoolError(
+            f"An action of the {robot} has {_WHEELS} numbers, but this one is {given.tolist()}."
+        )
+    return given
+
+
+class Chase(Simulation):
+    """Both robots on their stage. What the predator gets at the end, the prey lacks of 1."""
+
+    def __init__(self, max_steps: int | None, render_mode: str | None) -> None:
+        super().__init__(PROBLEM, render_mode, max_steps)
+
+    def views(self) -> list[np.ndarray]:
+        """The predator's and the prey's observation, float32."""
+        return np.split(self.observation.astype(np.float32), 2)
+
+    def act(self, predator: np.ndarray, prey: np.ndarray) -> tuple[tuple[float, float], bool]:
+        """Both act; (the predator's and the prey's reward, whether the episode is over).
+
+        The predator gets 1 - step / max_steps when it catches the prey, else 0; the prey gets the
+        rest of 1, in the last step. Running out of time is an end like being caught, and no
+        truncation: the robots see how much is left, and the last step pays for it.
+        """
+        caught, ended = self.step(np.concatenate([predator, prey]))
+        over = ended or self.steps >= self.limit
+        return (caught, 1.0 - caught if over else 0.0), over
+
+
+class OneSide(gymnasium.Env):
+    """One of the two robots against an opponent that does not learn.
+
+    side: "predator" or "prey". opponent: its genotype, as a run saves it (float64 array, or the
+    path of a .npy file): of one network, or of both, of which the opponent's is taken; None is a
+    random initial network, always the same. experiment: the .ini file whose [POLICY] the genotype
+    was evolved with, None for data/experiments/predprey.ini. max_steps: longest episode, None for
+    the problem's own. Rewards are those of Chase.act. Raises BotschoolError.
+    """
+
+    metadata: ClassVar[dict] = {"render_modes": RENDER_MODES, "render_fps": FPS}
+
+    def __init__(
+        self,
+        side: str,
+        opponent: str | os.PathLike[str] | np.ndarray | None = None,
+        experiment: str | os.PathLike[str] | None = None,
+        max_steps: int | None = None,
+        render_mode: str | None = None,
+    ) -> None:
+        self.render_mode = render_mode
+        self.observation_space, self.action_space = observation_space(), action_space()
+        self._side = ROBOTS.index(side)
+        self._policy = _policy(experiment)
+        self._policy.load(*_network(self._policy, opponent, 1 - self._side))
+        self._chase = Chase(max_steps, render_mode)
+
+    def reset(self, *, seed: int | None = None, options: dict | None = None):
+        super().reset(seed=seed)
+        self._policy.reset(self._chase.start(self.np_random), 0)
+        self._chase.show()
+        return self._chase.views()[self._side], {}
+
+    def step(self, action: np.ndarray):
+        own = wheels(ROBOTS[self._side], action)
+        theirs = self._policy.act(self._chase.views()[1 - self._side])
+        pair = (own, theirs) if self._side == 0 else (theirs, own)
+        rewards, over = self._chase.act(*pair)
+        self._chase.show()
+        return self._chase.views()[self._side], rewards[self._side], over, False, {}
+
+    def render(self) -> np.ndarray | None:
+        return self._chase.render()
+
+    def close(self) -> None:
+        self._chase.close()
+
+
+def _policy(experiment: str | os.PathLike[str] | None) -> Policy:
+    """The opponent's, as that of a single robot."""
+    chosen = POLICY if experiment is None else config.load(experiment).policy
+    alone = replace(chosen, nrobots=1, heterogeneous=0)
+    return Policy(PROBLEM, Interface(_SEES, _WHEELS, discrete=False), alone)
+
+
+def _network(policy: Policy, opponent, robot: int) -> tuple[np.ndarray, np.ndarray | None]:
+    """(parameters, normalisation) of that robot's network."""
+    if opponent is None:
+        return policy.initial(1), np.repeat([0.0, 1.0], _SEES) if policy.spec.normalize else None
+    saved = opponent if isinstance(opponent, np.ndarray) else _saved(opponent)
+    one = policy.genotype_size
+    vectors = 2 * _SEES if policy.spec.normalize else 0
+    if saved.shape == (2 * one + vectors,):
+        own = saved[robot * one : (robot + 1) * one]
+        saved = np.concatenate([own, saved[2 * one :]])
+    return policy.split(saved)
+
+
+def _saved(path: str | os.PathLike[str]) -> np.ndarray:
+    try:
+        return np.load(path, allow_pickle=False)
+    except FileNotFoundError:
+        raise BotschoolError(f"There is no opponent's genotype {path}.") from None
+    except (OSError, ValueError, EOFError, TypeError):
+        raise BotschoolError(f"{path} is no genotype: give a .npy file that a run saved.") from None

@@ -1,0 +1,130 @@
+"""A native problem, step by step, for the environments that show it to the world."""
+
+from __future__ import annotations
+
+import gymnasium
+import numpy as np
+
+from botschool import _core
+from botschool.errors import BotschoolError
+
+INFOS = {info["name"]: info for info in _core.native_problems()}
+RENDER_MODES = ["human", "rgb_array"]
+
+
+class Simulation:
+    """The problem, what its robots see, and pictures of it.
+
+    problem: its name in C++. limit: longest episode in steps, None is the problem's own. noise:
+    standard deviation of an arena's infrared readings, None is the problem's own.
+    """
+
+    def __init__(
+        self,
+        problem: str,
+        render_mode: str | None,
+        limit: int | None = None,
+        noise: float | None = None,
+    ) -> None:
+        if render_mode not in (None, *RENDER_MODES):
+            raise BotschoolError(
+                f"render_mode is one of {', '.join(RENDER_MODES)} or None, not {render_mode!r}."
+            )
+        self.info = INFOS[problem]
+        self.limit = self.info["limit"] if limit is None else limit
+        self.steps = 0
+        self._stepper = _core.make_stepper(problem)
+        try:
+            self._stepper.set(self.limit, noise)
+        except (TypeError, ValueError):
+            raise BotschoolError(
+                f"An episode has at least 1 step and noise is not negative: max_steps = {limit!r} "
+                f"and noise = {noise!r} cannot be."
+            ) from None
+        self._mode = render_mode
+        self._scene = self._window = None
+        self._shown = None
+
+    @property
+    def observation(self) -> np.ndarray:
+        """Of all robots, one after another, float64."""
+        return self._stepper.observation
+
+    @property
+    def state(self) -> np.ndarray:
+        """The native problem's state."""
+        return self._stepper.state
+
+    def start(self, random: np.random.Generator) -> int:
+        """Starts an episode with a seed that it draws and returns."""
+        seed = int(random.integers(2**63))
+        self._stepper.start(seed, 0)
+        self.steps = 0
+        self._shown = (None, None, 0.0)
+        return seed
+
+    def step(self, action: np.ndarray) -> tuple[float, bool]:
+        """All robots act; (reward, whether the episode has ended before its limit)."""
+        action = np.ascontiguousarray(action, dtype=np.float64)
+        if not np.isfinite(action).all():
+            raise BotschoolError(f"An action holds finite numbers, not {action.tolist()}.")
+        seen = self.observation
+        reward, ended = self._stepper.step(action)
+        self.steps += 1
+        self._shown = (action, seen, reward)
+        return reward, ended
+
+    def show(self) -> None:
+        """Shows the step in the window, if that is how it is watched."""
+        if self._mode == "human":
+            self.render()
+
+    def render(self) -> np.ndarray | None:
+        """The picture, (height, width, 3) uint8, or None where it goes to the window."""
+        if self._mode is None:
+            gymnasium.logger.warn('make the environment with render_mode="rgb_array" to see it.')
+            return None
+        if self._shown is None:
+            raise BotschoolError("There is nothing to see before the first reset().")
+        if self._scene is None:
+            from botschool.render.scene import make_scene
+
+            self._scene = make_scene(self.info["name"])
+        frame = self._scene.draw(self.state, *self._shown)
+        if self._mode == "rgb_array":
+            return frame
+        if self._window is None:
+            self._window = Window(self.info["name"], frame.shape, 1 / self.info["seconds"])
+        self._window.show(frame)
+        return None
+
+    def close(self) -> None:
+        """Closes the window, if there is one."""
+        if self._window is not None:
+            self._window.close()
+            self._window = None
+
+
+class Window:
+    """A window that keeps to the speed of the world. Raises BotschoolError without a display."""
+
+    def __init__(self, title: str, shape: tuple[int, ...], fps: float) -> None:
+        from botschool.render.canvas import import_pygame
+        from botschool.render.window import open_display
+
+        self._pygame = import_pygame()
+        open_display(self._pygame)
+        self._surface = self._pygame.display.set_mode((shape[1], shape[0]))
+        self._pygame.display.set_caption(title)
+        self._clock, self._fps = self._pygame.time.Clock(), fps
+
+    def show(self, frame: np.ndarray) -> None:
+        """Shows a frame, then waits until the next one is due."""
+        self._pygame.surfarray.blit_array(self._surface, frame.swapaxes(0, 1))
+        self._pygame.event.pump()
+        self._pygame.display.flip()
+        self._clock.tick(self._fps)
+
+    def close(self) -> None:
+        """Closes it."""
+        self._pygame.display.quit()

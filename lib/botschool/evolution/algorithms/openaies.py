@@ -1,0 +1,106 @@
+"""OpenAI-ES: Salimans, Ho, Chen, Sidor and Sutskever (2017), "Evolution strategies as a scalable
+alternative to reinforcement learning", as in FACTS.md section 3.
+
+The population is a cloud around one centre. Each generation measures candidates on both sides of
+the centre along random directions, estimates from their ranks in which direction fitness rises,
+and moves the centre a step that way with Adam (Kingma and Ba 2015).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from botschool.config import OpenAIESConfig
+from botschool.seeds import generator
+
+BETA1, BETA2, EPSILON = 0.9, 0.999, 1e-8
+DECAY = 0.005
+
+
+def gradient(fitness: np.ndarray, samples: np.ndarray) -> np.ndarray:
+    """In which direction fitness rises, estimated from ranks; shape (parameters,).
+
+    samples: directions, shape (samplesize, parameters); fitness: that of the two candidates of
+    each, centre + s e and centre - s e, shape (2 * samplesize,).
+    """
+    # rank the candidates: utilities from -0.5 (worst) to 0.5 (best)
+    utilities = np.empty(len(fitness))
+    utilities[np.argsort(fitness, kind="stable")] = np.linspace(-0.5, 0.5, len(fitness))
+
+    # directions weighted by how much better + is than -
+    weights = utilities[0::2] - utilities[1::2]
+    # summed row by row, so that no BLAS can change the last bits
+    return np.add.reduce(weights[:, None] * samples, axis=0) / len(fitness)
+
+
+def adam(
+    m: np.ndarray, v: np.ndarray, gradient: np.ndarray, centre: np.ndarray, wdecay: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Adam's next first and second moment, m and v, before any bias correction."""
+    # Adam climbs, so it descends on the negative gradient
+    descent = -gradient
+    if wdecay == 1:
+        descent += DECAY * centre
+    elif wdecay == 2:
+        descent += DECAY * np.sign(centre)
+    return BETA1 * m + (1 - BETA1) * descent, BETA2 * v + (1 - BETA2) * descent**2
+
+
+class OpenAIES:
+    """ask() -> candidates to evaluate; tell(their fitness) -> one step of the centre."""
+
+    def __init__(self, config: OpenAIESConfig, initial, seed: int) -> None:
+        """initial(index) gives a random genotype; the centre starts at number 0."""
+        self.config = config
+        self.seed = seed
+        self.generation = 0
+        self.centre = initial(0)
+        self.m = np.zeros_like(self.centre)
+        self.v = np.zeros_like(self.centre)
+
+    def ask(self) -> tuple[np.ndarray, np.ndarray]:
+        """Candidates, shape (2 * samplesize, parameters), and the seed of each one's evaluation.
+
+        Candidates 2 b and 2 b + 1 are centre + noiseStdDev * e_b and centre - noiseStdDev * e_b.
+        """
+        shape = (self.config.samplesize, len(self.centre))
+        self.samples = generator(self.seed, self.generation).standard_normal(shape)
+        perturbations = self.config.noiseStdDev * self.samples
+        candidates = np.empty((2 * shape[0], shape[1]))
+        candidates[0::2] = self.centre + perturbations
+        candidates[1::2] = self.centre - perturbations
+        if self.config.symseed:
+            pairs = np.arange(self.config.samplesize, dtype=np.uint64)
+            seeds = np.repeat(self.seed + self.generation * self.config.samplesize + pairs, 2)
+        else:
+            numbers = np.arange(len(candidates), dtype=np.uint64)
+            seeds = self.seed + self.generation * len(candidates) + numbers
+        return candidates, seeds
+
+    def tell(self, fitness: np.ndarray) -> None:
+        """Moves the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
+        config = self.config
+        rising = gradient(fitness, self.samples)
+        m, v = adam(self.m, self.v, rising, self.centre, config.wdecay)
+        t = self.generation + 1
+        step = config.stepsize * np.sqrt(1 - BETA2**t) / (1 - BETA1**t)
+        self.centre = self.centre - step * m / (np.sqrt(v) + EPSILON)
+        self.m, self.v, self.generation = m, v, t
+
+    def average_parameter(self) -> float:
+        """Average absolute parameter of the centre."""
+        return float(np.mean(np.abs(self.centre)))
+
+    def state(self) -> dict[str, np.ndarray]:
+        """All that a checkpoint needs besides config and seed."""
+        return {
+            "generation": np.array(self.generation),
+            "centre": self.centre,
+            "m": self.m,
+            "v": self.v,
+        }
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """The reverse of state()."""
+        self.generation = int(state["generation"])
+        self.centre, self.m, self.v = state["centre"], state["m"], state["v"]

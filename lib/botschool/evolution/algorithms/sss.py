@@ -1,0 +1,60 @@
+"""SSS, the stochastic steady state: Pagliuca, Milano and Nolfi (2018), as in FACTS.md section 3.
+
+Each generation measures every individual, keeps the better half, and overwrites the worse half
+with mutated copies of the better one.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from botschool.config import SSSConfig
+from botschool.seeds import generator
+
+
+class SSS:
+    """ask() -> the population; tell(its fitness) -> the next population."""
+
+    def __init__(self, config: SSSConfig, initial, seed: int) -> None:
+        """initial(index) gives a random genotype; the population starts with numbers 0, 1, ..."""
+        self.config = config
+        self.seed = seed
+        self.generation = 0
+        self.population = np.array([initial(i) for i in range(config.popsize)])
+
+    def ask(self) -> tuple[np.ndarray, np.ndarray]:
+        """The population, shape (popsize, parameters), and the seed of each one's evaluation.
+
+        All individuals of a generation meet the same conditions, so that the better one wins and
+        not the luckier one.
+        """
+        seeds = np.full(len(self.population), self.seed + self.generation, dtype=np.uint64)
+        return self.population, seeds
+
+    def tell(self, fitness: np.ndarray) -> None:
+        """Selection and mutation; fitness has shape (popsize,)."""
+        # rank the individuals, the best first
+        ranking = np.argsort(-fitness, kind="stable")
+        half = len(ranking) // 2
+        best, worst = ranking[:half], ranking[half:]
+
+        # the worse half becomes mutated copies of the better half
+        noise = generator(self.seed, self.generation).standard_normal(
+            (half, self.population.shape[1])
+        )
+        self.population = self.population.copy()
+        self.population[worst] = self.population[best] + self.config.mutrate * noise
+        self.generation += 1
+
+    def average_parameter(self) -> float:
+        """Average absolute parameter of the population."""
+        return float(np.mean(np.abs(self.population)))
+
+    def state(self) -> dict[str, np.ndarray]:
+        """All that a checkpoint needs besides config and seed."""
+        return {"generation": np.array(self.generation), "population": self.population}
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """The reverse of state()."""
+        self.generation = int(state["generation"])
+        self.population = state["population"]

@@ -1,0 +1,28 @@
+"""What is known about one step of an episode that is being played."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass
+class Transition:
+    """One step of an episode, as `Problem.play` yields it."""
+
+    step: int
+    """Steps done so far, from 1."""
+    reward: float
+    total: float
+    """Return so far, this step's reward included."""
+    observation: np.ndarray
+    """Shape (observations,): what the policy saw before this step's action."""
+    action: np.ndarray
+    """Shape (outputs,), or one index for a discrete problem."""
+    activations: np.ndarray
+    """Shape (neurons,): inputs, hidden, outputs after this step's update."""
+    state: np.ndarray | None = None
+    """The native problem's state after the step, else None."""
+    frame: np.ndarray | None = None
+    """The environment's own picture after the step, (height, width, 3) uint8, on request."""

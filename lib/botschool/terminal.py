@@ -1,0 +1,85 @@
+"""What long-running commands share: requests to stop, a progress bar, display or none."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+SHOW_CURSOR = b"\x1b[?25h\n"
+"""What a terminal needs after a progress bar that was broken off."""
+
+
+SIGNALS = [
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
+]
+
+
+@contextmanager
+def stoppable() -> Iterator[Callable[[], bool]]:
+    """Gives a function that tells whether the user has asked to stop.
+
+    Ctrl-C, SIGTERM and a closed terminal ask; a second time ends the process at once.
+
+    Nothing is tidied up after a second request: like after a kill, files are whole and --resume
+    goes on from the last ones, and worker processes end with this one.
+    """
+    requested = False
+    before = {}
+
+    def stop(number: int, frame: object) -> None:
+        nonlocal requested
+        if requested:
+            if sys.stdout.isatty():
+                os.write(sys.stdout.fileno(), SHOW_CURSOR)
+            os._exit(130)
+        requested = True
+
+    for number in SIGNALS:
+        before[number] = signal.signal(number, stop)
+    try:
+        yield lambda: requested
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+@contextmanager
+def progress_bar(seed: int) -> Iterator[Callable[[float, int, int, str], None]]:
+    """Gives a function to call with the share done, the steps so far, decimals of their millions,
+    and a text."""
+    from rich.progress import (
+        BarColumn,
+        Progress,
+        TaskProgressColumn,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+
+    columns = (
+        TextColumn("seed {task.fields[seed]}"),
+        BarColumn(bar_width=8),
+        TaskProgressColumn(),
+        TextColumn("{task.fields[steps]}"),
+        TimeRemainingColumn(compact=True),
+        TextColumn("{task.fields[numbers]}"),
+    )
+    with Progress(*columns, refresh_per_second=5) as progress:
+        task = progress.add_task("", total=1.0, seed=seed, steps="", numbers="")
+
+        def show(share: float, steps: int, decimals: int, numbers: str) -> None:
+            millions = f"{steps / 1e6:.{decimals}f}M"
+            progress.update(task, completed=min(share, 1.0), steps=millions, numbers=numbers)
+
+        yield show
+
+
+def has_display() -> bool:
+    """Whether a window can be expected to open."""
+    if os.environ.get("SDL_VIDEODRIVER") in ("dummy", "offscreen"):
+        return False
+    if sys.platform in ("win32", "darwin"):
+        return True
+    return any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))
