@@ -99,7 +99,7 @@ class PolicyConfig:
         0.01, "standard deviation of the noise when action_noise = 1", low=0, high=1000
     )
     normalize: int = hyper(0, "observations are scaled to mean 0 and spread 1", choices=NO_YES)
-    clip: int = hyper(0, "normalised observations are kept within -5 to 5", choices=NO_YES)
+    clip: int = hyper(0, "inputs are kept within -5 to 5, scaled or not", choices=NO_YES)
     wrange: float = hyper(
         1.0, "initial weights lie within -wrange to wrange when winit = 2", low=0, high=1000
     )
