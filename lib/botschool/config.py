@@ -147,6 +147,11 @@ class Coevo2Config:
     stepsize: float = hyper(0.01, "step size of Adam", above=0, high=1000)
     noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
     wdecay: int = hyper(0, "pull of the centre towards 0", choices=DECAY)
+    evolving: str = hyper(
+        "random",
+        "which candidates evolve in a generation",
+        choices={"random": "drawn at random", "best": "the best against the chosen competitors"},
+    )
     saveeach: int = hyper(100, "generations between saves", low=1, high=1000000000)
 
 
