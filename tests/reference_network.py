@@ -41,11 +41,6 @@ def architecture_of(spec) -> int:
     return FEEDFORWARD if spec.architecture == LSTM and spec.nhiddens == 0 else spec.architecture
 
 
-def output_activation(spec) -> int:
-    """The read-out of an LSTM is linear."""
-    return 3 if architecture_of(spec) == LSTM else spec.out_type
-
-
 def matrices(spec) -> list[tuple[str, int, int]]:
     """(name, receivers, senders) of each block of connections, in the order of the genotype."""
     inputs, sizes, outputs = spec.inputs, hidden_sizes(spec), output_count(spec)
@@ -122,12 +117,12 @@ class ReferenceNetwork:
         inputs = np.array(observation, dtype=np.float64)
         if self.spec.normalize:
             inputs = (inputs - self.mean) / self.deviation
-        if self.spec.normalize and self.spec.clip:
+        if self.spec.clip:
             inputs = np.clip(inputs, -5, 5)
         update = (self.layered, self.layered, self.all_at_once, self.lstm)
         self.hidden, net_output = update[architecture_of(self.spec)](inputs)
         self.net_output = net_output
-        self.output = ACTIVATIONS[output_activation(self.spec)](net_output)
+        self.output = ACTIVATIONS[self.spec.out_type](net_output)
         return self.action(), np.concatenate([inputs, self.hidden, self.output])
 
     def layered(self, senders):

@@ -1,4 +1,4 @@
-"""coevo2 against a small implementation of FACTS.md section 3 in plain Python."""
+"""coevo2 against a small implementation in plain Python of docs/specification.md, "Algorithms"."""
 
 import itertools
 import math
@@ -52,6 +52,11 @@ def average(values):
     return math.fsum(values) / len(values)
 
 
+def differences(one, other):
+    """Sum of the absolute differences of two rows."""
+    return math.fsum(abs(a - b) for a, b in zip(one, other, strict=True))
+
+
 class Plain:
     """The same algorithm, individual by individual and number by number."""
 
@@ -87,7 +92,11 @@ class Plain:
         def fitness(x):
             return average([meeting(side, x, opponent) for opponent in opponents])
 
-        chosen = sorted(ours, key=lambda one: -fitness(one.x))[: self.c.selsize]
+        if self.c.evolving == "best":
+            chosen = sorted(ours, key=lambda one: -fitness(one.x))[: self.c.selsize]
+        else:
+            drawn = numbers.permutation(self.c.popsize).tolist()
+            chosen = [ours[i] for i in drawn[: self.c.selsize]]
         copies = [Individual(one.x, one.m, one.v) for one in chosen]
         for _ in range(20):
             e = numbers.standard_normal((self.c.selsize, self.c.samplesize, SIZE))
@@ -109,7 +118,7 @@ class Plain:
         chosen = [first]
         while len(chosen) < self.c.selsize:
             others = [i for i in range(len(theirs)) if i not in chosen]
-            gaps = [min(math.dist(profiles[i], profiles[k]) for k in chosen) for i in others]
+            gaps = [sum(differences(profiles[i], profiles[k]) for k in chosen) for i in others]
             chosen.append(others[gaps.index(max(gaps))])
         return chosen
 
@@ -136,9 +145,10 @@ class Plain:
 
 
 @pytest.mark.parametrize("wdecay", [0, 1, 2])
-def test_generations_agree_with_plain_python(wdecay):
-    algorithm = game(wdecay=wdecay)
-    plain = Plain(Coevo2Config(**SETTINGS, wdecay=wdecay), 9)
+@pytest.mark.parametrize("evolving", ["random", "best"])
+def test_generations_agree_with_plain_python(evolving, wdecay):
+    algorithm = game(evolving=evolving, wdecay=wdecay)
+    plain = Plain(Coevo2Config(**SETTINGS, evolving=evolving, wdecay=wdecay), 9)
     for generation in range(3):
         before = algorithm.parameters.copy()
         progress = algorithm.advance(play)
@@ -252,7 +262,7 @@ def test_competitors_by_brute_force(seed, rows, columns, count, coarse):
     for k in range(1, count):
 
         def gap(row, k=k):
-            return min(math.dist(fitness[row], fitness[i]) for i in chosen[:k])
+            return sum(differences(fitness[row], fitness[i]) for i in chosen[:k])
 
         farthest = max(gap(row) for row in range(rows) if row not in chosen[:k])
         assert gap(chosen[k]) == pytest.approx(farthest, abs=1e-12)
@@ -300,6 +310,30 @@ def test_of_equals_the_newcomers_stay():
     algorithm.advance(nobody)
     assert np.array_equal(algorithm.parameters[0, 3:], before[0, :4])
     assert not (algorithm.parameters[0, :3] == before[0, :3]).any()
+
+
+def test_the_best_evolve_or_anyone():
+    """Who evolves: the rows of the population whose momentum the newcomers have taken over."""
+    found = {}
+    for evolving in ("best", "random"):
+        algorithm = game(evolving=evolving)
+        asked = []
+
+        def spying(predators, prey, asked=asked):
+            asked.append((predators.copy(), prey.copy()))
+            return play(predators, prey)
+
+        before, fitness = algorithm.parameters[0].copy(), algorithm.fitness.copy()
+        rivals = {row.tobytes(): i for i, row in enumerate(algorithm.parameters[1])}
+        algorithm.advance(spying)
+        offspring, competitors = asked[0]
+        centres = offspring.reshape(3, -1, SIZE).mean(axis=1)  # + and - cancel out
+        chosen = [int(np.abs(before - centre).sum(axis=1).argmin()) for centre in centres]
+        met = fitness[:, [rivals[row.tobytes()] for row in competitors]]
+        found[evolving] = chosen, ranking(met)[:3].tolist()
+    assert found["best"][0] == found["best"][1]
+    chosen, best = found["random"]
+    assert len(set(chosen)) == 3 and set(chosen) != set(best)
 
 
 def test_ranking_is_stable():

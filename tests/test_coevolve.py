@@ -19,9 +19,9 @@ from botschool.problems import Episodes
 from running import contents, finish, run_seeds, same, start
 
 POPSIZE = 6
-MAXSTEPS = 150
+MAXSTEPS = 300
 POLICY = {"nrobots": 2, "heterogeneous": 1, "maxsteps": MAXSTEPS, "nhiddens": 4, "bias": 1}
-POLICY |= {"architecture": 3}
+POLICY |= {"architecture": 3, "winit": 2, "wrange": 2}  # bold robots, who meet
 ALGORITHM = {"ngenerations": 5, "popsize": POPSIZE, "selsize": 2, "samplesize": 2, "saveeach": 2}
 ALGORITHM |= {"noiseStdDev": 0.3, "stepsize": 0.3}
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
@@ -395,3 +395,5 @@ def test_damaged_checkpoints(refused, own, tmp_path):
     path.write_bytes(whole)
     write(tmp_path, popsize=POPSIZE + 1)
     refused(*arguments(tmp_path, "--resume"), says=[f"popsize is now {POPSIZE + 1}"])
+    write(tmp_path, evolving="best")
+    refused(*arguments(tmp_path, "--resume"), says=["evolving = random", "is now best"])

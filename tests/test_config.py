@@ -67,6 +67,7 @@ COEVO2_DEFAULTS = {
     "stepsize": 0.01,
     "noiseStdDev": 0.02,
     "wdecay": 0,
+    "evolving": "random",
     "saveeach": 100,
 }
 
@@ -241,6 +242,10 @@ REFUSED = {
         "popsize = 5 is odd",
         "popsize = 6",
     ),
+    "unknown choice": (
+        text(algo="evolving = beste", exp="environment = X\nalgo = coevo2"),
+        "line 7: evolving = beste is unknown: did you mean best?",
+    ),
     "odd population in coevo2 is one, selection too large is not": (
         text(algo="popsize = 5", exp="environment = X\nalgo = coevo2"),
         "line 7",
@@ -346,7 +351,7 @@ def test_refused_dict(data, part):
 def test_describe_lists_every_hyperparameter_with_default_and_help():
     rows = describe()
     listed = {(section, name): default for section, name, default, _ in rows}
-    assert len(listed) == len(rows) == 2 + 19 + 7 + 4 + 8
+    assert len(listed) == len(rows) == 2 + 19 + 7 + 4 + 9
     for section, defaults in (
         ("EXP", {"environment": None, "algo": "OpenAI-ES"}),
         ("POLICY", POLICY_DEFAULTS),

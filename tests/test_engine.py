@@ -288,13 +288,14 @@ def test_a_block_of_pairs_is_made_of_single_episodes(isa):
     """One competitor after another for all candidates, when lanes share its weights, or mixed."""
     policy = policy_of("ErPredprey", "LSTM")
     engine = _core.Engine("ErPredprey", policy.spec.core(), isa)
-    genotypes = np.array([policy.initial(3, i)[: policy.nparameters] for i in range(23)])
+    # initial weights are too cautious: nobody would meet anybody
+    genotypes = 3 * np.array([policy.initial(3, i)[: policy.nparameters] for i in range(23)])
     pairs = np.array([(c, k) for k in (20, 21, 22) for c in range(20)], dtype=np.int32).T
 
     def fitness(pairs, threads=1):
         n = pairs.shape[1]
         ones = np.ones(n, dtype=np.uint64), np.zeros(n, dtype=np.uint32)
-        return engine.evaluate(genotypes, None, pairs, *ones, None, 120, threads)[:2]
+        return engine.evaluate(genotypes, None, pairs, *ones, None, 400, threads)[:2]
 
     alone = [fitness(pairs[:, i : i + 1].copy()) for i in range(pairs.shape[1])]
     expected = [np.concatenate(part) for part in zip(*alone, strict=True)]

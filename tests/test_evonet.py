@@ -1,5 +1,7 @@
 """The forward pass of policy networks against an independent one (reference_network.py)."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -14,7 +16,6 @@ from reference_network import (
     ReferenceNetwork,
     binned,
     hidden_sizes,
-    output_activation,
     output_count,
 )
 from strategies import (
@@ -124,7 +125,7 @@ def agrees(reference, discrete, *columns):
     spec = reference.spec
     for observation, action, activations in zip(*columns, strict=True):
         _, expected = reference.step(observation)
-        if output_activation(spec) == 4 and np.any(np.abs(reference.net_output - 0.5) < 1e-4):
+        if spec.out_type == 4 and np.any(np.abs(reference.net_output - 0.5) < 1e-4):
             break  # single precision may decide otherwise, and then remember it
         assert_close(activations, expected, 1e-4)
         outputs = activations[-output_count(spec) :]
@@ -147,7 +148,7 @@ def test_lanes_of_evolution_agree_with_the_network(choices, seed):
     policy.reset(seed, 7)
     for moment in problem.play(policy, genotype, normalisation, seed, 7, 40):
         action = policy.act(moment.observation)
-        if output_activation(policy.spec) == 4 and np.sum(np.abs(moment.action - action)) > 1:
+        if policy.spec.out_type == 4 and np.sum(np.abs(moment.action - action)) > 1:
             break
         assert_close(moment.action, action, 1e-4)
 
@@ -193,6 +194,47 @@ def test_clip_and_normalisation():
         network.observation = observation
         network.step()
         assert network.activations[:2] == pytest.approx(seen, abs=1e-15)
+
+
+def test_clip_without_normalisation():
+    for clip, seen in ((0, (7, -1e9, 4.5)), (1, (5, -5, 4.5))):
+        network = Network(NetworkSpec(inputs=3, outputs=1, nhiddens=0, clip=clip))
+        network.observation = (7, -1e9, 4.5)
+        network.step()
+        assert network.activations[:3].tolist() == list(seen)
+
+
+# Every architecture with every activation of outputs, and inputs as they come, clipped, normalised.
+COMBINATIONS = list(itertools.product(range(4), range(1, 5), range(2), range(2)))
+
+
+@pytest.mark.parametrize(("architecture", "out_type", "clip", "normalize"), COMBINATIONS)
+def test_combinations(architecture, out_type, clip, normalize):
+    choices = {
+        "nhiddens": 6, "bias": 1, "architecture": architecture, "out_type": out_type, "clip": clip,
+        "normalize": normalize,
+    }  # fmt: skip
+    rng = np.random.default_rng(1)
+
+    network = Network(NetworkSpec(inputs=3, outputs=4, **choices))
+    genotype = random_genotype(network.spec, rng)
+    normalisation = random_normalisation(network.spec, rng)
+    network.parameters, network.normalisation = genotype, normalisation
+    reference = ReferenceNetwork(network.spec, genotype, normalisation)
+    for observation in 40 * rng.standard_normal((20, 3)):
+        network.observation = observation
+        action, activations = reference.step(observation)
+        assert_close(network.step(), action, 1e-12)
+        assert_close(network.activations, activations, 1e-12)
+
+    problem = problems.make("Pendulum-v1")
+    policy = Policy("Pendulum-v1", problem.interface, PolicyConfig(nrobots=1, **choices))
+    genotype = random_genotype(policy.spec, rng, 0.5)
+    normalisation = np.array([0.1, -0.1, 0.5, 0.2, 0.1, 1.5])
+    tape = problem.engine(policy).record(genotype[None], normalisation, 2, 0, 100)
+    assert np.abs(tape["observations"]).max() > 5, "nothing to clip"
+    reference = ReferenceNetwork(policy.spec, genotype, normalisation)
+    agrees(reference, False, *[tape[kind] for kind in ("observations", "actions", "activations")])
 
 
 def test_memory_ends_with_the_episode():

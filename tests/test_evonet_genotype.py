@@ -110,7 +110,7 @@ def activations_of(network, genotype, observations):
 
 
 def test_place_of_each_parameter_of_an_lstm():
-    spec = NetworkSpec(inputs=1, outputs=1, nhiddens=2, architecture=3, bias=1, out_type=1)
+    spec = NetworkSpec(inputs=1, outputs=1, nhiddens=2, architecture=3, bias=1, out_type=3)
     network = Network(spec)
     rng = np.random.default_rng(3)
     genotype, observations = rng.normal(size=3 + 2 * 4 * 3 + 2), rng.normal(size=(3, 1))
@@ -207,19 +207,19 @@ def test_norm_incoming_weights(shape, out_type, output_norm):
     spec = NetworkSpec(**(LARGE | SHAPES[shape]), winit=1, out_type=out_type)
     parts = initial_parts(spec)
     if shape == "LSTM":
-        incoming = {1: parts["gates"], 0.01: parts["output"]}  # a linear read-out
+        incoming = [(1, parts["gates"]), (output_norm, parts["output"])]
     elif shape == "fully recurrent":
-        incoming = {1: parts["all"][:40], output_norm: parts["all"][40:]}
+        incoming = [(1, parts["all"][:40]), (output_norm, parts["all"][40:])]
     elif shape == "recurrent":
-        incoming = {
-            1: np.hstack([parts["hidden0"], parts["hidden0 before"]]),
-            output_norm: np.hstack([parts["output"], parts["output before"]]),
-        }
+        incoming = [
+            (1, np.hstack([parts["hidden0"], parts["hidden0 before"]])),
+            (output_norm, np.hstack([parts["output"], parts["output before"]])),
+        ]
     else:
-        incoming = {1: parts.get("hidden0", np.ones((1, 1))), output_norm: parts["output"]}
+        incoming = [(1, parts.get("hidden0", np.ones((1, 1)))), (output_norm, parts["output"])]
         if shape == "two layers":
             assert np.linalg.norm(parts["hidden1"], axis=1) == pytest.approx(1)
-    for norm, rows in incoming.items():
+    for norm, rows in incoming:
         assert np.linalg.norm(rows, axis=1) == pytest.approx(norm, rel=1e-12)
         # directions are those of Gaussian vectors: no element stands out, whatever its block
         unit = rows / norm * np.sqrt(rows.shape[1])

@@ -65,7 +65,7 @@ def mean(values: np.ndarray) -> float:
 #    forget $= \sigma(W_f z + 1)$,  input $= \sigma(W_i z)$,  output $= \sigma(W_o z)$,
 #    candidate $= \tanh(W_c z)$
 # 3. New cells: cells * forget + candidate * input. New outputs: tanh(new cells) * output.
-# 4. The action: readout times the new outputs, plus bias.
+# 4. The action: tanh(readout times the new outputs, plus bias), from -1 (full speed back) to 1.
 
 
 # %%

@@ -36,7 +36,7 @@ def evolved(rng: np.random.Generator, which: int) -> np.ndarray:
 def bold(rng: np.random.Generator) -> np.ndarray:
     """A robot that soon meets a wall: it drives fast, and nearly straight on."""
     genotype = 0.05 * rng.normal(size=752)
-    genotype[10:12] = rng.uniform(0.9, 1.0) + 0.05 * rng.normal(size=2)
+    genotype[10:12] = rng.uniform(1.4, 1.6) + 0.05 * rng.normal(size=2)
     return genotype
 
 
@@ -50,7 +50,8 @@ def answer_of(brain: dict, observation: np.ndarray, memory: np.ndarray) -> tuple
     net = np.einsum("gui,i->gu", brain["gates"], known)
     cells = squash(net[0] + 1) * memory[0] + squash(net[1]) * np.tanh(net[3])
     outputs = squash(net[2]) * np.tanh(cells)
-    return brain["bias"] + brain["readout"] @ outputs, np.array([cells, outputs])
+    wheels = np.tanh(brain["bias"] + brain["readout"] @ outputs)
+    return wheels, np.array([cells, outputs])
 
 
 def remembered(way, step: int, before: np.ndarray, after: np.ndarray) -> np.ndarray:

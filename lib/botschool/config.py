@@ -99,7 +99,7 @@ class PolicyConfig:
         0.01, "standard deviation of the noise when action_noise = 1", low=0, high=1000
     )
     normalize: int = hyper(0, "observations are scaled to mean 0 and spread 1", choices=NO_YES)
-    clip: int = hyper(0, "normalised observations are kept within -5 to 5", choices=NO_YES)
+    clip: int = hyper(0, "inputs are kept within -5 to 5, scaled or not", choices=NO_YES)
     wrange: float = hyper(
         1.0, "initial weights lie within -wrange to wrange when winit = 2", low=0, high=1000
     )
@@ -147,6 +147,11 @@ class Coevo2Config:
     stepsize: float = hyper(0.01, "step size of Adam", above=0, high=1000)
     noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
     wdecay: int = hyper(0, "pull of the centre towards 0", choices=DECAY)
+    evolving: str = hyper(
+        "random",
+        "which candidates evolve in a generation",
+        choices={"random": "drawn at random", "best": "the best against the chosen competitors"},
+    )
     saveeach: int = hyper(100, "generations between saves", low=1, high=1000000000)
 
 

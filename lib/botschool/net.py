@@ -36,11 +36,11 @@ class NetworkSpec:
     afunction: int = 2
     """Activation of hidden neurons: 1 logistic, 2 tanh, 3 linear."""
     out_type: int = 2
-    """Activation of outputs: 1 logistic, 2 tanh, 3 linear, 4 binary. An LSTM's are linear."""
+    """Activation of outputs: 1 logistic, 2 tanh, 3 linear, 4 binary."""
     winit: int = 0
     """Initial weights: 0 Xavier, 1 norm-incoming, 2 uniform."""
     clip: int = 0
-    """1: normalised inputs are clamped to [-5, 5]."""
+    """1: inputs are clamped to [-5, 5], after any normalisation."""
     normalize: int = 0
     """1: inputs are normalised by running means and deviations."""
     action_noise: int = 0

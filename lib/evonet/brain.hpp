@@ -136,11 +136,10 @@ class Brain {
     const int n = l_.spec.inputs * L;
     T* BOTSCHOOL_RESTRICT out = m_.activations;
     const T* BOTSCHOOL_RESTRICT in = m_.inputs;
-    if (!l_.spec.normalize) {
+    if (l_.spec.normalize)
+      for (int i = 0; i < n; ++i) out[i] = (in[i] - m_.mean[i]) / m_.deviation[i];
+    else
       for (int i = 0; i < n; ++i) out[i] = in[i];
-      return;
-    }
-    for (int i = 0; i < n; ++i) out[i] = (in[i] - m_.mean[i]) / m_.deviation[i];
     if (l_.spec.clip)
       for (int i = 0; i < n; ++i) out[i] = clamp(out[i], T(-5), T(5));
   }

@@ -182,13 +182,8 @@ Layout make_layout(const Spec& spec) {
     l.layer[i] = {neuron, size, spec.bias ? placer.take(size) : -1, spec.afunction, 0, {}};
     neuron += size;
   }
-  // an LSTM's read-out is linear whatever out_type says
-  l.layer[hidden_layers] = {neuron,
-                            l.outputs,
-                            spec.bias ? placer.take(l.outputs) : -1,
-                            gated ? int(linear_unit) : spec.out_type,
-                            0,
-                            {}};
+  l.layer[hidden_layers] = {neuron,        l.outputs, spec.bias ? placer.take(l.outputs) : -1,
+                            spec.out_type, 0,         {}};
   place_hidden_and_outputs(l, placer, hidden_layers);
   if (gated) {  // the hidden layer is updated through its gates
     l.layer[0] = l.layer[1];

@@ -1,5 +1,7 @@
-"""coevo2, competitive co-evolution: Simione and Nolfi (2020), "Long-term progress and behavior
-complexification in competitive coevolution", as in FACTS.md section 3.
+"""coevo2, competitive co-evolution: the "Generalist" of Nolfi and Pagliuca (2024), "Global progress
+in competitive co-evolution", https://doi.org/10.3389/frobt.2024.1470886; earlier Simione and Nolfi
+(2021), "Long-term progress and behavior complexification in competitive coevolution". As in
+docs/specification.md, "Algorithms".
 
 Two populations, predators and prey, evolve by turns. Some individuals of one are improved, by
 steps like those of OpenAI-ES, against a few competitors that differ from each other; then they
@@ -53,17 +55,16 @@ def ranking(fitness: np.ndarray) -> np.ndarray:
 def differing(fitness: np.ndarray, count: int, first: int) -> np.ndarray:
     """Chooses `count` rows that differ most from each other, beginning with the row `first`.
 
-    The next one is always the row whose nearest chosen row is farthest away, in Euclidean distance
-    between rows; of equals, the earlier one. (FACTS.md says that competitors "differ most in
-    fitness profile"; this farthest-point rule of Gonzalez (1985) is our reading of it.)
+    The next one is always the row with the largest sum of absolute differences to those chosen so
+    far; of equals, the earlier one.
     """
     chosen = [first]
-    nearest = np.full(len(fitness), np.inf)  # squared distance to the nearest chosen row
+    apart = np.zeros(len(fitness))  # sum of absolute differences to the chosen rows
     while len(chosen) < count:
-        squares = (fitness - fitness[chosen[-1]]) ** 2
-        nearest = np.minimum(nearest, [math.fsum(row) for row in squares.tolist()])
-        nearest[chosen] = -1
-        chosen.append(int(np.argmax(nearest)))
+        differences = np.abs(fitness - fitness[chosen[-1]])
+        apart += [math.fsum(row) for row in differences.tolist()]
+        apart[chosen] = -1
+        chosen.append(int(np.argmax(apart)))
     return np.array(chosen)
 
 
@@ -111,11 +112,13 @@ class Coevo2:
         side, other = self.side, 1 - self.side
         numbers = generator(self.seed, self.generation)
 
-        # choose competitors that differ, and the individuals that do best against them
+        # choose competitors that differ, and who evolves: the best against them, or anyone
         first = int(numbers.integers(self.config.popsize))
         competitors = differing(seen_by(other, self.fitness), self.config.selsize, first)
         before = seen_by(side, self.fitness)[:, competitors]
-        chosen = ranking(before)[: self.config.selsize]
+        best_first = self.config.evolving == "best"
+        order = ranking(before) if best_first else numbers.permutation(self.config.popsize)
+        chosen = order[: self.config.selsize]
 
         # evolve copies of them, then let them meet everyone
         evolved = [array[side, chosen] for array in (self.parameters, self.m, self.v)]

@@ -5,4 +5,5 @@ def think(brain, observation, memory):
     enter, forget, leave, candidate = brain["gates"] @ z
     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
     outputs = np.tanh(cells) * logistic(leave)
-    return brain["readout"] @ outputs + brain["bias"], np.stack([cells, outputs])
+    action = np.tanh(brain["readout"] @ outputs + brain["bias"])
+    return action, np.stack([cells, outputs])
