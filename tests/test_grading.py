@@ -185,7 +185,7 @@ def test_scratch_files_that_are_not_there(student):
 
 
 def test_limits_are_told(student):
-    with pytest.raises(Wrong, match="while talk.* was running: it printed more than 16 MB"):
+    with pytest.raises(Wrong, match=r"while talk.* was running: it printed more than 16 MB"):
         student("def talk():\n    while True: print('x' * 100_000)\n", 20).call("talk")
 
 
