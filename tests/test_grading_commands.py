@@ -5,7 +5,6 @@ import contextlib
 import csv
 import ctypes
 import json
-import os
 import platform
 import signal
 import subprocess
@@ -15,14 +14,15 @@ from html.parser import HTMLParser
 import pytest
 
 from botschool.errors import BotschoolError
-from botschool.grading import apart, seccomp
+from botschool.grading import batch
+from botschool.grading.collect import grade_all, page_names
 from botschool.grading.exercise import load_exercise
-from botschool.grading.grade_all import grade_all, page_names
 from botschool.grading.release import find_leaks, release
 from botschool.grading.report import Screen
 from botschool.grading.solution import run_solution
 from botschool.grading.submission import grade
 from botschool.grading.watching import watch
+from botschool.sandbox import seccomp
 from running import call, environment_of_command, finish, start
 from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
 
@@ -109,17 +109,17 @@ def test_progress(course):
 
 def test_results_are_kept_by_content(course, tmp_path, monkeypatch):
     file = submit(tmp_path / "one", SOLUTION)
-    job = apart.Job(3, file)
-    first = apart.Grades(course).of([job], 1)[job]
+    job = batch.Job(3, file)
+    first = batch.Grades(course).of([job], 1)[job]
     assert first["points"] == 100 and len(list((course / ".botschool/grades").iterdir())) == 1
-    monkeypatch.setattr(apart, "interpreter", lambda *a: ["/bin/false"])
-    assert apart.Grades(course).of([job], 1)[job] == first
-    assert "The grader failed" in apart.Grades(course, fresh=True).of([job], 1)[job]["problem"]
+    monkeypatch.setattr(batch, "interpreter", lambda *a: ["/bin/false"])
+    assert batch.Grades(course).of([job], 1)[job] == first
+    assert "The grader failed" in batch.Grades(course, fresh=True).of([job], 1)[job]["problem"]
     file.write_text(SOLUTION + "\n")
-    assert apart.Grades(course).of([job], 1)[job]["points"] == 0
-    monkeypatch.setattr(apart, "interpreter", lambda *a: ["sleep", "100"])
-    monkeypatch.setattr(apart, "SPARE_SECONDS", -14)
-    assert "took longer" in apart.Grades(course).of([job], 1)[job]["problem"]
+    assert batch.Grades(course).of([job], 1)[job]["points"] == 0
+    monkeypatch.setattr(batch, "interpreter", lambda *a: ["sleep", "100"])
+    monkeypatch.setattr(batch, "SPARE_SECONDS", -14)
+    assert "took longer" in batch.Grades(course).of([job], 1)[job]["problem"]
 
 
 def test_watch_grades_after_each_save(course):
@@ -381,13 +381,3 @@ def test_grading_goes_on_without_confinement(course, absent, words):
     out = " ".join(process.stdout.split())
     assert "100 of 100 points" in out
     assert out.count("Notice:") == 1 and words in out
-
-
-def test_filters_of_both_machines():
-    for machine in ("x86_64", "aarch64"):
-        code = seccomp.program(machine, os.getpid())
-        assert len(code) < 4096
-        for at, (operation, yes, no, _) in enumerate(code):
-            if operation in (0x15, 0x35, 0x45):
-                assert at + 1 + max(yes, no) < len(code)
-    assert seccomp.program("riscv64", 1) is None

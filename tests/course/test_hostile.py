@@ -24,9 +24,9 @@ import psutil
 import pytest
 
 import building
-from botschool.grading import seccomp
-from botschool.grading.nursery import Nursery
+from botschool.grading.confined import fork_server
 from botschool.grading.submission import grade_task
+from botschool.sandbox import seccomp
 
 pytestmark = pytest.mark.course
 
@@ -49,7 +49,8 @@ class Trap:
             (folder / "precious.txt").write_text("precious")
         for folder in (self.home, self.course / "solutions"):
             (folder / "precious.txt").write_text("precious")
-        self.watched = [base, Path(building.ROOT / "lib" / "botschool" / "grading")]
+        own = building.ROOT / "lib" / "botschool"
+        self.watched = [base, own / "grading", own / "sandbox"]
         self.listener = socket.create_server(("127.0.0.1", 0))
         self.visitors = 0
         threading.Thread(target=self._listen, daemon=True).start()
@@ -99,17 +100,17 @@ def trap(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def nurseries():
-    """Where children come from: exercise -> Nursery, shared by all tests."""
+def servers():
+    """exercise -> fork server, shared by all tests."""
     with contextlib.ExitStack() as stack:
-        yield {n: stack.enter_context(Nursery(building.exercise(n).imports)) for n in EXERCISES}
+        yield {n: stack.enter_context(fork_server(building.exercise(n).imports)) for n in EXERCISES}
 
 
 SECRET = "another secret"
 
 
 @pytest.fixture(scope="module")
-def graders(nurseries):
+def graders(servers):
     """The exercises, whose solutions have been graded once: some graders make files of their own
     then, and keep them (exercise 14 trains agents)."""
     found = {number: building.exercise(number) for number in EXERCISES}
@@ -119,21 +120,21 @@ def graders(nurseries):
             one = building.source(number)
             file = building.ROOT / "solutions" / one.folder / one.file
             for task in exercise.tasks:
-                result = grade_task(task, file, nurseries[number])
+                result = grade_task(task, file, servers[number])
                 assert result.points == task.max_points, result
     return found
 
 
 @pytest.fixture(scope="module")
-def missing(graders, nurseries, tmp_path_factory):
+def missing(graders, servers, tmp_path_factory):
     """What this system cannot confine."""
     probe = building.write(tmp_path_factory.mktemp("probe"), EXERCISES[0], "")
     task = graders[EXERCISES[0]].tasks[0]
-    return grade_task(task, probe, nurseries[EXERCISES[0]]).missing
+    return grade_task(task, probe, servers[EXERCISES[0]]).missing
 
 
 @pytest.fixture(autouse=True)
-def confined(trap, missing, nurseries, monkeypatch, tmp_path_factory):
+def confined(trap, missing, servers, monkeypatch, tmp_path_factory):
     """Only where the system confines submissions; afterwards nothing has changed."""
     if missing:
         pytest.skip(f"this system cannot confine a submission's {', '.join(missing)}")
@@ -174,7 +175,7 @@ def judged(task, file, nursery):
 
 @pytest.mark.parametrize("number", EXERCISES)
 @pytest.mark.parametrize("kind", KINDS)
-def test_earns_nothing(trap, graders, nurseries, tmp_path, kind, number):
+def test_earns_nothing(trap, graders, servers, tmp_path, kind, number):
     """In the place of every function that students write."""
     one = building.source(number)
     names = [name for functions in one.functions.values() for name in functions]
@@ -183,7 +184,7 @@ def test_earns_nothing(trap, graders, nurseries, tmp_path, kind, number):
     file = building.write(tmp_path / "submissions", number, text)
     slow = 0
     for task in graders[number].tasks:
-        result, elapsed = judged(task, file, nurseries[number])
+        result, elapsed = judged(task, file, servers[number])
         assert result.points == 0, f"{task.id}: {result}"
         assert result.message
         slow += elapsed > SECONDS
@@ -193,7 +194,7 @@ def test_earns_nothing(trap, graders, nurseries, tmp_path, kind, number):
 
 @pytest.mark.parametrize("number", EXERCISES)
 @pytest.mark.parametrize("kind", KINDS)
-def test_next_task_is_graded(trap, graders, nurseries, tmp_path, kind, number):
+def test_next_task_is_graded(trap, graders, servers, tmp_path, kind, number):
     """In a solution, in the place of one task's functions: another task keeps its points."""
     one, loaded = building.source(number), graders[number]
     alone = [
@@ -206,17 +207,17 @@ def test_next_task_is_graded(trap, graders, nurseries, tmp_path, kind, number):
         one.solution, f"{trap.attack(number, kind)}\n\n{' = '.join(names)} = hostile"
     )
     file = building.write(tmp_path / "submissions", number, text)
-    result, _ = judged(alone[0], file, nurseries[number])
+    result, _ = judged(alone[0], file, servers[number])
     assert result.points == 0, result
-    assert grade_task(loaded.tasks[0], file, nurseries[number]).points == loaded.tasks[0].max_points
+    assert grade_task(loaded.tasks[0], file, servers[number]).points == loaded.tasks[0].max_points
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_while_the_file_is_loaded(trap, graders, nurseries, tmp_path, kind):
+def test_while_the_file_is_loaded(trap, graders, servers, tmp_path, kind):
     one = building.source(EXERCISES[0])
     text = building.inserted(one.skeleton, f"{trap.attack(one.number, kind)}\n\nhostile()")
     file = building.write(tmp_path / "submissions", one.number, text)
-    result, _ = judged(graders[one.number].tasks[0], file, nurseries[one.number])
+    result, _ = judged(graders[one.number].tasks[0], file, servers[one.number])
     assert result.points == 0, result
 
 

@@ -11,7 +11,7 @@ import pytest
 
 import building
 from botschool.errors import BotschoolError
-from botschool.grading.apart import Grades, Job
+from botschool.grading.batch import Grades, Job
 from botschool.grading.hints import read_hints
 from botschool.grading.release import find_leaks, release, released_files
 from botschool.grading.skeleton import pairs

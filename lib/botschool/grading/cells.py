@@ -15,10 +15,10 @@ import symtable
 import sys
 from dataclasses import dataclass, field
 
-SECONDS = 30
-LARGEST = 2**20
+PARSE_SECONDS = 30
+MAX_CODE = 2**20
 """Characters of code in a notebook."""
-MOST_MAGICS = 100
+MAX_MAGICS = 100
 """IPython lines in a cell."""
 _TEST = re.compile(
     r"^([ \t]*)(from botschool\.grading\.notebook import grade_cell|grade_cell\(.*\))[ \t]*$",
@@ -53,14 +53,14 @@ def scripts(sources: list[str]) -> tuple[Script, Script]:
 
     Raises Unreadable.
     """
-    if sum(map(len, sources)) > LARGEST:
+    if sum(map(len, sources)) > MAX_CODE:
         raise Unreadable("The notebook holds more than a megabyte of code.")
     try:
         done = subprocess.run(
             [sys.executable, "-I", "-S", __file__],
             input=json.dumps(sources).encode(),
             capture_output=True,
-            timeout=SECONDS,
+            timeout=PARSE_SECONDS,
             check=True,
         )
         made = json.loads(done.stdout)
@@ -102,7 +102,7 @@ def plain_python(source: str) -> str:
     text = _TEST.sub(r"\1pass", source.replace("\r\n", "\n").replace("\r", "\n"))
     if re.match(r"\s*%%", text) and not _PYTHON_CELL.match(text.lstrip()):
         return "\n".join("# " + line for line in text.split("\n"))
-    for _ in range(MOST_MAGICS):
+    for _ in range(MAX_MAGICS):
         try:
             ast.parse(text)
             return text

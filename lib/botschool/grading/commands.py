@@ -12,7 +12,7 @@ from pathlib import Path
 from rich.console import Console
 
 from botschool.errors import BotschoolError
-from botschool.grading.apart import Grades, Job
+from botschool.grading.batch import Grades, Job
 from botschool.grading.checks import Wrong
 from botschool.grading.debug import DirectStudent
 from botschool.grading.exercise import (
@@ -163,7 +163,7 @@ def grade_all_command(
     folder: Path, output: Path, exercise: str, workers: int | None, fresh: bool
 ) -> None:
     """Grades a class and says where the results are."""
-    from botschool.grading.grade_all import PAGES, TABLE, grade_all
+    from botschool.grading.collect import PAGES, TABLE, grade_all
 
     root = course_root()
     numbers = exercise_numbers(root) if exercise == "all" else [_named(exercise)[0]]

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from botschool.grading.checks import Wrong
-from botschool.grading.scratch import Scratch
+from botschool.grading.confined import scratch_copy
 
 
 class DirectStudent:
@@ -27,7 +27,7 @@ class DirectStudent:
     def __init__(self, file: Path) -> None:
         """Raises what loading the file raises, and Wrong when it is too large."""
         file = file.resolve()
-        self._scratch = Scratch(file)
+        self._scratch = scratch_copy(file)
         self._before = Path.cwd()
         os.chdir(self._scratch.folder)
         try:

@@ -12,7 +12,7 @@ from string import Template
 from typing import Any
 
 GENERATOR = "botschool grade-all"
-MOST_LINES = 60
+MAX_LINES = 60
 """Of what a task printed."""
 
 _PAGE = Template("""<!DOCTYPE html>
@@ -97,7 +97,7 @@ $message$printed</div>
 
 
 def page(student: str, results: list[dict[str, Any]]) -> str:
-    """The page; results as of apart.Grades."""
+    """The page; results as of batch.Grades."""
     return _PAGE.substitute(
         generator=GENERATOR,
         student=escape(student),
@@ -141,8 +141,8 @@ def _printed(text: str) -> str:
     lines = text.strip("\n").splitlines()
     if not lines:
         return ""
-    if len(lines) > MOST_LINES:
-        lines = [*lines[:MOST_LINES], f"... and {len(lines) - MOST_LINES} more lines"]
+    if len(lines) > MAX_LINES:
+        lines = [*lines[:MAX_LINES], f"... and {len(lines) - MAX_LINES} more lines"]
     return (
         "<details><summary>what your code printed</summary>"
         f"<pre>{escape(chr(10).join(lines))}</pre></details>\n"

@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.apart import make_state
+from botschool.grading.batch import make_state
 from botschool.grading.exercise import folder_of
 from botschool.output import save_bytes
 

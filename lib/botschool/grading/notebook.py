@@ -11,11 +11,11 @@ from pathlib import Path
 
 from botschool.errors import BotschoolError
 from botschool.grading.checks import Wrong
+from botschool.grading.confined import fork_server
 from botschool.grading.exercise import load_exercise
-from botschool.grading.nursery import Nursery
 from botschool.grading.submission import Submission, TaskResult
 
-LONGEST_PRINTED = 1500
+MAX_PRINTED = 1500
 """Characters of what a task's code printed that are shown."""
 
 
@@ -39,8 +39,8 @@ def report(result: TaskResult) -> str:
         lines.append(result.message)
     printed = result.printed.strip()
     if printed:
-        cut = " [...]" if len(printed) > LONGEST_PRINTED else ""
-        lines += ["Printed by your code:", printed[:LONGEST_PRINTED] + cut]
+        cut = " [...]" if len(printed) > MAX_PRINTED else ""
+        lines += ["Printed by your code:", printed[:MAX_PRINTED] + cut]
     return "\n".join(lines)
 
 
@@ -69,8 +69,8 @@ def _grade_here(task: str) -> float:
     if _changed(sources):
         print("What you ran is not what is saved: save the notebook (Ctrl+S), run this cell again.")
     with (
-        Nursery(exercise.imports) as nursery,
-        Submission(path, nursery, sources, exercise.file) as submission,
+        fork_server(exercise.imports) as server,
+        Submission(path, server, sources, exercise.file) as submission,
     ):
         result = submission.grade(asked)
     print(report(result))

@@ -23,16 +23,16 @@ from nbgrader.api import Gradebook
 from nbgrader.preprocessors import NbGraderPreprocessor
 
 from botschool.errors import BotschoolError
+from botschool.grading.confined import fork_server
 from botschool.grading.exercise import load_exercise
 from botschool.grading.notebook import report
-from botschool.grading.nursery import Nursery
 from botschool.grading.skeleton import BEGIN, skeleton
 from botschool.grading.submission import Submission, TaskResult
 
 ANSWER, TEST = "task-", "test-"
 """How the grade ids of answer cells and test cells begin; task-3-2 is tested by test-3-2."""
 
-LARGEST_NOTEBOOK = 50 * 2**20
+MAX_NOTEBOOK = 50 * 2**20
 """Bytes, with its pictures."""
 UNREADABLE = "What was handed in is no notebook, or is too large: there is nothing to grade."
 
@@ -59,7 +59,7 @@ class TolerantExporter(NotebookExporter):
 
     def from_file(self, stream: Any, resources: dict | None = None, linked: bool = False) -> tuple:
         try:
-            if linked or os.fstat(stream.fileno()).st_size > LARGEST_NOTEBOOK:
+            if linked or os.fstat(stream.fileno()).st_size > MAX_NOTEBOOK:
                 raise ValueError
             nb = nbformat.read(stream, as_version=4)
             metadata, _ = dict(nb.metadata), list(nb.cells)
@@ -169,8 +169,8 @@ class Grade(NbGraderPreprocessor):
         name = resources["nbgrader"]["notebook"] + ".ipynb"
         path = Path(resources["metadata"]["path"]) / name
         with (
-            Nursery(exercise.imports) as nursery,
-            Submission(path, nursery, sources, exercise.file) as submission,
+            fork_server(exercise.imports) as server,
+            Submission(path, server, sources, exercise.file) as submission,
         ):
             for count, cell in enumerate(tests, 1):
                 task = exercise.find(task_of(_grade_id(cell)))

@@ -16,7 +16,7 @@ _BAR = 12
 
 
 def table(results: dict[int, dict[str, Any]]) -> Table:
-    """Fifteen lines; results: exercise number -> result as of apart.Grades."""
+    """Fifteen lines; results: exercise number -> result as of batch.Grades."""
     shown = Table(box=None, pad_edge=False, padding=(0, 1), header_style="dim")
     shown.add_column("", justify="right", no_wrap=True)
     shown.add_column("exercise", no_wrap=True, overflow="ellipsis", min_width=18)

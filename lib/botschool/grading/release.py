@@ -11,8 +11,8 @@ from pathlib import Path
 
 from botschool.errors import BotschoolError
 from botschool.grading.packed import pack
-from botschool.grading.scratch import remove_tree
 from botschool.grading.skeleton import BEGIN, END, pairs, skeleton
+from botschool.sandbox.scratch import remove_tree
 
 RELEASED = (
     "lib", "data", "exercises", "tools", "docs", "tests", "Makefile", "pyproject.toml",
@@ -24,7 +24,7 @@ _WITHHELD = re.compile(
     r"|\.(pyc|so|pyd|dylib|dll|ipynb|egg-info)$|(^|/)(?!\.gitignore$|\.clang-format$)\.[^/]*$",
     re.IGNORECASE,
 )
-_SHORTEST_LEAK, _TOGETHER = 60, 3
+_MIN_LEAK, _TOGETHER = 60, 3
 """Characters, and consecutive lines, of a solution that may not occur in the copy."""
 
 
@@ -135,7 +135,7 @@ def _tell_tales(root: Path) -> set[tuple[str, ...]]:
         for answers in solution.parent.glob("*.md"):
             lines = _lines(answers.read_text(encoding="utf-8"))
             tales |= {(line,) for line in lines if not line.startswith(("#", "|--"))}
-    return {tale for tale in tales if sum(map(len, tale)) >= _SHORTEST_LEAK}
+    return {tale for tale in tales if sum(map(len, tale)) >= _MIN_LEAK}
 
 
 def _lines(text: str) -> list[str]:

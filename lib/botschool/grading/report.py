@@ -12,9 +12,9 @@ from rich.padding import Padding
 
 from botschool.grading.submission import Result, TaskResult
 
-LONGEST_MESSAGE = 6
+MAX_MESSAGE_LINES = 6
 """Lines of a task's message on the screen."""
-LONGEST_OUTPUT = 8
+MAX_OUTPUT_LINES = 8
 """Lines of what a task's code printed."""
 
 
@@ -42,10 +42,10 @@ class Screen:
             f"{result.points:>3} of {result.max_points}"
         )
         if result.message:
-            self._indented(result.message.splitlines(), LONGEST_MESSAGE, "")
+            self._indented(result.message.splitlines(), MAX_MESSAGE_LINES, "")
         if result.printed.strip():
             printed = f"printed: {result.printed.strip()}"
-            self._indented(printed.splitlines(), LONGEST_OUTPUT, "dim")
+            self._indented(printed.splitlines(), MAX_OUTPUT_LINES, "dim")
 
     def end(self, result: Result, whole: bool = True) -> None:
         """Points, the next step, and what this system could not confine.

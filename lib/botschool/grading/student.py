@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from botschool.grading.checks import NotDone, Wrong, plain, show
-from botschool.grading.nursery import Nursery
-from botschool.grading.process import Child
-from botschool.grading.scratch import Scratch
+from botschool.grading.confined import fork_server, scratch_copy, start_child
+from botschool.sandbox import Child, ForkServer, Limits
 
 
 class Student:
@@ -28,9 +27,9 @@ class Student:
         file: Path,
         seconds: float = 20,
         memory: int = 4096,
-        nursery: Nursery | None = None,
+        server: ForkServer | None = None,
     ) -> None:
-        """memory: MB of address space; nursery: else one of its own.
+        """memory: MB of address space; server: else one of its own.
 
         Raises Wrong when the submission is too large.
         """
@@ -46,9 +45,9 @@ class Student:
         """How many requests the submission has answered."""
         self.said = "your file"
         """The last call, as the learner would write it."""
-        self._scratch = Scratch(self._file)
-        self._nursery = nursery
-        self._own: Nursery | None = None
+        self._scratch = scratch_copy(self._file)
+        self._server = server
+        self._own: ForkServer | None = None
 
     def call(self, name: str, *arguments: Any, **options: Any) -> Any:
         """Calls a function of the submission; what it returns, as plain data.
@@ -109,11 +108,10 @@ class Student:
         if self.seconds_left <= 0:
             raise Wrong("the task's time was used up by the checks before.")
         if self._child is None:
-            if self._nursery is None:
-                self._nursery = self._own = Nursery()
-            self._child = Child(
-                self._nursery, self._file, self._scratch, self.seconds_left, self._memory
-            )
+            if self._server is None:
+                self._server = self._own = fork_server()
+            limits = Limits(self.seconds_left, self._memory)
+            self._child = start_child(self._server, self._scratch, self._file, limits)
             self.missing = self._child.missing
             if self._deadline is None:
                 self._deadline = time.monotonic() + self._seconds

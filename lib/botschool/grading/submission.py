@@ -13,10 +13,10 @@ from pathlib import Path
 from botschool.errors import BotschoolError
 from botschool.grading.cells import Script, Unreadable, scripts
 from botschool.grading.checks import Wrong, plain
+from botschool.grading.confined import fork_server, submission_files
 from botschool.grading.exercise import Exercise, Task
-from botschool.grading.nursery import Nursery
-from botschool.grading.scratch import submission_files
 from botschool.grading.student import Student
+from botschool.sandbox import ForkServer
 
 LOADING_SECONDS = 10
 """Time for all that a file or a notebook does besides defining functions, when it is graded."""
@@ -86,17 +86,17 @@ def grade(
     file: Path,
     report: Callable[[TaskResult], None] = lambda result: None,
     tasks: Iterable[Task] | None = None,
-    nursery: Nursery | None = None,
+    server: ForkServer | None = None,
 ) -> Result:
     """Grades a submission's file; reports each task as soon as it is judged.
 
-    tasks: else all; nursery: else one is made and closed.
+    tasks: else all; server: else one is made and closed.
     """
-    if nursery is None:
-        with Nursery(exercise.imports) as own:
+    if server is None:
+        with fork_server(exercise.imports) as own:
             return grade(exercise, file, report, tasks, own)
     results = []
-    with Submission(file, nursery) as submission:
+    with Submission(file, server) as submission:
         for task in exercise.tasks if tasks is None else tasks:
             results.append(submission.grade(task))
             report(results[-1])
@@ -111,12 +111,12 @@ class Submission:
     """
 
     def __init__(
-        self, file: Path, nursery: Nursery, sources: list[str] | None = None, name: str = ""
+        self, file: Path, server: ForkServer, sources: list[str] | None = None, name: str = ""
     ) -> None:
         """sources: of a notebook (the file), the texts of its code cells; name: of its script."""
         self._given = file
         self._sources = sources
-        self._nursery = nursery
+        self._server = server
         self._base = Path(tempfile.mkdtemp(prefix="botschool-"))
         self._file = self._base / "submission" / (name or file.name)
         self._script: Script | None = None
@@ -141,7 +141,7 @@ class Submission:
         """Grades a task; lines in the message are those of the file, or of a notebook's cell."""
         if self._failure:
             return TaskResult(task.id, task.title, 0, task.max_points, self._failure)
-        result = grade_task(task, self._file if self._script else self._given, self._nursery)
+        result = grade_task(task, self._file if self._script else self._given, self._server)
         result.message = self._placed(result.message)
         if result.message:
             result.message = "\n".join([result.message, *self._notes])
@@ -152,7 +152,7 @@ class Submission:
         if self._sources is not None:
             everything, defined = scripts(self._sources)
             self._write(everything)
-        trouble = _trouble(self._file if self._script else self._given, self._nursery)
+        trouble = _trouble(self._file if self._script else self._given, self._server)
         if not trouble:
             return
         trouble = self._placed(trouble).removeprefix("Your file cannot be loaded: ").rstrip(".")
@@ -209,7 +209,7 @@ class Submission:
         return f"the cell '{shown[:40]}{'...' if len(shown) > 40 else ''}'"
 
 
-def _trouble(file: Path, nursery: Nursery) -> str:
+def _trouble(file: Path, server: ForkServer) -> str:
     """Why a submission's file cannot be loaded, in a sentence; "" if it can.
 
     Raises Wrong when it may not be.
@@ -218,7 +218,7 @@ def _trouble(file: Path, nursery: Nursery) -> str:
     def loads(module):
         return True
 
-    student = Student(file, LOADING_SECONDS, nursery=nursery)
+    student = Student(file, LOADING_SECONDS, server=server)
     try:
         student.run(loads, said="the code outside functions")
     except Wrong as error:
@@ -228,13 +228,13 @@ def _trouble(file: Path, nursery: Nursery) -> str:
     return ""
 
 
-def grade_task(task: Task, file: Path, nursery: Nursery) -> TaskResult:
+def grade_task(task: Task, file: Path, server: ForkServer) -> TaskResult:
     """Runs a task's checks on a file, in a child of its own. Raises BotschoolError."""
     result = TaskResult(task.id, task.title, 0, task.max_points, "")
     problems: list[str] = []
     student = None
     try:
-        student = Student(file, task.seconds, task.memory, nursery)
+        student = Student(file, task.seconds, task.memory, server)
         for worth, _, check in task.checks:
             problem = _problem(task, check, student)
             if problem is None:

@@ -6,12 +6,13 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from botschool.grading.confined import fork_server
 from botschool.grading.exercise import Exercise
-from botschool.grading.nursery import Nursery
 from botschool.grading.report import Screen
 from botschool.grading.submission import TaskResult, grade
+from botschool.sandbox import ForkServer
 
-LOOK_EACH = 0.3
+POLL_SECONDS = 0.3
 """Seconds."""
 
 
@@ -39,16 +40,16 @@ def watch(
     wait: Callable[[float], None] = time.sleep,
 ) -> None:
     """Grades now and after every save, for ever; `wait` is called between two looks."""
-    with Nursery(exercise.imports) as nursery:
+    with fork_server(exercise.imports) as server:
         while True:
             seen = stamp(file.parent)
             try:
-                _once(exercise, file, tasks, screen, seen, nursery)
+                _once(exercise, file, tasks, screen, seen, server)
             except Saved:
                 continue
             screen.console.print("[dim]Waiting for the next save; Ctrl-C ends.[/]")
             while stamp(file.parent) == seen or not file.is_file():
-                wait(LOOK_EACH)
+                wait(POLL_SECONDS)
 
 
 def _once(
@@ -57,7 +58,7 @@ def _once(
     tasks: list,
     screen: Screen,
     seen: tuple,
-    nursery: Nursery,
+    server: ForkServer,
 ) -> None:
     screen.console.clear()
     screen.start(exercise.number, exercise.title, file)
@@ -67,5 +68,5 @@ def _once(
             raise Saved
         screen.task(result)
 
-    result = grade(exercise, file, report, tasks, nursery)
+    result = grade(exercise, file, report, tasks, server)
     screen.end(result, whole=len(tasks) == len(exercise.tasks))

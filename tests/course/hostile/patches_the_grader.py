@@ -1,5 +1,6 @@
 """Makes the grader's own functions, pytest and botschool say that all is well."""
 
+import importlib
 import sys
 
 
@@ -8,6 +9,8 @@ def yes(*arguments, **options):
 
 
 def hostile(*arguments, **options):
+    for name in ("checks", "exercise", "student", "submission"):
+        importlib.import_module(f"botschool.grading.{name}")
     for name, module in list(sys.modules.items()):
         if name.startswith(("botschool", "pytest", "_pytest", "unittest")):
             for each in ("expect", "expect_array", "expect_close", "raises", "approx", "grade"):

@@ -9,8 +9,8 @@ import numpy
 
 
 def hostile(*arguments, **options):
-    protocol = sys.modules["botschool.grading.protocol"]
-    child = sys.modules["botschool.grading.child"]
+    protocol = sys.modules["botschool.sandbox.protocol"]
+    child = sys.modules["botschool.sandbox.child"]
     right = {"value": [1, 2, 0], "points": 100, "error": None, "missing": []}
     message = protocol.pack(right)
     protocol.pack = child.answer_to = child.explain = child._explained = lambda *_, **__: message

@@ -6,8 +6,9 @@ from pathlib import Path
 
 
 def hostile(*arguments, **options):
-    grading = Path(sys.modules["botschool.grading.protocol"].__file__).parent
-    for place in (COURSE, f"{COURSE}/exercises", HOME, TEMPORARY, grading, sys.prefix, "/", "/etc"):
+    sandbox = Path(sys.modules["botschool.sandbox.protocol"].__file__).parent
+    own = (sandbox, sandbox.parent / "grading")
+    for place in (COURSE, f"{COURSE}/exercises", HOME, TEMPORARY, *own, sys.prefix, "/", "/etc"):
         try:
             with open(os.path.join(place, "hostile_was_here.py"), "x"):
                 print("LEAKED a file in", place)

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError
-from botschool.grading.apart import Grades, Job
+from botschool.grading.batch import Grades, Job
 from botschool.grading.checks import plain
 from botschool.grading.exercise import folder_of
 from botschool.grading.feedback import GENERATOR, page

@@ -1,9 +1,9 @@
-"""Plain data between the grader and a submission: no pickles, no live objects.
+"""Messages of plain data between the caller and untrusted code: no pickles, no live objects.
 
 A message is two lengths of 8 bytes, UTF-8 JSON, and the bytes of the arrays one after another.
 Numbers, strings, booleans, None, lists (tuples become lists), dicts with string keys and numpy
 arrays of numbers can be sent; in the JSON an array is {"__array__": [type, shape]}. What arrives
-may have been made up by a submission: it is bounded, and nothing but plain data comes of it.
+may have been forged: it is bounded, and nothing but plain data comes of it.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from typing import Any
 
 import numpy as np
 
-LARGEST_TEXT = 4 * 2**20
+MAX_TEXT = 4 * 2**20
 """Bytes of JSON in a message; Python objects made of it take some ten times as much."""
-MOST_ARRAYS = 50_000
+MAX_ARRAYS = 50_000
 """In a message."""
-LARGEST = 64 * 2**20
+MAX_DATA = 64 * 2**20
 """Bytes of the arrays in a message."""
-DEEPEST = 50
+MAX_DEPTH = 50
 """Levels of lists in lists."""
-LONGEST_NUMBER = 300
+MAX_DIGITS = 300
 """Digits."""
 _HEAD = 16
 _KIND = re.compile(r"[<>|=]?[biuf][1248]")
@@ -41,9 +41,9 @@ def pack(value: Any) -> bytes:
     blobs: list[bytes] = []
     text = json.dumps(_simple(value, blobs, 0)).encode()
     data = b"".join(blobs)
-    if len(blobs) > MOST_ARRAYS:
+    if len(blobs) > MAX_ARRAYS:
         raise NotPlain(f"{len(blobs)} arrays, which is too much")
-    if len(text) > LARGEST_TEXT or len(data) > LARGEST:
+    if len(text) > MAX_TEXT or len(data) > MAX_DATA:
         raise NotPlain(f"{(len(text) + len(data)) / 2**20:.0f} MB of data, which is too much")
     return len(text).to_bytes(8, "little") + len(data).to_bytes(8, "little") + text + data
 
@@ -69,7 +69,7 @@ def receive(fd: int, seconds: float) -> bytes | None:
     if head is None:
         return None
     text, data = int.from_bytes(head[:8], "little"), int.from_bytes(head[8:], "little")
-    if text > LARGEST_TEXT or data > LARGEST:
+    if text > MAX_TEXT or data > MAX_DATA:
         raise ValueError("a message is too long")
     rest = _read(fd, text + data, deadline)
     return None if rest is None else head + rest
@@ -106,9 +106,9 @@ def _read(fd: int, count: int, deadline: float) -> bytes | None:
 
 
 def _simple(value: Any, blobs: list[bytes], depth: int) -> Any:
-    if depth > DEEPEST:
+    if depth > MAX_DEPTH:
         raise NotPlain("lists nested too deeply")
-    if type(value) is int and value.bit_length() > 3 * LONGEST_NUMBER:
+    if type(value) is int and value.bit_length() > 3 * MAX_DIGITS:
         raise NotPlain("an integer with hundreds of digits")
     if value is None or type(value) in (bool, int, float, str):
         return value
@@ -117,7 +117,7 @@ def _simple(value: Any, blobs: list[bytes], depth: int) -> Any:
     if isinstance(value, np.ndarray):
         if not _KIND.fullmatch(value.dtype.str):
             raise NotPlain(f"an array of {value.dtype}")
-        if value.nbytes > LARGEST:
+        if value.nbytes > MAX_DATA:
             raise NotPlain(f"an array of {value.nbytes // 2**20} MB")
         blobs.append(value.tobytes())
         return {"__array__": [value.dtype.str, list(value.shape)]}
@@ -142,7 +142,7 @@ class _Restored:
         self.used = 0
 
     def of(self, value: Any, depth: int) -> Any:
-        if depth > 2 * DEEPEST:
+        if depth > 2 * MAX_DEPTH:
             raise ValueError("too deep")
         if isinstance(value, str):
             return value.encode("utf-8", "replace").decode()
@@ -158,7 +158,7 @@ class _Restored:
         if not _KIND.fullmatch(kind) or any(type(n) is not int or n < 0 for n in shape):
             raise ValueError("an array that is not numbers")
         self._arrays += 1
-        if self._arrays > MOST_ARRAYS:
+        if self._arrays > MAX_ARRAYS:
             raise ValueError("too many arrays")
         dtype = np.dtype(kind)
         start = self.used
@@ -169,6 +169,6 @@ class _Restored:
 
 
 def _integer(digits: str) -> int:
-    if len(digits) > LONGEST_NUMBER + 1:
+    if len(digits) > MAX_DIGITS + 1:
         raise ValueError("too long a number")
     return int(digits)

@@ -1,7 +1,6 @@
-"""The process that a submission runs in. Comes from nursery.py; answers process.py's requests.
+"""The confined process: forked by server.py, answers the requests of process.py.
 
-Nothing here is trusted by the grader: whatever comes out of this process may have been made up by
-the submission.
+The untrusted code runs in this very process, so the caller must not trust any answer.
 """
 
 from __future__ import annotations
@@ -16,14 +15,14 @@ from typing import Any
 
 import numpy
 
-from botschool.grading import protocol, sandbox
+from botschool.sandbox import confine, protocol
 
 WAIT = 24 * 3600
-"""Seconds for the next request; the grader kills this process long before."""
+"""Seconds for the next request; the caller kills this process long before."""
 
 
 def load(path: Path) -> Any:
-    """Imports a submission's file as a module named `student`; it may import files beside it."""
+    """Imports the untrusted file as a module named `student`; it may import files beside it."""
     sys.path.append(str(path.parent))
     spec = importlib.util.spec_from_file_location("student", path)
     module = importlib.util.module_from_spec(spec)
@@ -33,7 +32,10 @@ def load(path: Path) -> Any:
 
 
 def run(module: Any, request: dict[str, Any]) -> Any:
-    """A call of a function of the submission, or of a driver with the submission at hand."""
+    """Calls a function of the untrusted module, or a driver function with that module.
+
+    request: {"name", "arguments", "options"}, or {"driver": source, "name", "arguments"}.
+    """
     if "driver" in request:
         names: dict[str, Any] = {}
         exec(compile(request["driver"], "<driver>", "exec"), names)
@@ -45,7 +47,7 @@ def run(module: Any, request: dict[str, Any]) -> Any:
 
 
 def explain(error: BaseException, file: Path) -> dict[str, Any]:
-    """What went wrong, and where in the student's file."""
+    """An exception as plain data: its type, text, and line in the untrusted file (or None)."""
     line = None
     for frame in traceback.extract_tb(error.__traceback__):
         if frame.filename == str(file):
@@ -56,7 +58,7 @@ def explain(error: BaseException, file: Path) -> dict[str, Any]:
 
 
 def answer_to(module: Any, message: bytes, file: Path) -> bytes:
-    """What to send back for a request; the submission's exceptions end here, of any kind."""
+    """The packed answer to a packed request; exceptions of any kind become answers."""
     try:
         return protocol.pack({"value": run(module, protocol.unpack(message))})
     except protocol.NotPlain as error:
@@ -73,9 +75,9 @@ def _explained(error: BaseException, file: Path, **more: bool) -> bytes:
 
 
 def serve(requests: int, answers: int) -> None:
-    """Shuts this process in as the first request says, then answers requests until killed.
+    """Confines this process as the first request says, then answers requests until killed.
 
-    requests, answers: the pipes that requests come from and answers go to.
+    requests, answers: file descriptors of pipes.
     """
     set_up = protocol.unpack(protocol.receive(requests, WAIT))
     file = Path(set_up["file"])
@@ -84,8 +86,8 @@ def serve(requests: int, answers: int) -> None:
     numpy.random.seed()  # noqa: NPY002 (or all children, being copies, would draw alike)
     if "torch" in sys.modules:
         sys.modules["torch"].seed()
-    sandbox.limit(set_up["seconds"], set_up["memory"], set_up["file_size"])
-    missing = sandbox.shut_in(
+    confine.limit(set_up["seconds"], set_up["memory"], set_up["file_size"])
+    missing = confine.confine(
         [Path(path) for path in set_up["readable"]], [Path(path) for path in set_up["writable"]]
     )
     os.write(answers, protocol.pack({"missing": missing}))
@@ -100,7 +102,7 @@ def serve(requests: int, answers: int) -> None:
         for stream in (sys.stdout, sys.stderr):
             try:
                 stream.flush()
-            except BaseException:  # closed or replaced by the submission
+            except BaseException:  # closed or replaced by the untrusted code
                 continue
         while answer:
             answer = answer[os.write(answers, answer) :]

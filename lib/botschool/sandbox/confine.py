@@ -1,9 +1,8 @@
-"""Shuts the present process in: what a submission may use of the machine.
+"""Confines the present process, for good: resource limits, Landlock, seccomp, capabilities.
 
-On Linux Landlock confines files, a seccomp filter (seccomp.py) processes, network, signals and
-what Landlock leaves open, and capabilities are dropped: plain system calls, without privileges or
-packages. Resource limits hold wherever Python's `resource` does. `shut_in` says what could not
-be had.
+On Linux Landlock restricts files, a seccomp filter (seccomp.py) system calls, and capabilities are
+dropped. This takes no privileges. Resource limits hold wherever Python's `resource` does.
+See linux/landlock.h, capabilities(7), setrlimit(2).
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ import struct
 import sys
 from pathlib import Path
 
-from botschool.grading import seccomp
+from botschool.sandbox import seccomp
 
 # see linux/landlock.h
 _LANDLOCK_CREATE, _LANDLOCK_ADD, _LANDLOCK_RESTRICT = 444, 445, 446
@@ -31,10 +30,10 @@ _CAP_DAC_READ_SEARCH = 2
 
 
 def limit(seconds: float, memory: int, file_size: int) -> None:
-    """CPU seconds, bytes of address space beyond the present ones, and of a file."""
+    """Limits: seconds, bytes of address space beyond the present ones, bytes of a file."""
     with contextlib.suppress(OSError):  # when memory runs out it is this process that goes
         Path("/proc/self/oom_score_adj").write_text("1000")
-    cpu = 2 * int(seconds) + 2  # the grader watches wall time; this holds if it has gone
+    cpu = 2 * int(seconds) + 2  # the caller watches the time; this holds if it has gone
     for name, value in (
         ("RLIMIT_CPU", cpu),
         ("RLIMIT_AS", memory + _in_use()),
@@ -65,8 +64,8 @@ def _set(name: str, value: int) -> None:
         pass
 
 
-def shut_in(readable: list[Path], writable: list[Path]) -> list[str]:
-    """Confines this process for good; returns what this system could not confine, in words."""
+def confine(readable: list[Path], writable: list[Path]) -> list[str]:
+    """Returns what this system cannot confine: some of "files", "processes", "network"."""
     everything = ["files", "processes", "network"]
     if sys.platform != "linux":
         _set("RLIMIT_NPROC", 0)
@@ -86,7 +85,7 @@ def shut_in(readable: list[Path], writable: list[Path]) -> list[str]:
 
 
 def _drop_capabilities(libc: ctypes.CDLL) -> None:
-    """What root may do beyond others, but for reading; without effect for others."""
+    """Drops all that root may do beyond others, except reading; does nothing for others."""
     header = struct.pack("Ii", 0x20080522, 0)  # version 3, this thread
     held = ctypes.create_string_buffer(24)
     if libc.capget(header, held) != 0:

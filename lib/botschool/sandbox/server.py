@@ -1,7 +1,6 @@
-"""Where the processes for submissions come from: copies (forks) of one that has made its imports.
+"""The fork server: a process that has made its imports and forks confined children.
 
-What takes long to import is imported once for a grading, and not in the time of a task.
-`Nursery` is the grader's side, `main` the process; they speak JSON lines over a socket.
+`ForkServer` is the side of the caller, `main` the process; they speak JSON lines over a socket.
 """
 
 from __future__ import annotations
@@ -21,29 +20,28 @@ import time
 from collections.abc import Iterable
 from pathlib import Path
 
-import botschool
-from botschool.errors import BotschoolError
+from botschool.sandbox import child
+from botschool.sandbox.errors import SandboxError
+from botschool.sandbox.paths import IMPORT_ROOT, is_packages
 
 START_SECONDS = 180
-"""Longest time for the imports, and for a child to start."""
-BASIC = ("gymnasium.envs.classic_control", "numpy.random", "botschool.evolution.run")
-"""What every child has imported."""
-LOOK_EACH = 0.005
-"""Seconds between two looks at whether a child has ended."""
-_EARLY = sys.platform == "linux"  # elsewhere libraries may not survive a fork
+"""Limit for the imports, and for the start of a child."""
+POLL_SECONDS = 0.005
+"""Between two looks at whether a child has ended."""
+_FORK_AFTER_IMPORTS = sys.platform == "linux"  # elsewhere libraries may not survive a fork
 
 
-class Nursery:
-    """Starts children, and tells when and how they ended; close it when there are no more."""
+class ForkServer:
+    """Starts children and reports how they ended; a context manager."""
 
     def __init__(self, imports: Iterable[str] = ()) -> None:
-        """imports: names of modules beside the basic ones. Raises BotschoolError."""
+        """imports: names of modules that children have imported already. Raises SandboxError."""
         if not hasattr(os, "killpg"):
-            raise BotschoolError(
-                "Grading needs Linux or macOS: on Windows, install WSL with 'wsl --install' and "
-                "work there."
+            raise SandboxError(
+                "Submissions run on Linux or macOS only: on Windows, install WSL with "
+                "'wsl --install' and work there."
             )
-        self._said = tempfile.TemporaryFile()  # noqa: SIM115
+        self._log = tempfile.TemporaryFile()  # noqa: SIM115
         self._home = tempfile.TemporaryDirectory(prefix="botschool-", ignore_cleanup_errors=True)
         self._link, theirs = socket.socketpair()
         self._answers = self._link.makefile("rb")
@@ -51,17 +49,17 @@ class Nursery:
         self._lock = threading.Lock()
         try:
             self._process = subprocess.Popen(
-                interpreter("botschool.grading.nursery", str(theirs.fileno()), *BASIC, *imports),
+                interpreter("botschool.sandbox.server", str(theirs.fileno()), *imports),
                 cwd=self._home.name,
                 env=_environment(self._home.name),
                 stdin=subprocess.DEVNULL,
-                stdout=self._said,
+                stdout=self._log,
                 stderr=subprocess.STDOUT,
                 pass_fds=(theirs.fileno(),),
                 start_new_session=True,
             )
         except OSError as error:
-            raise BotschoolError(
+            raise SandboxError(
                 f"No process can be started for a submission ({error.strerror}): close other "
                 "programs, or use fewer workers (-w)."
             ) from None
@@ -69,9 +67,9 @@ class Nursery:
             theirs.close()
 
     def start(self, requests: int, answers: int, output: int, folder: Path) -> int:
-        """The process id of a new child; it keeps copies of these file descriptors.
+        """Forks a child in a folder, with copies of three file descriptors; returns its process id.
 
-        Raises BotschoolError.
+        Raises SandboxError.
         """
         with self._lock:
             self._link.settimeout(START_SECONDS)
@@ -82,14 +80,14 @@ class Nursery:
                 socket.send_fds(self._link, [request], [requests, answers, output])
                 return json.loads(self._answers.readline())
             except (OSError, ValueError):
-                raise BotschoolError(
-                    f"The grader's child process did not start: {self._last_line()}."
+                raise SandboxError(
+                    f"The confined child process did not start: {self._last_line()}."
                 ) from None
 
     def ended(self, pid: int, seconds: float) -> int | None:
-        """How a child ended (as Popen.returncode), waited for; None if it has not.
+        """Waits until a child has ended; its exit code as of Popen.returncode, None if it runs.
 
-        Until this says so, the process id belongs to no other process.
+        Its process id belongs to no other process before this has returned a code.
         """
         with self._lock, contextlib.suppress(OSError, ValueError):
             self._link.settimeout(seconds + START_SECONDS)
@@ -98,7 +96,7 @@ class Nursery:
         return -signal.SIGKILL
 
     def close(self) -> None:
-        """Ends the process, and with it all children."""
+        """Ends the server and all its children."""
         self._answers.close()
         self._link.close()
         try:
@@ -106,27 +104,27 @@ class Nursery:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
-        self._said.close()
+        self._log.close()
         self._home.cleanup()
 
-    def __enter__(self) -> Nursery:
+    def __enter__(self) -> ForkServer:
         return self
 
     def __exit__(self, *_: object) -> None:
         self.close()
 
     def _last_line(self) -> str:
-        self._said.seek(0)
-        lines = self._said.read()[-2000:].decode(errors="replace").strip().splitlines()
+        self._log.seek(0)
+        lines = self._log.read()[-2000:].decode(errors="replace").strip().splitlines()
         return lines[-1] if lines else "no reason was given"
 
 
 def interpreter(module: str, *arguments: str) -> list[str]:
-    """The command that runs a module's main in another interpreter.
+    """The command that runs a module's `main` in another interpreter.
 
-    It finds our packages wherever they were installed, and nothing in the working folder.
+    It finds botschool and the installed packages, and imports nothing from the working folder.
     """
-    places = [str(package().parent), *(path for path in sys.path if is_packages(path))]
+    places = [str(IMPORT_ROOT), *(path for path in sys.path if is_packages(path))]
     start = (
         f"import sys; sys.path += [p for p in {places!r} if p not in sys.path]; "
         f"from {module} import main; main()"
@@ -134,18 +132,8 @@ def interpreter(module: str, *arguments: str) -> list[str]:
     return [sys.executable, "-I", "-c", start, *arguments]
 
 
-def is_packages(path: str) -> bool:
-    """Whether a folder of sys.path holds installed packages."""
-    return Path(path).name in ("site-packages", "dist-packages")
-
-
-def package() -> Path:
-    """The folder of botschool's Python files."""
-    return Path(botschool.__file__).parent
-
-
 def homes(folder: Path | str) -> dict[str, str]:
-    """Environment variables that make a folder the place for all that is written."""
+    """Environment variables that make a folder the place for caches and temporary files."""
     return dict.fromkeys(("HOME", "TMPDIR", "MPLCONFIGDIR"), str(folder))
 
 
@@ -164,9 +152,12 @@ def _environment(home: str) -> dict[str, str]:
 
 # ------------------------------------------------------------------- the process
 def main() -> None:
-    """Argument 1: the socket; the others: modules to import. Ends when the grader does."""
+    """Argument 1: the socket's descriptor; the others: modules to import.
+
+    Ends when the other end of the socket is closed.
+    """
     link, modules = socket.socket(fileno=int(sys.argv[1])), sys.argv[2:]
-    if _EARLY:
+    if _FORK_AFTER_IMPORTS:
         _import(modules)
     link.sendall(b"true\n")
     while True:
@@ -189,7 +180,7 @@ def _import(modules: list[str]) -> None:
     for name in modules:
         importlib.import_module(name)
     sys.stdout.flush()
-    ctypes.CDLL(None).fflush(None)  # what libraries in C have printed is not the student's
+    ctypes.CDLL(None).fflush(None)  # what C libraries have printed belongs to no child
 
 
 def _ended(pid: int, seconds: float) -> int | None:
@@ -200,13 +191,11 @@ def _ended(pid: int, seconds: float) -> int | None:
             return os.waitstatus_to_exitcode(status)
         if time.monotonic() > deadline:
             return None
-        time.sleep(LOOK_EACH)
+        time.sleep(POLL_SECONDS)
 
 
 def _become_child(modules: list[str], descriptors: list[int], folder: str) -> None:
-    """In the copy: leaves what belongs to the nursery and serves as a child, for ever."""
-    from botschool.grading import child
-
+    """In the forked process: closes what belongs to the server and serves requests."""
     code = 1
     try:
         os.setsid()
@@ -216,7 +205,7 @@ def _become_child(modules: list[str], descriptors: list[int], folder: str) -> No
         os.closerange(3, 100)
         os.close(output)
         os.chdir(folder)
-        if not _EARLY:
+        if not _FORK_AFTER_IMPORTS:
             _import(modules)
         child.serve(*pipes)
         code = 0
@@ -224,7 +213,3 @@ def _become_child(modules: list[str], descriptors: list[int], folder: str) -> No
         with contextlib.suppress(Exception):
             sys.stderr.flush()
         os._exit(code)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,4 @@
-"""The folder that a submission works in: a copy, bounded, and removed whatever is in it.
+"""The folder that untrusted code works in: a copy of its files, bounded, removed at the end.
 
 Nothing here follows a symbolic link or trusts a name, a mode or a depth found in the folder.
 """
@@ -10,44 +10,48 @@ import os
 import shutil
 import stat
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from botschool.grading.checks import Wrong
+from botschool.sandbox.errors import Refused
 
-LARGEST_SUBMISSION = 50 * 2**20
-LARGEST_SCRATCH = 256 * 2**20
-"""Bytes that a submission may write into its copy, in all."""
-MOST_FILES = 2000
-MOST_WRITTEN_FILES = 10_000
-DEEPEST = 20
+MAX_COPIED, MAX_COPIED_FILES = 50 * 2**20, 2000
+"""Bytes and files that are copied."""
+MAX_WRITTEN, MAX_WRITTEN_FILES = 256 * 2**20, 10_000
+"""Bytes and files that may be in the writable folder."""
+MAX_DEPTH = 20
 """Levels of folders."""
-MOST_PICTURES, LARGEST_PICTURE, WIDEST_PICTURE = 4, 600_000, 4000
+MAX_PICTURES, MAX_PICTURE, MAX_PICTURE_SIDE = 4, 600_000, 4000
+"""Number; bytes and pixels of each."""
 _PNG = b"\x89PNG\r\n\x1a\n"
 
 
-class Scratch:
-    """A temporary folder: `folder` is the submission's copy, `root` all that it may write to."""
+def _keep_all(name: str, depth: int) -> bool:
+    return False
 
-    def __init__(self, file: Path) -> None:
-        """Copies the folder of a submission's file. Raises Wrong if that is too large."""
+
+class Scratch:
+    """A temporary folder: `folder` holds the copy, `root` is all that may be written to."""
+
+    def __init__(self, file: Path, skip: Callable[[str, int], bool] = _keep_all) -> None:
+        """Copies a file and what lies beside it and below, as `regular_files`. Raises Refused."""
         self._base = Path(tempfile.mkdtemp(prefix="botschool-"))
         self.root = self._base / "scratch"
         self.folder = self.root / "submission"
-        self._safe = self._base / "safe"  # where the submission cannot write
+        self._safe = self._base / "safe"  # where the untrusted code cannot write
         try:
             self.folder.mkdir(parents=True)
             self._safe.mkdir()
-            for path in submission_files(file):
+            for path in regular_files(file, skip):
                 target = self.folder / path.relative_to(file.parent)
                 target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(_content(path, LARGEST_SUBMISSION))
+                target.write_bytes(_content(path, MAX_COPIED))
         except BaseException:
             self.remove()
             raise
 
     def trouble(self) -> str:
-        """What the submission has written too much of, in words; "" if nothing."""
+        """Which limit the written files exceed, in words; "" if none."""
         size = count = 0
         try:
             for _, entry, depth in _entries(self.root):
@@ -55,12 +59,12 @@ class Scratch:
                 # a file that vanishes meanwhile counts nothing
                 with contextlib.suppress(FileNotFoundError):
                     size += entry.stat(follow_symlinks=False).st_blocks * 512
-                if count > MOST_WRITTEN_FILES:
-                    return f"it wrote more than {MOST_WRITTEN_FILES} files"
-                if depth > DEEPEST:
-                    return f"it made folders more than {DEEPEST} levels deep"
-                if size > LARGEST_SCRATCH:
-                    return f"it wrote more than {LARGEST_SCRATCH // 2**20} MB of files"
+                if count > MAX_WRITTEN_FILES:
+                    return f"it wrote more than {MAX_WRITTEN_FILES} files"
+                if depth > MAX_DEPTH:
+                    return f"it made folders more than {MAX_DEPTH} levels deep"
+                if size > MAX_WRITTEN:
+                    return f"it wrote more than {MAX_WRITTEN // 2**20} MB of files"
         except FileNotFoundError:
             return ""
         except OSError:
@@ -68,57 +72,57 @@ class Scratch:
         return ""
 
     def copy(self, name: str) -> Path:
-        """A copy of a file in the submission's folder, which that can no longer change.
+        """A copy of a file in `folder`, out of the untrusted code's reach.
 
         Raises OSError when there is none, or no regular one of a reasonable size.
         """
-        content = _content(self.folder / name, LARGEST_SCRATCH, within=self._base)
+        content = _content(self.folder / name, MAX_WRITTEN, within=self._base)
         place = self._safe / name
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(content)
         return place
 
     def pictures(self) -> list[tuple[str, bytes]]:
-        """(name, content) of PNG files in the submission's folder, few and small ones."""
+        """(name, content) of PNG files in `folder`, at most MAX_PICTURES."""
         found = []
         with contextlib.suppress(OSError):
             names = sorted(entry.name for entry in os.scandir(self.folder))
             for name in [name for name in names if name.lower().endswith(".png")][:100]:
                 with contextlib.suppress(OSError):
-                    content = _content(self.folder / name, LARGEST_PICTURE, within=self._base)
-                    if _is_picture(content) and len(found) < MOST_PICTURES:
+                    content = _content(self.folder / name, MAX_PICTURE, within=self._base)
+                    if _is_picture(content) and len(found) < MAX_PICTURES:
                         found.append((name, content))
         return found
 
     def remove(self) -> None:
-        """Removes everything; the submission must no longer run."""
+        """Removes everything; the untrusted code must no longer run."""
         remove_tree(self._base)
 
 
-def submission_files(file: Path) -> list[Path]:
-    """The files that a submission consists of: those beside its file and in sub-folders.
+def regular_files(file: Path, skip: Callable[[str, int], bool] = _keep_all) -> list[Path]:
+    """A file, those beside it and in sub-folders; links, hidden files and caches are left out.
 
-    Links, hidden files, caches and graders are left out. Raises Wrong when it is too much.
+    skip(name, depth): whether to leave out a file, too; depth is 1 beside `file`.
+    Raises Refused when there are more than MAX_COPIED bytes or MAX_COPIED_FILES.
     """
     if file.is_symlink() or not file.is_file():
-        raise Wrong(f"{file.name} is a link or no file: hand in the file itself.")
+        raise Refused(f"{file.name} is a link or no file: hand in the file itself.")
     found, total = [], 0
-    too_large = Wrong(
-        f"The folder of {file.name} holds more than {LARGEST_SUBMISSION // 2**20} MB or "
-        f"{MOST_FILES} files: remove what does not belong to the exercise."
+    too_large = Refused(
+        f"The folder of {file.name} holds more than {MAX_COPIED // 2**20} MB or "
+        f"{MAX_COPIED_FILES} files: remove what does not belong to the exercise."
     )
     try:
         for path, entry, depth in _entries(file.parent, hidden=False):
-            if len(found) > MOST_FILES or depth > DEEPEST:
+            if len(found) > MAX_COPIED_FILES or depth > MAX_DEPTH:
                 raise too_large
-            grader = depth == 1 and entry.name.startswith("test_")
-            if entry.is_file(follow_symlinks=False) and not grader:
+            if entry.is_file(follow_symlinks=False) and not skip(entry.name, depth):
                 found.append(Path(path))
                 total += entry.stat(follow_symlinks=False).st_size
-                if total > LARGEST_SUBMISSION:
+                if total > MAX_COPIED:
                     raise too_large
     except OSError as error:
-        raise Wrong(f"The folder of {file.name} cannot be read ({error.strerror}).") from None
+        raise Refused(f"The folder of {file.name} cannot be read ({error.strerror}).") from None
     return sorted(found)
 
 
@@ -152,7 +156,7 @@ def _content(path: Path, most: int, within: Path | None = None) -> bytes:
 
 def _is_picture(content: bytes) -> bool:
     width, height = (int.from_bytes(content[at : at + 4], "big") for at in (16, 20))
-    return content.startswith(_PNG + b"\0\0\0\rIHDR") and 0 < max(width, height) <= WIDEST_PICTURE
+    return content.startswith(_PNG + b"\0\0\0\rIHDR") and 0 < max(width, height) <= MAX_PICTURE_SIDE
 
 
 def remove_tree(base: Path) -> None:

@@ -1,4 +1,4 @@
-"""Messages between the grader and submissions: what arrives is what was sent, or is refused."""
+"""Messages between caller and untrusted code: what arrives is what was sent, or is refused."""
 
 import json
 import os
@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from botschool.grading import protocol
+from botschool.sandbox import protocol
 
 numbers = arrays.arrays(
     st.sampled_from(["<f8", "<f4", "<i8", "<u1", ">i4", "|b1", "<f2"]),

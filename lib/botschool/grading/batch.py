@@ -1,4 +1,4 @@
-"""Grading in processes of their own, many at a time, with results kept by content.
+"""Grades many submissions, each in a process of its own, and keeps results by content.
 
 A submission that breaks or holds up its grader's process harms no other one. What was graded
 before is not graded again until the submission, the grader or botschool changes.
@@ -24,15 +24,17 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.checks import Wrong
+from botschool.grading.confined import submission_files
 from botschool.grading.exercise import Exercise, folder_of, load_exercise
-from botschool.grading.nursery import interpreter, package
-from botschool.grading.scratch import remove_tree, submission_files
 from botschool.grading.submission import Result, grade
 from botschool.output import save_bytes
+from botschool.sandbox.paths import IMPORT_ROOT
+from botschool.sandbox.scratch import remove_tree
+from botschool.sandbox.server import interpreter
 
 STATE = ".botschool"
 """In the course folder: what the commands remember."""
-MOST_KEPT = 5000
+MAX_KEPT = 5000
 """Results that are remembered; those not asked for longest are forgotten first."""
 SPARE_SECONDS = 60
 """What a grader's process may take beyond the limits of its tasks and 5 seconds for each."""
@@ -95,7 +97,7 @@ class Grades:
     def _forget(self) -> None:
         with contextlib.suppress(OSError):
             kept = sorted(self._cache.glob("*.json"), key=lambda path: -path.stat().st_mtime_ns)
-            for path in kept[MOST_KEPT:]:
+            for path in kept[MAX_KEPT:]:
                 path.unlink()
 
     def _result(self, job: Job) -> dict[str, Any]:
@@ -121,7 +123,7 @@ class Grades:
         exercise = self.exercise(job.number)
         limit = sum(task.seconds + 5 for task in exercise.tasks) + SPARE_SECONDS
         temporary = Path(tempfile.mkdtemp(prefix="botschool-"))
-        command = interpreter("botschool.grading.apart", str(job.number), str(job.file))
+        command = interpreter("botschool.grading.batch", str(job.number), str(job.file))
         environment = os.environ | {"TMPDIR": str(temporary), "BOTSCHOOL_COURSE": str(self._root)}
         try:
             process = subprocess.Popen(
@@ -203,9 +205,9 @@ def to_record(result: Result) -> dict[str, Any]:
 def _versions(root: Path, number: int) -> str:
     """What a result depends on beside the submission."""
     stamps = [sys.version, os.environ.get("BOTSCHOOL_GRADING_SEED", ""), str(number)]
-    places = [package(), folder_of(number, root)]
-    for top in places:
-        for path in sorted(top.rglob("*") if top == package() else top.glob("test_*.py")):
+    package = IMPORT_ROOT / "botschool"
+    for top in (package, folder_of(number, root)):
+        for path in sorted(top.rglob("*") if top == package else top.glob("test_*.py")):
             if path.suffix in (".py", ".so", ".pyd"):
                 status = path.stat()
                 stamps.append(f"{path} {status.st_size} {status.st_mtime_ns}")

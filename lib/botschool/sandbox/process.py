@@ -1,48 +1,58 @@
-"""The child process that a submission runs in, from the grader's side: start, ask, watch, kill."""
+"""The confined process from the side of the caller: start, ask, watch, kill."""
 
 from __future__ import annotations
 
 import contextlib
 import os
 import signal
-import sys
 import threading
 import time
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from botschool.errors import BotschoolError
-from botschool.grading import protocol
-from botschool.grading.nursery import START_SECONDS, Nursery, homes, is_packages, package
-from botschool.grading.scratch import Scratch
+from botschool.sandbox import protocol
+from botschool.sandbox.errors import SandboxError
+from botschool.sandbox.scratch import Scratch
+from botschool.sandbox.server import START_SECONDS, ForkServer, homes
 
 OUTPUT_KEPT = 4000
-"""Characters of what the student's code prints that are kept."""
-LARGEST_OUTPUT = 16 * 2**20
-"""Bytes of it, after which the child is killed."""
-LARGEST_FILE = 64 * 2**20
-MOST_THREADS = 64
-LOOK_EACH = 0.1
+"""Characters of what the code prints that are kept."""
+MAX_OUTPUT = 16 * 2**20
+"""Bytes that it may print."""
+MAX_FILE = 64 * 2**20
+"""Bytes of a written file."""
+MAX_THREADS = 64
+POLL_SECONDS = 0.1
 """Seconds between two looks at what the child uses."""
 
-_SYSTEM = (
-    "/usr", "/lib", "/lib32", "/lib64", "/bin", "/nix/store", "/etc/ld.so.cache", "/etc/localtime",
-    "/etc/fonts", "/etc/passwd", "/etc/mime.types", "/etc/ssl/openssl.cnf", "/dev/null",
-    "/dev/zero", "/dev/urandom", "/dev/random", "/proc/cpuinfo", "/proc/meminfo",
-    "/sys/devices/system/cpu",
-)  # fmt: skip
-_PRIVATE = ("solutions", "exercises", "tests", "results", "build", ".git", ".botschool")
-"""Of a course folder: what no submission may read."""
+
+@dataclass(frozen=True)
+class Limits:
+    """What a child may use."""
+
+    seconds: float = 20
+    memory: int = 4 * 2**30
+    """Bytes of address space beyond those of the imports."""
 
 
 class Child:
-    """A process that has not yet loaded the student's file, shut in and ready for requests."""
+    """A confined process, ready for requests; it loads the untrusted file at the first one."""
 
     def __init__(
-        self, nursery: Nursery, file: Path, scratch: Scratch, seconds: float, memory: int
+        self,
+        server: ForkServer,
+        scratch: Scratch,
+        file: str,
+        limits: Limits,
+        readable: Iterable[Path] = (),
     ) -> None:
-        """file: the submission, where it was handed in; memory: bytes. Raises BotschoolError."""
-        self._nursery = nursery
+        """file: the name of the untrusted file in the scratch folder; readable: what it may read.
+
+        Raises SandboxError.
+        """
+        self._server = server
         self._scratch = scratch
         self._reason = ""
         self._kept = bytearray()
@@ -54,8 +64,8 @@ class Child:
         self._output, its_output = os.pipe()
         os.set_blocking(self._requests, False)
         try:
-            self._pid = nursery.start(to_child, from_child, its_output, scratch.folder)
-        except BotschoolError:
+            self._pid = server.start(to_child, from_child, its_output, scratch.folder)
+        except SandboxError:
             self._close_pipes()
             os.close(self._output)
             raise
@@ -63,17 +73,18 @@ class Child:
             for fd in (to_child, from_child, its_output):
                 os.close(fd)
         threading.Thread(target=self._drain, daemon=True).start()
-        self.missing = self._set_up(file, seconds, memory)
+        self.missing = self._set_up(file, limits, readable)
+        """What this system cannot confine: some of "files", "processes", "network"."""
         threading.Thread(target=self._look, daemon=True).start()
 
-    def _set_up(self, file: Path, seconds: float, memory: int) -> list[str]:
+    def _set_up(self, file: str, limits: Limits, readable: Iterable[Path]) -> list[str]:
         set_up = {
-            "file": str(self._scratch.folder / file.name),
-            "seconds": seconds,
-            "memory": memory,
-            "file_size": LARGEST_FILE,
+            "file": str(self._scratch.folder / file),
+            "seconds": limits.seconds,
+            "memory": limits.memory,
+            "file_size": MAX_FILE,
             "environment": homes(self._scratch.root),
-            "readable": [str(path) for path in readable(file)],
+            "readable": [str(path) for path in readable],
             "writable": [str(self._scratch.root), "/dev/null"],
         }
         try:
@@ -84,7 +95,7 @@ class Child:
         if message is None:
             self.kill()
             lines = self.printed().strip().splitlines() or ["no reason was given"]
-            raise BotschoolError(f"The grader's child process did not start: {lines[-1]}.")
+            raise SandboxError(f"The confined child process did not start: {lines[-1]}.")
         return protocol.unpack(message)["missing"]
 
     def ask(self, request: dict[str, Any], seconds: float) -> dict[str, Any] | None:
@@ -110,7 +121,7 @@ class Child:
         """Why the process ended, in words."""
         code = self._wait(1)
         if code is None:
-            return "it closed its connection to the grader"
+            return "it closed its connection"
         if self._reason:
             return self._reason
         if code == -signal.SIGKILL or code == -getattr(signal, "SIGXCPU", 0):
@@ -129,7 +140,7 @@ class Child:
     def _wait(self, seconds: float) -> int | None:
         with self._ending:
             if self._code is None:
-                self._code = self._nursery.ended(self._pid, seconds)
+                self._code = self._server.ended(self._pid, seconds)
             return self._code
 
     def _kill_group(self) -> None:
@@ -155,16 +166,16 @@ class Child:
             while part := os.read(self._output, 65536):
                 total += len(part)
                 self._kept += part[: max(0, 4 * OUTPUT_KEPT - len(self._kept))]
-                if total > LARGEST_OUTPUT:
-                    self._end(f"it printed more than {LARGEST_OUTPUT // 2**20} MB")
+                if total > MAX_OUTPUT:
+                    self._end(f"it printed more than {MAX_OUTPUT // 2**20} MB")
                     break
         with contextlib.suppress(OSError):
             os.close(self._output)
 
     def _look(self) -> None:
-        while not self._closed.wait(LOOK_EACH) and self._code is None:
-            if _threads(self._pid) > MOST_THREADS:
-                self._end(f"it started more than {MOST_THREADS} threads")
+        while not self._closed.wait(POLL_SECONDS) and self._code is None:
+            if _threads(self._pid) > MAX_THREADS:
+                self._end(f"it started more than {MAX_THREADS} threads")
             if reason := self._scratch.trouble():
                 self._end(reason)
 
@@ -174,47 +185,3 @@ def _threads(pid: int) -> int:
         return os.stat(f"/proc/{pid}/task").st_nlink - 2
     except OSError:
         return 0
-
-
-def readable(file: Path) -> list[Path]:
-    """What the submission may read beside its copy: Python, its packages, the system's libraries.
-
-    Not the course, nor the place where `file` was handed in, even if those lie below one of them.
-    """
-    import botschool._core
-
-    own = package().resolve()
-    core = Path(botschool._core.__file__).resolve().parent
-    packages = [Path(path).resolve() for path in sys.path if path and is_packages(path)]
-    prefixes = [Path(sys.prefix).resolve(), Path(sys.base_prefix).resolve()]
-    needed = [own, core, *packages, *prefixes]
-    file = file.resolve()
-    closed = [
-        place
-        for place in file.parents[:3]
-        if not any(each.is_relative_to(place) for each in needed)
-    ]
-    here = Path.cwd() / os.environ.get("BOTSCHOOL_COURSE", "")
-    courses = {own.parents[1], here, *here.parents, *file.parents}
-    closed += [
-        course / name for course in courses if (course / "exercises").is_dir() for name in _PRIVATE
-    ]
-    system = [Path(place).resolve() for place in _SYSTEM]
-    allowed = [*needed, own.parents[1] / "data", *system]
-    parts = {part for place in allowed for part in _without(place, closed)}
-    return sorted(part for part in parts if part.exists())
-
-
-def _without(place: Path, closed: list[Path]) -> list[Path]:
-    """A folder, or the parts of it that hold none of the closed ones."""
-    inside = [each for each in closed if each.is_relative_to(place)]
-    if not inside:
-        return [place]
-    if place in inside or not place.is_dir():
-        return []
-    return [
-        part
-        for child in place.iterdir()
-        if not child.is_symlink()
-        for part in _without(child, inside)
-    ]

@@ -1,7 +1,7 @@
-"""The system calls that a submission may not make: a seccomp filter, in classic BPF.
+"""A seccomp filter, in classic BPF: the system calls that untrusted code may not make.
 
-What Landlock does not cover is closed here: processes, sockets, signals and scheduling of others,
-modes, owners and times of files, memory that outlives or evades the limits. See linux/seccomp.h.
+It covers what Landlock does not: processes, sockets, signals and scheduling of others, modes,
+owners and times of files, memory that outlives or evades the limits. See linux/seccomp.h.
 """
 
 from __future__ import annotations

@@ -1,0 +1,92 @@
+"""The folder of untrusted code: what is copied into it, read from it, and removed with it."""
+
+import os
+
+import pytest
+
+from botschool.sandbox import Refused, Scratch, scratch
+
+
+@pytest.fixture
+def file(tmp_path):
+    path = tmp_path / "own" / "untrusted.py"
+    path.parent.mkdir()
+    path.write_text("")
+    return path
+
+
+def test_links_hidden_and_skipped_files_are_not_copied(tmp_path, file):
+    (tmp_path / "secret.txt").write_text("secret")
+    for name in ("left_out.py", ".hidden", "helper.py", "data/left_out.py"):
+        place = file.parent / name
+        place.parent.mkdir(exist_ok=True)
+        place.write_text("")
+    (file.parent / "link.txt").symlink_to(tmp_path / "secret.txt")
+    (file.parent / "folder").symlink_to(tmp_path)
+    os.mkfifo(file.parent / "pipe")
+    found = scratch.regular_files(file, lambda name, depth: name == "left_out.py" and depth == 1)
+    names = [str(path.relative_to(file.parent)) for path in found]
+    assert names == ["data/left_out.py", "helper.py", "untrusted.py"]
+    linked = tmp_path / "linked" / "untrusted.py"
+    linked.parent.mkdir()
+    linked.symlink_to(file)
+    with pytest.raises(Refused, match="is a link"):
+        scratch.regular_files(linked)
+
+
+def test_copied_files_are_bounded(file, monkeypatch):
+    with open(file.parent / "large.bin", "wb") as large:
+        large.truncate(60 * 2**20)
+    with pytest.raises(Refused, match="50 MB"):
+        scratch.regular_files(file)
+    (file.parent / "large.bin").unlink()
+    monkeypatch.setattr(scratch, "MAX_COPIED_FILES", 3)
+    for number in range(5):
+        (file.parent / f"{number}.txt").touch()
+    with pytest.raises(Refused, match="3 files"):
+        scratch.regular_files(file)
+
+
+def test_what_is_read_is_a_copy(file):
+    one = Scratch(file)
+    (one.folder / "best.txt").write_text("1")
+    (one.folder / "link.txt").symlink_to("/etc/passwd")
+    os.mkfifo(one.folder / "pipe.txt")
+    place = one.copy("best.txt")
+    assert place.read_text() == "1"
+    assert not place.is_relative_to(one.root)
+    for name in ("link.txt", "pipe.txt", "absent.txt", "../../../../etc/passwd"):
+        with pytest.raises(OSError):
+            one.copy(name)
+    one.remove()
+    assert not one.root.exists()
+
+
+def test_deep_and_closed_folders_are_removed(tmp_path):
+    base = tmp_path / "base"
+    base.mkdir()
+    here = os.open(base, os.O_RDONLY)
+    for _ in range(1100):
+        os.mkdir("d" * 100, dir_fd=here)
+        inner = os.open("d" * 100, os.O_RDONLY, dir_fd=here)
+        os.close(here)
+        here = inner
+    os.close(here)
+    (base / "closed" / "inside").mkdir(parents=True)
+    (base / "closed").chmod(0)
+    scratch.remove_tree(base)
+    assert not base.exists()
+
+
+def test_pictures_are_few_and_small(file):
+    one = Scratch(file)
+    header = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"
+    size = (10).to_bytes(4, "big")
+    for number in range(6):
+        (one.folder / f"{number}.png").write_bytes(header + size * 2 + bytes(20))
+    (one.folder / "0.png").write_bytes(header + b"\xff" * 30)
+    (one.folder / "1.png").write_bytes(b"<svg>")
+    (one.folder / "2.png").write_bytes(header + size * 2 + bytes(700_000))
+    (one.folder / "a.png").symlink_to("/etc/passwd")
+    assert [name for name, _ in one.pictures()] == ["3.png", "4.png", "5.png"]
+    one.remove()
