@@ -11,6 +11,7 @@ from pathlib import Path
 
 from botschool.errors import BotschoolError
 from botschool.grading.student import Student
+from botschool.paths import course_root
 
 POINTS = 100
 """What every exercise is worth."""
@@ -78,19 +79,6 @@ class Exercise:
                 return each
         known = ", ".join(each.id for each in self.tasks)
         raise BotschoolError(f"Exercise {self.number} has no task {task}; its tasks are {known}.")
-
-
-def course_root() -> Path:
-    """The folder that holds exercises/; looked for from the present folder upwards."""
-    given = os.environ.get("BOTSCHOOL_COURSE")
-    here = Path(given) if given else Path.cwd()
-    for folder in (here, *here.resolve().parents):
-        if (folder / "exercises").is_dir():
-            return folder
-    raise BotschoolError(
-        "There is no course here: go to the folder that holds exercises/, or name it in "
-        "BOTSCHOOL_COURSE."
-    )
 
 
 def folder_of(number: int, root: Path | None = None) -> Path:
