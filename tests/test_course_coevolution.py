@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from botschool import arena as arenas
-from botschool.course_coevolution import (
+from botschool.course.coevolution import (
     draw_chases,
     draw_red_queen,
     draw_tournament,

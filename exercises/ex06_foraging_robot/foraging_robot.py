@@ -243,7 +243,7 @@ def reactions(brain: dict, observation: np.ndarray, memories: np.ndarray) -> np.
 # %%
 if __name__ == "__main__":
     from botschool.course import SavedRobot, experiment_file
-    from botschool.course_foraging import draw_mind, draw_trajectories, replications
+    from botschool.course.foraging import draw_mind, draw_trajectories, replications
 
     robots = replications("results/ex06/runs")
     brains = {name: weights(genotype) for name, genotype in robots.items()}

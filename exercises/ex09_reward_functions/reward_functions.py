@@ -21,7 +21,7 @@
 
 import numpy as np
 
-from botschool.course_locomotion import Runner, draw_gaits, strip
+from botschool.course.locomotion import Runner, draw_gaits, strip
 
 # %% [markdown]
 # A *trajectory* is a recorded episode of T steps, a dict of arrays:

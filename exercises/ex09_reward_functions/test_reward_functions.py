@@ -12,7 +12,7 @@ exercise = Exercise(
     9,
     "Reward functions",
     file="reward_functions.py",
-    imports=("botschool.course_locomotion", "botschool.evolution.run", "pybullet"),
+    imports=("botschool.course.locomotion", "botschool.evolution.run", "pybullet"),
 )
 ROBOTS = {"Hopper": 3, "HalfCheetah": 6, "Ant": 8, "Walker2D": 6, "Humanoid": 17}
 STEP = 0.0165
@@ -280,7 +280,7 @@ def random_robots(runner, count: int) -> list[np.ndarray]:
 
 @both.check(6)
 def compares_gaits(student: Student):
-    from botschool.course_locomotion import Runner
+    from botschool.course.locomotion import Runner
 
     runner, seed = Runner("HopperBulletEnv-v5"), exercise.seed(64) % 100_000
     genotypes = dict(zip(("one", "other"), random_robots(runner, 2), strict=True))
@@ -293,7 +293,7 @@ def compares_gaits(student: Student):
 
 @both.check(9)
 def evolves_both(student: Student):
-    from botschool.course_locomotion import Runner
+    from botschool.course.locomotion import Runner
 
     answer = student.call("evolve_both", "Hopper", STEPS, exercise.seed(60) % 100_000)
     said, pair = student.said, expect_fields(student.said, answer, "v0", "v5")

@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from gymnasium.utils import seeding
 
-from botschool.course_robots import robot_file
+from botschool.course.robots import robot_file
 from botschool.grading import (
     Exercise,
     Student,

@@ -263,7 +263,7 @@ def train(
 # %%
 if __name__ == "__main__":
     from botschool.course import film_agent
-    from botschool.course_rl import draw_learning
+    from botschool.course.rl import draw_learning
 
     torch.set_num_threads(1)
     pendulum = {"iterations": 40, "starts": 1, "percentile": 85, "updates": 20}

@@ -351,7 +351,7 @@ INDICATORS = (
 if __name__ == "__main__":
     from botschool import config
     from botschool.course import experiment_file
-    from botschool.course_rl import draw_indicators, draw_trainings
+    from botschool.course.rl import draw_indicators, draw_trainings
     from botschool.evolution.run import Run, evolve
 
     experiment = config.load(experiment_file("cartpole_openaies.ini"))

@@ -11,7 +11,7 @@ import itertools
 import numpy as np
 
 from botschool import arena as arenas
-from botschool.course_coevolution import play, robot
+from botschool.course.coevolution import play, robot
 from botschool.grading import Exercise, Student, expect_close, expect_fields
 
 exercise = Exercise(15, "The master tournament", file="master_tournament.py")

@@ -29,7 +29,7 @@ import pybullet
 import pybullet_data
 
 from botschool.course import Robot
-from botschool.course_robots import robot_file
+from botschool.course.robots import robot_file
 
 PLANE = os.path.join(pybullet_data.getDataPath(), "plane.urdf")
 FASTEST = 24.6  # rad/s: what the motors can do, 235 turns a minute
@@ -455,7 +455,7 @@ def train(seed: int) -> list[list[np.ndarray]]:
 
 # %%
 if __name__ == "__main__":
-    from botschool.course_robots import draw_balance, film_balance, write_package
+    from botschool.course.robots import draw_balance, film_balance, write_package
 
     register_robot()
     env = gymnasium.make("BalanceBotBulletEnv-v0", render_mode="rgb_array")

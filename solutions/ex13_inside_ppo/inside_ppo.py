@@ -296,7 +296,7 @@ def responses(activations: np.ndarray, observations: np.ndarray) -> np.ndarray:
 
 # %%
 if __name__ == "__main__":
-    from botschool.course_rl import draw_hidden_layer
+    from botschool.course.rl import draw_hidden_layer
     from botschool.rl.reference import Rollout, make_ppo, policy_layers
 
     names = ["cart's position", "cart's speed", "pole's angle", "pole's angular speed"]

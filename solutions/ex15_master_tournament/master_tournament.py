@@ -30,7 +30,7 @@
 import numpy as np
 
 from botschool import arena as arenas
-from botschool.course_coevolution import play, robot
+from botschool.course.coevolution import play, robot
 
 # %% [markdown]
 # ## Task 15.1. A chase, recorded
@@ -339,7 +339,7 @@ def describe(poses: np.ndarray) -> dict:
 
 # %%
 if __name__ == "__main__":
-    from botschool.course_coevolution import (
+    from botschool.course.coevolution import (
         draw_chases,
         draw_red_queen,
         draw_tournament,

@@ -1,4 +1,4 @@
-"""What exercises are given ready-made: robots to evaluate, curves to draw, films."""
+"""Pictures that several exercises draw."""
 
 from __future__ import annotations
 
@@ -6,46 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from botschool import problems
-from botschool.config import PolicyConfig
-from botschool.config import load as load_experiment
-from botschool.policy import Policy
-from botschool.problems import Episodes
-
-
-class Robot:
-    """A network with tanh hidden neurons in an environment, ready to be evaluated.
-
-    The parameters are the biases, then the weights (FACTS.md section 1, feed-forward).
-    """
-
-    def __init__(self, environment: str, nhiddens: int = 10, out_type: int = 3) -> None:
-        """out_type: activation of the outputs, 2 tanh, 3 linear."""
-        self.environment = environment
-        self._problem = problems.make(environment)
-        config = PolicyConfig(nhiddens=nhiddens, bias=1, out_type=out_type)
-        self.policy = Policy(environment, self._problem.interface, config)
-        self.nbiases = nhiddens + self.policy.spec.outputs
-        self.nweights = self.policy.genotype_size - self.nbiases
-
-    def evaluate(
-        self, population: np.ndarray, seed: int, episodes: int = 5, maxsteps: int = 1000
-    ) -> np.ndarray:
-        """Mean return of each row over the same `episodes` episodes; shape (individuals,)."""
-        population = np.ascontiguousarray(population, dtype=np.float64)
-        if population.ndim != 2 or population.shape[1] != self.policy.genotype_size:
-            raise ValueError(
-                f"population has shape {population.shape}, but needs (individuals, "
-                f"{self.policy.genotype_size})."
-            )
-        batch = Episodes.of(np.full(len(population), seed, dtype=np.uint64), episodes)
-        outcome = self._problem.evaluate(self.policy, population, None, batch, maxsteps)
-        return outcome.fitness.reshape(-1, episodes).mean(axis=1)
-
-    def play(self, parameters: np.ndarray, seed: int, maxsteps: int = 1000):
-        """One episode, step by step: yields botschool.problems.transition.Transition objects."""
-        parameters = np.ascontiguousarray(parameters, dtype=np.float64)
-        return self._problem.play(self.policy, parameters, None, seed, 0, maxsteps)
+from botschool.course.films import first_frame
 
 
 def draw_curves(
@@ -71,24 +32,6 @@ def draw_curves(
     print(f"picture: {file}")
 
 
-def film(file: str | Path, environment: str, parameters: np.ndarray, seed: int = 1) -> None:
-    """A film of one episode of a `Robot` in a native environment."""
-    from botschool.problems.native import NATIVE
-    from botschool.render.canvas import draw_offscreen
-    from botschool.render.panel import with_caption
-    from botschool.render.scene import make_scene
-    from botschool.render.video import write_video
-
-    draw_offscreen()
-    scene = make_scene(NATIVE[environment][0])
-    frames = (
-        with_caption(scene.draw_transition(transition), 1, transition)
-        for transition in Robot(environment).play(parameters, seed)
-    )
-    write_video(Path(file), frames, scene.fps)
-    print(f"film: {file}")
-
-
 def draw_distributions(
     file: str | Path, values: dict[str, np.ndarray], title: str = "", label: str = "return"
 ) -> None:
@@ -102,7 +45,7 @@ def draw_distributions(
     figure = Figure(figsize=(2.8 * len(values), 5.2), layout="constrained")
     grid = figure.subplots(2, len(values), squeeze=False, height_ratios=(1, 1.1))
     for (environment, numbers), picture, axes in zip(values.items(), *grid, strict=True):
-        frame = _first_frame(environment)
+        frame = first_frame(environment)
         picture.imshow(frame)
         height, width = frame.shape[:2]
         margin = max(0.0, 0.75 * height - 0.5 * width)  # all as wide as 3 : 2
@@ -122,64 +65,6 @@ def draw_distributions(
     figure.suptitle(title)
     figure.savefig(file, dpi=100)
     print(f"picture: {file}")
-
-
-def film_agent(
-    file: str | Path, environment: str, act, episodes: int = 1, seed: int = 1, maxsteps: int = 200
-) -> None:
-    """A film of episodes in any Gymnasium environment; act(observation) returns the action."""
-    from botschool.problems.gym import make_env
-    from botschool.render.canvas import draw_offscreen
-    from botschool.render.video import write_video
-
-    draw_offscreen()
-    env = make_env(environment, render_mode="rgb_array")
-    try:
-        frames = _frames(env, act, episodes, seed, maxsteps)
-        write_video(Path(file), frames, env.metadata.get("render_fps") or 30)
-    finally:
-        env.close()
-    print(f"film: {file}")
-
-
-def _frames(env, act, episodes: int, seed: int, maxsteps: int):
-    from botschool.problems.transition import Transition
-    from botschool.render.panel import with_caption
-
-    for episode in range(episodes):
-        observation, _ = env.reset(seed=seed + episode)
-        total = 0.0
-        for step in range(1, maxsteps + 1):
-            action = act(observation)
-            following, reward, terminated, truncated, _ = env.step(action)
-            total += float(reward)
-            transition = Transition(
-                step, float(reward), total, observation, np.atleast_1d(action), np.zeros(0)
-            )
-            yield with_caption(env.render(), episode + 1, transition)
-            observation = following
-            if terminated or truncated:
-                break
-
-
-def _first_frame(environment: str) -> np.ndarray:
-    from botschool.problems.gym import make_env
-    from botschool.render.canvas import draw_offscreen
-
-    draw_offscreen()
-    env = make_env(environment, render_mode="rgb_array")
-    env.reset(seed=1)
-    frame = env.render()
-    env.close()
-    return frame
-
-
-def controller_of(robot: Robot, parameters: np.ndarray):
-    """The controller with these parameters: a function from an observation to the action."""
-    policy = Policy(robot.environment, robot.policy.interface, robot.policy.config)
-    policy.load(np.asarray(parameters, dtype=np.float64), None)
-    policy.reset(0, 0)
-    return policy.act
 
 
 def draw_verdicts(
@@ -231,63 +116,6 @@ def draw_verdicts(
     figure.legend(lines, colours, loc="outside upper center", ncols=3, frameon=False)
     figure.savefig(file, dpi=100)
     print(f"picture: {file}")
-
-
-def experiment_file(name: str) -> Path:
-    """An experiment file of the course, as "acrobot.ini". Raises BotschoolError."""
-    from botschool.paths import course_root
-
-    return course_root() / "data" / "experiments" / name
-
-
-def genotype_file(name: str) -> Path:
-    """A pre-evolved robot of the course, as "bodybrainS1.npy". Raises BotschoolError."""
-    from botschool.paths import course_root
-
-    return course_root() / "data" / "genotypes" / name
-
-
-class SavedRobot:
-    """A robot that the tool has evolved and saved, ready to be evaluated."""
-
-    def __init__(self, experiment_file: str | Path, genotype: np.ndarray) -> None:
-        """genotype: what np.load gives of a file bestS<seed>.npy or bestgS<seed>.npy."""
-        experiment = load_experiment(experiment_file)
-        self.environment = experiment.exp.environment
-        self._problem = problems.make(self.environment)
-        self._policy = Policy(self.environment, self._problem.interface, experiment.policy)
-        self._genotype, self._normalisation = self._policy.split(genotype)
-
-    def evaluate(self, seed: int, episodes: int) -> np.ndarray:
-        """The return of each of `episodes` episodes; shape (episodes,). The seed decides them."""
-        batch = Episodes.of(np.array([seed], dtype=np.uint64), episodes)
-        maxsteps = self._policy.config.maxsteps
-        return self._problem.evaluate(
-            self._policy, self._genotype[None], self._normalisation, batch, maxsteps
-        ).fitness
-
-    def film(self, file: str | Path, seed: int = 1, episodes: int = 1) -> None:
-        """A film of some episodes."""
-        from botschool.render.canvas import draw_offscreen
-        from botschool.render.scene import make_scene
-        from botschool.render.video import write_video
-
-        draw_offscreen()
-        scene = make_scene(self._problem.dynamics) if self._problem.native else None
-        fps = scene.fps if scene else self._problem.fps
-        write_video(Path(file), self._frames(scene, seed, episodes), fps)
-        print(f"film: {file}")
-
-    def _frames(self, scene, seed: int, episodes: int):
-        from botschool.render.panel import with_caption
-
-        robot, maxsteps = (self._genotype, self._normalisation), self._policy.config.maxsteps
-        for episode in range(episodes):
-            for transition in self._problem.play(
-                self._policy, *robot, seed, episode, maxsteps, render=scene is None
-            ):
-                frame = scene.draw_transition(transition) if scene else transition.frame
-                yield with_caption(frame, episode + 1, transition)
 
 
 def draw_bands(

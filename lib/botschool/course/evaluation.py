@@ -1,0 +1,99 @@
+"""Robots that exercises evaluate: a network in an environment, and what the tool has saved."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from botschool import problems
+from botschool.config import PolicyConfig
+from botschool.config import load as load_experiment
+from botschool.policy import Policy
+from botschool.problems import Episodes
+
+
+class Robot:
+    """A network with tanh hidden neurons in an environment, ready to be evaluated.
+
+    The parameters are the biases, then the weights (docs/specification.md, "Policy network").
+    """
+
+    def __init__(self, environment: str, nhiddens: int = 10, out_type: int = 3) -> None:
+        """out_type: activation of the outputs, 2 tanh, 3 linear."""
+        self.environment = environment
+        self._problem = problems.make(environment)
+        config = PolicyConfig(nhiddens=nhiddens, bias=1, out_type=out_type)
+        self.policy = Policy(environment, self._problem.interface, config)
+        self.nbiases = nhiddens + self.policy.spec.outputs
+        self.nweights = self.policy.genotype_size - self.nbiases
+
+    def evaluate(
+        self, population: np.ndarray, seed: int, episodes: int = 5, maxsteps: int = 1000
+    ) -> np.ndarray:
+        """Mean return of each row over the same `episodes` episodes; shape (individuals,)."""
+        population = np.ascontiguousarray(population, dtype=np.float64)
+        if population.ndim != 2 or population.shape[1] != self.policy.genotype_size:
+            raise ValueError(
+                f"population has shape {population.shape}, but needs (individuals, "
+                f"{self.policy.genotype_size})."
+            )
+        batch = Episodes.of(np.full(len(population), seed, dtype=np.uint64), episodes)
+        outcome = self._problem.evaluate(self.policy, population, None, batch, maxsteps)
+        return outcome.fitness.reshape(-1, episodes).mean(axis=1)
+
+    def play(self, parameters: np.ndarray, seed: int, maxsteps: int = 1000):
+        """One episode, step by step: yields botschool.problems.transition.Transition objects."""
+        parameters = np.ascontiguousarray(parameters, dtype=np.float64)
+        return self._problem.play(self.policy, parameters, None, seed, 0, maxsteps)
+
+
+class SavedRobot:
+    """A robot that the tool has evolved and saved, ready to be evaluated."""
+
+    def __init__(self, experiment_file: str | Path, genotype: np.ndarray) -> None:
+        """genotype: what np.load gives of a file bestS<seed>.npy or bestgS<seed>.npy."""
+        experiment = load_experiment(experiment_file)
+        self.environment = experiment.exp.environment
+        self._problem = problems.make(self.environment)
+        self._policy = Policy(self.environment, self._problem.interface, experiment.policy)
+        self._genotype, self._normalisation = self._policy.split(genotype)
+
+    def evaluate(self, seed: int, episodes: int) -> np.ndarray:
+        """The return of each of `episodes` episodes; shape (episodes,). The seed decides them."""
+        batch = Episodes.of(np.array([seed], dtype=np.uint64), episodes)
+        maxsteps = self._policy.config.maxsteps
+        return self._problem.evaluate(
+            self._policy, self._genotype[None], self._normalisation, batch, maxsteps
+        ).fitness
+
+    def film(self, file: str | Path, seed: int = 1, episodes: int = 1) -> None:
+        """A film of some episodes."""
+        from botschool.render.canvas import draw_offscreen
+        from botschool.render.scene import make_scene
+        from botschool.render.video import write_video
+
+        draw_offscreen()
+        scene = make_scene(self._problem.dynamics) if self._problem.native else None
+        fps = scene.fps if scene else self._problem.fps
+        write_video(Path(file), self._frames(scene, seed, episodes), fps)
+        print(f"film: {file}")
+
+    def _frames(self, scene, seed: int, episodes: int):
+        from botschool.render.panel import with_caption
+
+        robot, maxsteps = (self._genotype, self._normalisation), self._policy.config.maxsteps
+        for episode in range(episodes):
+            for transition in self._problem.play(
+                self._policy, *robot, seed, episode, maxsteps, render=scene is None
+            ):
+                frame = scene.draw_transition(transition) if scene else transition.frame
+                yield with_caption(frame, episode + 1, transition)
+
+
+def controller_of(robot: Robot, parameters: np.ndarray):
+    """The controller with these parameters: a function from an observation to the action."""
+    policy = Policy(robot.environment, robot.policy.interface, robot.policy.config)
+    policy.load(np.asarray(parameters, dtype=np.float64), None)
+    policy.reset(0, 0)
+    return policy.act

@@ -1,0 +1,77 @@
+"""Films of robots and agents, and the first picture of an environment."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from botschool.course.evaluation import Robot
+
+
+def film(file: str | Path, environment: str, parameters: np.ndarray, seed: int = 1) -> None:
+    """A film of one episode of a `Robot` in a native environment."""
+    from botschool.problems.native import NATIVE
+    from botschool.render.canvas import draw_offscreen
+    from botschool.render.panel import with_caption
+    from botschool.render.scene import make_scene
+    from botschool.render.video import write_video
+
+    draw_offscreen()
+    scene = make_scene(NATIVE[environment][0])
+    frames = (
+        with_caption(scene.draw_transition(transition), 1, transition)
+        for transition in Robot(environment).play(parameters, seed)
+    )
+    write_video(Path(file), frames, scene.fps)
+    print(f"film: {file}")
+
+
+def film_agent(
+    file: str | Path, environment: str, act, episodes: int = 1, seed: int = 1, maxsteps: int = 200
+) -> None:
+    """A film of episodes in any Gymnasium environment; act(observation) returns the action."""
+    from botschool.problems.gym import make_env
+    from botschool.render.canvas import draw_offscreen
+    from botschool.render.video import write_video
+
+    draw_offscreen()
+    env = make_env(environment, render_mode="rgb_array")
+    try:
+        frames = _frames(env, act, episodes, seed, maxsteps)
+        write_video(Path(file), frames, env.metadata.get("render_fps") or 30)
+    finally:
+        env.close()
+    print(f"film: {file}")
+
+
+def _frames(env, act, episodes: int, seed: int, maxsteps: int):
+    from botschool.problems.transition import Transition
+    from botschool.render.panel import with_caption
+
+    for episode in range(episodes):
+        observation, _ = env.reset(seed=seed + episode)
+        total = 0.0
+        for step in range(1, maxsteps + 1):
+            action = act(observation)
+            following, reward, terminated, truncated, _ = env.step(action)
+            total += float(reward)
+            transition = Transition(
+                step, float(reward), total, observation, np.atleast_1d(action), np.zeros(0)
+            )
+            yield with_caption(env.render(), episode + 1, transition)
+            observation = following
+            if terminated or truncated:
+                break
+
+
+def first_frame(environment: str) -> np.ndarray:
+    from botschool.problems.gym import make_env
+    from botschool.render.canvas import draw_offscreen
+
+    draw_offscreen()
+    env = make_env(environment, render_mode="rgb_array")
+    env.reset(seed=1)
+    frame = env.render()
+    env.close()
+    return frame
