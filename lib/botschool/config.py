@@ -1,11 +1,8 @@
 """Experiment files: the text of an .ini file <-> a typed, checked `Experiment`.
 
-Every hyperparameter is declared once, below, with its default, its allowed values and a line of
-explanation; reading, checking and listing all follow from these declarations.
+Hyperparameters are declared in botschool.hyperparameters and, those of an algorithm, in its file of
+botschool.evolution.algorithms; reading, checking and listing all follow from these declarations.
 """
-
-# Hyperparameters keep the names they have in .ini files.
-# ruff: noqa: N815
 
 from __future__ import annotations
 
@@ -17,21 +14,29 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+import botschool.evolution.algorithms  # noqa: F401  (fills ALGORITHMS)
 from botschool.errors import BotschoolError
+from botschool.evolution.algorithm import ALGORITHMS
+from botschool.evolution.algorithms.coevo2 import Coevo2Config
+from botschool.evolution.algorithms.openaies import OpenAIESConfig
+from botschool.evolution.algorithms.sss import SSSConfig
+from botschool.hyperparameters import NO_YES, PolicyConfig, hyper
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
 
-NO_YES = {0: "no", 1: "yes"}
-DECAY = {0: "none", 1: "by 0.005 x centre", 2: "by 0.005 x sign(centre)"}
-
-
-def hyper(default: Any, help: str, **limits: Any) -> Any:
-    """A hyperparameter: a dataclass field with an explanation and limits.
-
-    Limits are `low` and `high` (both allowed), `above` (itself not allowed), or `choices`, a dict
-    from each allowed value to its meaning. The value has the type of the default;
-    `default=MISSING` stands for a text that must be given.
-    """
-    return field(default=default, metadata={"help": help, **limits})
+__all__ = [
+    "NO_YES",
+    "Coevo2Config",
+    "Exp",
+    "Experiment",
+    "OpenAIESConfig",
+    "PolicyConfig",
+    "SSSConfig",
+    "describe",
+    "from_dict",
+    "hyper",
+    "load",
+    "to_dict",
+]
 
 
 @dataclass
@@ -42,127 +47,17 @@ class Exp:
     algo: str = hyper(
         "OpenAI-ES",
         "the evolutionary algorithm",
-        choices={
-            "OpenAI-ES": "evolution strategy that follows an estimated gradient",
-            "SSS": "steady state",
-            "coevo2": "two competing populations",
-        },
+        choices={name: ALGORITHMS[name].explanation for name in sorted(ALGORITHMS)},
     )
 
 
-@dataclass
-class PolicyConfig:
-    """Section [POLICY]: the network and how its robot is evaluated."""
-
-    nrobots: int = hyper(1, "robots in the environment, one network each", low=1, high=1000)
-    heterogeneous: int = hyper(0, "each robot has parameters of its own", choices=NO_YES)
-    episodes: int = hyper(1, "episodes a candidate's fitness averages", low=1, high=1000000)
-    pepisodes: int = hyper(1, "episodes of a post-evaluation", low=1, high=1000000)
-    maxsteps: int = hyper(1000, "steps after which an episode is cut", low=1, high=100000000)
-    nhiddens: int = hyper(
-        50, "hidden neurons per layer (0 = inputs go straight to outputs)", low=0, high=10000
-    )
-    nhiddens2: int = hyper(
-        0,
-        "neurons of the second of two layers, the first gets the others (0 = equal layers)",
-        low=0,
-        high=20000,
-    )
-    nlayers: int = hyper(1, "hidden layers; recurrent networks have one", low=1, high=16)
-    bias: int = hyper(0, "hidden and output neurons have a bias", choices=NO_YES)
-    out_type: int = hyper(
-        2, "activation of outputs", choices={1: "logistic", 2: "tanh", 3: "linear", 4: "binary"}
-    )
-    nbins: int = hyper(
-        1,
-        "output neurons per actuator; from 2 on the strongest picks the action",
-        low=1,
-        high=1000,
-    )
-    architecture: int = hyper(
-        0,
-        "wiring of the network",
-        choices={0: "feed-forward", 1: "recurrent", 2: "fully recurrent", 3: "LSTM"},
-    )
-    afunction: int = hyper(
-        2, "activation of hidden neurons", choices={1: "logistic", 2: "tanh", 3: "linear"}
-    )
-    winit: int = hyper(
-        0, "initial weights", choices={0: "Xavier", 1: "norm-incoming", 2: "uniform"}
-    )
-    action_noise: int = hyper(
-        0,
-        "noise added to actions",
-        choices={0: "none", 1: "Gaussian", 2: "Gaussian, evolved size"},
-    )
-    action_noise_range: float = hyper(
-        0.01, "standard deviation of the noise when action_noise = 1", low=0, high=1000
-    )
-    normalize: int = hyper(0, "observations are scaled to mean 0 and spread 1", choices=NO_YES)
-    clip: int = hyper(0, "inputs are kept within -5 to 5, scaled or not", choices=NO_YES)
-    wrange: float = hyper(
-        1.0, "initial weights lie within -wrange to wrange when winit = 2", low=0, high=1000
-    )
-
-
-@dataclass
-class OpenAIESConfig:
-    """Section [ALGO] of OpenAI-ES."""
-
-    maxmsteps: float = hyper(1.0, "length of the run, in million steps", above=0, high=1e9)
-    stepsize: float = hyper(0.01, "step size of Adam", above=0, high=1000)
-    samplesize: int = hyper(
-        20, "perturbations per generation, two candidates each", low=1, high=1000000
-    )
-    noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
-    wdecay: int = hyper(0, "pull of the centre towards 0", choices=DECAY)
-    symseed: int = hyper(1, "both candidates of a perturbation meet the same seed", choices=NO_YES)
-    saveeach: float = hyper(60.0, "minutes between saves (0 = every generation)", low=0, high=1e6)
-
-
-@dataclass
-class SSSConfig:
-    """Section [ALGO] of SSS."""
-
-    maxmsteps: float = hyper(1.0, "length of the run, in million steps", above=0, high=1e9)
-    popsize: int = hyper(20, "candidates in the population, an even number", low=2, high=1000000)
-    mutrate: float = hyper(
-        0.02, "standard deviation of mutations (the key mutation is the same)", low=0, high=1000
-    )
-    saveeach: float = hyper(60.0, "minutes between saves (0 = every generation)", low=0, high=1e6)
-
-
-@dataclass
-class Coevo2Config:
-    """Section [ALGO] of coevo2."""
-
-    ngenerations: int = hyper(1000, "length of the run, in generations", low=1, high=1000000000)
-    popsize: int = hyper(80, "candidates in each of the two populations", low=1, high=10000)
-    selsize: int = hyper(
-        10, "candidates evolved, and competitors met, in a generation", low=1, high=10000
-    )
-    samplesize: int = hyper(
-        20, "perturbations per sub-generation, two candidates each", low=1, high=1000000
-    )
-    stepsize: float = hyper(0.01, "step size of Adam", above=0, high=1000)
-    noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
-    wdecay: int = hyper(0, "pull of the centre towards 0", choices=DECAY)
-    evolving: str = hyper(
-        "random",
-        "which candidates evolve in a generation",
-        choices={"random": "drawn at random", "best": "the best against the chosen competitors"},
-    )
-    saveeach: int = hyper(100, "generations between saves", low=1, high=1000000000)
-
-
-AlgoConfig = OpenAIESConfig | SSSConfig | Coevo2Config
-ALGORITHMS: dict[str, type] = {
-    "OpenAI-ES": OpenAIESConfig,
-    "SSS": SSSConfig,
-    "coevo2": Coevo2Config,
-}
 SECTIONS = ("EXP", "POLICY", "ALGO")
-ALIASES = {"mutation": "mutrate"}
+ALIASES = {
+    f.metadata["alias"]: f.name.lower()
+    for entry in ALGORITHMS.values()
+    for f in fields(entry.config)
+    if "alias" in f.metadata
+}
 _UNDER = {
     "EXP": "with the line environment = NAME under it",
     "POLICY": "(nothing needs to follow it: every key has a default)",
@@ -176,7 +71,8 @@ class Experiment:
 
     exp: Exp
     policy: PolicyConfig
-    algo: AlgoConfig
+    algo: Any
+    """The hyperparameters of `exp.algo`, in the dataclass that its file declares."""
     path: Path | None = field(default=None, compare=False)
 
 
@@ -207,20 +103,30 @@ def from_dict(data: dict[str, dict[str, Any]], source: str = "experiment") -> Ex
     return replace(_experiment(sections, source), path=None)
 
 
+def competitive(experiment: Experiment) -> bool:
+    """Whether two populations evolve against each other in it."""
+    return ALGORITHMS[experiment.exp.algo].competitive
+
+
+def free(experiment: Experiment) -> set[tuple[str, str]]:
+    """(section, key), as in to_dict, of what may change when a run is resumed."""
+    return {("algo", f.name) for f in fields(experiment.algo) if f.metadata.get("free")}
+
+
 def describe() -> list[tuple[str, str, Any, str]]:
     """Rows (section, name, default, help) of all hyperparameters of all algorithms.
 
-    Sections are `EXP`, `POLICY` and `ALGO OpenAI-ES`, `ALGO SSS`, `ALGO coevo2`. The default is
+    Sections are `EXP`, `POLICY` and `ALGO NAME` of each algorithm. The default is
     None where a value must be given. The help ends with the allowed values.
     """
     parts = [("EXP", Exp), ("POLICY", PolicyConfig)]
-    parts += [(f"ALGO {name}", config) for name, config in ALGORITHMS.items()]
+    parts += [(f"ALGO {name}", ALGORITHMS[name].config) for name in sorted(ALGORITHMS)]
     return [
         (
             section,
             f.name,
             None if f.default is MISSING else f.default,
-            f"{f.metadata['help']}: {_allowed(f)}",
+            f"{f.metadata['help']}{_also(f)}: {_allowed(f)}",
         )
         for section, config in parts
         for f in fields(config)
@@ -237,10 +143,10 @@ def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]
             )
     exp = _build(Exp, "EXP", sections["EXP"], path)
     policy = _build(PolicyConfig, "POLICY", sections["POLICY"], path)
-    algo = _build(ALGORITHMS[exp.algo], "ALGO", sections["ALGO"], path)
+    algo = _build(ALGORITHMS[exp.algo].config, "ALGO", sections["ALGO"], path)
     experiment = Experiment(exp, policy, algo, Path(path))
     lines = {key: entry.line for entries in sections.values() for key, entry in entries.items()}
-    for keys, sentence in _conflicts(experiment):
+    for keys, sentence in conflicts(experiment):
         raise refusal(path, max(lines.get(key.lower(), 0) for key in keys), sentence)
     return experiment
 
@@ -333,6 +239,11 @@ def _allowed(f: Field) -> str:
     return f"{kind} from {limits['low']} to {limits['high']:.0f}"
 
 
+def _also(f: Field) -> str:
+    """The other name of a key, in brackets."""
+    return f" (the key {f.metadata['alias']} is the same)" if "alias" in f.metadata else ""
+
+
 def _unknown(key: str, section: str, cls: type) -> str:
     """The sentence for a key that its section does not have."""
     name = key.lower()
@@ -341,13 +252,13 @@ def _unknown(key: str, section: str, cls: type) -> str:
             return f"{key} belongs in section [{other}], not [{section}]: move the line there"
     owners = [
         algo
-        for algo, config in ALGORITHMS.items()
-        if ALIASES.get(name, name) in (f.name.lower() for f in fields(config))
+        for algo in sorted(ALGORITHMS)
+        if ALIASES.get(name, name) in (f.name.lower() for f in fields(ALGORITHMS[algo].config))
     ]
     if owners and section != "ALGO":
         return f"{key} belongs in section [ALGO], not [{section}]: move the line there"
     if owners:
-        chosen = next(algo for algo, config in ALGORITHMS.items() if config is cls)
+        chosen = next(algo for algo, entry in ALGORITHMS.items() if entry.config is cls)
         return (
             f"{key} is a hyperparameter of {' and '.join(owners)}, but this experiment uses "
             f"{chosen}: remove the line, or set algo = {owners[0]} in section [EXP]"
@@ -355,9 +266,9 @@ def _unknown(key: str, section: str, cls: type) -> str:
     return f"{key} is no hyperparameter: {nearest(key, (f.name for f in fields(cls)))}"
 
 
-def _conflicts(experiment: Experiment) -> Iterator[tuple[tuple[str, ...], str]]:
+def conflicts(experiment: Experiment) -> Iterator[tuple[tuple[str, ...], str]]:
     """Hyperparameters that cannot go together: their names and a sentence with the remedy."""
-    p, a = experiment.policy, experiment.algo
+    p = experiment.policy
     if p.nhiddens2 and p.nlayers != 2:
         yield (
             ("nhiddens2",),
@@ -376,14 +287,4 @@ def _conflicts(experiment: Experiment) -> Iterator[tuple[tuple[str, ...], str]]:
             f"architecture = {p.architecture} is recurrent and has one hidden layer, "
             f"but nlayers is {p.nlayers}: set nlayers = 1 or architecture = 0",
         )
-    if isinstance(a, SSSConfig) and a.popsize % 2:
-        yield (
-            ("popsize",),
-            f"popsize = {a.popsize} is odd, but SSS replaces the worst half by the best half: "
-            f"set popsize = {a.popsize + 1}",
-        )
-    if isinstance(a, Coevo2Config) and a.selsize > a.popsize:
-        yield (
-            ("selsize", "popsize"),
-            f"selsize = {a.selsize} is more than popsize = {a.popsize}: lower selsize",
-        )
+    yield from ALGORITHMS[experiment.exp.algo].conflicts(experiment.algo)

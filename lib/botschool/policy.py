@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
+from botschool.hyperparameters import PolicyConfig
 from botschool.net import Network, NetworkSpec
 
 

@@ -7,13 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from botschool.config import Experiment, to_dict
+from botschool.config import Experiment, free, to_dict
 from botschool.errors import BotschoolError
 from botschool.output import save_npz
 
 FORMAT = 1
-FREE = {("algo", "maxmsteps"), ("algo", "ngenerations"), ("algo", "saveeach")}
-"""Hyperparameters that may change between a run and its continuation."""
 
 
 def save(path: Path, experiment: Experiment, seed: int, state: dict[str, np.ndarray]) -> None:
@@ -48,11 +46,11 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
             f"{path} is a checkpoint of seed {owner}, not of {seed}: give "
             "that seed with -s, or use --force to start anew."
         )
-    now = to_dict(experiment)
+    now, may_change = to_dict(experiment), free(experiment)
     for section, keys in now.items():
         for key, value in keys.items():
             before = saved.get(section, {}).get(key)
-            if (section, key) not in FREE and before != value:
+            if (section, key) not in may_change and before != value:
                 raise BotschoolError(
                     f"{path} belongs to an experiment with {key} = {before}, but {key} is now "
                     f"{value}: change it back to resume, or use --force to start anew."

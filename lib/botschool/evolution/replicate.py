@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from botschool.config import Experiment
+from botschool.config import Experiment, competitive
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.progress import reporting
 from botschool.evolution.record import RunFiles
@@ -24,7 +24,7 @@ def replicate(
     generations: int | None = None,
 ) -> bool:
     """Runs every seed and prints where the results are; False when the user stopped it."""
-    kind = Coevolution if experiment.exp.algo == "coevo2" else Run
+    kind = Coevolution if competitive(experiment) else Run
     with stoppable() as stopping:
         runs = [kind(experiment, seed, workers, stopping) for seed in seeds[:1]]
         claim(folder, seeds, resume, force)

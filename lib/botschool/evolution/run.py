@@ -15,8 +15,7 @@ from botschool import problems
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution import checkpoint
-from botschool.evolution.algorithms.openaies import OpenAIES
-from botschool.evolution.algorithms.sss import SSS
+from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.evaluate import Evaluator, mean
 from botschool.evolution.events import Events
 from botschool.evolution.record import Record, RunFiles
@@ -24,7 +23,6 @@ from botschool.output import cannot_write, remove_leftovers
 from botschool.policy import Policy
 from botschool.problems import Interrupted
 
-ALGORITHMS = {"OpenAI-ES": OpenAIES, "SSS": SSS}
 EVENT_SECONDS = 10
 
 
@@ -93,7 +91,7 @@ class Run:
 
     def begin(self) -> None:
         """Makes the algorithm, who evaluates for it, the record and the budget."""
-        self.algorithm = ALGORITHMS[self.experiment.exp.algo](
+        self.algorithm = ALGORITHMS[self.experiment.exp.algo].make(
             self.experiment.algo, partial(self.policy.initial, self.seed), self.seed
         )
         self.evaluator = Evaluator(

@@ -14,8 +14,8 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
+from botschool.hyperparameters import PolicyConfig
 from botschool.problems.base import Episodes, Interrupted, Outcome
 
 # A batch is cut into this many chunks per worker: small enough to even out long episodes.

@@ -9,15 +9,20 @@ meet all competitors, and only who does well against all of them has a place in 
 That discards the opportunists, who do well against the few only.
 """
 
+# Hyperparameters keep the names they have in .ini files.
+# ruff: noqa: N815
+
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.config import Coevo2Config
+from botschool.evolution.algorithm import Initial, algorithm
 from botschool.evolution.algorithms.openaies import EPSILON, adam, gradient
+from botschool.hyperparameters import WEIGHT_DECAY, hyper
 from botschool.seeds import generator
 
 PREDATORS, PREY = 0, 1
@@ -68,6 +73,32 @@ def differing(fitness: np.ndarray, count: int, first: int) -> np.ndarray:
     return np.array(chosen)
 
 
+@dataclass
+class Coevo2Config:
+    """Section [ALGO] of coevo2."""
+
+    ngenerations: int = hyper(
+        1000, "length of the run, in generations", low=1, high=1000000000, free=True
+    )
+    popsize: int = hyper(80, "candidates in each of the two populations", low=1, high=10000)
+    selsize: int = hyper(
+        10, "candidates evolved, and competitors met, in a generation", low=1, high=10000
+    )
+    samplesize: int = hyper(
+        20, "perturbations per sub-generation, two candidates each", low=1, high=1000000
+    )
+    stepsize: float = hyper(0.01, "step size of Adam", above=0, high=1000)
+    noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
+    wdecay: int = hyper(0, "pull of the centre towards 0", choices=WEIGHT_DECAY)
+    evolving: str = hyper(
+        "random",
+        "which candidates evolve in a generation",
+        choices={"random": "drawn at random", "best": "the best against the chosen competitors"},
+    )
+    saveeach: int = hyper(100, "generations between saves", low=1, high=1000000000, free=True)
+
+
+@algorithm("coevo2", "two competing populations", Coevo2Config, competitive=True)
 class Coevo2:
     """meet(play) once, then advance(play) for each generation.
 
@@ -76,7 +107,7 @@ class Coevo2:
     columns; nan before meet().
     """
 
-    def __init__(self, config: Coevo2Config, initial, seed: int) -> None:
+    def __init__(self, config: Coevo2Config, initial: Initial, seed: int) -> None:
         """initial(index) gives two random networks in a row: the index-th predator and prey."""
         self.config = config
         self.seed = seed
@@ -87,6 +118,16 @@ class Coevo2:
         self.m = np.zeros_like(self.parameters)
         self.v = np.zeros_like(self.parameters)
         self.fitness = np.full((config.popsize, config.popsize), np.nan)
+
+    @staticmethod
+    def conflicts(config: Coevo2Config) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Hyperparameters that cannot go together."""
+        if config.selsize > config.popsize:
+            yield (
+                ("selsize", "popsize"),
+                f"selsize = {config.selsize} is more than popsize = {config.popsize}: lower "
+                "selsize",
+            )
 
     @property
     def met(self) -> bool:

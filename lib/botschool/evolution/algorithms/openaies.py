@@ -6,11 +6,17 @@ the centre along random directions, estimates from their ranks in which directio
 and moves the centre a step that way with Adam (Kingma and Ba 2015).
 """
 
+# Hyperparameters keep the names they have in .ini files.
+# ruff: noqa: N815
+
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.config import OpenAIESConfig
+from botschool.evolution.algorithm import Initial, algorithm
+from botschool.hyperparameters import NO_YES, WEIGHT_DECAY, hyper
 from botschool.seeds import generator
 
 BETA1, BETA2, EPSILON = 0.9, 0.999, 1e-8
@@ -46,10 +52,30 @@ def adam(
     return BETA1 * m + (1 - BETA1) * descent, BETA2 * v + (1 - BETA2) * descent**2
 
 
+@dataclass
+class OpenAIESConfig:
+    """Section [ALGO] of OpenAI-ES."""
+
+    maxmsteps: float = hyper(
+        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
+    )
+    stepsize: float = hyper(0.01, "step size of Adam", above=0, high=1000)
+    samplesize: int = hyper(
+        20, "perturbations per generation, two candidates each", low=1, high=1000000
+    )
+    noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
+    wdecay: int = hyper(0, "pull of the centre towards 0", choices=WEIGHT_DECAY)
+    symseed: int = hyper(1, "both candidates of a perturbation meet the same seed", choices=NO_YES)
+    saveeach: float = hyper(
+        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
+    )
+
+
+@algorithm("OpenAI-ES", "evolution strategy that follows an estimated gradient", OpenAIESConfig)
 class OpenAIES:
     """ask() -> candidates to evaluate; tell(their fitness) -> one step of the centre."""
 
-    def __init__(self, config: OpenAIESConfig, initial, seed: int) -> None:
+    def __init__(self, config: OpenAIESConfig, initial: Initial, seed: int) -> None:
         """initial(index) gives a random genotype; the centre starts at number 0."""
         self.config = config
         self.seed = seed

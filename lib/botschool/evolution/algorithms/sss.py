@@ -6,21 +6,52 @@ with mutated copies of the better one.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+
 import numpy as np
 
-from botschool.config import SSSConfig
+from botschool.evolution.algorithm import Initial, algorithm
+from botschool.hyperparameters import hyper
 from botschool.seeds import generator
 
 
+@dataclass
+class SSSConfig:
+    """Section [ALGO] of SSS."""
+
+    maxmsteps: float = hyper(
+        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
+    )
+    popsize: int = hyper(20, "candidates in the population, an even number", low=2, high=1000000)
+    mutrate: float = hyper(
+        0.02, "standard deviation of mutations", low=0, high=1000, alias="mutation"
+    )
+    saveeach: float = hyper(
+        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
+    )
+
+
+@algorithm("SSS", "steady state", SSSConfig)
 class SSS:
     """ask() -> the population; tell(its fitness) -> the next population."""
 
-    def __init__(self, config: SSSConfig, initial, seed: int) -> None:
+    def __init__(self, config: SSSConfig, initial: Initial, seed: int) -> None:
         """initial(index) gives a random genotype; the population starts with numbers 0, 1, ..."""
         self.config = config
         self.seed = seed
         self.generation = 0
         self.population = np.array([initial(i) for i in range(config.popsize)])
+
+    @staticmethod
+    def conflicts(config: SSSConfig) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Hyperparameters that cannot go together."""
+        if config.popsize % 2:
+            yield (
+                ("popsize",),
+                f"popsize = {config.popsize} is odd, but SSS replaces the worst half by the best "
+                f"half: set popsize = {config.popsize + 1}",
+            )
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
         """The population, shape (popsize, parameters), and the seed of each one's evaluation.
