@@ -89,7 +89,7 @@ def test_a_robot_that_bumps_stays_where_it_was():
 @given(st.integers(8, 40), st.floats(-1, 1), st.booleans(), st.floats(-20, 20), st.integers(1, 2))
 def test_a_circle_leads_back(name, steps, forward, clockwise, heading, rounds):
     own = arena.make(name, max_steps=10**6)
-    body = own.bodies[0]
+    body = own.models[0]
     reach = body.speed * 0.1
     turn = 2 * PI / steps * (-1 if clockwise else 1)
     half = turn * body.axle / 2 / reach

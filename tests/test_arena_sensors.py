@@ -40,7 +40,7 @@ def checked(own):
 def test_random_places_follow_the_reference(name):
     rng = np.random.default_rng(6)
     own = arena.make(name, max_steps=100, noise=0)
-    seen, size = [], own.bodies[0].radius
+    seen, size = [], own.models[0].radius
     while len(seen) < 500:
         for robot in range(len(own.robots)):
             where = own.robots[0, :2] + rng.uniform(-4 * size, 4 * size, 2)

@@ -101,11 +101,11 @@ def test_defaults(tmp_path):
     ):
         path = write(tmp_path, text(exp=f"environment = X-v0\nalgo = {algo}"))
         assert to_dict(load(path)) == {
-            "exp": {"environment": "X-v0", "algo": algo},
+            "exp": {"environment": "X-v0", "algo": algo, "robots": ""},
             "policy": POLICY_DEFAULTS,
             "algo": defaults,
         }
-    assert asdict(Exp("X-v0")) == {"environment": "X-v0", "algo": "OpenAI-ES"}
+    assert asdict(Exp("X-v0")) == {"environment": "X-v0", "algo": "OpenAI-ES", "robots": ""}
 
 
 def test_every_value_is_read_with_its_type(tmp_path):
@@ -351,9 +351,9 @@ def test_refused_dict(data, part):
 def test_describe_lists_every_hyperparameter_with_default_and_help():
     rows = describe()
     listed = {(section, name): default for section, name, default, _ in rows}
-    assert len(listed) == len(rows) == 2 + 19 + 7 + 4 + 9
+    assert len(listed) == len(rows) == 3 + 19 + 7 + 4 + 9
     for section, defaults in (
-        ("EXP", {"environment": None, "algo": "OpenAI-ES"}),
+        ("EXP", {"environment": None, "algo": "OpenAI-ES", "robots": ""}),
         ("POLICY", POLICY_DEFAULTS),
         ("ALGO OpenAI-ES", OPENAI_ES_DEFAULTS),
         ("ALGO SSS", SSS_DEFAULTS),
@@ -374,7 +374,8 @@ def test_every_default_satisfies_its_own_limits():
 
 
 def test_importing_is_light():
-    code = "import sys, botschool.config; print({'torch', 'pybullet', 'matplotlib', 'rich'} & set(sys.modules))"
+    heavy = {"torch", "pybullet", "matplotlib", "rich"}
+    code = f"import sys, botschool.config; print({heavy} & set(sys.modules))"
     path = str(Path(config.__file__).parents[1])
     done = subprocess.run(
         [sys.executable, "-c", f"import sys; sys.path.insert(0, {path!r}); {code}"],

@@ -67,9 +67,9 @@ def test_it_is_the_native_problem(name):
     stepper = _core.make_stepper(PROBLEMS[name])
     with env_of(name, **({"noise": 0} if name == "Discrim" else {})) as env:
         env.reset(seed=2)
-        stepper.state = env.unwrapped._stage.state
+        stepper.state = env.unwrapped._simulation.state
         if name == "Discrim":
-            stepper.set(500, 0)
+            stepper.set(500, _core.ArenaOptions(noise=0))
         for _ in range(40):
             action = env.action_space.sample()
             observation, reward, terminated, truncated, _ = env.step(action)

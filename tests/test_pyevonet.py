@@ -262,7 +262,7 @@ def test_every_argument_is_checked(name):
         ({"architecture": 0, "nlayers": 3}, "shared equally"),
         ({"architecture": 0, "nlayers": 2, "nhiddens2": 10}, "nhiddens2"),
         ({"nbins": 3, "low": 1.0, "high": 1.0}, "low must be below high"),
-        ({"nhiddens": 10**6}, "too large"),
+        ({"nhiddens": 10**4}, "too large"),
     ],
 )
 def test_combinations_are_checked(changes, words):

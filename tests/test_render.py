@@ -10,7 +10,7 @@ import pytest
 
 from botschool.errors import BotschoolError
 from botschool.problems.transition import Transition
-from botschool.render import panel, scene, shapes, video, window
+from botschool.render import panel, scenes, shapes, video, window
 
 STATES = {
     "CartPole-v0": [0.5, 0.0, 0.1, 0.0],
@@ -43,7 +43,7 @@ def where(frame, colour):
 
 @pytest.mark.parametrize("name", STATES)
 def test_every_native_problem_is_drawn_from_its_state(name):
-    drawn = scene.make_scene(name)
+    drawn = scenes.make_scene(name)
     state = np.array(STATES[name])
     frame = drawn.draw(state, np.array([0.5]))
     assert frame.dtype == np.uint8
@@ -57,63 +57,63 @@ def test_every_native_problem_is_drawn_from_its_state(name):
 
 @pytest.mark.parametrize("name", ["Pendulum-v1", "envSwingupCustom", "ErDpole"])
 def test_the_action_is_seen(name):
-    drawn = scene.make_scene(name)
+    drawn = scenes.make_scene(name)
     left, none, right = (drawn.draw(np.array(STATES[name]), a) for a in ([-0.9], None, 0.9))
     assert (left != none).any() and (right != none).any() and (left != right).any()
 
 
 def test_the_force_points_where_the_cart_is_pushed():
-    drawn = scene.make_scene("ErDpole")
+    drawn = scenes.make_scene("ErDpole")
     cart = 300
     left, right = (where(drawn.draw(np.zeros(6), a), shapes.FORCE)[1] for a in (-1.0, 1.0))
     assert left < cart - 25 and right > cart + 25
 
 
 def test_a_positive_angle_of_the_double_pole_leans_right():
-    frame = scene.make_scene("ErDpole").draw(np.array([0.0, 0.0, 0.5, 0.0, -0.5, 0.0]))
+    frame = scenes.make_scene("ErDpole").draw(np.array([0.0, 0.0, 0.5, 0.0, -0.5, 0.0]))
     assert where(frame, shapes.POLE)[1] > 310
     assert where(frame, shapes.SHORT_POLE)[1] < 295
 
 
 def test_a_push_to_the_right_lets_the_swingup_pole_lean_left():
-    drawn = scene.make_scene("envSwingupCustom")
+    drawn = scenes.make_scene("envSwingupCustom")
     assert where(drawn.draw(np.array([0.0, 0.0, 0.5, 0.0])), shapes.POLE)[1] < 295
 
 
 def test_the_swingup_pole_hangs_at_pi():
-    drawn = scene.make_scene("envSwingupCustom")
+    drawn = scenes.make_scene("envSwingupCustom")
     up, down = (where(drawn.draw(np.array([0, 0, a, 0])), shapes.POLE)[0] for a in (0.0, np.pi))
     assert up < 190 and down > 210
 
 
 def test_numbers_that_cannot_be_drawn():
-    drawn = scene.make_scene("CartPole-v1")
+    drawn = scenes.make_scene("CartPole-v1")
     with pytest.raises(BotschoolError, match="not finite"):
         drawn.draw(np.array([np.nan, 0.0, 0.0, 0.0]))
     with pytest.raises(ValueError, match="shape"):
         drawn.draw(np.zeros(3))
-    far = scene.make_scene("ErDpole").draw(np.array([1e30, 0, 1e6, 0, -1e6, 0]), [np.nan])
+    far = scenes.make_scene("ErDpole").draw(np.array([1e30, 0, 1e6, 0, -1e6, 0]), [np.nan])
     assert far.shape == (400, 600, 3)
 
 
 def test_an_unknown_problem_has_no_scene():
     with pytest.raises(BotschoolError, match=r"BipedalWalker-v3.*CartPole-v1"):
-        scene.make_scene("BipedalWalker-v3")
+        scenes.make_scene("BipedalWalker-v3")
 
 
 HEADLESS = """
 import os
 from botschool.errors import BotschoolError
-from botschool.render import scene, window
+from botschool.render import scenes, window
 before = dict(os.environ)
 for name, size in (("CartPole-v1", 4), ("ErDpole", 6)):
-    frame = scene.make_scene(name).draw([0.0] * size)
+    frame = scenes.make_scene(name).draw([0.0] * size)
     assert (frame != 255).any()
 try:
     window.show(iter([frame]), 30, "x")
 except BotschoolError as error:
     print(error)
-scene.make_scene("CartPole-v1").draw([0.0] * 4)
+scenes.make_scene("CartPole-v1").draw([0.0] * 4)
 assert before == dict(os.environ)
 """
 

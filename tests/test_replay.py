@@ -11,7 +11,7 @@ import pytest
 from botschool.errors import BotschoolError
 from botschool.problems.transition import Transition
 from botschool.render import replay
-from botschool.render.scene import make_scene
+from botschool.render.scenes import make_scene
 from browser import Browser, find_browser
 from running import write_experiment
 
@@ -22,8 +22,8 @@ def circling(name, steps=STEPS, seed=0):
     """An episode of the arena's robots, which drive in circles, with made-up readings."""
     scene = make_scene(name)
     rng = np.random.default_rng(seed)
-    side, robots = scene.side, len(scene.bodies)
-    seen = sum(body.observations for body in scene.bodies)
+    side, robots = scene.side, len(scene.looks)
+    seen = sum(look.observations for look in scene.looks)
     for step in range(1, steps + 1):
         angles = step / 10 + np.pi * np.arange(robots)
         poses = np.column_stack(

@@ -7,21 +7,22 @@
 
 #include <optional>
 
+#include "arena/robots/plan.hpp"
 #include "bindings.hpp"
 
 namespace botschool {
 namespace {
 
-nb::dict to_dict(const Robot& robot) {
+nb::dict to_dict(const RobotModel& model) {
   nb::dict d;
-  d["name"] = robot.body->name;
-  d["radius"] = robot.body->radius;
-  d["axle"] = robot.body->axle;
-  d["speed"] = robot.speed;
+  d["name"] = model.name;
+  d["radius"] = model.radius;
+  d["axle"] = model.axle;
+  d["speed"] = model.speed;
   nb::list directions;
-  for (const double direction : robot.body->direction) directions.append(direction);
+  for (const double direction : model.direction) directions.append(direction);
   d["directions"] = directions;
-  d["range"] = robot.body->range;
+  d["range"] = model.range;
   return d;
 }
 
@@ -29,9 +30,14 @@ nb::dict to_dict(const Plan& plan) {
   nb::dict d;
   d["width"] = plan.width;
   d["height"] = plan.height;
-  nb::list robots;
-  for (int r = 0; r < plan.robots; ++r) robots.append(to_dict(plan.robot[r]));
-  d["robots"] = robots;
+  nb::list roles;
+  for (int r = 0; r < plan.robots; ++r) {
+    nb::dict role;
+    role["model"] = plan.role[r].model;
+    role["speed"] = plan.role[r].speed;
+    roles.append(role);
+  }
+  d["roles"] = roles;
   d["cylinders"] = plan.cylinders;
   d["cylinder_radius"] = plan.cylinder_radius;
   d["noise"] = plan.noise;
@@ -50,6 +56,9 @@ nb::dict to_dict(const Info& info) {
   d["high"] = info.high;
   d["seconds"] = info.seconds;
   d["robots"] = info.robots;
+  d["alias"] = info.alias;
+  d["alias_limit"] = info.alias_limit;
+  d["gym"] = info.gym;
   if (info.plan) d["plan"] = to_dict(*info.plan);
   return d;
 }
@@ -66,11 +75,27 @@ struct Table {
   InfraredTable table;
 };
 
-Setting setting_of(int limit, std::optional<double> noise, const Table* wall, const Table* round) {
+/// Choices about an arena; keeps its tables alive through nb::keep_alive.
+struct Options : ArenaOptions {
+  Options(const std::vector<std::string>& robots, std::optional<double> given_noise,
+          const Table* wall, const Table* round) {
+    if (robots.size() > std::size_t(kMaxRobots))
+      throw std::invalid_argument("there are at most " + std::to_string(kMaxRobots) + " robots.");
+    for (std::size_t r = 0; r < robots.size(); ++r) {
+      robot[r] = find_robot(robots[r].c_str());
+      if (!robot[r]) throw std::invalid_argument("there is no robot '" + robots[r] + "'.");
+    }
+    if (given_noise && !(*given_noise >= 0))
+      throw std::invalid_argument("noise must not be negative.");
+    noise = given_noise.value_or(-1);
+    wall_table = wall ? &wall->table : nullptr;
+    round_table = round ? &round->table : nullptr;
+  }
+};
+
+Setting setting_of(int limit, const Options* options) {
   if (limit < 1) throw std::invalid_argument("an episode needs at least one step.");
-  if (noise && !(*noise >= 0)) throw std::invalid_argument("noise must not be negative.");
-  return {limit, noise.value_or(-1), wall ? &wall->table : nullptr,
-          round ? &round->table : nullptr};
+  return {limit, options};
 }
 
 /// `given` genotypes of one network each (one a robot), or genotypes that hold all networks.
@@ -90,8 +115,7 @@ nb::tuple evaluate(const Engine& engine, Matrix<const double> genotypes,
                    Matrix<const std::int32_t> candidates, Vector<const std::uint64_t> seeds,
                    Vector<const std::uint32_t> episodes,
                    std::optional<Vector<const std::uint8_t>> collect, int limit, int threads,
-                   bool heterogeneous, std::optional<double> noise, const Table* wall_table,
-                   const Table* round_table) {
+                   bool heterogeneous, const Options* options) {
   const std::size_t rows = candidates.shape(0), count = candidates.shape(1);
   const std::size_t robots = engine.info().robots;
   const int inputs = engine.layout().spec.inputs;
@@ -108,7 +132,7 @@ nb::tuple evaluate(const Engine& engine, Matrix<const double> genotypes,
     if (c < 0 || std::size_t(c) >= genotypes.shape(0))
       throw std::invalid_argument("there is no candidate " + std::to_string(c) + ".");
   }
-  const Setting setting = setting_of(limit, noise, wall_table, round_table);
+  const Setting setting = setting_of(limit, options);
   if (threads < 1) throw std::invalid_argument("at least one thread is needed.");
 
   std::vector<std::int32_t> chosen;
@@ -166,8 +190,7 @@ struct Tape final : Recorder {
 /// One genotype for all robots, or a row for each.
 nb::dict record(const Engine& engine, Matrix<const double> genotypes,
                 std::optional<Vector<const double>> normalisation, std::uint64_t seed,
-                std::uint32_t episode, int limit, bool heterogeneous, std::optional<double> noise,
-                const Table* wall_table, const Table* round_table) {
+                std::uint32_t episode, int limit, bool heterogeneous, const Options* options) {
   const std::size_t rows = genotypes.shape(0), robots = engine.info().robots;
   const std::size_t offset = offset_of(engine, heterogeneous, rows);
   if (rows != 1 && rows != robots)
@@ -175,7 +198,7 @@ nb::dict record(const Engine& engine, Matrix<const double> genotypes,
   check_genotypes(engine, genotypes.shape(1), offset);
   if (normalisation)
     expect_size(*normalisation, 2 * engine.layout().spec.inputs, "the normalisation vector");
-  std::int32_t candidates[kMostRobots] = {};
+  std::int32_t candidates[kMaxRobots] = {};
   for (std::size_t r = 0; r < rows; ++r) candidates[r] = int(r);
   double fitness = 0;
   std::int32_t steps = 0;
@@ -188,7 +211,7 @@ nb::dict record(const Engine& engine, Matrix<const double> genotypes,
                   &seed,
                   &episode,
                   nullptr,
-                  setting_of(limit, noise, wall_table, round_table),
+                  setting_of(limit, options),
                   &fitness,
                   &steps,
                   nullptr};
@@ -219,6 +242,14 @@ nb::object observation_of(const Stepper& stepper) {
   return to_numpy(std::move(values), {n});
 }
 
+/// Shape (2, observations): the least and the greatest values of a robot's observation.
+nb::object bounds_of(const Stepper& stepper) {
+  const std::size_t n = stepper.info().observations;
+  std::vector<double> values(2 * n);
+  stepper.bounds(values.data(), values.data() + n);
+  return to_numpy(std::move(values), {2, n});
+}
+
 nb::object objects_of(const Stepper& stepper) {
   const std::size_t n = stepper.objects();
   std::vector<double> values(n * kObject);
@@ -237,6 +268,11 @@ void set_objects(Stepper& stepper, Matrix<const double> rows) {
 
 void bind_engine(nb::module_& module) {
   module.def("instruction_sets", &instruction_sets);
+  module.def("robot_models", [] {
+    nb::list list;
+    for (const RobotModel& model : kRobotModels) list.append(to_dict(model));
+    return list;
+  });
   module.def("native_problems", [] {
     nb::list list;
     for (const Info& info : native_problems()) list.append(to_dict(info));
@@ -250,31 +286,34 @@ void bind_engine(nb::module_& module) {
       .def("evaluate", &evaluate, nb::arg("genotypes"), nb::arg("normalisation").none(),
            nb::arg("candidates"), nb::arg("seeds"), nb::arg("episodes"), nb::arg("collect").none(),
            nb::arg("limit"), nb::arg("threads") = 1, nb::arg("heterogeneous") = false,
-           nb::arg("noise").none() = nb::none(), nb::arg("wall_table").none() = nb::none(),
-           nb::arg("round_table").none() = nb::none())
+           nb::arg("options").none() = nb::none())
       .def("record", &record, nb::arg("genotypes"), nb::arg("normalisation").none(),
            nb::arg("seed"), nb::arg("episode"), nb::arg("limit"), nb::arg("heterogeneous") = false,
-           nb::arg("noise").none() = nb::none(), nb::arg("wall_table").none() = nb::none(),
-           nb::arg("round_table").none() = nb::none());
+           nb::arg("options").none() = nb::none());
 
   nb::class_<Table>(module, "Table")
       .def(nb::init<double, double, nb::ndarray<const double, nb::ndim<3>, nb::c_contig>>(),
            nb::arg("first"), nb::arg("step"), nb::arg("values"));
 
+  nb::class_<Options>(module, "ArenaOptions")
+      .def(nb::init<const std::vector<std::string>&, std::optional<double>, const Table*,
+                    const Table*>(),
+           nb::arg("robots") = std::vector<std::string>(), nb::arg("noise").none() = nb::none(),
+           nb::arg("wall_table").none() = nb::none(), nb::arg("round_table").none() = nb::none(),
+           nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>());
+
   nb::class_<Stepper>(module, "Stepper")
       .def(
           "set",
-          [](Stepper& s, int limit, std::optional<double> noise, const Table* wall,
-             const Table* round) { s.set(setting_of(limit, noise, wall, round)); },
-          nb::arg("limit"), nb::arg("noise").none() = nb::none(),
-          nb::arg("wall_table").none() = nb::none(), nb::arg("round_table").none() = nb::none(),
-          nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>())
+          [](Stepper& s, int limit, const Options* options) { s.set(setting_of(limit, options)); },
+          nb::arg("limit"), nb::arg("options").none() = nb::none(), nb::keep_alive<1, 3>())
       .def("start", &Stepper::start, nb::arg("seed"), nb::arg("episode") = 0)
       .def_prop_rw("state", &state_of,
                    [](Stepper& s, Vector<const double> state) {
                      expect_size(state, s.info().states, "the state");
                      s.set_state(state.data());
                    })
+      .def_prop_ro("bounds", &bounds_of)
       .def_prop_ro("observation", &observation_of)
       .def_prop_rw("objects", &objects_of, &set_objects)
       .def("blocked", &Stepper::blocked)

@@ -65,24 +65,23 @@ void set_moments_state(Moments& m, ConstDoubles values) {
 }  // namespace
 
 void bind_evonet(nb::module_& module) {
+  module.def("hyperparameters", [] {
+    nb::list rows;
+#define BOTSCHOOL_ROW(type, name, value, least, greatest, explanation, choices) \
+  rows.append(                                                                  \
+      nb::make_tuple(#name, type(value), type(least), type(greatest), explanation, choices));
+    BOTSCHOOL_HYPERPARAMETERS(BOTSCHOOL_ROW)
+#undef BOTSCHOOL_ROW
+    return rows;
+  });
   nb::class_<Spec>(module, "Spec")
       .def(nb::init<>())
       .def_rw("inputs", &Spec::inputs)
       .def_rw("outputs", &Spec::outputs)
-      .def_rw("nhiddens", &Spec::nhiddens)
-      .def_rw("nlayers", &Spec::nlayers)
-      .def_rw("nhiddens2", &Spec::nhiddens2)
-      .def_rw("bias", &Spec::bias)
-      .def_rw("architecture", &Spec::architecture)
-      .def_rw("afunction", &Spec::afunction)
-      .def_rw("out_type", &Spec::out_type)
-      .def_rw("winit", &Spec::winit)
-      .def_rw("clip", &Spec::clip)
-      .def_rw("normalize", &Spec::normalize)
-      .def_rw("action_noise", &Spec::action_noise)
-      .def_rw("action_noise_range", &Spec::action_noise_range)
-      .def_rw("wrange", &Spec::wrange)
-      .def_rw("nbins", &Spec::nbins)
+#define BOTSCHOOL_BIND(type, name, value, least, greatest, explanation, choices) \
+  .def_rw(#name, &Spec::name)
+          BOTSCHOOL_HYPERPARAMETERS(BOTSCHOOL_BIND)
+#undef BOTSCHOOL_BIND
       .def_rw("low", &Spec::low)
       .def_rw("high", &Spec::high);
 

@@ -14,12 +14,12 @@ the same. The world itself is in lib/arena/robots (FACTS.md section 4).
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from collections.abc import Sequence
 from numbers import Integral, Real
 
 import numpy as np
 
-from botschool import _core, samples
+from botschool import _core, robots, samples
 from botschool.errors import BotschoolError
 from botschool.inifile import nearest, shown
 
@@ -30,22 +30,6 @@ _TASKS = {
 }
 
 
-@dataclass(frozen=True)
-class Robot:
-    """What a robot is built like."""
-
-    name: str
-    radius: float
-    axle: float
-    """Between the wheels."""
-    speed: float
-    """mm/s of a wheel at an action of 1."""
-    directions: tuple[float, ...]
-    """Of the infrared sensors, degrees counter-clockwise from the heading."""
-    range: float
-    """Infrared sensors see no farther than this from the robot's edge."""
-
-
 class Arena:
     """One arena with its robots; `make` makes one.
 
@@ -54,15 +38,17 @@ class Arena:
     it is used.
     """
 
-    def __init__(self, name: str, max_steps: int | None, noise, wall_table, round_table) -> None:
+    def __init__(
+        self, name: str, max_steps: int | None, noise, wall_table, round_table, models
+    ) -> None:
         info = _TASKS[name]
         self.name = name
         self.problem: str = info["name"]
         """Its name in experiment files."""
         self.max_steps = _max_steps(info["limit"] if max_steps is None else max_steps)
         self.width, self.height = info["plan"]["width"], info["plan"]["height"]
-        self.bodies = tuple(_body(robot) for robot in info["plan"]["robots"])
-        """What each robot is built like."""
+        self.models = robots.cast(name, info["plan"], models)
+        """What each robot is built like, botschool.robots.RobotModel."""
         self.cylinders: int = info["plan"]["cylinders"]
         """How many rows of `objects` are cylinders; the others are walls."""
         self.steps = 0
@@ -73,7 +59,8 @@ class Arena:
         """Whether it has ended for another reason than `max_steps`."""
         self._stepper = _core.make_stepper(self.problem)
         tables = [None if t is None else samples.load(t).core() for t in (wall_table, round_table)]
-        self._stepper.set(self.max_steps, _noise(noise), *tables)
+        chosen = [model.name for model in self.models]
+        self._stepper.set(self.max_steps, _core.ArenaOptions(chosen, _noise(noise), *tables))
         self._seed, self._episode = 0, -1
         self._robots = np.zeros((info["robots"], 3))
         self._objects = self._stepper.objects
@@ -181,7 +168,7 @@ class Arena:
         if robot >= 0:
             x, y, _ = self._robots[robot]
             raise BotschoolError(
-                f"Robot {robot}, of radius {self.bodies[robot].radius:g} mm, cannot be at "
+                f"Robot {robot}, of radius {self.models[robot].radius:g} mm, cannot be at "
                 f"({x:.1f}, {y:.1f}): it would overlap a wall, a cylinder or another robot."
             )
 
@@ -211,6 +198,7 @@ def make(
     noise: float | None = None,
     wall_table: str | os.PathLike[str] | None = None,
     round_table: str | os.PathLike[str] | None = None,
+    models: Sequence[str] = (),
 ) -> Arena:
     """The arena of a task, at the start of episode 0 of seed 0.
 
@@ -219,18 +207,17 @@ def make(
     max_steps: longest episode; None is the task's own (500, 2000). noise: standard deviation of
     the infrared readings; None is the task's own (0.03, 0). wall_table, round_table: `.sample`
     files (botschool.samples) with measured readings of walls and of round things; None is the
-    fitted model. Raises BotschoolError.
+    fitted model. models: names of other robots ("e-puck"), one for all or one each; () is the
+    task's own. Raises BotschoolError.
     """
     if not isinstance(name, str) or name not in _TASKS:
         near = nearest(str(name), _TASKS)
         raise BotschoolError(
             f"There is no arena '{shown(name)}': {near}{'' if near.endswith('?') else '.'}"
         )
-    return Arena(name, max_steps, noise, wall_table, round_table)
-
-
-def _body(robot: dict) -> Robot:
-    return Robot(**(robot | {"directions": tuple(robot["directions"])}))
+    if isinstance(models, str):
+        models = (models,)
+    return Arena(name, max_steps, noise, wall_table, round_table, tuple(models))
 
 
 def _max_steps(value) -> int:

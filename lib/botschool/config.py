@@ -22,6 +22,7 @@ from botschool.evolution.algorithms.openaies import OpenAIESConfig
 from botschool.evolution.algorithms.sss import SSSConfig
 from botschool.hyperparameters import NO_YES, PolicyConfig, hyper
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
+from botschool.robots import MODELS, find
 
 __all__ = [
     "NO_YES",
@@ -48,6 +49,11 @@ class Exp:
         "OpenAI-ES",
         "the evolutionary algorithm",
         choices={name: ALGORITHMS[name].explanation for name in sorted(ALGORITHMS)},
+    )
+    robots: str = hyper(
+        "",
+        "other wheeled robots than the problem's own, one kind for all or one each",
+        each=MODELS,
     )
 
 
@@ -108,6 +114,14 @@ def competitive(experiment: Experiment) -> bool:
     return ALGORITHMS[experiment.exp.algo].competitive
 
 
+def defaults(experiment: Experiment) -> dict[str, dict[str, Any]]:
+    """The defaults of all its hyperparameters that have one, as in to_dict."""
+    return {
+        part: {f.name: f.default for f in fields(getattr(experiment, part))}
+        for part in ("exp", "policy", "algo")
+    }
+
+
 def free(experiment: Experiment) -> set[tuple[str, str]]:
     """(section, key), as in to_dict, of what may change when a run is resumed."""
     return {("algo", f.name) for f in fields(experiment.algo) if f.metadata.get("free")}
@@ -160,8 +174,8 @@ def _build(cls: type, section: str, entries: dict[str, Entry], path: str | PathL
             raise refusal(path, entry.line, _unknown(entry.key, section, cls))
         try:
             values[known[key].name] = _value(known[key], entry)
-        except ValueError as error:
-            raise refusal(path, entry.line, str(error)) from None
+        except (ValueError, BotschoolError) as error:
+            raise refusal(path, entry.line, str(error).rstrip(".")) from None
     for f in fields(cls):
         if f.default is MISSING and f.name not in values:
             raise refusal(
@@ -174,6 +188,8 @@ def _value(f: Field, entry: Entry) -> Any:
     """The entry's value, in the type and the limits that `f` declares; ValueError otherwise."""
     raw, limits = entry.value, f.metadata
     said = f"{entry.key} = {shown(raw)}"
+    if raw == "" and f.default == "":
+        return ""
     if raw == "":
         raise ValueError(f"{entry.key} has no value: it needs {_allowed(f)}")
     if f.default is MISSING or isinstance(f.default, str):
@@ -203,6 +219,8 @@ def _value(f: Field, entry: Entry) -> Any:
 
 def _text(f: Field, raw: Any, said: str) -> str:
     """The value of a hyperparameter that is a text: one of its choices, or a name."""
+    if "each" in f.metadata:
+        return ", ".join(find(name.strip()).name for name in str(raw).split(","))
     choices = {choice.lower(): choice for choice in f.metadata.get("choices", [])}
     if not choices:
         if not isinstance(raw, str) or not re.fullmatch(r"[\w./:-]+", raw, re.ASCII):
@@ -233,6 +251,8 @@ def _allowed(f: Field) -> str:
         return f"{', '.join(most)} or {last}"
     if f.default is MISSING:
         return "a name such as CartPole-v1"
+    if "each" in limits:
+        return f"names separated by commas, of {', '.join(limits['each'])}"
     kind = "a whole number" if isinstance(f.default, int) else "a number"
     if "above" in limits:
         return f"{kind} above {limits['above']}, at most {limits['high']:.0f}"

@@ -7,55 +7,16 @@ and hands them over. Evolution itself uses neither: it evaluates whole episodes 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import fields, make_dataclass
 from numbers import Integral, Real
 
 import numpy as np
 
 from botschool import _core
+from botschool.hyperparameters import NETWORK, PolicyConfig
 
 
-@dataclass(frozen=True)
-class NetworkSpec:
-    """What a policy network looks like. Raises ValueError or TypeError with a sentence."""
-
-    inputs: int
-    """Values of an observation."""
-    outputs: int
-    """Actuators (or, for a discrete problem, actions)."""
-    nhiddens: int = 50
-    """Hidden neurons per layer; 0 connects inputs straight to outputs."""
-    nlayers: int = 1
-    """Hidden layers; recurrent networks and LSTMs have one."""
-    nhiddens2: int = 0
-    """Neurons of the second of two layers; 0: as many as in the first."""
-    bias: int = 0
-    """1: hidden and output neurons have a bias."""
-    architecture: int = 0
-    """0 feed-forward, 1 recurrent, 2 fully recurrent, 3 LSTM."""
-    afunction: int = 2
-    """Activation of hidden neurons: 1 logistic, 2 tanh, 3 linear."""
-    out_type: int = 2
-    """Activation of outputs: 1 logistic, 2 tanh, 3 linear, 4 binary."""
-    winit: int = 0
-    """Initial weights: 0 Xavier, 1 norm-incoming, 2 uniform."""
-    clip: int = 0
-    """1: inputs are clamped to [-5, 5], after any normalisation."""
-    normalize: int = 0
-    """1: inputs are normalised by running means and deviations."""
-    action_noise: int = 0
-    """0 none, 1 Gaussian, 2 diagonal Gaussian with evolved deviations."""
-    action_noise_range: float = 0.01
-    """Standard deviation of Gaussian action noise."""
-    wrange: float = 1.0
-    """Uniform initial weights are in [-wrange, wrange]."""
-    nbins: int = 1
-    """More than 1: output neurons per actuator; the most active one chooses the action."""
-    low: float = -1.0
-    """Smallest action, for bins."""
-    high: float = 1.0
-    """Largest action, for bins."""
-
+class _Spec:
     def __post_init__(self) -> None:
         self.core()
 
@@ -64,9 +25,26 @@ class NetworkSpec:
         spec = _core.Spec()
         for field in fields(self):
             value = getattr(self, field.name)
-            setattr(spec, field.name, _number(field.name, value, field.type == "int"))
+            setattr(spec, field.name, _number(field.name, value, field.type is int))
         _core.Evonet(spec)
         return spec
+
+
+def _fields() -> list[tuple]:
+    plain = [(name, int) for name in ("inputs", "outputs")]
+    network = [(f.name, f.type, f.default) for f in fields(PolicyConfig) if f.name in NETWORK]
+    return [*plain, *network, ("low", float, -1.0), ("high", float, 1.0)]
+
+
+NetworkSpec = make_dataclass(
+    "NetworkSpec", _fields(), bases=(_Spec,), frozen=True, namespace={"__module__": __name__}
+)
+NetworkSpec.__doc__ = f"""What a policy network looks like. Raises ValueError or TypeError.
+
+inputs: values of an observation. outputs: actuators, or the actions of a discrete problem. low,
+high: smallest and largest action, for bins. The others are the hyperparameters of networks in
+experiment files, with their defaults: {", ".join(NETWORK)}.
+"""
 
 
 class Network:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from botschool.errors import BotschoolError
-from botschool.hyperparameters import PolicyConfig
+from botschool.hyperparameters import NETWORK, PolicyConfig
 from botschool.net import Network, NetworkSpec
 
 
@@ -58,20 +58,7 @@ class Policy:
             self.spec = NetworkSpec(
                 inputs=interface.observations,
                 outputs=interface.outputs,
-                nhiddens=config.nhiddens,
-                nlayers=config.nlayers,
-                nhiddens2=config.nhiddens2,
-                bias=config.bias,
-                architecture=config.architecture,
-                afunction=config.afunction,
-                out_type=config.out_type,
-                winit=config.winit,
-                clip=config.clip,
-                normalize=config.normalize,
-                action_noise=config.action_noise,
-                action_noise_range=config.action_noise_range,
-                wrange=config.wrange,
-                nbins=config.nbins,
+                **{name: getattr(config, name) for name in NETWORK},
                 low=-1.0 if interface.low is None else interface.low,
                 high=1.0 if interface.high is None else interface.high,
             )

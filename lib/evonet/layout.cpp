@@ -24,19 +24,10 @@ void check(const char* name, double value, double low, double high) {
 void check_spec(const Spec& s) {
   check("inputs", s.inputs, 1, 1e6);
   check("outputs", s.outputs, 1, 1e6);
-  check("nhiddens", s.nhiddens, 0, 1e6);
-  check("nlayers", s.nlayers, 1, kMaxLayers);
-  check("bias", s.bias, 0, 1);
-  check("architecture", s.architecture, 0, 3);
-  check("afunction", s.afunction, 1, 3);
-  check("out_type", s.out_type, 1, 4);
-  check("winit", s.winit, 0, 2);
-  check("clip", s.clip, 0, 1);
-  check("normalize", s.normalize, 0, 1);
-  check("action_noise", s.action_noise, 0, 2);
-  check("action_noise_range", s.action_noise_range, 0, 1e6);
-  check("wrange", s.wrange, 0, 1e6);
-  check("nbins", s.nbins, 1, 1000);
+#define BOTSCHOOL_CHECK(type, name, value, least, greatest, explanation, choices) \
+  check(#name, s.name, least, greatest);
+  BOTSCHOOL_HYPERPARAMETERS(BOTSCHOOL_CHECK)
+#undef BOTSCHOOL_CHECK
   if (!std::isfinite(s.low) || !std::isfinite(s.high))
     throw std::invalid_argument("low and high must be finite numbers.");
   if (s.nbins > 1 && !(s.low < s.high))

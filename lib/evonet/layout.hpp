@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "hyperparameters.hpp"
+
 namespace botschool {
 
 enum Architecture { feedforward = 0, recurrent = 1, fully_recurrent = 2, lstm = 3 };
@@ -11,25 +13,15 @@ enum Activation { logistic_unit = 1, tanh_unit = 2, linear_unit = 3, binary_unit
 enum ActionNoise { no_noise = 0, gaussian_noise = 1, diagonal_gaussian_noise = 2 };
 enum InitialWeights { xavier = 0, norm_incoming = 1, uniform_weights = 2 };
 
-/// The hyperparameters of a policy network, as in an experiment file's [POLICY].
+/// What a policy network looks like.
 struct Spec {
   int inputs = 1;
-  int outputs = 1;   ///< actuators: outputs before binning
-  int nhiddens = 0;  ///< hidden neurons a layer
-  int nlayers = 1;
-  int nhiddens2 = 0;  ///< neurons of the second of two layers; 0: as the first
-  int bias = 0;
-  int architecture = feedforward;
-  int afunction = tanh_unit;
-  int out_type = tanh_unit;
-  int winit = xavier;
-  int clip = 0;
-  int normalize = 0;
-  int action_noise = no_noise;
-  double action_noise_range = 0.01;
-  double wrange = 1.0;
-  int nbins = 1;
+  int outputs = 1;                ///< actuators: outputs before binning
   double low = -1.0, high = 1.0;  ///< range of a binned action
+#define BOTSCHOOL_MEMBER(type, name, value, least, greatest, explanation, choices) \
+  type name = value;
+  BOTSCHOOL_HYPERPARAMETERS(BOTSCHOOL_MEMBER)
+#undef BOTSCHOOL_MEMBER
 };
 
 constexpr int kMaxLayers = 16;

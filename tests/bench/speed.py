@@ -56,7 +56,7 @@ class Batch:
 
     def __init__(self, experiment: Experiment, episodes: int, instruction_set: str = "") -> None:
         self.experiment = experiment
-        self.problem = NativeProblem(experiment.exp.environment, instruction_set)
+        self.problem = NativeProblem(experiment.exp.environment, instruction_set=instruction_set)
         self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
         self.genotypes = np.array([self.policy.initial(SEED, i) for i in range(episodes)])
         self.episodes = Episodes.of(np.arange(episodes), 1)

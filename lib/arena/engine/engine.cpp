@@ -4,14 +4,14 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <limits>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
-#include <type_traits>
 
 #include "cpu.hpp"
+#include "generated/problem_list.hpp"
 #include "kernel.hpp"
-#include "../problems.hpp"
 
 namespace botschool {
 namespace {
@@ -50,7 +50,7 @@ class SharedQueue final : public Queue {
 };
 
 template <template <int> class Problem>
-class ProblemStepper : public Stepper {
+class ProblemStepper final : public Stepper {
  public:
   ProblemStepper() {
     ProblemStepper::set({Problem<1>::info().limit});
@@ -69,65 +69,32 @@ class ProblemStepper : public Stepper {
   void get_state(double* state) const override {
     for (int i = 0; i < info().states; ++i) state[i] = problem_.state[i][0];
   }
+  void bounds(double* low, double* high) const override {
+    std::fill(low, low + info().observations, -std::numeric_limits<double>::infinity());
+    std::fill(high, high + info().observations, std::numeric_limits<double>::infinity());
+    problem_.bounds(low, high);
+  }
   void observe(double* observation) const override { problem_.observe(observation); }
   bool step(const double* action, double& reward) override {
     std::int64_t ended = 0;
     problem_.step(action, &reward, &ended);
     return ended != 0;
   }
+  int objects() const override { return problem_.objects(); }
+  void get_objects(double* rows) const override { problem_.get_objects(rows); }
+  void set_objects(const double* rows) override { problem_.set_objects(rows); }
+  int blocked() const override { return problem_.blocked(); }
 
- protected:
+ private:
   Problem<1> problem_{};
 };
-
-/// With the objects of an arena; where its cylinders are is part of the state, too.
-template <template <int> class Problem>
-class ArenaStepper final : public ProblemStepper<Problem> {
-  using P = Problem<1>;
-  using ProblemStepper<Problem>::problem_;
-
-  int objects() const override { return P::cylinders + P::walls; }
-  void get_objects(double* row) const override {
-    for (int c = 0; c < P::cylinders; ++c, row += kObject) {
-      const double values[]{problem_.cylinder_x(c)[0], problem_.cylinder_y(c)[0], 0, 0,
-                            problem_.radius[c]};
-      std::copy(values, values + kObject, row);
-    }
-    for (const Wall& wall : problem_.wall) {
-      const double values[]{wall.x, wall.y, wall.x2, wall.y2, 0};
-      std::copy(values, values + kObject, row);
-      row += kObject;
-    }
-  }
-  void set_objects(const double* row) override {
-    for (int c = 0; c < P::cylinders; ++c, row += kObject) {
-      problem_.place_cylinder(0, c, row[0], row[1]);
-      problem_.radius[c] = row[4];
-    }
-    for (Wall& wall : problem_.wall) {
-      wall = {row[0], row[1], row[2], row[3]};
-      row += kObject;
-    }
-  }
-  int blocked() const override {
-    for (int robot = 0; robot < P::robots; ++robot)
-      if (problem_.blocked(robot, 0)) return robot;
-    return -1;
-  }
-};
-
-template <template <int> class Problem>
-std::unique_ptr<Stepper> new_stepper() {
-  if constexpr (std::is_base_of_v<Arena, Problem<1>>)
-    return std::make_unique<ArenaStepper<Problem>>();
-  else
-    return std::make_unique<ProblemStepper<Problem>>();
-}
 
 template <template <int> class... Problem>
 std::unique_ptr<Stepper> find_stepper(const std::string& name, ProblemList<Problem...>) {
   std::unique_ptr<Stepper> found;
-  ((Problem<1>::info().name == name ? void(found = new_stepper<Problem>()) : void()), ...);
+  ((Problem<1>::info().name == name ? void(found = std::make_unique<ProblemStepper<Problem>>())
+                                    : void()),
+   ...);
   return found;
 }
 

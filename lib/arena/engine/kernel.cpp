@@ -3,7 +3,7 @@
 // that the machine lacks.
 #include "kernel.hpp"
 
-#include "../problems.hpp"
+#include "generated/problem_list.hpp"
 #include "rollout.hpp"
 
 namespace botschool {

@@ -1,63 +1,76 @@
-// What a native problem is. A problem is a class template on the number of lanes L with
+// What a native problem is: a header in arena/problems with a class template on the number of lanes L
+//   struct Name : ProblemBase                       defaults of all that is optional
 //   static Info info();                             facts about it
 //   double state[states][L];                        the state, one column a lane
-//   void set(const Setting& setting);               once, before anything else
 //   void start(int lane, Random& random);           start of an episode
-//   void refresh(int lane);                         recompute what is derived from a changed state
 //   void observe(T* out) const;                     out[i * L + lane]: observation i
 //   void step(const double* action, double* reward, std::int64_t* ended);
-// where action[o * L + lane] is actuator o (or, for a discrete problem, the index of the action);
-// with several robots, first all observations or actuators of one, then those of the next.
-// All lanes step together; what an ended lane does until it is refilled does not matter.
+// and the line BOTSCHOOL_PROBLEM(Name), by which the build finds it. action[o * L + lane] is actuator o
+// (or, for a discrete problem, the index of the action); with several robots, first all observations or
+// actuators of one, then those of the next. All lanes step together; what an ended lane does until it
+// is refilled does not matter.
 #pragma once
 
 #include <cstdint>
 
 #include "../../evonet/philox.hpp"
-#include "../robots/plan.hpp"
+
+/// Read by lib/CMakeLists.txt, which lists all problems.
+#define BOTSCHOOL_PROBLEM(Name)
 
 namespace botschool {
 
-struct Info {
-  const char* name;
-  int observations;  ///< of one robot
-  int outputs;       ///< actuators of one robot, or the number of actions of a discrete problem
-  int states;
-  int limit;  ///< longest episode, in steps
-  bool discrete;
-  double low, high;  ///< range of the actions
-  double seconds;    ///< of one step
-  int robots = 1;
-  const Plan* plan = nullptr;  ///< of an arena with wheeled robots
-};
+struct Plan;          // an arena with wheeled robots: robots/plan.hpp
+struct ArenaOptions;  // what its user may choose
 
-/// A measured infrared table, shape (distances, angles, kInfrared): what the sensors read of an
-/// object in a direction (index 0 is straight ahead, counter-clockwise) at a distance.
-struct InfraredTable {
-  int distances, angles;
-  double first, step;  ///< distances between surfaces, mm
-  const double* values;
+/// Robots in a problem, one network each.
+constexpr int kMaxRobots = 4;
+
+struct Info {
+  const char* name = "";
+  int observations = 1;  ///< of one robot
+  int outputs = 1;       ///< actuators of one robot, or the number of actions of a discrete problem
+  int states = 1;
+  int limit = 1000;           ///< longest episode, in steps
+  bool discrete = false;      ///< an action is one of `outputs` choices
+  double low = -1, high = 1;  ///< range of the actuators
+  double seconds = 0.02;      ///< of one step
+  int robots = 1;
+  const char* alias = "";  ///< another name, with
+  int alias_limit = 0;     ///< another longest episode
+  const char* gym = "";    ///< id of its Gymnasium face; "": `name` itself, or botschool/name
+  const Plan* plan = nullptr;
 };
 
 /// What the caller may choose about an episode.
 struct Setting {
-  int limit;                                   ///< longest episode, in steps
-  double noise = -1;                           ///< of the sensors; negative: the problem's own
-  const InfraredTable* wall_table = nullptr;   ///< measured readings of walls, or null: the model
-  const InfraredTable* round_table = nullptr;  ///< of cylinders and robots
+  int limit;                            ///< longest episode, in steps
+  const ArenaOptions* arena = nullptr;  ///< or null: the problem's own
 };
+
+/// A row of what stands in an arena: x, y, x2, y2, radius.
+constexpr int kObject = 5;
 
 }  // namespace botschool
 
 BOTSCHOOL_BEGIN
 
-/// What problems inherit.
-struct AnyProblem {
+/// What problems inherit: defaults that a problem may hide by members of its own.
+struct ProblemBase {
+  /// Once, before anything else.
   void set(const Setting&) {}
+  /// Recomputes what is derived from a state that was changed from outside.
+  void refresh(int) {}
+  /// Writes the least and the greatest value of each observation of a robot, where there are such;
+  /// the arrays come with infinities.
+  void bounds(double*, double*) const {}
+  /// What stands in an arena, as rows of kObject values (one lane).
+  int objects() const { return 0; }
+  void get_objects(double*) const {}
+  void set_objects(const double*) {}
+  /// The first robot that overlaps something where it stands, or -1 (one lane).
+  int blocked() const { return -1; }
 };
-
-/// What arenas with wheeled robots inherit.
-struct Arena : AnyProblem {};
 
 constexpr double radians(double degrees) { return degrees * (kPi / 180); }
 

@@ -72,8 +72,8 @@ class Rollout {
   using Memory = BrainMemory<Real, L>;
 
   static std::size_t workspace(const Layout& layout) {
-    return kHeader + kRobots() * brain_bytes(layout) + observation_bytes(layout) +
-           moments_bytes(layout);
+    return kHeader + robots() * brain_bytes(layout) + observation_bytes(layout) +
+           moments_bytes(layout) + action_bytes() + record_bytes();
   }
 
   static void run(const Layout& layout, const Jobs& jobs, Queue& queue, Recorder* recorder,
@@ -88,15 +88,26 @@ class Rollout {
 
  private:
   static constexpr std::size_t kHeader = (sizeof(Problem<L>) + 63) / 64 * 64;
-  static int kRobots() { return Problem<L>::info().robots; }
+  static int robots() { return Problem<L>::info().robots; }
   static std::size_t brain_bytes(const Layout& layout) {
     return (Memory::size(layout) * sizeof(Real) + 63) / 64 * 64;
   }
   static std::size_t observation_bytes(const Layout& layout) {
-    return (kRobots() * layout.spec.inputs * L * sizeof(Real) + 63) / 64 * 64;
+    return (robots() * layout.spec.inputs * L * sizeof(Real) + 63) / 64 * 64;
   }
   static std::size_t moments_bytes(const Layout& layout) {
     return 2 * layout.spec.inputs * L * sizeof(double);
+  }
+  /// Actuators of a robot.
+  static int actuators() {
+    const Info info = Problem<L>::info();
+    return info.discrete ? 1 : info.outputs;
+  }
+  static std::size_t action_bytes() { return robots() * actuators() * L * sizeof(double); }
+  /// Observations, actions and state of one lane.
+  static std::size_t record_bytes() {
+    const Info info = Problem<L>::info();
+    return (robots() * (info.observations + actuators()) + kStates) * sizeof(double);
   }
 
   Rollout(const Layout& layout, const Jobs& jobs, Queue& queue, Recorder* recorder,
@@ -112,6 +123,8 @@ class Rollout {
       shared_[r] = -1;
     }
     moments_ = reinterpret_cast<double*>(bytes);
+    action_ = moments_ + 2 * layout.spec.inputs * L;
+    record_ = action_ + robots_ * actions_ * L;
   }
 
   void run() {
@@ -159,9 +172,8 @@ class Rollout {
       for (int i = 0; i < 2 * layout_.spec.inputs; ++i) moments_[i * L + lane] = 0;
     }
     if (recorder_ && lane == 0) {
-      double state[kMost];
-      for (int i = 0; i < kStates; ++i) state[i] = problem_.state[i][0];
-      recorder_->start(state);
+      for (int i = 0; i < kStates; ++i) record_[i] = problem_.state[i][0];
+      recorder_->start(record_);
     }
   }
 
@@ -227,49 +239,50 @@ class Rollout {
 
   void choose_actions(int robot) {
     const Real* chosen = memory_[robot].actions;
-    double* action = action_ + robot * kActions * L;
+    double* action = action_ + robot * actions_ * L;
     if (Problem<L>::info().discrete) {
       int winner[L];
       Brain<Real, L>::argmax(chosen, layout_.spec.outputs, winner);
       for (int l = 0; l < L; ++l) action[l] = winner[l];
     } else {
-      for (int i = 0; i < kActions * L; ++i) action[i] = chosen[i];
+      for (int i = 0; i < actions_ * L; ++i) action[i] = chosen[i];
     }
   }
 
   void record() {
     if (job_[0] < 0) return;
-    double observation[kMost], action[kMost], state[kMost];
-    for (int i = 0; i < robots_ * kObservations; ++i) observation[i] = observations_[i * L];
-    for (int i = 0; i < robots_ * kActions; ++i) action[i] = action_[i * L];
+    double* observation = record_;
+    double* action = observation + robots_ * layout_.spec.inputs;
+    double* state = action + robots_ * actions_;
+    for (int i = 0; i < robots_ * layout_.spec.inputs; ++i) observation[i] = observations_[i * L];
+    for (int i = 0; i < robots_ * actions_; ++i) action[i] = action_[i * L];
     for (int i = 0; i < kStates; ++i) state[i] = problem_.state[i][0];
     for (int r = 0; r < robots_; ++r) recorder_->neurons(memory_[r].activations, L);
     recorder_->step(observation, action, state, reward_[0]);
   }
 
-  static constexpr int kMost = 64;
   static constexpr int kStates = sizeof(Problem<1>::state) / sizeof(double);
-  const int robots_ = kRobots();
-  const int kActions = Problem<L>::info().discrete ? 1 : Problem<L>::info().outputs;
-  const int kObservations = Problem<L>::info().observations;
+  const int robots_ = robots();
+  const int actions_ = actuators();
 
   const Layout& layout_;
   const Jobs& jobs_;
   Queue& queue_;
   Recorder* recorder_;
   Problem<L>& problem_;
-  Memory memory_[kMostRobots];
+  Memory memory_[kMaxRobots];
   Real* observations_;
-  double* moments_;
+  double* moments_;  ///< [2 * inputs * L]
+  double* action_;   ///< [robots * actuators * L]
+  double* record_;   ///< for the recorder
 
-  alignas(64) double action_[kMost * L];
   alignas(64) double reward_[L], total_[L];
   alignas(64) std::int64_t ended_[L];
   alignas(64) int steps_[L];
-  NoiseKey keys_[kMostRobots][L];
+  NoiseKey keys_[kMaxRobots][L];
   std::ptrdiff_t job_[L];
-  std::int32_t candidate_[kMostRobots][L];
-  std::int32_t shared_[kMostRobots];  ///< whose parameters all lanes can share
+  std::int32_t candidate_[kMaxRobots][L];
+  std::int32_t shared_[kMaxRobots];  ///< whose parameters all lanes can share
   int active_ = 0, collecting_ = 0;
 };
 

@@ -7,8 +7,20 @@
 BOTSCHOOL_BEGIN
 
 template <int L>
-struct Acrobot : AnyProblem {
-  static Info info() { return {"Acrobot-v1", 6, 3, 4, 500, true, 0, 2, 0.2}; }
+struct Acrobot : ProblemBase {
+  static Info info() {
+    Info info;
+    info.name = "Acrobot-v1";
+    info.observations = 6;
+    info.outputs = 3;
+    info.states = 4;
+    info.limit = 500;
+    info.discrete = true;
+    info.low = 0;
+    info.high = 2;
+    info.seconds = 0.2;
+    return info;
+  }
 
   double state[4][L];  // theta1 (0 hangs), theta2 (against link 1), theta1', theta2'
   double sine1[L], cosine1[L], sine2[L], cosine2[L];
@@ -89,3 +101,5 @@ struct Acrobot : AnyProblem {
 };
 
 BOTSCHOOL_END
+
+BOTSCHOOL_PROBLEM(Acrobot)

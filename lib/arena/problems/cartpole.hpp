@@ -6,15 +6,26 @@
 BOTSCHOOL_BEGIN
 
 template <int L>
-struct CartPole : AnyProblem {
-  static Info info() { return {"CartPole-v1", 4, 2, 4, 500, true, 0, 1, 0.02}; }
+struct CartPole : ProblemBase {
+  static Info info() {
+    Info info;
+    info.name = "CartPole-v1";
+    info.alias = "CartPole-v0";
+    info.alias_limit = 200;
+    info.observations = 4;
+    info.outputs = 2;
+    info.states = 4;
+    info.limit = 500;
+    info.discrete = true;
+    info.seconds = 0.02;
+    return info;
+  }
 
   double state[4][L];  // x, x', theta, theta' (0 is upright)
 
   void start(int lane, Random& random) {
     for (auto& value : state) value[lane] = random.uniform(-0.05, 0.05);
   }
-  void refresh(int) {}
 
   template <class T>
   void observe(T* BOTSCHOOL_RESTRICT out) const {
@@ -48,3 +59,5 @@ struct CartPole : AnyProblem {
 };
 
 BOTSCHOOL_END
+
+BOTSCHOOL_PROBLEM(CartPole)

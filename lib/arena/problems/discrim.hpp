@@ -5,15 +5,24 @@
 
 BOTSCHOOL_BEGIN
 
-inline constexpr Plan kDiscrim{400, 400, 1, {{&kKhepera, 144}}, 0.03, 1, 12.5};
+inline constexpr Plan kDiscrim{400, 400, 1, {{"Khepera"}}, 0.03, 1, 12.5};
 
 template <int L>
 struct Discrim : World<L, kDiscrim> {
   using Senses = Noisy<Infrared>;
   static Info info() {
-    return {"ErDiscrim", Senses::size, 2, Discrim::kRows, 500, false, -1,
-            1,           kStepSeconds, 1, &kDiscrim};
+    Info info;
+    info.name = "ErDiscrim";
+    info.gym = "botschool/Discrim-v0";
+    info.observations = Senses::size;
+    info.outputs = 2;
+    info.states = Discrim::kRows;
+    info.limit = 500;
+    info.seconds = kStepSeconds;
+    info.plan = &kDiscrim;
+    return info;
   }
+  void bounds(double* low, double* high) const { Senses::bounds(*this, 0, low, high); }
 
   void start(int lane, Random& random) {
     this->begin(lane, random);
@@ -33,7 +42,7 @@ struct Discrim : World<L, kDiscrim> {
     Bump<L> bump;
     this->drive(0, action, action + L, bump);
     this->tick();
-    const double near = kKhepera.radius + this->radius[0] + 60;
+    const double near = this->model[0]->radius + this->radius[0] + 60;
     for (int l = 0; l < L; ++l) {
       const double dx = this->x(0)[l] - this->cylinder_x(0)[l];
       const double dy = this->y(0)[l] - this->cylinder_y(0)[l];
@@ -44,3 +53,5 @@ struct Discrim : World<L, kDiscrim> {
 };
 
 BOTSCHOOL_END
+
+BOTSCHOOL_PROBLEM(Discrim)

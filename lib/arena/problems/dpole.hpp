@@ -7,8 +7,18 @@
 BOTSCHOOL_BEGIN
 
 template <int L>
-struct DoublePole : AnyProblem {
-  static Info info() { return {"ErDpole", 3, 1, 6, 1000, false, -1, 1, 0.02}; }
+struct DoublePole : ProblemBase {
+  static Info info() {
+    Info info;
+    info.name = "ErDpole";
+    info.gym = "botschool/DoublePole-v0";
+    info.observations = 3;
+    info.outputs = 1;
+    info.states = 6;
+    info.limit = 1000;
+    info.seconds = 0.02;
+    return info;
+  }
 
   double state[6][L];  // x, x', theta1, theta1', theta2, theta2' (0 is upright)
 
@@ -16,7 +26,6 @@ struct DoublePole : AnyProblem {
     const double range[6] = {1.944, 1.215, 0.10472, 0.135088, 0.10472, 0.135088};
     for (int i = 0; i < 6; ++i) state[i][lane] = random.uniform(-range[i], range[i]);
   }
-  void refresh(int) {}
 
   template <class T>
   void observe(T* BOTSCHOOL_RESTRICT out) const {
@@ -80,3 +89,5 @@ struct DoublePole : AnyProblem {
 };
 
 BOTSCHOOL_END
+
+BOTSCHOOL_PROBLEM(DoublePole)

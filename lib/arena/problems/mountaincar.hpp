@@ -7,8 +7,17 @@
 BOTSCHOOL_BEGIN
 
 template <int L>
-struct MountainCarContinuous : AnyProblem {
-  static Info info() { return {"MountainCarContinuous-v0", 2, 1, 2, 999, false, -1, 1, 1.0 / 30}; }
+struct MountainCarContinuous : ProblemBase {
+  static Info info() {
+    Info info;
+    info.name = "MountainCarContinuous-v0";
+    info.observations = 2;
+    info.outputs = 1;
+    info.states = 2;
+    info.limit = 999;
+    info.seconds = 1.0 / 30;
+    return info;
+  }
 
   double state[2][L];  // position, velocity
 
@@ -16,7 +25,6 @@ struct MountainCarContinuous : AnyProblem {
     state[0][lane] = random.uniform(-0.6, -0.4);
     state[1][lane] = 0.0;
   }
-  void refresh(int) {}
 
   template <class T>
   void observe(T* BOTSCHOOL_RESTRICT out) const {
@@ -42,3 +50,5 @@ struct MountainCarContinuous : AnyProblem {
 };
 
 BOTSCHOOL_END
+
+BOTSCHOOL_PROBLEM(MountainCarContinuous)

@@ -6,8 +6,21 @@
 BOTSCHOOL_BEGIN
 
 template <int L>
-struct Pendulum : AnyProblem {
-  static Info info() { return {"Pendulum-v1", 3, 1, 2, 200, false, -2, 2, 0.05}; }
+struct Pendulum : ProblemBase {
+  static Info info() {
+    Info info;
+    info.name = "Pendulum-v1";
+    info.alias = "Pendulum-v0";
+    info.alias_limit = 200;
+    info.observations = 3;
+    info.outputs = 1;
+    info.states = 2;
+    info.limit = 200;
+    info.low = -2;
+    info.high = 2;
+    info.seconds = 0.05;
+    return info;
+  }
 
   double state[2][L];  // theta (0 is upright, unbounded), theta'
   double sine[L], cosine[L];
@@ -47,3 +60,5 @@ struct Pendulum : AnyProblem {
 };
 
 BOTSCHOOL_END
+
+BOTSCHOOL_PROBLEM(Pendulum)

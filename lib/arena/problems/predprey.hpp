@@ -5,15 +5,24 @@
 
 BOTSCHOOL_BEGIN
 
-inline constexpr Plan kPredprey{3000, 3000, 2, {{&kMarxbot, 400}, {&kMarxbot, 500}}, 0};
+inline constexpr Plan kPredprey{3000, 3000, 2, {{"marXbot", 400}, {"marXbot", 500}}, 0};
 
 template <int L>
 struct Predprey : World<L, kPredprey> {
   using Senses = Suite<Infrared, Camera, Ground, Time, Bias>;
   static Info info() {
-    return {"ErPredprey", Senses::size, 2, Predprey::kRows, 2000, false, -1, 1, kStepSeconds, 2,
-            &kPredprey};
+    Info info;
+    info.name = "ErPredprey";
+    info.observations = Senses::size;
+    info.outputs = 2;
+    info.states = Predprey::kRows;
+    info.limit = 2000;
+    info.seconds = kStepSeconds;
+    info.robots = 2;
+    info.plan = &kPredprey;
+    return info;
   }
+  void bounds(double* low, double* high) const { Senses::bounds(*this, 0, low, high); }
 
   void start(int lane, Random& random) {
     this->begin(lane, random);
@@ -36,10 +45,12 @@ struct Predprey : World<L, kPredprey> {
     this->tick();
     for (int l = 0; l < L; ++l) {
       ended[l] = predator.robot[l] | prey.robot[l];
-      const double left = 1 - this->state[Predprey::kSteps][l] / this->setting.limit;
+      const double left = 1 - this->state[Predprey::kSteps][l] / this->limit;
       reward[l] = ended[l] ? left : 0;
     }
   }
 };
 
 BOTSCHOOL_END
+
+BOTSCHOOL_PROBLEM(Predprey)

@@ -6,8 +6,22 @@
 BOTSCHOOL_BEGIN
 
 template <int L>
-struct Swingup : AnyProblem {
-  static Info info() { return {"envSwingupCustom", 5, 1, 4, 1000, false, -1, 1, 0.01}; }
+struct Swingup : ProblemBase {
+  static Info info() {
+    Info info;
+    info.name = "envSwingupCustom";
+    info.gym = "botschool/SwingUp-v0";
+    info.observations = 5;
+    info.outputs = 1;
+    info.states = 4;
+    info.limit = 1000;
+    info.seconds = 0.01;
+    return info;
+  }
+  void bounds(double* low, double* high) const {
+    low[2] = low[3] = -1;  // cosine and sine of the angle
+    high[2] = high[3] = 1;
+  }
 
   double state[4][L];  // x, x', theta (0 is upright), theta'
   double sine[L], cosine[L];
@@ -58,3 +72,5 @@ struct Swingup : AnyProblem {
 };
 
 BOTSCHOOL_END
+
+BOTSCHOOL_PROBLEM(Swingup)

@@ -53,13 +53,18 @@ inline const double* readings_of(const InfraredTable& table, double angle, doubl
 struct Infrared {
   static constexpr int size = kInfrared;
 
+  template <class W>
+  static void bounds(const W&, int, double* low, double* high) {
+    for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
+  }
+
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
     constexpr int L = W::lanes;
-    const Body& body = *W::plan.robot[robot].body;
+    const RobotModel& body = *world.model[robot];
     for (int i = 0; i < size * L; ++i) out[i] = 0;
 
-    Near<W, T, W::walls> walls(world, robot, world.setting.wall_table);
+    Near<W, T, W::walls> walls(world, robot, world.options.wall_table);
     alignas(64) double to_x[L], to_y[L];
     for (const Wall& wall : world.wall) {
       nearest_points(world, robot, wall, to_x, to_y);
@@ -67,12 +72,11 @@ struct Infrared {
     }
     walls.add(body.wall, out);
 
-    Near<W, T, W::cylinders + W::robots> round(world, robot, world.setting.round_table);
+    Near<W, T, W::cylinders + W::robots> round(world, robot, world.options.round_table);
     for (int c = 0; c < W::cylinders; ++c)
       round.look(world.radius[c], world.cylinder_x(c), world.cylinder_y(c));
     for (int other = 0; other < W::robots; ++other)
-      if (other != robot)
-        round.look(W::plan.robot[other].body->radius, world.x(other), world.y(other));
+      if (other != robot) round.look(world.model[other]->radius, world.x(other), world.y(other));
     round.add(body.round, out);
 
     // nothing rather than nearly nothing: products with denormal numbers are very slow
@@ -91,7 +95,7 @@ struct Infrared {
 
    public:
     Near(const W& world, int robot, const InfraredTable* table)
-        : world_(world), robot_(robot), body_(*W::plan.robot[robot].body), table_(table) {
+        : world_(world), robot_(robot), body_(*world.model[robot]), table_(table) {
       for (int l = 0; l < L; ++l) heading_[l] = static_cast<T>(world.heading(robot)[l]);
     }
 
@@ -146,7 +150,7 @@ struct Infrared {
    private:
     const W& world_;
     const int robot_;
-    const Body& body_;
+    const RobotModel& body_;
     const InfraredTable* table_;
     T heading_[L];
     int count_ = 0;
@@ -168,7 +172,7 @@ struct Infrared {
   }
 
   template <class T, int L>
-  static void modelled(const Body& body, const Response& response,
+  static void modelled(const RobotModel& body, const Response& response,
                        const T* BOTSCHOOL_RESTRICT angle, const T* BOTSCHOOL_RESTRICT gap,
                        T* BOTSCHOOL_RESTRICT out) {
     alignas(64) T fade[L], seen[L];
@@ -210,12 +214,23 @@ struct Infrared {
 template <class Sensor>
 struct Noisy {
   static constexpr int size = Sensor::size;
+  /// Standard deviations that the noise never reaches: of 24 bits, it ends at 5.9.
+  static constexpr double kMaxNoise = 6;
+
+  template <class W>
+  static void bounds(const W& world, int robot, double* low, double* high) {
+    Sensor::bounds(world, robot, low, high);
+    for (int i = 0; i < size; ++i) {
+      low[i] -= kMaxNoise * world.options.noise;
+      high[i] += kMaxNoise * world.options.noise;
+    }
+  }
 
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
     constexpr int L = W::lanes;
     Sensor::read(world, robot, out);
-    const T deviation = static_cast<T>(world.setting.noise);
+    const T deviation = static_cast<T>(world.options.noise);
     if (deviation == T(0)) return;
     constexpr int kBlocks = (size + 3) / 4;
     alignas(64) std::uint32_t step[L];

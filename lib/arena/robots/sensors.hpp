@@ -1,6 +1,7 @@
 // What robots sense. A sensor is a class with
 //   static constexpr int size;                                   observations it gives
 //   static void read(const World& world, int robot, T* out);     out[i * L + lane]
+//   static void bounds(const World& world, int robot, double* low, double* high);   of each
 // Positions are in double precision; T is the network's scalar, in which readings are computed.
 #pragma once
 
@@ -16,11 +17,22 @@ struct Suite {
   static void read(const W& world, int robot, T* out) {
     ((Sensor::read(world, robot, out), out += Sensor::size * W::lanes), ...);
   }
+  template <class W>
+  static void bounds(const W& world, int robot, double* low, double* high) {
+    ((Sensor::bounds(world, robot, low, high), low += Sensor::size, high += Sensor::size), ...);
+  }
 };
 
 /// The other robot of two in eight sectors of 45 degrees around the robot, and its apparent size.
 struct Camera {
   static constexpr int sectors = 8, size = sectors + 1;
+
+  /// The size is below pi / 2 for a robot no larger than the one that looks, as both keep apart.
+  template <class W>
+  static void bounds(const W&, int, double* low, double* high) {
+    for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
+    high[sectors] = kPi;
+  }
 
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
@@ -36,7 +48,7 @@ struct Camera {
         const T seen = T(1) - off / sector;
         out[s * L + l] = seen > T(0) ? seen : T(0);
       }
-    const T radius = static_cast<T>(W::plan.robot[other].body->radius);
+    const T radius = static_cast<T>(world.model[other]->radius);
     for (int l = 0; l < L; ++l) out[sectors * L + l] = T(2) * arctangent(radius, sight.distance[l]);
   }
 };
@@ -47,11 +59,21 @@ struct Camera {
 struct Ground {
   static constexpr int sensors = 4, size = sensors + 1;
 
+  /// Two points less than a robot's diameter apart differ by less than its share of half the diagonal.
+  template <class W>
+  static void bounds(const W& world, int robot, double* low, double* high) {
+    const double half =
+        std::sqrt(W::plan.width * W::plan.width + W::plan.height * W::plan.height) / 2;
+    const double most = 10 * 2 * world.model[robot]->radius / half;
+    for (int i = 0; i < sensors; ++i) low[i] = 0.5 - most, high[i] = 0.5 + most;
+    low[sensors] = 0, high[sensors] = 1;
+  }
+
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
     constexpr int L = W::lanes;
     constexpr double at[sensors] = {-0.0872, 0.0872, kPi - 0.0872, kPi + 0.0872};
-    const double arm = 0.9 * W::plan.robot[robot].body->radius;
+    const double arm = 0.9 * world.model[robot]->radius;
     const double centre_x = W::plan.width / 2, centre_y = W::plan.height / 2;
     const double half = std::sqrt(centre_x * centre_x + centre_y * centre_y);
     alignas(64) double shade[sensors][L];
@@ -75,16 +97,28 @@ struct Ground {
 /// Elapsed share of the episode.
 struct Time {
   static constexpr int size = 1;
+
+  template <class W>
+  static void bounds(const W&, int, double* low, double* high) {
+    for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
+  }
+
   template <class W, class T>
   static void read(const W& world, int, T* BOTSCHOOL_RESTRICT out) {
     for (int l = 0; l < W::lanes; ++l)
-      out[l] = static_cast<T>(world.state[W::kSteps][l] / world.setting.limit);
+      out[l] = static_cast<T>(world.state[W::kSteps][l] / world.limit);
   }
 };
 
 /// The constant 1.
 struct Bias {
   static constexpr int size = 1;
+
+  template <class W>
+  static void bounds(const W&, int, double* low, double* high) {
+    for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
+  }
+
   template <class W, class T>
   static void read(const W&, int, T* BOTSCHOOL_RESTRICT out) {
     for (int l = 0; l < W::lanes; ++l) out[l] = T(1);
@@ -96,6 +130,11 @@ struct Bias {
 struct Light {
   static constexpr int sensors = 8, size = sensors;
   static constexpr double kHalf = 200;  ///< mm at which the light is half as bright
+
+  template <class W>
+  static void bounds(const W&, int, double* low, double* high) {
+    for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
+  }
 
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
@@ -121,10 +160,15 @@ struct Laser {
   static constexpr int rays = 8, size = rays;
   static constexpr double kRange = 500;
 
+  template <class W>
+  static void bounds(const W&, int, double* low, double* high) {
+    for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
+  }
+
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
     constexpr int L = W::lanes;
-    const double edge = W::plan.robot[robot].body->radius;
+    const double edge = world.model[robot]->radius;
     for (int r = 0; r < rays; ++r) {
       alignas(64) double way_x[L], way_y[L], first[L];
       for (int l = 0; l < L; ++l) {
@@ -137,8 +181,8 @@ struct Laser {
                    way_y, first);
       for (int other = 0; other < W::robots; ++other)
         if (other != robot)
-          meet_round(world, robot, W::plan.robot[other].body->radius, world.x(other),
-                     world.y(other), way_x, way_y, first);
+          meet_round(world, robot, world.model[other]->radius, world.x(other), world.y(other),
+                     way_x, way_y, first);
       for (int l = 0; l < L; ++l) {
         const double gap = first[l] > edge ? first[l] - edge : 0;
         out[r * L + l] = static_cast<T>(1 - gap / kRange);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "../engine/problem.hpp"
+#include "plan.hpp"
 
 BOTSCHOOL_BEGIN
 
@@ -19,7 +19,7 @@ struct Bump {
 };
 
 template <int L, const Plan& P>
-struct World : Arena {
+struct World : ProblemBase {
   static constexpr int lanes = L, robots = P.robots, cylinders = P.cylinders, walls = 4 + P.walls;
   static constexpr const Plan& plan = P;
   /// Rows: x, y, heading of each robot; x, y of each cylinder; steps done.
@@ -28,8 +28,11 @@ struct World : Arena {
 
   double state[kRows][L] = {};
   NoiseKey key[L] = {};
-  Setting setting;
-  double radius[cylinders + 1];  ///< of the cylinders
+  int limit;                        ///< longest episode, in steps
+  ArenaOptions options;             ///< noise is never negative
+  const RobotModel* model[robots];  ///< of each robot
+  double speed[robots];             ///< mm/s at an action of 1
+  double radius[cylinders + 1];     ///< of the cylinders
   Wall wall[walls];
 
   World() {
@@ -43,10 +46,15 @@ struct World : Arena {
   }
 
   void set(const Setting& given) {
-    setting = given;
-    if (setting.noise < 0) setting.noise = P.noise;
+    limit = given.limit;
+    options = given.arena ? *given.arena : ArenaOptions{};
+    if (options.noise < 0) options.noise = P.noise;
+    for (int r = 0; r < robots; ++r) {
+      const RobotModel* own = find_robot(P.role[r].model);
+      model[r] = options.robot[r] ? options.robot[r] : own;
+      speed[r] = model[r] == own && P.role[r].speed > 0 ? P.role[r].speed : model[r]->speed;
+    }
   }
-  void refresh(int) {}
 
   /// Begins an episode in a lane.
   void begin(int lane, const Random& random) {
@@ -79,12 +87,11 @@ struct World : Arena {
   /// does one whose action is not a number, or more than kLongestWay.
   void drive(int robot, const double* BOTSCHOOL_RESTRICT left,
              const double* BOTSCHOOL_RESTRICT right, Bump<L>& bump) {
-    const Body& body = *P.robot[robot].body;
-    const double reach = P.robot[robot].speed * kStepSeconds;
+    const double reach = speed[robot] * kStepSeconds, axle = model[robot]->axle;
     alignas(64) double to_x[L], to_y[L], to_heading[L];
     for (int l = 0; l < L; ++l) {
       const double a = left[l] * reach, b = right[l] * reach;
-      const double half = (b - a) / (2 * body.axle);
+      const double half = (b - a) / (2 * axle);
       double s, c, sine, cosine;
       sine_cosine(half, s, c);
       sine_cosine(heading(robot)[l] + half, sine, cosine);
@@ -111,7 +118,7 @@ struct World : Arena {
   /// not known to be free counts as a wall.
   void find_bumps(int robot, const double* BOTSCHOOL_RESTRICT to_x,
                   const double* BOTSCHOOL_RESTRICT to_y, Bump<L>& bump) const {
-    const double own = P.robot[robot].body->radius;
+    const double own = model[robot]->radius;
     for (int l = 0; l < L; ++l) bump.wall[l] = bump.cylinder[l] = bump.robot[l] = 0;
     for (const Wall& w : wall) {
       const double ux = w.x2 - w.x, uy = w.y2 - w.y, length2 = ux * ux + uy * uy;
@@ -139,7 +146,7 @@ struct World : Arena {
     }
     for (int other = 0; other < robots; ++other) {
       if (other == robot) continue;
-      const double sum = own + P.robot[other].body->radius;
+      const double sum = own + model[other]->radius;
       for (int l = 0; l < L; ++l) {
         const double dx = to_x[l] - x(other)[l], dy = to_y[l] - y(other)[l];
         bump.robot[l] |= dx * dx + dy * dy < sum * sum;
@@ -147,11 +154,36 @@ struct World : Arena {
     }
   }
 
-  /// Whether a lane's robot overlaps something where it stands.
-  bool blocked(int robot, int lane) const {
-    Bump<L> bump;
-    find_bumps(robot, x(robot), y(robot), bump);
-    return bump.wall[lane] | bump.cylinder[lane] | bump.robot[lane];
+  int blocked() const {
+    for (int robot = 0; robot < robots; ++robot) {
+      Bump<L> bump;
+      find_bumps(robot, x(robot), y(robot), bump);
+      if (bump.wall[0] | bump.cylinder[0] | bump.robot[0]) return robot;
+    }
+    return -1;
+  }
+
+  /// Cylinders, then walls; where the cylinders are is part of the state, too.
+  int objects() const { return cylinders + walls; }
+  void get_objects(double* row) const {
+    for (int c = 0; c < cylinders; ++c, row += kObject)
+      put_object(row, cylinder_x(c)[0], cylinder_y(c)[0], 0, 0, radius[c]);
+    for (const Wall& w : wall) put_object(row, w.x, w.y, w.x2, w.y2, 0), row += kObject;
+  }
+  void set_objects(const double* row) {
+    for (int c = 0; c < cylinders; ++c, row += kObject) {
+      place_cylinder(0, c, row[0], row[1]);
+      radius[c] = row[4];
+    }
+    for (Wall& w : wall) {
+      w = {row[0], row[1], row[2], row[3]};
+      row += kObject;
+    }
+  }
+
+ private:
+  static void put_object(double* row, double x, double y, double x2, double y2, double radius) {
+    row[0] = x, row[1] = y, row[2] = x2, row[3] = y2, row[4] = radius;
   }
 };
 

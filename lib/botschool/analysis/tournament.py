@@ -37,7 +37,7 @@ class Contest:
     """
 
     def __init__(self, experiment: Experiment, seed: int, workers: int = 1) -> None:
-        self.problem = problems.make(experiment.exp.environment)
+        self.problem = problems.of(experiment)
         robots = self.problem.interface.robots
         if robots != 2:
             raise BotschoolError(

@@ -225,7 +225,7 @@ def _draw_chase(axes, chase: dict) -> None:
         lines.set_array(np.arange(len(pieces)))
         axes.add_collection(lines)
         axes.plot(*way[0, :2], "o", ms=7, mfc="white", mec=colours[1], mew=2, zorder=5)
-        axes.add_patch(Circle(way[-1, :2], arena.bodies[k].radius, color=colours[1], zorder=6))
+        axes.add_patch(Circle(way[-1, :2], arena.models[k].radius, color=colours[1], zorder=6))
     if chase["caught"]:
         axes.plot(*chase["poses"][-1, :, :2].mean(axis=0), "X", ms=10, color="black", zorder=7)
     axes.set(xlim=(-40, arena.width + 40), ylim=(-40, arena.height + 40), aspect="equal")

@@ -70,11 +70,11 @@ class SavedRobot:
     def film(self, file: str | Path, seed: int = 1, episodes: int = 1) -> None:
         """A film of some episodes."""
         from botschool.render.canvas import draw_offscreen
-        from botschool.render.scene import make_scene
+        from botschool.render.scenes import scene_of
         from botschool.render.video import write_video
 
         draw_offscreen()
-        scene = make_scene(self._problem.dynamics) if self._problem.native else None
+        scene = scene_of(self._problem)
         fps = scene.fps if scene else self._problem.fps
         write_video(Path(file), self._frames(scene, seed, episodes), fps)
         print(f"film: {file}")

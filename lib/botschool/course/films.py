@@ -11,14 +11,13 @@ from botschool.course.evaluation import Robot
 
 def film(file: str | Path, environment: str, parameters: np.ndarray, seed: int = 1) -> None:
     """A film of one episode of a `Robot` in a native environment."""
-    from botschool.problems.native import NATIVE
     from botschool.render.canvas import draw_offscreen
     from botschool.render.panel import with_caption
-    from botschool.render.scene import make_scene
+    from botschool.render.scenes import make_scene
     from botschool.render.video import write_video
 
     draw_offscreen()
-    scene = make_scene(NATIVE[environment][0])
+    scene = make_scene(environment)
     frames = (
         with_caption(scene.draw_transition(transition), 1, transition)
         for transition in Robot(environment).play(parameters, seed)

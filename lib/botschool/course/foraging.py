@@ -62,7 +62,7 @@ def _draw_arena(axes, cylinder: tuple[float, float]) -> None:
 
     arena = arenas.make("discrim")
     radius = arena.objects[0, 4]
-    near = arena.bodies[0].radius + radius + 60
+    near = arena.models[0].radius + radius + 60
     floor = Rectangle(
         (0, 0),
         arena.width,

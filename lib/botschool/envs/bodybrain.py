@@ -8,7 +8,8 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
-from botschool.envs.morphology import JOINTS, MORPHOLOGY_SIZE, SEGMENTS, Body, decode
+from botschool.envs.morphology import JOINTS, MORPHOLOGY_SIZE, SEGMENTS, Morphology, decode
+from botschool.envs.terrain import START_X, TERRAIN_END, TERRAIN_HEIGHT, TERRAIN_STEP, terrain
 
 try:
     from Box2D import (
@@ -31,30 +32,12 @@ FRICTION = 2.5
 GROUND, ROBOT = 0x0001, 0x0002
 """Collision categories: segments touch the ground only."""
 
-TERRAIN_STEP = 14 / 30
-TERRAIN_STEPS = 200
-FLAT_STEPS = 40
-TERRAIN_HEIGHT = 5.0
-TERRAIN_END = TERRAIN_STEP * TERRAIN_STEPS
-START_X = TERRAIN_STEP * FLAT_STEPS / 2
 CLEARANCE = 0.1
 """Metres between the robot's lowest corner and the ground at the start."""
 
 MOTOR_SPEED, MOTOR_TORQUE = 5.0, 90.0
 LOST = -100.0
 """Reward of leaving the ground's left end, and of a robot that explodes."""
-
-
-def terrain(rng: np.random.Generator) -> list[float]:
-    """Heights of the ground every 14/30 m, 201 of them: flat first, then a random slope."""
-    height, slope = TERRAIN_HEIGHT, 0.0
-    heights = [height] * (FLAT_STEPS + 1)
-    for bump in rng.uniform(-1, 1, TERRAIN_STEPS - FLAT_STEPS).tolist():
-        back = (height < TERRAIN_HEIGHT) - (height > TERRAIN_HEIGHT)
-        slope = 0.8 * slope + 0.01 * back + bump / 15
-        height += slope
-        heights.append(height)
-    return heights
 
 
 def _add_shape(body, shape, **options) -> None:
@@ -108,7 +91,7 @@ class BodyBrain(gymnasium.Env):
 
     def set_morphology(self, parameters: np.ndarray) -> None:
         """The body of all episodes from the next reset on; 64 numbers. Raises ValueError."""
-        self.body: Body = decode(parameters)
+        self.body: Morphology = decode(parameters)
 
     def reset(self, *, seed: int | None = None, options: dict | None = None):
         super().reset(seed=seed)

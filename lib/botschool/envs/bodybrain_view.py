@@ -1,18 +1,17 @@
-"""Pictures of a BodyBrain robot, in the style of Gymnasium's Box2D environments."""
+"""Pictures of a BodyBrain robot, in the style of Gymnasium's Box2D environments.
+
+`env` is always a botschool.envs.bodybrain.BodyBrain.
+"""
 
 from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from gymnasium.error import DependencyNotInstalled
 
-from botschool.envs.bodybrain import START_X, TERRAIN_STEP
-
-if TYPE_CHECKING:
-    from botschool.envs.bodybrain import BodyBrain
+from botschool.envs.terrain import START_X, TERRAIN_STEP
 
 try:
     import pygame
@@ -52,7 +51,7 @@ class View:
         self._left = self._bottom = 0.0
         self._font = self._window = self._clock = None
 
-    def draw(self, env: BodyBrain) -> np.ndarray | None:
+    def draw(self, env) -> np.ndarray | None:
         """The picture as (400, 600, 3) uint8, or None when it went to the window."""
         if self._mode == "human":
             self._open()
@@ -69,7 +68,7 @@ class View:
             return None
         return np.ascontiguousarray(pygame.surfarray.array3d(self._surface).swapaxes(0, 1))
 
-    def _look_at(self, env: BodyBrain) -> None:
+    def _look_at(self, env) -> None:
         """Puts the robot in the middle, and the ground that is in sight at the usual height."""
         x = float(np.mean([segment.position.x for segment in env.segments]))
         self._left = x - WIDTH / SCALE / 2
@@ -121,7 +120,7 @@ class View:
                 text = self._font.render(f"{metres} m", True, MARK)
                 self._surface.blit(text, (px - text.get_width() / 2, py + 20))
 
-    def _draw_robot(self, env: BodyBrain) -> None:
+    def _draw_robot(self, env) -> None:
         last = len(env.segments) - 1
         for i in range(last, -1, -1):
             segment = env.segments[i]

@@ -9,7 +9,7 @@ import numpy as np
 
 
 @dataclass(slots=True)
-class Step:
+class Measured:
     """What rewards are made of, measured over one step."""
 
     progress: float
@@ -29,7 +29,7 @@ class Step:
 
 
 Alive = Callable[[float, float, list[float]], float]
-Components = Callable[[Step], dict[str, float]]
+Components = Callable[[Measured], dict[str, float]]
 
 
 def _stands(height: float, pitch: float, contacts: list[float]) -> float:
@@ -50,15 +50,15 @@ def _humanoid_stands(height: float, pitch: float, contacts: list[float]) -> floa
     return 2.0 if height > 0.78 else -1.0
 
 
-def _progress(step: Step) -> dict[str, float]:
+def _progress(step: Measured) -> dict[str, float]:
     return {"progress": step.progress}
 
 
-def _progress_within_limits(step: Step) -> dict[str, float]:
+def _progress_within_limits(step: Measured) -> dict[str, float]:
     return {"progress": step.progress, "joints_at_limit": -0.1 * step.at_limit}
 
 
-def _ant(step: Step) -> dict[str, float]:
+def _ant(step: Measured) -> dict[str, float]:
     return {
         "progress": step.progress,
         "alive": 0.01,
@@ -67,7 +67,7 @@ def _ant(step: Step) -> dict[str, float]:
     }
 
 
-def _humanoid(step: Step) -> dict[str, float]:
+def _humanoid(step: Measured) -> dict[str, float]:
     beyond = np.maximum(np.abs(step.positions) - 1.0, 0.0)
     return {
         "progress": step.progress,
@@ -79,7 +79,7 @@ def _humanoid(step: Step) -> dict[str, float]:
 
 
 @dataclass(frozen=True)
-class Body:
+class LocomotorBody:
     """What makes one robot different from the others."""
 
     model: str
@@ -115,8 +115,8 @@ _HUMANOID_STRENGTH = {
 }
 
 BODIES = {
-    "Hopper": Body("hopper", ("foot",), _stands, _progress, 0.75),
-    "HalfCheetah": Body(
+    "Hopper": LocomotorBody("hopper", ("foot",), _stands, _progress, 0.75),
+    "HalfCheetah": LocomotorBody(
         "half_cheetah",
         ("ffoot", "fshin", "fthigh", "bfoot", "bshin", "bthigh"),
         _on_feet_alone,
@@ -124,14 +124,14 @@ BODIES = {
         0.9,
         {"bthigh": 120, "bshin": 90, "bfoot": 60, "fthigh": 140, "fshin": 60, "ffoot": 30},
     ),
-    "Ant": Body(
+    "Ant": LocomotorBody(
         "ant",
         ("front_left_foot", "front_right_foot", "left_back_foot", "right_back_foot"),
         _torso_up,
         _ant,
         2.5,
     ),
-    "Walker2D": Body(
+    "Walker2D": LocomotorBody(
         "walker2d",
         ("foot", "foot_left"),
         _stands,
@@ -139,7 +139,7 @@ BODIES = {
         0.4,
         {"foot_joint": 30, "foot_left_joint": 30},
     ),
-    "Humanoid": Body(
+    "Humanoid": LocomotorBody(
         "humanoid_symmetric",
         ("right_foot", "left_foot"),
         _humanoid_stands,

@@ -21,7 +21,7 @@ import numpy as np
 from gymnasium import spaces
 
 from botschool.envs import bullet
-from botschool.envs.locomotor_bodies import BODIES, Step
+from botschool.envs.locomotor_bodies import BODIES, Measured
 from botschool.errors import BotschoolError
 
 STEP = 0.0165
@@ -231,11 +231,11 @@ class Locomotor(gymnasium.Env):
         self._exploded = not abs(sum(values)) < UNREAL or z < BELOW_GROUND
         return observation
 
-    def _measure(self, action: np.ndarray, alive: float, observation: np.ndarray) -> Step:
+    def _measure(self, action: np.ndarray, alive: float, observation: np.ndarray) -> Measured:
         progress = (self._distance - self._to_target) / STEP
         self._distance = self._to_target
         positions, n = observation[self._positions], len(self._joints)
-        return Step(
+        return Measured(
             progress,
             alive,
             float(np.add.reduce(np.abs(action * observation[self._speeds])) / n),
@@ -245,7 +245,7 @@ class Locomotor(gymnasium.Env):
             self._heading,
         )
 
-    def _standard(self, step: Step) -> dict[str, float]:
+    def _standard(self, step: Measured) -> dict[str, float]:
         """The reward of version 0."""
         return {
             "progress": step.progress,

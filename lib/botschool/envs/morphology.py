@@ -23,7 +23,7 @@ ANGLE_RANGE = 3 * np.pi / 4
 
 
 @dataclass(frozen=True)
-class Body:
+class Morphology:
     """A chain of segments, the torso first."""
 
     lengths: np.ndarray
@@ -56,14 +56,14 @@ class Body:
         return centres[:, None] + boxes @ rotations
 
 
-def decode(parameters: np.ndarray) -> Body:
+def decode(parameters: np.ndarray) -> Morphology:
     """The body of 64 parameters; all 0 is a straight one. Raises ValueError."""
     p = np.asarray(parameters, dtype=np.float64)
     if p.shape != (MORPHOLOGY_SIZE,) or not np.all(np.isfinite(p)):
         raise ValueError(f"a morphology is {MORPHOLOGY_SIZE} finite numbers, not shape {p.shape}.")
     sizes, limits, angles, densities = np.split(p, np.cumsum([2 * SEGMENTS, 2 * JOINTS, SEGMENTS]))
     scales = 1 + SIZE_RANGE * np.tanh(sizes.reshape(SEGMENTS, 2))
-    return Body(
+    return Morphology(
         lengths=LENGTH * scales[:, 0],
         thicknesses=THICKNESS * scales[:, 1],
         limits=np.sort(LIMIT_RANGE * np.clip(limits.reshape(JOINTS, 2), -1, 1), axis=1),

@@ -13,9 +13,10 @@ from gymnasium import spaces
 
 from botschool import config
 from botschool.config import PolicyConfig
-from botschool.envs.simulation import INFOS, RENDER_MODES, Simulation
+from botschool.envs.simulation import RENDER_MODES, Simulation
 from botschool.errors import BotschoolError
 from botschool.policy import Interface, Policy
+from botschool.problems.native import INFOS
 
 PROBLEM = "ErPredprey"
 ROBOTS = ("predator", "prey")

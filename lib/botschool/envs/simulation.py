@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import gymnasium
 import numpy as np
 
 from botschool import _core
 from botschool.errors import BotschoolError
+from botschool.problems.native import INFOS, NativeProblem
+from botschool.problems.transition import Transition
+from botschool.render.scenes import scene_of, with_frames
 
-INFOS = {info["name"]: info for info in _core.native_problems()}
 RENDER_MODES = ["human", "rgb_array"]
 
 
@@ -16,7 +20,8 @@ class Simulation:
     """The problem, what its robots see, and pictures of it.
 
     problem: its name in C++. limit: longest episode in steps, None is the problem's own. noise:
-    standard deviation of an arena's infrared readings, None is the problem's own.
+    standard deviation of an arena's infrared readings, None is the problem's own. robots: kinds of
+    its wheeled robots, one for all or one each; () is the problem's own.
     """
 
     def __init__(
@@ -25,6 +30,7 @@ class Simulation:
         render_mode: str | None,
         limit: int | None = None,
         noise: float | None = None,
+        robots: Sequence[str] = (),
     ) -> None:
         if render_mode not in (None, *RENDER_MODES):
             raise BotschoolError(
@@ -33,9 +39,11 @@ class Simulation:
         self.info = INFOS[problem]
         self.limit = self.info["limit"] if limit is None else limit
         self.steps = 0
+        self._problem = NativeProblem(problem, robots)
         self._stepper = _core.make_stepper(problem)
+        chosen = [model.name for model in self._problem.robots]
         try:
-            self._stepper.set(self.limit, noise)
+            self._stepper.set(self.limit, _core.ArenaOptions(chosen, noise))
         except (TypeError, ValueError):
             raise BotschoolError(
                 f"An episode has at least 1 step and noise is not negative: max_steps = {limit!r} "
@@ -44,6 +52,11 @@ class Simulation:
         self._mode = render_mode
         self._scene = self._window = None
         self._shown = None
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """Shape (2, observations): least and greatest values of a robot's observation."""
+        return self._stepper.bounds
 
     @property
     def observation(self) -> np.ndarray:
@@ -86,17 +99,22 @@ class Simulation:
             return None
         if self._shown is None:
             raise BotschoolError("There is nothing to see before the first reset().")
-        if self._scene is None:
-            from botschool.render.scene import make_scene
-
-            self._scene = make_scene(self.info["name"])
-        frame = self._scene.draw(self.state, *self._shown)
+        frame = self._frame()
         if self._mode == "rgb_array":
             return frame
         if self._window is None:
             self._window = Window(self.info["name"], frame.shape, 1 / self.info["seconds"])
         self._window.show(frame)
         return None
+
+    def _frame(self) -> np.ndarray:
+        if self._scene is None:
+            self._scene = scene_of(self._problem)
+        if self._scene is not None:
+            return self._scene.draw(self.state, *self._shown)
+        action, seen, reward = self._shown
+        step = Transition(self.steps, reward, 0.0, seen, action, np.zeros(0), self.state)
+        return next(with_frames(self._problem, iter([step]))).frame
 
     def close(self) -> None:
         """Closes the window, if there is one."""

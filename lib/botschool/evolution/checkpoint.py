@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from botschool.config import Experiment, free, to_dict
+from botschool.config import Experiment, defaults, free, to_dict
 from botschool.errors import BotschoolError
 from botschool.output import save_npz
 
@@ -47,9 +47,10 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
             "that seed with -s, or use --force to start anew."
         )
     now, may_change = to_dict(experiment), free(experiment)
+    unsaid = defaults(experiment)  # keys that older versions did not know
     for section, keys in now.items():
         for key, value in keys.items():
-            before = saved.get(section, {}).get(key)
+            before = saved.get(section, {}).get(key, unsaid[section][key])
             if (section, key) not in may_change and before != value:
                 raise BotschoolError(
                     f"{path} belongs to an experiment with {key} = {before}, but {key} is now "

@@ -80,7 +80,7 @@ class Run:
         self.seed = seed
         self.workers = workers
         self.stopping = stopping
-        self.problem = problems.make(experiment.exp.environment)
+        self.problem = problems.of(experiment)
         self.check()
         self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
         self.report: Callable[[Run], None] = lambda run: None

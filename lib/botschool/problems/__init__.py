@@ -8,19 +8,39 @@ every other name is a Gymnasium id (gym.py).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from botschool.errors import BotschoolError
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.native import NATIVE, NativeProblem
 
-__all__ = ["Episodes", "Interrupted", "Outcome", "Problem", "make", "names"]
+if TYPE_CHECKING:
+    from botschool.config import Experiment
+
+__all__ = ["Episodes", "Interrupted", "Outcome", "Problem", "make", "names", "of"]
 
 
-def make(name: str) -> Problem:
-    """The problem of that name; raises BotschoolError (errors.py) when there is none."""
+def make(name: str, robots: Sequence[str] = ()) -> Problem:
+    """The problem of that name; robots: kinds of its wheeled robots, () for its own.
+
+    Raises BotschoolError when there is no such problem, or it has no such robots.
+    """
     if name in NATIVE:
-        return NativeProblem(name)
+        return NativeProblem(name, robots)
     from botschool.problems.gym import GymProblem
 
+    if robots:
+        raise BotschoolError(
+            f"{name} is no arena of wheeled robots: remove the line robots = {', '.join(robots)}."
+        )
     return GymProblem(name)
+
+
+def of(experiment: Experiment) -> Problem:
+    """The problem of an experiment. Raises BotschoolError."""
+    exp = experiment.exp
+    return make(exp.environment, [name.strip() for name in exp.robots.split(",") if name.strip()])
 
 
 def names() -> list[str]:

@@ -13,10 +13,10 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
-import botschool.envs  # noqa: F401  (registers our own)
 from botschool.errors import BotschoolError
 from botschool.inifile import shown
 from botschool.policy import Interface, Policy
+from botschool.problems import faces  # noqa: F401  (registers our own)
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.native import NATIVE
 from botschool.problems.transition import Transition

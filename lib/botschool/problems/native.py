@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
 from botschool import _core
+from botschool.errors import BotschoolError
 from botschool.policy import Interface, Policy
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.transition import Transition
+from botschool.robots import RobotModel, cast
 
-_CORE = {info["name"]: info for info in _core.native_problems()}
+INFOS = {info["name"]: info for info in _core.native_problems()}
+"""What lib/arena/problems says of each native problem, by its name in C++."""
 
-NATIVE = {
-    **{name: (name, info["limit"]) for name, info in _CORE.items()},
-    "CartPole-v0": ("CartPole-v1", 200),
-    "Pendulum-v0": ("Pendulum-v1", 200),
+NATIVE = {name: (name, info["limit"]) for name, info in INFOS.items()} | {
+    info["alias"]: (name, info["alias_limit"]) for name, info in INFOS.items() if info["alias"]
 }
 """Name in experiment files -> (name in C++, longest episode)."""
 
@@ -27,17 +28,23 @@ BATCH_STEPS = 20_000_000
 class NativeProblem(Problem):
     """A problem whose dynamics are in C++.
 
-    instruction_set: one of `_core.instruction_sets()`; "" is the best (all give the same bits).
+    robots: kinds of its wheeled robots (botschool.robots), one for all or one each; () is the
+    problem's own. instruction_set: one of `_core.instruction_sets()`; "" is the best (all give the
+    same bits). Raises BotschoolError.
     """
 
     native = True
 
-    def __init__(self, name: str, instruction_set: str = "") -> None:
+    def __init__(self, name: str, robots: Sequence[str] = (), instruction_set: str = "") -> None:
         self.name = name
         self.dynamics, self.limit = NATIVE[name]
         self._instruction_set = instruction_set
         self._engine: tuple[Policy, _core.Engine] | None = None
-        info = _CORE[self.dynamics]
+        info = INFOS[self.dynamics]
+        self.robots = _cast(name, info, robots)
+        """What its wheeled robots are built like; () for other problems."""
+        chosen = [model.name for model in self.robots]
+        self._options = _core.ArenaOptions(chosen) if chosen else None
         self.fps = 1 / info["seconds"]
         self.interface = Interface(
             info["observations"],
@@ -83,6 +90,7 @@ class NativeProblem(Problem):
                     limit,
                     workers,
                     bool(policy.config.heterogeneous),
+                    self._options,
                 )
             )
         fitness, steps, moments = parts[0] if len(parts) == 1 else _concatenated(parts)
@@ -110,6 +118,7 @@ class NativeProblem(Problem):
             episode,
             self.steps(maxsteps),
             bool(policy.config.heterogeneous),
+            self._options,
         )
         total = 0.0
         for t, reward in enumerate(tape["rewards"]):
@@ -129,3 +138,13 @@ def _concatenated(parts: list[tuple]) -> tuple:
     fitness, steps, moments = zip(*parts, strict=True)
     joined = None if moments[0] is None else np.concatenate(moments)
     return np.concatenate(fitness), np.concatenate(steps), joined
+
+
+def _cast(name: str, info: dict, robots: Sequence[str]) -> tuple[RobotModel, ...]:
+    if "plan" in info:
+        return cast(name, info["plan"], robots)
+    if robots:
+        raise BotschoolError(
+            f"{name} has no wheeled robots: remove the line robots = {', '.join(robots)}."
+        )
+    return ()

@@ -52,7 +52,7 @@ class PostEvaluation:
         name: str = "random robot",
     ) -> None:
         self.name = name
-        self.problem = problems.make(experiment.exp.environment)
+        self.problem = problems.of(experiment)
         self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
         self.seed = seed
         self.maxsteps = experiment.policy.maxsteps
@@ -81,9 +81,14 @@ class PostEvaluation:
         genotype, normalisation, number = self.cast(episode)
         seed = self.seed + POST_EVALUATION_SEED
         transition = None
-        for transition in self.problem.play(
+        steps = self.problem.play(
             self.policy, genotype, normalisation, seed, number, self.maxsteps, render
-        ):
+        )
+        if render:
+            from botschool.render.scenes import with_frames
+
+            steps = with_frames(self.problem, steps)
+        for transition in steps:
             yield transition
         if transition is not None:
             self.fitness.append(transition.total)
@@ -95,10 +100,10 @@ class PostEvaluation:
         """Pictures of the first episodes with a caption, and with the neurons on request."""
         from botschool.render.canvas import draw_offscreen
         from botschool.render.panel import with_activations, with_caption
-        from botschool.render.scene import make_scene
+        from botschool.render.scenes import scene_of
 
         draw_offscreen()
-        scene = make_scene(self.problem.dynamics) if self.problem.native else None
+        scene = scene_of(self.problem)
         robots = scene.robots if scene else ("",)
         for episode in range(episodes):
             for transition in self.play(episode, render=True):
@@ -118,7 +123,7 @@ class PostEvaluation:
         """A page that plays the first episodes; see botschool.render.replay."""
         from botschool.render.canvas import draw_offscreen
         from botschool.render.replay import write_replay
-        from botschool.render.scene import make_scene
+        from botschool.render.scenes import scene_of
 
         draw_offscreen()
         write_replay(
@@ -128,7 +133,7 @@ class PostEvaluation:
             (self.play(episode, render=True) for episode in range(episodes)),
             self.problem.fps,
             self.neurons,
-            make_scene(self.problem.dynamics) if self.problem.native else None,
+            scene_of(self.problem),
             [self.label(episode) for episode in range(episodes)],
         )
 

@@ -1,0 +1,76 @@
+"""The pictures of the native problems, a file each; importing this registers all of them."""
+
+from __future__ import annotations
+
+import pkgutil
+from collections.abc import Iterator
+from importlib import import_module
+
+import gymnasium
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.problems import Problem
+from botschool.problems.native import INFOS, NATIVE
+from botschool.problems.transition import Transition
+from botschool.render.scene import SCENES, Scene
+from botschool.render.scenes.meters import MeterScene
+from botschool.robots import RobotModel, cast
+
+for _module in pkgutil.iter_modules(__path__):
+    import_module(f"{__name__}.{_module.name}")
+
+
+def make_scene(name: str, robots: tuple[RobotModel, ...] = ()) -> Scene:
+    """The scene of a native problem: its own, or meters where nobody has drawn it.
+
+    robots: its wheeled robots, () for its own. Raises BotschoolError for another problem.
+    """
+    if name not in NATIVE:
+        raise BotschoolError(
+            f"there are no pictures of {name}: those that can be drawn are {', '.join(NATIVE)}."
+        )
+    info = INFOS[NATIVE[name][0]]
+    if info["name"] not in SCENES:
+        return MeterScene(info)
+    if "plan" in info and not robots:
+        robots = cast(name, info["plan"])
+    return SCENES[info["name"]](robots)
+
+
+def scene_of(problem: Problem) -> Scene | None:
+    """The scene that a problem's steps are drawn by; None where they bring their own pictures."""
+    if not problem.native or drawn_by_gymnasium(problem):
+        return None
+    return make_scene(problem.dynamics, problem.robots)
+
+
+def drawn_by_gymnasium(problem: Problem) -> bool:
+    """Whether Gymnasium has a picture of a native problem that has none of its own here.
+
+    It can be used if the environment keeps its state, as classic control does, in `state`.
+    """
+    if not problem.native or problem.dynamics in SCENES:
+        return False
+    if problem.dynamics not in gymnasium.registry:
+        return False
+    spec = gymnasium.spec(problem.dynamics)
+    modes = getattr(gymnasium.envs.registration.load_env_creator(spec.entry_point), "metadata", {})
+    return "rgb_array" in modes.get("render_modes", [])
+
+
+def with_frames(problem: Problem, play: Iterator[Transition]) -> Iterator[Transition]:
+    """The steps of an episode, with Gymnasium's pictures where a problem is drawn by it."""
+    if not drawn_by_gymnasium(problem):
+        yield from play
+        return
+    env = gymnasium.make(problem.dynamics, render_mode="rgb_array", disable_env_checker=True)
+    try:
+        env.reset(seed=0)
+        size = len(np.ravel(env.unwrapped.state))
+        for transition in play:
+            env.unwrapped.state = np.asarray(transition.state[:size])
+            transition.frame = np.asarray(env.render())
+            yield transition
+    finally:
+        env.close()

@@ -1,0 +1,40 @@
+"""ErPredprey."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from botschool.render.scene import draws
+from botschool.render.scenes.arenas import ArenaScene, Look
+from botschool.render.shapes import rectangle
+
+
+@draws("ErPredprey")
+class PredpreyScene(ArenaScene):
+    """ErPredprey: the floor darkens away from the centre, as the ground sensors read it.
+
+    A ring marks where the predator caught the prey, which a reward other than 0 tells.
+    """
+
+    state_size, side, trail, scale_bar = 7, 3000.0, 80, 500.0
+    looks = (Look("predator", "orange", 24, camera=True), Look("prey", "blue", 24, camera=True))
+    robots = ("predator", "prey")
+
+    def _add_ground(self) -> None:
+        middle = (self.side / 2, self.side / 2)
+        self.add("polygon", rectangle(0.0, 0.0, self.side, self.side), "shade", opacity=0.6)
+        for share in np.linspace(1.0, 0.1, 10):
+            radius = share * self.side / 2
+            self.add("disc", [middle], "floor", radius=float(radius), opacity=0.18)
+
+    def _add_objects(self, poses: list[int]) -> None:
+        self._caught, caught = self.pose(), self.value()
+        for radius, opacity in ((330.0, 0.18), (250.0, 0.25)):
+            self.add(
+                "disc", [(0.0, 0.0)], "force",
+                radius=radius, pose=self._caught, opacity=opacity, level=caught,
+            )  # fmt: skip
+
+    def _objects(self, state: np.ndarray, reward: float) -> list[float]:
+        x, y = (state[0] + state[3]) / 2, (state[1] + state[4]) / 2
+        return [x, y, 0.0, float(reward != 0.0)]
