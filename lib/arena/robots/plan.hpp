@@ -1,4 +1,5 @@
-// Wheeled robots and what an arena holds: plain data. Lengths in mm, angles in radians. FACTS.md section 4.
+// Wheeled robots and what an arena holds: plain data. Lengths in mm, angles in radians.
+// docs/specification.md, "Wheeled robots".
 #pragma once
 
 namespace botschool {
