@@ -1,5 +1,6 @@
-"""Robots, walls and sensors written a second time from their description (FACTS.md section 4), for
-the tests: plain Python, one robot after another, angles as complex numbers where it is natural."""
+"""Robots, walls and sensors written a second time from their description (docs/specification.md,
+"Wheeled robots"), for the tests: plain Python, one robot after another, angles as complex numbers
+where it is natural."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""The policy network of FACTS.md section 1, written for clarity: the C++ one is tested against it.
+"""The policy network of docs/specification.md, "Policy network", written for clarity: the C++ one
+is tested against it.
 
 Every array is float64 and every step allocates; nothing here is shared with `botschool.net` but the
 names of the hyperparameters (any object with the attributes of a NetworkSpec will do).

@@ -1,4 +1,5 @@
-"""SSS and OpenAI-ES against small implementations of FACTS.md section 3 in plain Python."""
+"""SSS and OpenAI-ES against small implementations in plain Python of docs/specification.md,
+"Algorithms"."""
 
 import math
 
@@ -18,7 +19,7 @@ def initial(index):
 
 
 def numbers(seed, generation, shape):
-    """Gaussian numbers of a generation: Philox keyed by (seed, generation), as DESIGN.md says."""
+    """Gaussian numbers of a generation: Philox keyed by (seed, generation)."""
     philox = np.random.Philox(key=np.array([seed, generation], dtype=np.uint64))
     return np.random.Generator(philox).standard_normal(shape)
 

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from botschool import config
+
 ROOT = Path(__file__).parents[1]
 SPECIFICATION = "docs/specification.md"
 
@@ -133,6 +135,41 @@ def test_the_specification_refers_to_sections_of_its_own():
     quoted = re.findall(r'"([A-Z][^"]*)"', WRAPPED.sub(" ", text))
     assert quoted
     assert not set(quoted) - set(headings(texts()[SPECIFICATION]))
+
+
+def told_defaults(markdown: str) -> dict[str, set[str]]:
+    """Hyperparameter -> its defaults, from the tables with a column of defaults or values."""
+    told: dict[str, set[str]] = {}
+    column = 0
+    for line in markdown.split("\n"):
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if not line.startswith("|"):
+            column = 0
+        elif re.fullmatch(r"\[\w+\]|key", cells[0]):
+            column = next(i for i, cell in enumerate(cells) if re.match("default|value", cell))
+        elif column:
+            for name in re.findall(r"\w+", cells[0]):
+                told.setdefault(name, set()).update(re.findall(r"[\w.-]+", cells[column]))
+    return told
+
+
+def test_the_specification_has_every_hyperparameter_with_its_default():
+    told = told_defaults(texts()[SPECIFICATION])
+    missing = [
+        f"{section} {name} = {default}"
+        for section, name, default, _ in config.describe()
+        if default is not None
+        and (f"{default:g}" if isinstance(default, float) else str(default))
+        not in told.get(name, ())
+    ]
+    assert not missing
+
+
+def test_a_wrong_default_is_noticed():
+    table = (
+        "| [ALGO] | of | default |\n|---|---|---|\n| popsize, size | a, b | 20, 80 |\n\n| x | 1 |"
+    )
+    assert told_defaults(table) == {"popsize": {"20", "80"}, "size": {"20", "80"}}
 
 
 @pytest.mark.parametrize("name", ["FACTS" + ".md", "DESIGN" + ".md", "../" + "shared/x"])

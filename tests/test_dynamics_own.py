@@ -1,5 +1,5 @@
-"""Swing-up and double pole against their equations in FACTS.md section 4; how all problems start
-and end."""
+"""Swing-up and double pole against their equations in docs/specification.md, "Classic
+control"; how all problems start and end."""
 
 import math
 

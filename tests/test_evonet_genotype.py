@@ -39,7 +39,8 @@ def test_genotype_length(changes, length):
     assert genotype_length(spec) == length
 
 
-# Which connection each parameter of a small network is, counted by hand from FACTS.md section 1:
+# Which connection each parameter of a small network is, counted by hand from
+# docs/specification.md, "Policy network":
 # "2.3" is the weight to neuron 2 from neuron 3, "2.3'" from its activation of the step before,
 # "2" the bias of neuron 2. Neurons are numbered inputs 0-1, then hidden, then the output.
 PLACES = {
@@ -150,8 +151,8 @@ SHAPES = {
     "perceptron": {"nhiddens": 0},
     "bins and noise": {"nbins": 2, "action_noise": 2},
 }
-# (fan in, fan out) of each block, from FACTS.md section 1: fan in counts all senders of the
-# receiving layer; fan out is the size of that layer (one block: all its receivers).
+# (fan in, fan out) of each block, from docs/specification.md, "Policy network": fan in counts all
+# senders of the receiving layer; fan out is the size of that layer (one block: all its receivers).
 FANS = {
     "feed-forward": {"hidden0": (30, 40), "output": (40, 25)},
     "two layers": {"hidden0": (30, 55), "hidden1": (55, 25), "output": (25, 25)},

@@ -139,7 +139,7 @@ def positions_and_speeds(observations, joints):
 
 
 @pytest.mark.parametrize("body", BODIES)
-def test_version_5_rewards_what_the_facts_say(make, body):
+def test_version_5_rewards_what_the_specification_says(make, body):
     env = make(f"{body}BulletEnv-v5")
     joints = env.action_space.shape[0]
     for seed in range(3):

@@ -1,4 +1,5 @@
-"""The run loop: what it computes, and what its files say (FACTS.md sections 1 and 2)."""
+"""The run loop: what it computes, and what its files say (docs/specification.md, "Evaluation"
+and "Run files")."""
 
 import math
 from itertools import pairwise
@@ -164,7 +165,7 @@ def test_normalisation_data_come_from_one_percent_of_the_episodes(environment, a
 
 @every
 def test_vectors_change_once_a_generation(environment, algo, tmp_path):
-    """They follow the running statistics of FACTS.md, recomputed here from the observations."""
+    """They follow the running statistics of docs/specification.md, "Policy network"."""
     run, generations = observed(tmp_path, environment, algo)
     inputs = run.problem.interface.observations
     count, total, squares = 0.01, np.zeros(inputs), np.full(inputs, 0.01)

@@ -8,7 +8,7 @@
 
 Lengths are in mm, angles in radians, counter-clockwise from the x axis, and a step lasts 0.1 s.
 Whole episodes of evolution run in C++ without this (botschool.problems); what happens in a step is
-the same. The world itself is in lib/arena/robots (FACTS.md section 4).
+the same. The world itself is in lib/arena/robots (docs/specification.md, "Wheeled robots").
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Policy networks, step by step ("evonet"; FACTS.md section 1).
+"""Policy networks, step by step ("evonet"; docs/specification.md, "Policy network").
 
 `Network` is the friendly face: numpy arrays to read and write, `reset()` and `step()`.
 `PyEvonet` is the original library's face, for scripts written for it: the caller owns all arrays
@@ -72,7 +72,8 @@ class Network:
 
     @property
     def parameters(self) -> np.ndarray:
-        """The genotype in use, shape (parameters,), in the order of FACTS.md section 1."""
+        """The genotype in use, shape (parameters,); its order: docs/specification.md,
+        "Policy network"."""
         return self._parameters
 
     @parameters.setter

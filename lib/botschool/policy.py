@@ -34,7 +34,8 @@ class Policy:
     """The policy that an experiment's [POLICY] describes, for one problem.
 
     A genotype is a float64 vector of `genotype_size` parameters. A saved genotype of a normalised
-    policy is followed by all means, then all standard deviations (FACTS.md section 1).
+    policy is followed by all means, then all standard deviations (docs/specification.md,
+    "Run files").
     """
 
     def __init__(self, problem: str, interface: Interface, config: PolicyConfig) -> None:

@@ -1,4 +1,4 @@
-"""Measured infrared tables: `.sample` files (FACTS.md section 4).
+"""Measured infrared tables: `.sample` files (docs/specification.md, "Wheeled robots").
 
     8 180 20 5 2            sensors, angles, distances, first distance and step in mm
     TURN 0                  the first distance

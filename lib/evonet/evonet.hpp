@@ -9,7 +9,7 @@
 
 namespace botschool {
 
-/// Running statistics of raw observations; FACTS.md section 1, "Inputs".
+/// Running statistics of raw observations; docs/specification.md, "Policy network".
 class Moments {
  public:
   explicit Moments(int inputs) : inputs_(inputs) { reset(); }

@@ -1,5 +1,5 @@
 // What a policy network looks like (Spec), and where each of its parameters is in the genotype
-// (Layout). Rules: FACTS.md section 1.
+// (Layout). Rules: docs/specification.md, "Policy network".
 #pragma once
 
 #include <cstdint>

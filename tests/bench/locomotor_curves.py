@@ -28,7 +28,8 @@ PUBLISHED = {
     "walker2d": (910, 477),
     "humanoid": (931, 736),
 }
-"""Mean and standard deviation of the best post-evaluated fitness, 10 seeds (FACTS.md section 6)."""
+"""Mean and standard deviation of the best post-evaluated fitness, 10 seeds (docs/specification.md,
+"Published results")."""
 SEED = 1
 NEW_SEED, NEW_EPISODES = 2_000_000, 50
 

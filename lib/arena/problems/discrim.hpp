@@ -1,4 +1,5 @@
-// A Khepera that has to find a cylinder by infrared, and to stay near it. FACTS.md section 4.
+// A Khepera that has to find a cylinder by infrared, and to stay near it.
+// docs/specification.md, "Wheeled robots".
 #pragma once
 
 #include "../robots/sensors.hpp"

@@ -1,5 +1,6 @@
-// Long double pole balancing without velocities (Wieland 1991; FACTS.md section 4, ErDpole):
-// frictionless track, fourth-order Runge-Kutta, two steps of 0.01 s per action.
+// Long double pole balancing without velocities (Wieland 1991): frictionless track,
+// fourth-order Runge-Kutta, two steps of 0.01 s per action. Equations: docs/specification.md, "Classic
+// control".
 #pragma once
 
 #include "../engine/problem.hpp"

@@ -1,4 +1,4 @@
-// A predator that has to catch a prey: two marXbots. FACTS.md section 4.
+// A predator that has to catch a prey: two marXbots. docs/specification.md, "Wheeled robots".
 #pragma once
 
 #include "../robots/sensors.hpp"

@@ -1,4 +1,5 @@
-// Cart-pole swing-up (Deisenroth and Rasmussen 2011; FACTS.md section 4), explicit Euler.
+// Cart-pole swing-up (Deisenroth and Rasmussen 2011), explicit Euler. Equations:
+// docs/specification.md, "Classic control".
 #pragma once
 
 #include "../engine/problem.hpp"

@@ -1,4 +1,5 @@
-// Infrared sensors, by the fitted model or by a measured table, and their noise. FACTS.md section 4.
+// Infrared sensors, by the fitted model or by a measured table, and their noise.
+// docs/specification.md, "Wheeled robots".
 #pragma once
 
 #include "world.hpp"

@@ -1,4 +1,5 @@
-// An arena with wheeled robots, L copies in lockstep: poses, motion, collisions. FACTS.md section 4.
+// An arena with wheeled robots, L copies in lockstep: poses, motion, collisions.
+// docs/specification.md, "Wheeled robots".
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-"""The populations that a run of coevo2 leaves in a folder (FACTS.md section 2).
+"""The populations that a run of coevo2 leaves in a folder (docs/specification.md, "Run files").
 
 `S12G200.npy` holds the populations of seed 12 after 200 generations: first all predators, then all
 prey, a network a row. `S12FitG200.npy` holds the fitness of each of them against each competitor.

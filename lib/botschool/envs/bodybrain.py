@@ -69,7 +69,7 @@ class BodyBrain(gymnasium.Env):
     minus 5 for each radian that the torso turns away from the horizontal. `info["distance"]` is how
     far forward the torso has come, in metres.
 
-    FACTS.md section 5 says all this exactly. Where it is silent: the torso is the rear end and the
+    All this exactly: docs/specification.md, "Bodies". The torso is the rear end, and the
     chain begins to its right; the body is placed with the middle of its extent above the middle of
     the flat part, its lowest corner 0.1 m above the ground; gravity is 10 m/s^2; the ground's
     friction is that of the segments. Every episode has a world of its own, so it is a pure function

@@ -1,4 +1,4 @@
-"""The 64 numbers that describe the body of a BodyBrain robot (FACTS.md section 5).
+"""The 64 numbers that describe the body of a BodyBrain robot (docs/specification.md, "Bodies").
 
 In this order: length and thickness of each of the 11 segments; two limits for each of the 10
 joints; default angle of each segment; density of each segment.

@@ -34,8 +34,8 @@ class Evaluator:
     """Measures candidates of one policy on one problem.
 
     Holds the normalisation: its data are collected in post-evaluations only, and everything that
-    lasts changes only in `refresh()`, once a generation (FACTS.md section 1). A generation that
-    breaks off before leaves no trace.
+    lasts changes only in `refresh()`, once a generation (docs/specification.md, "Evaluation").
+    A generation that breaks off before leaves no trace.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""What a run has achieved, and the files that say so (FACTS.md section 2)."""
+"""What a run has achieved, and the files that say so (docs/specification.md, "Run files")."""
 
 from __future__ import annotations
 

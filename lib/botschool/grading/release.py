@@ -16,7 +16,7 @@ from botschool.sandbox.scratch import remove_tree
 
 RELEASED = (
     "lib", "data", "exercises", "tools", "docs", "tests", "Makefile", "pyproject.toml",
-    "constraints.txt", "README.md", "LICENSE", ".gitignore", ".clang-format",
+    "constraints.txt", "README.md", "CONTRIBUTING.md", "LICENSE", ".gitignore", ".clang-format",
 )  # fmt: skip
 """At the top of the repository; everything else stays (envs/ is what exercise 10 builds)."""
 _WITHHELD = re.compile(

@@ -1,6 +1,6 @@
 """coevo2, competitive co-evolution: the "Generalist" of Nolfi and Pagliuca (2024), "Global progress
 in competitive co-evolution", https://doi.org/10.3389/frobt.2024.1470886; earlier Simione and Nolfi
-(2021), "Long-term progress and behavior complexification in competitive coevolution". As in
+(2020), "Long-term progress and behavior complexification in competitive coevolution". As in
 docs/specification.md, "Algorithms".
 
 Two populations, predators and prey, evolve by turns. Some individuals of one are improved, by

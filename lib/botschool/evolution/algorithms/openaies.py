@@ -1,5 +1,6 @@
 """OpenAI-ES: Salimans, Ho, Chen, Sidor and Sutskever (2017), "Evolution strategies as a scalable
-alternative to reinforcement learning", as in FACTS.md section 3.
+alternative to reinforcement learning", as in
+docs/specification.md, "Algorithms".
 
 The population is a cloud around one centre. Each generation measures candidates on both sides of
 the centre along random directions, estimates from their ranks in which direction fitness rises,

@@ -1,4 +1,5 @@
-"""SSS, the stochastic steady state: Pagliuca, Milano and Nolfi (2018), as in FACTS.md section 3.
+"""SSS, the stochastic steady state: Pagliuca, Milano and Nolfi (2018), as in
+docs/specification.md, "Algorithms".
 
 Each generation measures every individual, keeps the better half, and overwrites the worse half
 with mutated copies of the better one.
