@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from botschool.config import Coevo2Config
-from botschool.evolution.algorithms import coevo2
-from botschool.evolution.algorithms.coevo2 import Coevo2, differing, ranking, seen_by
+from botschool.evolution.algorithms.coevo2 import Coevo2, differing
+from botschool.evolution.algorithms.sides import means, ranking, seen_by
 
 SIZE = 5
 SETTINGS = {"popsize": 7, "selsize": 3, "samplesize": 4, "noiseStdDev": 0.1, "stepsize": 0.03}
@@ -21,15 +21,20 @@ def initial(index):
     return np.random.default_rng(index).normal(size=2 * SIZE)
 
 
-def play(predators, prey):
-    """Some game in which it depends on the opponent what is good."""
+def meetings(predators, prey):
+    """Some game in which it depends on the opponent what is good; all against all."""
     near = np.abs(predators[:, None] - np.roll(prey, 1, axis=1)[None]).sum(axis=2)
     return np.round(1 / (1 + near), 3)
 
 
+def play(predators, prey, pairs):
+    """The same, pair by pair."""
+    return meetings(predators, prey)[tuple(pairs)]
+
+
 def game(**options):
     algorithm = Coevo2(Coevo2Config(**SETTINGS | options), initial, seed=9)
-    algorithm.meet(play)
+    algorithm.advance(play)
     return algorithm
 
 
@@ -151,13 +156,13 @@ def test_generations_agree_with_plain_python(evolving, wdecay):
     plain = Plain(Coevo2Config(**SETTINGS, evolving=evolving, wdecay=wdecay), 9)
     for generation in range(3):
         before = algorithm.parameters.copy()
-        progress = algorithm.advance(play)
-        assert progress == pytest.approx(plain.advance(), abs=1e-12)
+        algorithm.advance(play)
+        assert algorithm.progress == pytest.approx(plain.advance(), abs=1e-12)
         for name, part in (("parameters", "x"), ("m", "m"), ("v", "v")):
             expected = [[getattr(one, part) for one in side] for side in plain.sides]
             found = getattr(algorithm, name)
             np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-12)
-        assert np.array_equal(algorithm.fitness, play(*algorithm.parameters))
+        assert np.array_equal(algorithm.fitness, meetings(*algorithm.parameters))
         same = [
             np.array_equal(*(np.sort(a[side], axis=0) for a in (before, algorithm.parameters)))
             for side in (0, 1)
@@ -170,7 +175,7 @@ def test_before_the_first_meeting_there_is_no_fitness():
     assert not algorithm.met
     for i in range(7):
         assert np.array_equal(np.concatenate(algorithm.parameters[:, i]), initial(i))
-    algorithm.meet(play)
+    algorithm.advance(play)
     assert algorithm.met and algorithm.generation == 0
     assert not algorithm.m.any() and not algorithm.v.any()
 
@@ -179,16 +184,17 @@ def test_both_populations_are_sorted():
     algorithm = game()
     for _ in range(6):
         for side in (0, 1):
-            assert (np.diff(coevo2.means(seen_by(side, algorithm.fitness))) <= 0).all()
+            assert (np.diff(means(seen_by(side, algorithm.fitness))) <= 0).all()
         algorithm.advance(play)
 
 
 def test_what_happens_in_a_sub_generation_is_one_call():
     asked = []
 
-    def spying(predators, prey):
+    def spying(predators, prey, pairs):
+        assert len(set(zip(*pairs.tolist(), strict=True))) == len(predators) * len(prey)
         asked.append((len(predators), len(prey)))
-        return play(predators, prey)
+        return play(predators, prey, pairs)
 
     algorithm = game()
     algorithm.advance(spying)
@@ -228,12 +234,12 @@ def test_a_generation_that_breaks_off_leaves_no_trace():
     for calls in range(21):
         done = 0
 
-        def breaking(predators, prey, calls=calls):
+        def breaking(predators, prey, pairs, calls=calls):
             nonlocal done
             if done == calls:
                 raise InterruptedError
             done += 1
-            return play(predators, prey)
+            return play(predators, prey, pairs)
 
         with pytest.raises(InterruptedError):
             algorithm.advance(breaking)
@@ -246,7 +252,9 @@ def test_a_state_that_is_restored_goes_on_alike():
     one.advance(play)
     two.restore({name: value.copy() for name, value in one.state().items()})
     for _ in range(3):
-        assert one.advance(play) == two.advance(play)
+        one.advance(play)
+        two.advance(play)
+        assert one.summary() == two.summary()
     assert all(np.array_equal(one.state()[name], two.state()[name]) for name in one.state())
 
 
@@ -275,21 +283,22 @@ def test_who_is_dropped_is_the_worst(seed, popsize, selsize, generations):
     selsize = min(selsize, popsize)
     config = Coevo2Config(popsize=popsize, selsize=selsize, samplesize=2, noiseStdDev=0.5)
     algorithm = Coevo2(config, lambda index: initial([seed, index]), seed)
-    algorithm.meet(play)
+    algorithm.advance(play)
     for _ in range(generations):
         side, played = algorithm.side, []
 
-        def spying(predators, prey, played=played):
+        def spying(predators, prey, pairs, played=played):
             played.append((predators.copy(), prey.copy()))
-            return play(predators, prey)
+            return play(predators, prey, pairs)
 
         before, rivals = algorithm.parameters[side].copy(), algorithm.parameters[1 - side].copy()
         algorithm.advance(spying)
         candidates = np.concatenate([played[-1][side], before])
 
         def fitness(individuals, side=side, rivals=rivals):
-            met = play(individuals, rivals) if side == 0 else play(rivals, individuals)
-            return coevo2.means(seen_by(side, met))
+            ours, theirs = (individuals, rivals) if side == 0 else (rivals, individuals)
+            met = meetings(ours, theirs)
+            return means(seen_by(side, met))
 
         best = np.sort(fitness(candidates))[::-1][:popsize]
         assert np.array_equal(fitness(algorithm.parameters[side]), best)
@@ -302,10 +311,10 @@ def test_of_equals_the_newcomers_stay():
     config = Coevo2Config(**SETTINGS)
     algorithm = Coevo2(config, initial, seed=9)
 
-    def nobody(predators, prey):
-        return np.zeros((len(predators), len(prey)))
+    def nobody(predators, prey, pairs):
+        return np.zeros(pairs.shape[1])
 
-    algorithm.meet(nobody)
+    algorithm.advance(nobody)
     before = algorithm.parameters.copy()
     algorithm.advance(nobody)
     assert np.array_equal(algorithm.parameters[0, 3:], before[0, :4])
@@ -319,9 +328,9 @@ def test_the_best_evolve_or_anyone():
         algorithm = game(evolving=evolving)
         asked = []
 
-        def spying(predators, prey, asked=asked):
+        def spying(predators, prey, pairs, asked=asked):
             asked.append((predators.copy(), prey.copy()))
-            return play(predators, prey)
+            return play(predators, prey, pairs)
 
         before, fitness = algorithm.parameters[0].copy(), algorithm.fitness.copy()
         rivals = {row.tobytes(): i for i, row in enumerate(algorithm.parameters[1])}
