@@ -11,50 +11,15 @@ from hypothesis import strategies as st
 from botschool.config import Coevo2Config
 from botschool.evolution.algorithms.coevo2 import Coevo2, differing
 from botschool.evolution.algorithms.sides import means, ranking, seen_by
+from tiny_game import SIZE, Individual, average, climb, initial, meeting, meetings, play
 
-SIZE = 5
 SETTINGS = {"popsize": 7, "selsize": 3, "samplesize": 4, "noiseStdDev": 0.1, "stepsize": 0.03}
-
-
-def initial(index):
-    """Two networks in a row."""
-    return np.random.default_rng(index).normal(size=2 * SIZE)
-
-
-def meetings(predators, prey):
-    """Some game in which it depends on the opponent what is good; all against all."""
-    near = np.abs(predators[:, None] - np.roll(prey, 1, axis=1)[None]).sum(axis=2)
-    return np.round(1 / (1 + near), 3)
-
-
-def play(predators, prey, pairs):
-    """The same, pair by pair."""
-    return meetings(predators, prey)[tuple(pairs)]
 
 
 def game(**options):
     algorithm = Coevo2(Coevo2Config(**SETTINGS | options), initial, seed=9)
     algorithm.advance(play)
     return algorithm
-
-
-class Individual:
-    """Of the plain implementation."""
-
-    def __init__(self, x, m, v):
-        self.x, self.m, self.v = list(x), list(m), list(v)
-
-
-def meeting(side, ours, theirs):
-    """Own fitness of an individual of one side."""
-    predator, prey = (ours, theirs) if side == 0 else (theirs, ours)
-    near = sum(abs(predator[j] - prey[j - 1]) for j in range(SIZE))
-    fitness = round(1 / (1 + near), 3)
-    return fitness if side == 0 else 1 - fitness
-
-
-def average(values):
-    return math.fsum(values) / len(values)
 
 
 def differences(one, other):
@@ -106,7 +71,7 @@ class Plain:
         for _ in range(20):
             e = numbers.standard_normal((self.c.selsize, self.c.samplesize, SIZE))
             for one, directions in zip(copies, e.tolist(), strict=True):
-                self.improve(one, directions, fitness)
+                climb(self.c, one, directions, lambda number, x: fitness(x))
         progress = average([fitness(one.x) for one in copies]) - average(
             [fitness(one.x) for one in chosen]
         )
@@ -126,27 +91,6 @@ class Plain:
             gaps = [sum(differences(profiles[i], profiles[k]) for k in chosen) for i in others]
             chosen.append(others[gaps.index(max(gaps))])
         return chosen
-
-    def improve(self, one, directions, fitness):
-        scores = []
-        for e in directions:
-            for sign in (1, -1):
-                step = sign * self.c.noiseStdDev
-                scores.append(fitness([x + step * d for x, d in zip(one.x, e, strict=True)]))
-        n = len(scores)
-        utility = [0.0] * n
-        for rank, i in enumerate(sorted(range(n), key=lambda i: scores[i])):
-            utility[i] = rank / (n - 1) - 0.5
-        for j in range(SIZE):
-            pairs = [utility[2 * b] - utility[2 * b + 1] for b in range(n // 2)]
-            g = -sum(w * e[j] for w, e in zip(pairs, directions, strict=True)) / n
-            if self.c.wdecay == 1:
-                g += 0.005 * one.x[j]
-            if self.c.wdecay == 2:
-                g += 0.005 * math.copysign(1, one.x[j])
-            one.m[j] = 0.9 * one.m[j] + 0.1 * g
-            one.v[j] = 0.999 * one.v[j] + 0.001 * g * g
-            one.x[j] -= self.c.stepsize * one.m[j] / (math.sqrt(one.v[j]) + 1e-8)
 
 
 @pytest.mark.parametrize("wdecay", [0, 1, 2])
