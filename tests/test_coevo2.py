@@ -9,47 +9,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from botschool.config import Coevo2Config
-from botschool.evolution.algorithms import coevo2
-from botschool.evolution.algorithms.coevo2 import Coevo2, differing, ranking, seen_by
+from botschool.evolution.algorithms.coevo2 import Coevo2, differing
+from botschool.evolution.algorithms.sides import means, ranking, seen_by
+from tiny_game import SIZE, Individual, average, climb, initial, meeting, meetings, play
 
-SIZE = 5
 SETTINGS = {"popsize": 7, "selsize": 3, "samplesize": 4, "noiseStdDev": 0.1, "stepsize": 0.03}
-
-
-def initial(index):
-    """Two networks in a row."""
-    return np.random.default_rng(index).normal(size=2 * SIZE)
-
-
-def play(predators, prey):
-    """Some game in which it depends on the opponent what is good."""
-    near = np.abs(predators[:, None] - np.roll(prey, 1, axis=1)[None]).sum(axis=2)
-    return np.round(1 / (1 + near), 3)
 
 
 def game(**options):
     algorithm = Coevo2(Coevo2Config(**SETTINGS | options), initial, seed=9)
-    algorithm.meet(play)
+    algorithm.advance(play)
     return algorithm
-
-
-class Individual:
-    """Of the plain implementation."""
-
-    def __init__(self, x, m, v):
-        self.x, self.m, self.v = list(x), list(m), list(v)
-
-
-def meeting(side, ours, theirs):
-    """Own fitness of an individual of one side."""
-    predator, prey = (ours, theirs) if side == 0 else (theirs, ours)
-    near = sum(abs(predator[j] - prey[j - 1]) for j in range(SIZE))
-    fitness = round(1 / (1 + near), 3)
-    return fitness if side == 0 else 1 - fitness
-
-
-def average(values):
-    return math.fsum(values) / len(values)
 
 
 def differences(one, other):
@@ -101,7 +71,7 @@ class Plain:
         for _ in range(20):
             e = numbers.standard_normal((self.c.selsize, self.c.samplesize, SIZE))
             for one, directions in zip(copies, e.tolist(), strict=True):
-                self.improve(one, directions, fitness)
+                climb(self.c, one, directions, lambda number, x: fitness(x))
         progress = average([fitness(one.x) for one in copies]) - average(
             [fitness(one.x) for one in chosen]
         )
@@ -122,27 +92,6 @@ class Plain:
             chosen.append(others[gaps.index(max(gaps))])
         return chosen
 
-    def improve(self, one, directions, fitness):
-        scores = []
-        for e in directions:
-            for sign in (1, -1):
-                step = sign * self.c.noiseStdDev
-                scores.append(fitness([x + step * d for x, d in zip(one.x, e, strict=True)]))
-        n = len(scores)
-        utility = [0.0] * n
-        for rank, i in enumerate(sorted(range(n), key=lambda i: scores[i])):
-            utility[i] = rank / (n - 1) - 0.5
-        for j in range(SIZE):
-            pairs = [utility[2 * b] - utility[2 * b + 1] for b in range(n // 2)]
-            g = -sum(w * e[j] for w, e in zip(pairs, directions, strict=True)) / n
-            if self.c.wdecay == 1:
-                g += 0.005 * one.x[j]
-            if self.c.wdecay == 2:
-                g += 0.005 * math.copysign(1, one.x[j])
-            one.m[j] = 0.9 * one.m[j] + 0.1 * g
-            one.v[j] = 0.999 * one.v[j] + 0.001 * g * g
-            one.x[j] -= self.c.stepsize * one.m[j] / (math.sqrt(one.v[j]) + 1e-8)
-
 
 @pytest.mark.parametrize("wdecay", [0, 1, 2])
 @pytest.mark.parametrize("evolving", ["random", "best"])
@@ -151,13 +100,13 @@ def test_generations_agree_with_plain_python(evolving, wdecay):
     plain = Plain(Coevo2Config(**SETTINGS, evolving=evolving, wdecay=wdecay), 9)
     for generation in range(3):
         before = algorithm.parameters.copy()
-        progress = algorithm.advance(play)
-        assert progress == pytest.approx(plain.advance(), abs=1e-12)
+        algorithm.advance(play)
+        assert algorithm.progress == pytest.approx(plain.advance(), abs=1e-12)
         for name, part in (("parameters", "x"), ("m", "m"), ("v", "v")):
             expected = [[getattr(one, part) for one in side] for side in plain.sides]
             found = getattr(algorithm, name)
             np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-12)
-        assert np.array_equal(algorithm.fitness, play(*algorithm.parameters))
+        assert np.array_equal(algorithm.fitness, meetings(*algorithm.parameters))
         same = [
             np.array_equal(*(np.sort(a[side], axis=0) for a in (before, algorithm.parameters)))
             for side in (0, 1)
@@ -170,7 +119,7 @@ def test_before_the_first_meeting_there_is_no_fitness():
     assert not algorithm.met
     for i in range(7):
         assert np.array_equal(np.concatenate(algorithm.parameters[:, i]), initial(i))
-    algorithm.meet(play)
+    algorithm.advance(play)
     assert algorithm.met and algorithm.generation == 0
     assert not algorithm.m.any() and not algorithm.v.any()
 
@@ -179,16 +128,17 @@ def test_both_populations_are_sorted():
     algorithm = game()
     for _ in range(6):
         for side in (0, 1):
-            assert (np.diff(coevo2.means(seen_by(side, algorithm.fitness))) <= 0).all()
+            assert (np.diff(means(seen_by(side, algorithm.fitness))) <= 0).all()
         algorithm.advance(play)
 
 
 def test_what_happens_in_a_sub_generation_is_one_call():
     asked = []
 
-    def spying(predators, prey):
+    def spying(predators, prey, pairs):
+        assert len(set(zip(*pairs.tolist(), strict=True))) == len(predators) * len(prey)
         asked.append((len(predators), len(prey)))
-        return play(predators, prey)
+        return play(predators, prey, pairs)
 
     algorithm = game()
     algorithm.advance(spying)
@@ -228,12 +178,12 @@ def test_a_generation_that_breaks_off_leaves_no_trace():
     for calls in range(21):
         done = 0
 
-        def breaking(predators, prey, calls=calls):
+        def breaking(predators, prey, pairs, calls=calls):
             nonlocal done
             if done == calls:
                 raise InterruptedError
             done += 1
-            return play(predators, prey)
+            return play(predators, prey, pairs)
 
         with pytest.raises(InterruptedError):
             algorithm.advance(breaking)
@@ -246,7 +196,9 @@ def test_a_state_that_is_restored_goes_on_alike():
     one.advance(play)
     two.restore({name: value.copy() for name, value in one.state().items()})
     for _ in range(3):
-        assert one.advance(play) == two.advance(play)
+        one.advance(play)
+        two.advance(play)
+        assert one.summary() == two.summary()
     assert all(np.array_equal(one.state()[name], two.state()[name]) for name in one.state())
 
 
@@ -275,21 +227,22 @@ def test_who_is_dropped_is_the_worst(seed, popsize, selsize, generations):
     selsize = min(selsize, popsize)
     config = Coevo2Config(popsize=popsize, selsize=selsize, samplesize=2, noiseStdDev=0.5)
     algorithm = Coevo2(config, lambda index: initial([seed, index]), seed)
-    algorithm.meet(play)
+    algorithm.advance(play)
     for _ in range(generations):
         side, played = algorithm.side, []
 
-        def spying(predators, prey, played=played):
+        def spying(predators, prey, pairs, played=played):
             played.append((predators.copy(), prey.copy()))
-            return play(predators, prey)
+            return play(predators, prey, pairs)
 
         before, rivals = algorithm.parameters[side].copy(), algorithm.parameters[1 - side].copy()
         algorithm.advance(spying)
         candidates = np.concatenate([played[-1][side], before])
 
         def fitness(individuals, side=side, rivals=rivals):
-            met = play(individuals, rivals) if side == 0 else play(rivals, individuals)
-            return coevo2.means(seen_by(side, met))
+            ours, theirs = (individuals, rivals) if side == 0 else (rivals, individuals)
+            met = meetings(ours, theirs)
+            return means(seen_by(side, met))
 
         best = np.sort(fitness(candidates))[::-1][:popsize]
         assert np.array_equal(fitness(algorithm.parameters[side]), best)
@@ -302,10 +255,10 @@ def test_of_equals_the_newcomers_stay():
     config = Coevo2Config(**SETTINGS)
     algorithm = Coevo2(config, initial, seed=9)
 
-    def nobody(predators, prey):
-        return np.zeros((len(predators), len(prey)))
+    def nobody(predators, prey, pairs):
+        return np.zeros(pairs.shape[1])
 
-    algorithm.meet(nobody)
+    algorithm.advance(nobody)
     before = algorithm.parameters.copy()
     algorithm.advance(nobody)
     assert np.array_equal(algorithm.parameters[0, 3:], before[0, :4])
@@ -319,9 +272,9 @@ def test_the_best_evolve_or_anyone():
         algorithm = game(evolving=evolving)
         asked = []
 
-        def spying(predators, prey, asked=asked):
+        def spying(predators, prey, pairs, asked=asked):
             asked.append((predators.copy(), prey.copy()))
-            return play(predators, prey)
+            return play(predators, prey, pairs)
 
         before, fitness = algorithm.parameters[0].copy(), algorithm.fitness.copy()
         rivals = {row.tobytes(): i for i, row in enumerate(algorithm.parameters[1])}

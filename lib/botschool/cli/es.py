@@ -39,7 +39,7 @@ def es(
         typer.Option(
             "-g",
             "--genotype",
-            help="With -p: a saved robot; for coevo2 also P-100-5 and the like, see above.",
+            help="With -p: a saved robot; of predators and prey also P-100-5 and the like.",
             metavar="FILE",
         ),
     ] = None,
@@ -74,7 +74,7 @@ def es(
 ) -> None:
     """Evolve robots, or look at an evolved one (-p). Without -f: list all hyperparameters.
 
-    For predators and prey (coevo2) -g may also be, with -o naming the folder of the run:
+    For predators and prey -g may also be, with -o naming the folder of their run:
 
     - `P-100-5`: watch the 5 best predators of generation 100 chase its 5 best prey;
       `p-100-5`: only measure them

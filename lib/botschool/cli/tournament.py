@@ -20,7 +20,7 @@ app = typer.Typer()
 @app.command(epilog="Example: botschool tournament results -f predprey.ini -o tournament.png")
 def tournament(
     folder: Annotated[
-        Path, typer.Argument(help="Folder of a run of coevo2.", metavar="FOLDER")
+        Path, typer.Argument(help="Folder of a run of predators and prey.", metavar="FOLDER")
     ] = Path("."),
     file: Annotated[
         Path | None, typer.Option("-f", "--file", help="Its experiment (.ini).", metavar="FILE")

@@ -50,6 +50,61 @@ class Algorithm(Protocol):
         """The reverse of state()."""
 
 
+Play = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
+"""(predators, prey, pairs) -> the predator's fitness in each meeting, float64 (meetings,).
+
+Predators and prey are networks, float64, shapes (p, parameters) and (q, parameters); pairs says who
+meets whom, int32 (2, meetings). A prey's fitness is 1 minus the predator's."""
+
+
+class Competition(Protocol):
+    """Two sides, predators and prey, that evolve against each other: `advance`, again and again.
+
+    Its hyperparameters include `ngenerations`, the length of a run in generations, and `saveeach`,
+    the generations between saves; they may include `maxmsteps`. What is said of Algorithm holds
+    here too: `initial` gives two networks in a row, of a predator and a prey.
+    """
+
+    generation: int
+    """Generations done."""
+    side: int
+    """Who evolves in the next generation: 0 predators, 1 prey."""
+    share: float
+    """How much of the evolution is done, from 0 to 1; the run sets it before each generation."""
+    plays: int
+    """Calls of `play` in a generation."""
+
+    def __init__(self, config: Any, initial: Initial, seed: int) -> None: ...
+
+    def advance(self, play: Play) -> None:
+        """A generation, or what must come before the first one: then `generation` stays 0.
+
+        It changes nothing before its end, so what `play` raises leaves no trace.
+        """
+
+    def best(self) -> tuple[np.ndarray, float]:
+        """The best predator and the best prey, one after the other, and the predator's fitness."""
+
+    def summary(self) -> dict[str, float]:
+        """What is reported of a generation; "predators" and "prey" are their mean fitness."""
+
+    def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray] | None:
+        """Who is kept in files: networks, float64 (2, n, parameters), predators, then prey; and the
+        fitness of predators (rows) against prey (columns), (n, n). None if there is nobody yet.
+
+        Playing for this changes nothing, and its steps do not count.
+        """
+
+    def average_parameter(self) -> float:
+        """Average absolute parameter, for the stat file."""
+
+    def state(self) -> dict[str, np.ndarray]:
+        """As Algorithm.state; arrays whose name begins with "archive_" may get longer."""
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """The reverse of state()."""
+
+
 @dataclass(frozen=True)
 class Entry:
     """An algorithm as the registry knows it."""
@@ -60,9 +115,9 @@ class Entry:
     config: type
     """The dataclass of its hyperparameters, made with botschool.hyperparameters.hyper."""
     make: type
-    """Its class: an Algorithm, or with `competitive` one of two populations."""
+    """Its class: an Algorithm, or with `competitive` a Competition."""
     competitive: bool
-    """Whether two populations meet (botschool.evolution.coevolution runs it)."""
+    """Whether two sides meet (botschool.evolution.coevolution runs it)."""
 
     def conflicts(self, config: Any) -> Iterator[tuple[tuple[str, ...], str]]:
         """Hyperparameters that cannot go together: their names and a sentence with the remedy."""

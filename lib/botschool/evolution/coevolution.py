@@ -1,7 +1,8 @@
-"""A run of coevo2: who plays against whom, and the files that are left."""
+"""A run in which predators and prey evolve against each other: who meets whom, and what is left."""
 
 from __future__ import annotations
 
+import math
 import time
 from datetime import timedelta
 from functools import partial
@@ -9,164 +10,158 @@ from functools import partial
 import numpy as np
 
 from botschool.errors import BotschoolError
-from botschool.evolution.algorithms.coevo2 import (
-    PREDATORS,
-    PREY,
-    SIDES,
-    SUB_GENERATIONS,
-    Coevo2,
-    mean,
-    means,
-    seen_by,
-)
+from botschool.evolution.algorithm import ALGORITHMS, Competition
+from botschool.evolution.algorithms.sides import PREDATORS, PREY, SIDES, means, seen_by
 from botschool.evolution.record import STAT, Record, RunFiles
 from botschool.evolution.run import Limit, Run
 from botschool.output import save_npy
 from botschool.problems import Episodes
 
 CHECKPOINT_SECONDS = 60
-PLAYS = SUB_GENERATIONS + 1
-"""Calls of play() in a generation."""
+SAVING_SHARE = 0.05
+"""Checkpoints are rarer if they take more than this share of the time, as with large archives."""
 
 
 class CoevolutionRecord(Record):
-    """What a run of coevo2 has achieved.
+    """What a run has achieved.
 
-    The stat file is the predators': their best mean fitness so far (twice: meeting all competitors
-    is measurement and post-evaluation in one), their best and their average fitness after this
-    generation, each against all prey. The preys' average is 1 minus the predators'. The parameter
-    is that of both. bestg is the best predator and the best prey of the newest generation.
+    The stat file is the predators': their best mean fitness so far (twice: meeting competitors is
+    measurement and post-evaluation in one), their best and their average fitness in the newest
+    generation. Of coevo2 that is against all prey, of algorithms with archives in the predators'
+    newest turn, against those drawn from the preys' archive. The parameter is that of both sides.
+    bestg is the best predator and the best prey of the newest generation.
     """
 
-    columns = (*STAT, "local progress", *SIDES)
+    def __init__(self, columns: tuple[str, ...]) -> None:
+        """columns: what the algorithm's summary() has."""
+        super().__init__()
+        self.columns = (*STAT, *columns)
 
-    def add(self, algorithm: Coevo2, progress: float) -> None:
-        """Ends a generation; progress: the local one of those who have evolved."""
-        rows = {side: seen_by(side, algorithm.fitness) for side in (PREDATORS, PREY)}
-        best = mean(rows[PREDATORS][0])
-        average = {side: mean(row) for side, row in rows.items()}
+    def add(self, algorithm: Competition) -> None:
+        """Ends a generation."""
+        summary, (_, best) = algorithm.summary(), algorithm.best()
         self.best_fitness = self.bestg_fitness = max(self.best_fitness, best)
         self._rows.append(
             (
-                *(self.steps, self.best_fitness, self.bestg_fitness, best, average[PREDATORS]),
-                *(algorithm.average_parameter(), progress, average[PREDATORS], average[PREY]),
+                *(self.steps, self.best_fitness, self.bestg_fitness, best),
+                *(summary[SIDES[PREDATORS]], algorithm.average_parameter(), *summary.values()),
             )
         )
 
 
 class Coevolution(Run):
-    """A run of coevo2 with a seed; what `Run` says holds for it too.
+    """A run of an algorithm with two sides and a seed; what `Run` says holds for it too.
 
     Every meeting of two is the same `episodes` episodes: those of the run's seed with numbers
-    0, 1, ... So an entry of the fitness matrix is a pure function of the two who met.
+    0, 1, ... So the fitness of a meeting is a pure function of the two who met.
     """
 
     parts = ("algorithm", "record")
+    growing = ("record.", "algorithm.archive_")
 
     def begin(self) -> None:
-        """Makes the two populations, the record and the budget."""
+        """Makes both sides, the record and the budget."""
         config = self.experiment.algo
-        self.algorithm = Coevo2(config, partial(self.policy.initial, self.seed), self.seed)
-        self.record = CoevolutionRecord()
-        self.budget = self.limit = Limit(generations=config.ngenerations)
+        self.algorithm = ALGORITHMS[self.experiment.exp.algo].make(
+            config, partial(self.policy.initial, self.seed), self.seed
+        )
+        self.record = CoevolutionRecord(tuple(self.algorithm.summary()))
+        steps = self.max_steps if hasattr(config, "maxmsteps") else math.inf
+        self.budget = self.limit = Limit(steps, config.ngenerations or math.inf)
         self._steps = self._plays = 0  # of the present generation
         self._started: tuple[float, int, float] | None = None
 
     def check(self) -> None:
-        """Raises BotschoolError for experiments that coevo2 cannot run."""
-        config, problem = self.experiment.policy, self.problem
+        """Raises BotschoolError for experiments that have no two sides."""
+        config, problem, name = self.experiment.policy, self.problem, self.experiment.exp.algo
         if not problem.native or problem.interface.robots != 2:
             raise BotschoolError(
-                f"{problem.name} is not a native problem of two robots, which coevo2 needs: "
+                f"{problem.name} is not a native problem of two robots, which {name} needs: "
                 "set environment = ErPredprey, or algo = OpenAI-ES or SSS."
             )
         if not config.heterogeneous:
             raise BotschoolError(
-                "coevo2 evolves a network of its own for each robot: set heterogeneous = 1."
+                f"{name} evolves a network of its own for each robot: set heterogeneous = 1."
             )
         if config.normalize:
             raise BotschoolError(
-                "coevo2 does not scale observations, as populations of all generations are to "
+                f"{name} does not scale observations, as individuals of all generations are to "
                 "meet: set normalize = 0."
             )
 
     def advance(self) -> None:
-        """One generation; the very first call lets everyone meet everyone, which is none yet.
+        """One generation, or what the algorithm does before the first one.
 
         Raises Interrupted on request; a generation that fails is dropped.
         """
-        algorithm = self.algorithm
-        if algorithm.met and self._started is None:
-            now = time.monotonic()
-            self._started = (now, self.record.generation, self.limit.share(self))
+        algorithm, generation = self.algorithm, self.record.generation
+        algorithm.share = self.budget.share(self)
+        began, share = time.monotonic(), self.limit.share(self)
         self._steps = self._plays = 0
         try:
-            if algorithm.met:
-                progress = algorithm.advance(self._play)
-                self.record.steps += self._steps
-                self.record.add(algorithm, progress)
-            else:
-                algorithm.meet(self._play)
-                self.record.steps += self._steps
+            algorithm.advance(self._play)
         finally:
             self.part = 0.0
-        self.record.bestg = np.concatenate(algorithm.parameters[:, 0])
+        self.record.steps += self._steps
+        self.record.bestg, _ = algorithm.best()
+        if algorithm.generation > generation:
+            self.record.add(algorithm)
+            self._started = self._started or (began, generation, share)
 
-    def _play(self, predators: np.ndarray, prey: np.ndarray) -> np.ndarray:
-        """Fitness of every predator against every prey, by one native call.
+    def _play(self, predators: np.ndarray, prey: np.ndarray, pairs: np.ndarray) -> np.ndarray:
+        """The predator's fitness in each meeting: the algorithm's `Play`."""
+        fitness, steps = self._meet(predators, prey, pairs, self.stopping)
+        self._steps += steps
+        if self.record.steps and self.algorithm.plays > 1:
+            self._plays += 1
+            self.part = self._plays / self.algorithm.plays
+            self.report(self)
+        return fitness
 
-        The fewer ones are the outer loop, so that long rows of episodes share a network.
-        """
-        count = self.policy.config.episodes
-        shape = (len(predators), len(prey))
-        order = "C" if len(predators) <= len(prey) else "F"
-        rows, columns = (index.ravel(order) for index in np.indices(shape, dtype=np.int32))
-        pairs = np.stack([rows, len(predators) + columns])
-        meetings = pairs.shape[1]
+    def _meet(self, predators, prey, pairs, stopping) -> tuple[np.ndarray, int]:
+        """By one native call: the predator's fitness in each meeting, and the steps it took."""
+        count, meetings = self.policy.config.episodes, pairs.shape[1]
+        places = pairs + np.array([[0], [len(predators)]], dtype=np.int32)
         outcome = self.problem.evaluate(
             self.policy,
             np.concatenate([predators, prey]),
             None,
             Episodes(
-                np.ascontiguousarray(np.repeat(pairs, count, axis=1)),
+                np.ascontiguousarray(np.repeat(places, count, axis=1)),
                 np.full(meetings * count, self.seed, dtype=np.uint64),
                 np.tile(np.arange(count, dtype=np.uint32), meetings),
             ),
             self.policy.config.maxsteps,
             self.workers,
-            self.stopping,
+            stopping,
         )
-        self._steps += int(outcome.steps.sum())
-        if self.algorithm.met:
-            self._plays += 1
-            self.part = self._plays / PLAYS
-            self.report(self)
-        fitness = means(outcome.fitness.reshape(-1, count))
-        return np.ascontiguousarray(fitness.reshape(shape, order=order))
+        return means(outcome.fitness.reshape(-1, count)), int(outcome.steps.sum())
 
     @property
     def _milestone(self) -> bool:
-        """Whether the populations are to be kept, as every `saveeach` generations."""
+        """Whether individuals are to be kept, as every `saveeach` generations."""
         return self.record.generation % self.experiment.algo.saveeach == 0
 
     def due(self, seconds: float) -> bool:
         """Whether to save, so many seconds after the last time."""
-        return self._milestone or seconds >= CHECKPOINT_SECONDS
+        return self._milestone or seconds >= max(CHECKPOINT_SECONDS, self.saving / SAVING_SHARE)
 
     def write(self, files: RunFiles, ended: bool) -> None:
-        """Writes the run files; the populations only if they are to be kept, or at the end.
+        """Writes the run files; individuals only if they are to be kept, or at the end.
 
-        SSGg.npy: float64, (2 * popsize, parameters), predators then prey after generation g, each
-        best first (mean fitness against the whole other population). SSFitGg.npy: float64,
-        (2 * popsize, popsize), their own fitness against each competitor, in the same order.
+        SSGg.npy: float64, (2 n, parameters), n predators, then n prey after generation g.
+        SSFitGg.npy: float64, (2 n, n), their own fitness against each competitor, in that order.
+        Who they are says the algorithm's `individuals`.
         """
         self.record.write(files)
-        algorithm = self.algorithm
-        if algorithm.met and (ended or self._milestone):
-            generation = self.record.generation
-            save_npy(files.populations(generation), np.concatenate(algorithm.parameters))
-            fitness = [seen_by(side, algorithm.fitness) for side in (PREDATORS, PREY)]
-            save_npy(files.fitness(generation), np.concatenate(fitness))
+        if not (ended or self._milestone):
+            return
+        kept = self.algorithm.individuals(lambda *meeting: self._meet(*meeting, lambda: False)[0])
+        if kept is not None:
+            generation, (networks, fitness) = self.record.generation, kept
+            save_npy(files.populations(generation), np.concatenate(networks))
+            both = [seen_by(side, fitness) for side in (PREDATORS, PREY)]
+            save_npy(files.fitness(generation), np.concatenate(both))
 
     @property
     def _who(self) -> str:
@@ -174,22 +169,26 @@ class Coevolution(Run):
         return SIDES[1 - self.algorithm.side]
 
     def numbers(self) -> str:
-        """What it has reached, in short: local progress, then the mean of predators and prey."""
+        """What it has reached, in short: local progress if known, then the mean of both sides."""
         last = self.record.last
+        progress = f" {last['local progress']:+.2f}" if "local progress" in last else ""
         return (
-            f"gen. {self.record.generation}  {self._who} {last['local progress']:+.2f}  "
+            f"gen. {self.record.generation}  {self._who}{progress}  "
             f"mean {last['predators']:.2f} : {last['prey']:.2f}"
         )
 
     def line(self) -> str:
         """A line about the last generation."""
-        generation, last = self.record.generation, self.record.last
-        percent = 100 * generation / self.experiment.algo.ngenerations
+        last = self.record.last
+        summary = [
+            f"{name} {last[name]:{'+' if name == 'local progress' else ''}.3f}"
+            for name in (*self.record.columns[len(STAT) :], "average parameter")
+        ]
+        summary[-1] = summary[-1].removeprefix("average ")
         return (
-            f"seed {self.seed}  generation {generation} ({percent:.1f}%)  {self._who} evolved  "
-            f"steps {self.record.steps}  local progress {last['local progress']:+.3f}  "
-            f"predators {last['predators']:.3f}  prey {last['prey']:.3f}  "
-            f"parameter {last['average parameter']:.3f}{self._left()}"
+            f"seed {self.seed}  generation {self.record.generation} "
+            f"({100 * self.budget.share(self):.1f}%)  {self._who} evolved  "
+            f"steps {self.record.steps}  {'  '.join(summary)}{self._left()}"
         )
 
     def _left(self) -> str:

@@ -60,6 +60,10 @@ class Run:
 
     parts = ("algorithm", "evaluator", "record")
     """Attributes that a checkpoint holds."""
+    growing: tuple[str, ...] = ("record.",)
+    """How names of arrays in a checkpoint begin that get longer with the run."""
+    saving = 0.0
+    """Seconds that the last save took."""
     part = 0.0
     """How much of the present generation is done."""
     budget: Limit
@@ -171,7 +175,7 @@ class Run:
         """The reverse of state(). Raises KeyError or ValueError for that of another run."""
         for name, value in self.state().items():
             given = state[name]
-            free = 1 if name.startswith("record.") else 0  # dimensions that grow with the run
+            free = 1 if name.startswith(self.growing) else 0  # the first dimension
             if (given.dtype, given.ndim) != (value.dtype, value.ndim) or (
                 given.shape[free:] != value.shape[free:]
             ):
@@ -218,9 +222,11 @@ def evolve(
         logged = run.record.generation
 
     def save(ended: bool = False) -> None:
+        began = time.monotonic()
         checkpoint.save(files.checkpoint, run.experiment, run.seed, run.state())
         run.write(files, ended)
         log()
+        run.saving = time.monotonic() - began
 
     save()
     saved = recorded = time.monotonic()

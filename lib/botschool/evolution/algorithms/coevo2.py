@@ -15,46 +15,27 @@ That discards the opportunists, who do well against the few only.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, algorithm
-from botschool.evolution.algorithms.openaies import EPSILON, adam, gradient
+from botschool.evolution.algorithm import Initial, Play, algorithm
+from botschool.evolution.algorithms.openaies import climb, mirrored
+from botschool.evolution.algorithms.sides import (
+    PREDATORS,
+    PREY,
+    SIDES,
+    everyone,
+    mean,
+    means,
+    ranking,
+    seen_by,
+)
 from botschool.hyperparameters import WEIGHT_DECAY, hyper
 from botschool.seeds import generator
 
-PREDATORS, PREY = 0, 1
-SIDES = ("predators", "prey")
 SUB_GENERATIONS = 20
-
-Play = Callable[[np.ndarray, np.ndarray], np.ndarray]
-"""(predators, prey), parameters of shape (p, parameters) and (q, parameters) -> fitness of every
-predator against every prey, shape (p, q). A prey's fitness is 1 minus the predator's."""
-
-
-def seen_by(side: int, fitness: np.ndarray) -> np.ndarray:
-    """Fitness of the individuals of one side (rows) against their competitors (columns).
-
-    fitness: of predators (rows) against prey (columns).
-    """
-    return fitness if side == PREDATORS else 1 - fitness.T
-
-
-def mean(fitness: np.ndarray) -> float:
-    """Mean of all, by an exact sum: the same bits on every machine, in any order."""
-    return math.fsum(fitness.ravel().tolist()) / fitness.size
-
-
-def means(fitness: np.ndarray) -> np.ndarray:
-    """Mean of each row."""
-    return np.array([mean(row) for row in fitness])
-
-
-def ranking(fitness: np.ndarray) -> np.ndarray:
-    """Rows from the best mean to the worst; of equals, the earlier row first."""
-    return np.argsort(-means(fitness), kind="stable")
 
 
 def differing(fitness: np.ndarray, count: int, first: int) -> np.ndarray:
@@ -100,12 +81,18 @@ class Coevo2Config:
 
 @algorithm("coevo2", "two competing populations", Coevo2Config, competitive=True)
 class Coevo2:
-    """meet(play) once, then advance(play) for each generation.
+    """advance(play): at first everyone meets everyone, then each call is a generation.
 
     Everything is in the order of the populations, which are sorted: best mean fitness against the
     whole other population first. `fitness` is seen by the predators: predators in rows, prey in
-    columns; nan before meet().
+    columns; nan before the first meeting.
     """
+
+    plays = SUB_GENERATIONS + 1
+    share = 0.0
+    progress = math.nan
+    """Local progress of the last generation: by how much the mean fitness of the evolved
+    individuals against the chosen competitors has grown."""
 
     def __init__(self, config: Coevo2Config, initial: Initial, seed: int) -> None:
         """initial(index) gives two random networks in a row: the index-th predator and prey."""
@@ -139,17 +126,12 @@ class Coevo2:
         """Who evolves in the next generation: predators, then prey, and so on by turns."""
         return self.generation % 2
 
-    def meet(self, play: Play) -> None:
-        """First of all, everyone meets everyone."""
-        self.fitness = play(*self.parameters)
-        self._sort()
-
-    def advance(self, play: Play) -> float:
-        """One generation. Returns the local progress: by how much the mean fitness of the evolved
-        individuals against the chosen competitors has grown.
-
-        It changes nothing before its end, so what `play` raises leaves no trace.
-        """
+    def advance(self, play: Play) -> None:
+        """A generation; the first call lets everyone meet everyone, which is none yet."""
+        if not self.met:
+            self.fitness = everyone(play, *self.parameters)
+            self._sort()
+            return
         side, other = self.side, 1 - self.side
         numbers = generator(self.seed, self.generation)
 
@@ -170,14 +152,14 @@ class Coevo2:
         after = seen_by(side, met)[:, competitors]
 
         # everyone, newcomers first so that of equals they stay; without the worst
-        everyone = np.concatenate([met, self.fitness], axis=side)
-        kept = ranking(seen_by(side, everyone))[: self.config.popsize]
-        self.fitness = np.take(everyone, kept, axis=side)
+        fitness = np.concatenate([met, self.fitness], axis=side)
+        kept = ranking(seen_by(side, fitness))[: self.config.popsize]
+        self.fitness = np.take(fitness, kept, axis=side)
         for array, new in zip((self.parameters, self.m, self.v), evolved, strict=True):
             array[side] = np.concatenate([new, array[side]])[kept]
         self._sort()
         self.generation += 1
-        return mean(after) - mean(before[chosen])
+        self.progress = mean(after) - mean(before[chosen])
 
     def _improved(
         self,
@@ -192,20 +174,12 @@ class Coevo2:
 
         Each is a centre of its own, whose offspring all meet all opponents.
         """
-        config = self.config
         count, size = centres.shape
-        samples = numbers.standard_normal((count, config.samplesize, size))
-        perturbations = config.noiseStdDev * samples
-        offspring = np.empty((count, 2 * config.samplesize, size))
-        offspring[:, 0::2] = centres[:, None] + perturbations
-        offspring[:, 1::2] = centres[:, None] - perturbations
-
+        samples = numbers.standard_normal((count, self.config.samplesize, size))
+        offspring = mirrored(centres, samples, self.config.noiseStdDev)
         met = _play(play, self.side, offspring.reshape(-1, size), opponents)
         fitness = means(seen_by(self.side, met)).reshape(count, -1)
-
-        rising = np.array([gradient(*pair) for pair in zip(fitness, samples, strict=True)])
-        m, v = adam(m, v, rising, centres, config.wdecay)
-        return centres - config.stepsize * m / (np.sqrt(v) + EPSILON), m, v
+        return climb(centres, m, v, samples, fitness, self.config)
 
     def _sort(self) -> None:
         """Puts the best of both populations first."""
@@ -214,6 +188,19 @@ class Coevo2:
             self.fitness = np.take(self.fitness, order, axis=side)
             for array in (self.parameters, self.m, self.v):
                 array[side] = array[side, order]
+
+    def best(self) -> tuple[np.ndarray, float]:
+        """The first of both populations, and the predator's mean fitness against all prey."""
+        return np.concatenate(self.parameters[:, 0]), mean(self.fitness[0])
+
+    def summary(self) -> dict[str, float]:
+        """Local progress, and the mean fitness of both populations."""
+        sides = {name: mean(seen_by(side, self.fitness)) for side, name in enumerate(SIDES)}
+        return {"local progress": self.progress, **sides}
+
+    def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray] | None:
+        """Both populations, the best first."""
+        return (self.parameters, self.fitness) if self.met else None
 
     def average_parameter(self) -> float:
         """Average absolute parameter of both populations."""
@@ -238,4 +225,4 @@ class Coevo2:
 
 def _play(play: Play, side: int, ours: np.ndarray, theirs: np.ndarray) -> np.ndarray:
     """Individuals of one side meet competitors; the fitness is seen by the predators."""
-    return play(ours, theirs) if side == PREDATORS else play(theirs, ours)
+    return everyone(play, *((ours, theirs) if side == PREDATORS else (theirs, ours)))

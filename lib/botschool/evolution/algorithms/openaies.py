@@ -13,6 +13,7 @@ and moves the centre a step that way with Adam (Kingma and Ba 2015).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -51,6 +52,38 @@ def adam(
     elif wdecay == 2:
         descent += DECAY * np.sign(centre)
     return BETA1 * m + (1 - BETA1) * descent, BETA2 * v + (1 - BETA2) * descent**2
+
+
+def mirrored(centres: np.ndarray, samples: np.ndarray, deviation: float) -> np.ndarray:
+    """Candidates on both sides of each centre, shape (..., 2 * samplesize, parameters).
+
+    centres: (..., parameters); samples: (..., samplesize, parameters). Candidates 2 b and 2 b + 1
+    are centre + deviation * e_b and centre - deviation * e_b.
+    """
+    perturbations = deviation * samples
+    candidates = np.empty((*samples.shape[:-2], 2 * samples.shape[-2], samples.shape[-1]))
+    candidates[..., 0::2, :] = centres[..., None, :] + perturbations
+    candidates[..., 1::2, :] = centres[..., None, :] - perturbations
+    return candidates
+
+
+def climb(
+    centres: np.ndarray,
+    m: np.ndarray,
+    v: np.ndarray,
+    samples: np.ndarray,
+    fitness: np.ndarray,
+    config: Any,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """One step of several centres, without bias correction: their next parameters, m and v.
+
+    Shapes: centres, m and v (count, parameters); samples (count, samplesize, parameters); fitness
+    (count, 2 * samplesize), in the order of mirrored(). config has stepsize and wdecay. This is
+    the step of the algorithms with predators and prey.
+    """
+    rising = np.array([gradient(*pair) for pair in zip(fitness, samples, strict=True)])
+    m, v = adam(m, v, rising, centres, config.wdecay)
+    return centres - config.stepsize * m / (np.sqrt(v) + EPSILON), m, v
 
 
 @dataclass
@@ -92,10 +125,7 @@ class OpenAIES:
         """
         shape = (self.config.samplesize, len(self.centre))
         self.samples = generator(self.seed, self.generation).standard_normal(shape)
-        perturbations = self.config.noiseStdDev * self.samples
-        candidates = np.empty((2 * shape[0], shape[1]))
-        candidates[0::2] = self.centre + perturbations
-        candidates[1::2] = self.centre - perturbations
+        candidates = mirrored(self.centre, self.samples, self.config.noiseStdDev)
         if self.config.symseed:
             pairs = np.arange(self.config.samplesize, dtype=np.uint64)
             seeds = np.repeat(self.seed + self.generation * self.config.samplesize + pairs, 2)

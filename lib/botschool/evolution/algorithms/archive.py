@@ -1,0 +1,52 @@
+"""archive, competitive co-evolution against a hall of fame: Rosin and Belew (1997), "New methods
+for competitive coevolution"; in this form Nolfi and Pagliuca (2024), "Global progress in
+competitive co-evolution", https://doi.org/10.3389/frobt.2024.1470886. As in
+docs/specification.md, "Algorithms".
+
+Each side is one centre, which takes a step of OpenAI-ES in its turn, against opponents drawn from
+the archive of the other side. Every now and then the best sample of a turn enters the archive.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool.evolution.algorithm import algorithm
+from botschool.evolution.algorithms.halloffame import HallOfFame, HallOfFameConfig
+from botschool.hyperparameters import hyper
+from botschool.seeds import generator
+
+
+@dataclass
+class ArchiveConfig(HallOfFameConfig):
+    """Section [ALGO] of archive."""
+
+    addtoarchiveevery: int = hyper(
+        10, "turns of a side between additions to its archive", low=1, high=1000000000
+    )
+
+
+@algorithm(
+    "archive", "two sides, each against an archive of the other", ArchiveConfig, competitive=True
+)
+class Archive(HallOfFame):
+    """One centre a side; any archived opponent is as likely as any other."""
+
+    def ask(self) -> tuple[np.ndarray, np.ndarray]:
+        """Candidates (1, 2 * samplesize, parameters), opponents (1, samplesize, ncompetitors)."""
+        numbers = generator(self.seed, self.generation)
+        candidates = self._samples(numbers)
+
+        # each pair of candidates draws its own opponents, with replacement
+        archived = len(self.archives[1 - self.side])
+        shape = (1, self.config.samplesize, self.config.ncompetitors)
+        return candidates, numbers.integers(archived, size=shape)
+
+    def tell(self, fitness: np.ndarray) -> None:
+        """Moves the centre; the best sample of some turns enters the archive."""
+        best = self._climb(fitness)
+        if self.turn % self.config.addtoarchiveevery == 0:
+            self.archives[self.side].extend(best.astype(np.float32))
+        self.generation += 1

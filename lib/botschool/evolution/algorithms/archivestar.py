@@ -1,0 +1,118 @@
+"""archivestar, co-evolution of several lineages a side against archives: "Archive*" of Nolfi and
+Pagliuca (2024), "Global progress in competitive co-evolution",
+https://doi.org/10.3389/frobt.2024.1470886. As in docs/specification.md, "Algorithms".
+
+As archive, with `popsize` centres a side that share one archive. Different lineages find different
+strategies, so the archive is richer. Opponents are of all lineages in equal shares, or else the
+stronger ones of those that are drawn.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool.evolution.algorithm import Initial, algorithm
+from botschool.evolution.algorithms.archive import ArchiveConfig
+from botschool.evolution.algorithms.halloffame import HallOfFame
+from botschool.evolution.algorithms.sides import SIDES, mean
+from botschool.hyperparameters import NO_YES, hyper
+from botschool.seeds import generator
+
+UNKNOWN = 0.5
+"""Strength of an individual that nobody has met yet."""
+KEPT = 0.9
+"""Share of its old strength that an individual keeps when it is met again."""
+
+
+@dataclass
+class ArchiveStarConfig(ArchiveConfig):
+    """Section [ALGO] of archivestar."""
+
+    popsize: int = hyper(5, "evolving centres of each side", low=1, high=10000)
+    seldifferentiated: int = hyper(1, "opponents are of all lineages alike", choices=NO_YES)
+    preferential: int = hyper(
+        1,
+        "individuals drawn, whose strongest is the opponent when seldifferentiated = 0",
+        low=1,
+        high=10000,
+    )
+
+
+@algorithm("archivestar", "archive with several lineages a side", ArchiveStarConfig, True)
+class ArchiveStar(HallOfFame):
+    """Several centres a side. Each archived individual has a lineage and a strength.
+
+    The strength is a running mean of its success, 1 minus the fitness of those who meet it: after
+    each turn in which it was met, 0.9 * strength + 0.1 * mean success in that turn.
+    """
+
+    def __init__(self, config: ArchiveStarConfig, initial: Initial, seed: int) -> None:
+        """As HallOfFame; the random individuals of an archive are of all lineages by turns."""
+        super().__init__(config, initial, seed)
+        first = [i % config.popsize for i in range(config.ncompetitors)]
+        self.lineages = (first.copy(), first.copy())
+        self.strengths = ([UNKNOWN] * len(first), [UNKNOWN] * len(first))
+
+    def ask(self) -> tuple[np.ndarray, np.ndarray]:
+        """As HallOfFame.ask; each pair of candidates of each centre draws its own opponents."""
+        numbers = generator(self.seed, self.generation)
+        candidates = self._samples(numbers)
+        draw = self._of_each_lineage if self.config.seldifferentiated else self._strongest
+        self.opponents = draw(numbers)
+        return candidates, self.opponents
+
+    @property
+    def _shape(self) -> tuple[int, int, int]:
+        return self.config.popsize, self.config.samplesize, self.config.ncompetitors
+
+    def _of_each_lineage(self, numbers: np.random.Generator) -> np.ndarray:
+        """Opponent c comes from lineage c mod popsize."""
+        lineages = np.array(self.lineages[1 - self.side])
+        members = [np.flatnonzero(lineages == k) for k in range(self.config.popsize)]
+        slots = [members[c % self.config.popsize] for c in range(self.config.ncompetitors)]
+        drawn = numbers.integers([len(slot) for slot in slots], size=self._shape)
+        return np.stack([slot[drawn[..., c]] for c, slot in enumerate(slots)], axis=-1)
+
+    def _strongest(self, numbers: np.random.Generator) -> np.ndarray:
+        """Each opponent is the strongest of `preferential` drawn ones; of equals, the first."""
+        strengths = np.array(self.strengths[1 - self.side])
+        drawn = numbers.integers(len(strengths), size=(*self._shape, self.config.preferential))
+        strongest = strengths[drawn].argmax(axis=-1, keepdims=True)
+        return np.take_along_axis(drawn, strongest, axis=-1)[..., 0]
+
+    def tell(self, fitness: np.ndarray) -> None:
+        """Moves the centres; the best sample of each lineage enters the archive in some turns."""
+        side = self.side
+        self._remember(self.strengths[1 - side], fitness)
+        best = self._climb(fitness)
+        if self.turn % self.config.addtoarchiveevery == 0:
+            self.archives[side].extend(best.astype(np.float32))
+            self.lineages[side].extend(range(len(best)))
+            self.strengths[side].extend([UNKNOWN] * len(best))
+        self.generation += 1
+
+    def _remember(self, strengths: list[float], fitness: np.ndarray) -> None:
+        """Updates the strength of those who were met."""
+        met = np.repeat(self.opponents, 2, axis=1)  # by both candidates of a perturbation
+        for place in np.unique(met):
+            success = 1 - mean(fitness[met == place])
+            strengths[place] = KEPT * strengths[place] + (1 - KEPT) * success
+
+    def state(self) -> dict[str, np.ndarray]:
+        """As HallOfFame.state, and what is known of archived individuals."""
+        state = super().state()
+        for side, lineages, strengths in zip(SIDES, self.lineages, self.strengths, strict=True):
+            state[f"archive_{side}_lineages"] = np.array(lineages, dtype=np.int64)
+            state[f"archive_{side}_strengths"] = np.array(strengths, dtype=np.float64)
+        return state
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """The reverse of state()."""
+        super().restore(state)
+        self.lineages = tuple(state[f"archive_{side}_lineages"].tolist() for side in SIDES)
+        self.strengths = tuple(state[f"archive_{side}_strengths"].tolist() for side in SIDES)
+        for known in (self.lineages, self.strengths):
+            if [len(k) for k in known] != [len(archive) for archive in self.archives]:
+                raise ValueError("archives and what is known of them do not fit")

@@ -1,0 +1,200 @@
+"""What archive, archivestar and maxsolvestar share: two sides with archives, which take turns.
+
+A side is one or more evolving centres and an archive of individuals that it has had, against which
+the other side evolves: a hall of fame (Rosin and Belew 1997, "New methods for competitive
+coevolution"). So whoever forgets how to beat a competitor of long ago will be reminded of it. The
+three algorithms of Nolfi and Pagliuca (2024), https://doi.org/10.3389/frobt.2024.1470886, differ
+in who enters an archive, who leaves it and who is drawn from it. See docs/specification.md,
+"Algorithms".
+"""
+
+# Hyperparameters keep the names they have in .ini files.
+# ruff: noqa: N815
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from botschool.evolution.algorithm import Initial, Play
+from botschool.evolution.algorithms.openaies import climb, mirrored
+from botschool.evolution.algorithms.sides import PREDATORS, SIDES, everyone, mean, means
+from botschool.hyperparameters import WEIGHT_DECAY, hyper
+
+SAVED = 10
+"""Individuals of a side that a run keeps in its files."""
+
+
+@dataclass
+class HallOfFameConfig:
+    """Hyperparameters that all three have."""
+
+    maxmsteps: float = hyper(
+        75000.0, "length of the run, in million steps", above=0, high=1e9, free=True
+    )
+    ngenerations: int = hyper(
+        0,
+        "length of the run, in generations (0 = maxmsteps alone counts)",
+        low=0,
+        high=1000000000,
+        free=True,
+    )
+    popsize: int = hyper(1, "evolving centres of each side", choices={1: "as many as it has"})
+    samplesize: int = hyper(
+        20, "perturbations per generation, two candidates each", low=1, high=1000000
+    )
+    stepsize: float = hyper(0.01, "step size of Adam", above=0, high=1000)
+    noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
+    wdecay: int = hyper(0, "pull of the centre towards 0", choices=WEIGHT_DECAY)
+    ncompetitors: int = hyper(
+        10, "archived opponents that a candidate meets; as many begin an archive", low=1, high=10000
+    )
+    checkoverfiteveryn: int = hyper(
+        0, "generations between diagnoses of overfitting", choices={0: "never; there is none here"}
+    )
+    saveeach: int = hyper(1000, "generations between saves", low=1, high=1000000000, free=True)
+
+
+class HallOfFame:
+    """ask() -> candidates and opponents; tell(their fitness) -> one step of one side's centres.
+
+    advance(play) does both: a generation, in which the predators evolve if its number is even,
+    else the prey.
+    """
+
+    share = 0.0
+    plays = 1
+
+    def __init__(self, config: Any, initial: Initial, seed: int) -> None:
+        """initial(index) gives two random networks in a row: the index-th predator and prey.
+
+        The first `popsize` of each side are its centres, the next `ncompetitors` its archive.
+        """
+        self.config = config
+        self.seed = seed
+        self.generation = 0
+        count, most = config.popsize, config.popsize * (1 + 2 * config.samplesize)
+        saved = min(max(SAVED, count), most)
+        pairs = np.array([initial(i) for i in range(max(count + config.ncompetitors, saved))])
+        networks = np.stack(np.split(pairs, 2, axis=1))
+        self.centres = networks[:, :count].copy()
+        """Of predators, then prey: shape (2, popsize, parameters)."""
+        self.m = np.zeros_like(self.centres)
+        self.v = np.zeros_like(self.centres)
+        self.archives: tuple[list, list] = ([], [])
+        """Networks in single precision, as evaluation uses them; the oldest first."""
+        for archive, first in zip(self.archives, networks[:, count:], strict=True):
+            archive.extend(first[: config.ncompetitors].astype(np.float32))
+        self.saved = networks[:, :saved].copy()
+        """Of predators, then prey: shape (2, individuals, parameters). The centres after the side's
+        newest turn; then the best sample of each centre in that turn, the second best, and so on.
+        Before the first turn, centres and other random individuals."""
+        self.champions = networks[:, 0].copy()
+        """The best sample of the newest turn of each side."""
+        self.fitness = np.full((2, 2), np.nan)
+        """Of predators, then prey, in their newest turn: of the best sample, and the average."""
+
+    @property
+    def side(self) -> int:
+        """Who evolves in the next generation: predators, then prey, and so on by turns."""
+        return self.generation % 2
+
+    @property
+    def turn(self) -> int:
+        """Number of that side's turn, from 1."""
+        return self.generation // 2 + 1
+
+    def ask(self) -> tuple[np.ndarray, np.ndarray]:
+        """Candidates, shape (popsize, 2 * samplesize, parameters), and whom they meet.
+
+        Opponents are places in the other side's archive, shape (popsize, samplesize, ncompetitors):
+        both candidates of a perturbation meet the same ones.
+        """
+        raise NotImplementedError
+
+    def tell(self, fitness: np.ndarray) -> None:
+        """Ends the turn: fitness of each candidate, in the order of ask(), against its opponents.
+
+        Shape (popsize, 2 * samplesize, ncompetitors), from the side's own point of view.
+        """
+        raise NotImplementedError
+
+    def advance(self, play: Play) -> None:
+        """A generation. It changes nothing before its end: what `play` raises leaves no trace."""
+        candidates, opponents = self.ask()
+        places, rivals = np.unique(opponents, return_inverse=True)
+        rivals = np.repeat(rivals.reshape(opponents.shape), 2, axis=1)
+        ours = np.broadcast_to(
+            np.arange(candidates.shape[0] * candidates.shape[1])[:, None],
+            (candidates.shape[0] * candidates.shape[1], opponents.shape[2]),
+        )
+        pairs = np.stack([ours.ravel(), rivals.ravel()]).astype(np.int32)
+        archive = self.archives[1 - self.side]
+        theirs = np.stack([archive[place] for place in places]).astype(np.float64)
+        flat = candidates.reshape(-1, candidates.shape[2])
+        if self.side == PREDATORS:
+            fitness = play(flat, theirs, pairs)
+        else:
+            fitness = 1 - play(theirs, flat, np.ascontiguousarray(pairs[::-1]))
+        self.tell(fitness.reshape(rivals.shape))
+
+    def _samples(self, numbers: np.random.Generator) -> np.ndarray:
+        """Draws a turn's directions and returns the candidates on both sides of each centre."""
+        centres = self.centres[self.side]
+        shape = (len(centres), self.config.samplesize, centres.shape[1])
+        self.samples = numbers.standard_normal(shape)
+        return mirrored(centres, self.samples, self.config.noiseStdDev)
+
+    def _climb(self, fitness: np.ndarray) -> np.ndarray:
+        """Moves the side's centres, and returns the best sample of each: (popsize, parameters)."""
+        side, config = self.side, self.config
+        count, candidates, _ = fitness.shape
+        average = means(fitness.reshape(count * candidates, -1)).reshape(count, candidates)
+        samples = mirrored(self.centres[side], self.samples, config.noiseStdDev)
+        order = np.argsort(-average, axis=1, kind="stable")
+        ranked = np.take_along_axis(samples, order[..., None], axis=1)
+        first = int(average.max(axis=1).argmax())
+        self.champions[side] = ranked[first, 0]
+        self.fitness[side] = average.max(), mean(average)
+
+        centres, m, v = (array[side] for array in (self.centres, self.m, self.v))
+        self.centres[side], self.m[side], self.v[side] = climb(
+            centres, m, v, self.samples, average, config
+        )
+        shown = np.concatenate([self.centres[side][:, None], ranked], axis=1).swapaxes(0, 1)
+        self.saved[side] = shown.reshape(-1, shown.shape[2])[: self.saved.shape[1]]
+        return ranked[:, 0]
+
+    def best(self) -> tuple[np.ndarray, float]:
+        """The best samples of the sides' newest turns, and the predator's mean fitness."""
+        return np.concatenate(self.champions), float(self.fitness[PREDATORS, 0])
+
+    def summary(self) -> dict[str, float]:
+        """Mean fitness of either side in its newest turn, against opponents from the archive."""
+        return dict(zip(SIDES, self.fitness[:, 1].tolist(), strict=True))
+
+    def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray]:
+        """`saved`, who meet here for the files alone."""
+        return self.saved, everyone(play, *self.saved)
+
+    def average_parameter(self) -> float:
+        """Average absolute parameter of all centres."""
+        return float(np.mean(np.abs(self.centres)))
+
+    def state(self) -> dict[str, np.ndarray]:
+        """All that a checkpoint needs besides config and seed; what begins with archive_ grows."""
+        names = ("centres", "m", "v", "saved", "champions", "fitness")
+        state = {name: getattr(self, name) for name in names}
+        state["generation"] = np.array(self.generation)
+        for side, archive in zip(SIDES, self.archives, strict=True):
+            state[f"archive_{side}"] = np.array(archive)
+        return state
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """The reverse of state()."""
+        for name in ("centres", "m", "v", "saved", "champions", "fitness"):
+            setattr(self, name, state[name])
+        self.generation = int(state["generation"])
+        self.archives = tuple(list(state[f"archive_{side}"]) for side in SIDES)

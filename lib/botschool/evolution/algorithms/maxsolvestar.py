@@ -1,0 +1,127 @@
+"""maxsolvestar, co-evolution against an archive without redundant members: "MaxSolve*" of Nolfi and
+Pagliuca (2024), "Global progress in competitive co-evolution",
+https://doi.org/10.3389/frobt.2024.1470886, after De Jong (2005), "The MaxSolve algorithm for
+coevolution". As in docs/specification.md, "Algorithms".
+
+As archive, but the centre enters the archive after every turn, and a full archive drops members
+that teach nothing: those to which another one is at least as hard a test, in every phase of
+evolution.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool.evolution.algorithm import Initial, algorithm
+from botschool.evolution.algorithms.halloffame import HallOfFame, HallOfFameConfig
+from botschool.evolution.algorithms.sides import SIDES
+from botschool.hyperparameters import hyper
+from botschool.seeds import generator
+
+LOOKED_AT = 10
+"""Members of a full archive that are looked at in a turn."""
+
+
+@dataclass
+class MaxSolveStarConfig(HallOfFameConfig):
+    """Section [ALGO] of maxsolvestar. Phases divide the run, so its length may not change."""
+
+    maxmsteps: float = hyper(75000.0, "length of the run, in million steps", above=0, high=1e9)
+    ngenerations: int = hyper(
+        0,
+        "length of the run, in generations (0 = maxmsteps alone counts)",
+        low=0,
+        high=1000000000,
+    )
+    nphases: int = hyper(
+        10, "phases of evolution in which opponents are compared", low=1, high=10000
+    )
+    archivelen: int = hyper(
+        25000, "archived individuals from which on easy ones are dropped", low=1, high=1000000000
+    )
+
+
+@algorithm("maxsolvestar", "archive of what is hard", MaxSolveStarConfig, competitive=True)
+class MaxSolveStar(HallOfFame):
+    """One centre a side. Of each archived individual it is known how others did against it.
+
+    `solved`, of predators and prey: for each archived individual an array (2, nphases) with the sum
+    of the fitness of those who met it in each phase of evolution, and how many they were.
+    """
+
+    def __init__(self, config: MaxSolveStarConfig, initial: Initial, seed: int) -> None:
+        """As HallOfFame."""
+        super().__init__(config, initial, seed)
+        self.solved: tuple[list, list] = ([], [])
+        for solved, archive in zip(self.solved, self.archives, strict=True):
+            solved.extend(np.zeros((2, config.nphases)) for _ in archive)
+
+    @property
+    def phase(self) -> int:
+        """The present one of `nphases` equal parts of evolution, from 0."""
+        return min(int(self.share * self.config.nphases), self.config.nphases - 1)
+
+    def ask(self) -> tuple[np.ndarray, np.ndarray]:
+        """Candidates (1, 2 * samplesize, parameters), opponents (1, samplesize, ncompetitors)."""
+        self.numbers = generator(self.seed, self.generation)
+        candidates = self._samples(self.numbers)
+        archived = len(self.archives[1 - self.side])
+        shape = (1, self.config.samplesize, self.config.ncompetitors)
+        self.opponents = self.numbers.integers(archived, size=shape)
+        return candidates, self.opponents
+
+    def tell(self, fitness: np.ndarray) -> None:
+        """Moves the centre, which enters the archive; one member of a full archive may leave it."""
+        side = self.side
+        met = np.repeat(self.opponents, 2, axis=1)  # by both candidates of a perturbation
+        for place, value in zip(met.ravel().tolist(), fitness.ravel().tolist(), strict=True):
+            self.solved[1 - side][place][:, self.phase] += value, 1
+
+        self._climb(fitness)
+        if len(self.archives[side]) >= self.config.archivelen:
+            self._drop(side)
+        self.archives[side].extend(self.centres[side].astype(np.float32))
+        self.solved[side].append(np.zeros((2, self.config.nphases)))
+        self.generation += 1
+
+    def _drop(self, side: int) -> None:
+        """Looks at some members at random, and drops the first one that is dominated."""
+        solved = np.array(self.solved[side])
+        looked_at = self.numbers.permutation(len(solved))[:LOOKED_AT].tolist()
+        for place in looked_at:
+            if dominated(solved[:, 0], solved[:, 1], place):
+                del self.archives[side][place], self.solved[side][place]
+                return
+
+    def state(self) -> dict[str, np.ndarray]:
+        """As HallOfFame.state, and what is known of archived individuals."""
+        state = super().state()
+        for side, solved in zip(SIDES, self.solved, strict=True):
+            state[f"archive_{side}_solved"] = np.array(solved)
+        return state
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """The reverse of state()."""
+        super().restore(state)
+        self.solved = tuple(list(state[f"archive_{side}_solved"]) for side in SIDES)
+        if [len(s) for s in self.solved] != [len(archive) for archive in self.archives]:
+            raise ValueError("archives and what is known of them do not fit")
+
+
+def dominated(sums: np.ndarray, counts: np.ndarray, place: int) -> bool:
+    """Whether another one is at least as hard to beat as the one at `place`, in every phase.
+
+    sums, counts: shape (archived, phases), fitness of those who met them, and how many they were.
+    What counts are the phases in which the one at `place` was met: the other one must have been met
+    in each of them, with a mean no higher. Who was never met is dominated by nobody.
+    """
+    known = counts[place] > 0
+    if not known.any():
+        return False
+    mine = sums[place, known] / counts[place, known]
+    met = counts[:, known]
+    others = np.where(met > 0, sums[:, known] / np.maximum(met, 1), np.inf)
+    others[place] = np.inf
+    return bool((others <= mine).all(axis=1).any())
