@@ -255,8 +255,14 @@ def no_confinement():
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="numbers of x86-64")
 @pytest.mark.parametrize(
     "kind",
-    ["changes_modes", "reads_processes", "reads_solutions", "shares_memory", "truncates",
-     "uses_the_network"],
+    [
+        "changes_modes",
+        "reads_processes",
+        "reads_solutions",
+        "shares_memory",
+        "truncates",
+        "uses_the_network",
+    ],
 )
 def test_attacks_are_real(tmp_path, kind):
     """Unconfined they do succeed (only those that harm nothing but the trap)."""
