@@ -377,7 +377,7 @@ def test_grade_all_makes_a_secret_and_keeps_it(course, tmp_path, monkeypatch):
     assert grade_class()[1] != first
     monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "another")
     out, own = grade_class()
-    assert "secret" not in out
+    assert str(secret) not in out
     secret.unlink()
     assert grade_class()[1] == own and not secret.exists()
 
