@@ -1,6 +1,7 @@
 """Reading run files, learning curves and averages."""
 
 import pickle
+from functools import partial
 
 import numpy as np
 import pytest
@@ -54,6 +55,13 @@ class Bomb:
         return (pytest.fail, ("the file was unpickled",))
 
 
+def write_header(text, path):
+    """A .npy file of version 1 with this header."""
+    header = f"{text}\n".encode()
+    length = len(header).to_bytes(2, "little")
+    path.write_bytes(b"\x93NUMPY\x01\x00" + length + header + bytes(480))
+
+
 def refused_files():
     good = stat_of(5).ravel()
     backwards = stat_of(5)[::-1].ravel()
@@ -66,6 +74,16 @@ def refused_files():
     yield "genotype", "steps", lambda path: np.save(path, backwards)
     yield "text array", "plain numbers", lambda path: np.save(path, np.array(["a"] * 6))
     yield "folder", "cannot be read", lambda path: path.mkdir()
+
+    headers = {
+        "open bracket": "(", "open string": "'''", "indented": "    x\n  y", "deep": "{" * 200,
+        "half": "{'descr': '<f8'",
+        "long": "{'descr': '<f8', 'fortran_order': False, 'shape': (10L, 6)",
+        "bool": "{'descr': '<f8', 'fortran_order': False, 'shape': (True, 6), }",
+        "huge": "{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999999999999, 6), }",
+    }  # fmt: skip
+    for name, text in headers.items():
+        yield f"header: {name}", "damaged", partial(write_header, text)
 
     def truncate(path):
         np.save(path, good)

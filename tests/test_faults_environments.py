@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from running import experiment, one_sentence, run_seeds, write_experiment
+from running import (
+    TESTS,
+    call,
+    environment_of_command,
+    experiment,
+    one_sentence,
+    run_seeds,
+    write_experiment,
+)
 from tiny_envs import FAULTY_SEED
 
 BROKEN = {
@@ -70,3 +78,24 @@ def test_parameters_without_bound(environment, command, tmp_path):
     code, _, errors = command("es", "-f", ini, "-o", tmp_path / "results")
     if code:
         one_sentence(code, errors, ["seed", "stepsize"])
+
+
+def test_a_module_in_the_present_folder_is_named(tmp_path):
+    """Once, whatever number of environments and worker processes; not one from elsewhere."""
+    (tmp_path / "own_envs.py").write_text("from tiny_envs import *\n")
+    (tmp_path / "own_package").mkdir()
+    (tmp_path / "own_package" / "__init__.py").write_text("")
+    (tmp_path / "own_package" / "envs.py").write_text("from tiny_envs import *\n")
+    environment = environment_of_command() | {"PYTHONPATH": str(TESTS)}
+    for module, place in (("own_envs", "own_envs.py"), ("own_package.envs", "own_package"),
+                          ("tiny_envs", None)):  # fmt: skip
+        ini = write_experiment(tmp_path / module, f"{module}:Tiny-v0")
+        code, _, errors = call(
+            "es", "-f", ini, "-o", tmp_path / module, "-w", "2", cwd=tmp_path, env=environment
+        )
+        said = [line for line in errors.splitlines() if "present folder" in line]
+        assert code == 0
+        assert [line.partition(":")[0] for line in said] == (
+            [f"{module} is taken from the present folder"] if place else []
+        )
+        assert all(str(tmp_path / place) in line for line in said)

@@ -122,6 +122,9 @@ def test_foreign_checkpoints(refused, tmp_path):
     def without(*names):
         np.savez(path, **{name: value for name, value in whole.items() if name not in names})
 
+    def filled(name, value):
+        np.savez(path, **{**whole, name: np.full_like(whole[name], value)})
+
     def resized(name):
         np.savez(path, **{**whole, name: whole[name][..., :-1]})
 
@@ -145,6 +148,16 @@ def test_foreign_checkpoints(refused, tmp_path):
         "small population": (lambda: resized("algorithm.population"), []),
         "few vectors": (lambda: resized("evaluator.normalisation"), []),
         "narrow curve": (lambda: resized("record.stat"), []),
+        "no generation": (lambda: filled("algorithm.generation", -1), []),
+        "a share of nothing": (lambda: filled("evaluator.owed", np.nan), []),
+        "an endless share": (lambda: filled("evaluator.owed", np.inf), []),
+        "steps of nothing": (lambda: filled("record.stat", np.nan), []),
+        "endless steps": (lambda: filled("record.stat", np.inf), []),
+        "more steps than done": (lambda: filled("record.stat", 1e9), []),
+        "fewer steps each time": (
+            lambda: np.savez(path, **whole | {"record.stat": whole["record.stat"][::-1]}),
+            [],
+        ),
         "curve of text": (lambda: np.savez(path, **whole | {"record.stat": np.array("x")}), []),
     }
     for name, (make, says) in files.items():

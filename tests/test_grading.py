@@ -1,8 +1,10 @@
 """Grading: submissions in their child process, skeletons, hints, and what is shown."""
 
+import contextlib
 import io
 import json
 import os
+import signal
 import stat
 import sys
 import time
@@ -13,7 +15,7 @@ import pytest
 from rich.console import Console
 
 from botschool.errors import BotschoolError
-from botschool.grading import batch, confined
+from botschool.grading import batch, confined, submission
 from botschool.grading import exercise as exercises
 from botschool.grading.checks import NotDone, Wrong, expect_array, plain, show
 from botschool.grading.confined import fork_server
@@ -409,6 +411,46 @@ def test_a_fault_of_the_grader_is_no_zero(course, tmp_path):
     result = grade(exercise, file)
     assert result.tasks[0].points == 20
     assert "cannot be judged (TypeError" in result.tasks[0].message
+
+
+def test_showing_a_value_is_bounded_in_work():
+    """Lists that hold the same list many times, and so on: 400 to the power of 4 leaves."""
+    looked_at = 0
+
+    class Leaf:
+        def __repr__(self):
+            nonlocal looked_at
+            looked_at += 1
+            return "x"
+
+    value = [Leaf()] * 400
+    keyed = {str(n): value for n in range(400)}
+    for _ in range(3):
+        value, keyed = [value] * 400, {str(n): keyed for n in range(400)}
+    assert len(show(value)) == 60 and len(show(keyed, 200)) == 200
+    assert 0 < looked_at <= 2000
+    assert show([1 << 100_000]) == "[an integer of 100001 bits]"
+    assert show({"a": [1, (2.5, "b")]}) == "{'a': [1, (2.5, 'b')]}"
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs timers")
+def test_checks_run_under_a_limit(course, tmp_path, monkeypatch):
+    monkeypatch.setattr(submission, "CHECK_SECONDS", 0.3)
+    exercise = load_exercise(3, course)
+
+    def endless(student):
+        student.call("double", 1)
+        while True:
+            with contextlib.suppress(Exception):
+                sum(range(1000))
+
+    exercise.tasks[0].checks[0] = (40, "check", endless)
+    before = signal.getsignal(signal.SIGPROF)
+    result = grade(exercise, submit(tmp_path / "one", SOLUTION))
+    assert [task.points for task in result.tasks] == [20, 40]
+    assert result.tasks[0].message == ("double(1) returned something that takes too long to judge.")
+    assert signal.getsignal(signal.SIGPROF) is before
+    assert signal.getitimer(signal.ITIMER_PROF) == (0.0, 0.0)
 
 
 def test_the_results_asked_for_longest_ago_are_forgotten(course, tmp_path, monkeypatch):

@@ -9,8 +9,10 @@ import platform
 import signal
 import subprocess
 import sys
+import time
 from html.parser import HTMLParser
 
+import psutil
 import pytest
 
 from botschool.errors import BotschoolError
@@ -19,6 +21,7 @@ from botschool.grading.collect import grade_all, page_names
 from botschool.grading.exercise import load_exercise
 from botschool.grading.release import find_leaks, release
 from botschool.grading.report import Screen
+from botschool.grading.secret import grading_secret
 from botschool.grading.solution import run_solution
 from botschool.grading.submission import grade
 from botschool.grading.watching import watch
@@ -322,6 +325,67 @@ def test_grade_all_overwrites_only_its_own(course, class_, tmp_path):
     with pytest.raises(BotschoolError, match="not made by grade-all"):
         grade_all(class_, output, [3], course, 2, False)
     assert (output / "feedback" / "ada.html").read_text() == "my letter to Ada"
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="needs its signals")
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
+def test_grade_all_leaves_nothing_running(course, tmp_path, number):
+    """However it ends: its graders, their fork servers and the submissions end, too."""
+    grader = course / "exercises" / FOLDER / "test_tiny.py"
+    grader.write_text(grader.read_text().replace("seconds=2", "seconds=300"))
+    for name in ("ada", "bob"):
+        submit(tmp_path / "class" / name, "def double(x):\n    while True: pass\n")
+    temporary = tmp_path / "tmp"
+    temporary.mkdir()
+    process = start(
+        "grade-all", tmp_path / "class", "-e", "3", "-o", tmp_path / "out", "-w", "2",
+        env=environment_of_command() | {"TMPDIR": str(temporary)},
+    )  # fmt: skip
+    own = psutil.Process(process.pid)
+    deadline = time.monotonic() + 120
+    while len(own.children(recursive=True)) < 6:  # two times grader, fork server, submission
+        assert time.monotonic() < deadline and process.poll() is None
+        time.sleep(0.2)
+    started = own.children(recursive=True)
+    process.send_signal(number)
+    code, _, errors = finish(process, 30)
+    assert code == (-number if number == signal.SIGKILL else 128 + number)
+    assert "Traceback" not in errors
+    assert psutil.wait_procs(started, timeout=30)[1] == []
+    if number != signal.SIGKILL:
+        assert list(temporary.iterdir()) == []
+
+
+def test_grade_all_makes_a_secret_and_keeps_it(course, tmp_path, monkeypatch):
+    monkeypatch.delenv("BOTSCHOOL_GRADING_SEED", raising=False)
+    show_seed = "def double(x): raise ValueError(float(x.ravel()[0]))\ndef total(x): return 0\n"
+    submit(tmp_path / "class" / "ada", show_seed)
+    arguments = ("grade-all", tmp_path / "class", "-e", "3", "-o", tmp_path / "out")
+
+    def grade_class():
+        code, out, errors = call(*arguments)
+        assert (code, errors) == (0, "")
+        return " ".join(out.split()), (tmp_path / "out" / "feedback" / "ada.html").read_text()
+
+    out, first = grade_class()
+    secret = course / ".botschool" / "secret"
+    assert f"made a secret for the grading seeds and keep it in {secret}" in out
+    assert len(secret.read_text().strip()) == 32 and secret.stat().st_mode & 0o77 == 0
+    out, again = grade_class()
+    assert f"follow from the secret in {secret}." in out and again == first
+    secret.write_text("another\n")
+    assert grade_class()[1] != first
+    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "another")
+    out, own = grade_class()
+    assert str(secret) not in out
+    secret.unlink()
+    assert grade_class()[1] == own and not secret.exists()
+
+
+def test_a_secret_that_cannot_be_kept(tmp_path, monkeypatch):
+    monkeypatch.delenv("BOTSCHOOL_GRADING_SEED", raising=False)
+    made = [grading_secret(tmp_path / "nowhere") for _ in range(2)]
+    assert made[0][0] != made[1][0] and "cannot be kept" in made[0][1]
 
 
 def test_page_names():

@@ -348,3 +348,16 @@ def test_settings_survive_the_file(trained, tmp_path):
     used.save(tmp_path / "config.yaml")
     assert settings.Settings.load(tmp_path / "config.yaml") == used
     assert yaml.safe_load((tmp_path / "config.yaml").read_text())["algo"] == "ppo"
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a: &a [1]\nb: [*a, *a]", "a: &a {b: 1}\nc: {<<: [*a, *a]}", "[" * 100_000, "[",
+     "a: " + "9" * 5000, "!!timestamp x", "!!int x", "? [a]\n: 1", "[]", "a: 1", "\0"],
+    ids=["aliases", "merged aliases", "deep", "unclosed", "a long number", "no date", "no number",
+         "a list as key", "a list", "other keys", "a zero byte"],
+)  # fmt: skip
+def test_damaged_settings_are_refused_in_a_sentence(tmp_path, text):
+    (tmp_path / "config.yaml").write_text(text)
+    with pytest.raises(BotschoolError, match=r"config\.yaml (cannot be read|does not describe)"):
+        settings.Settings.load(tmp_path / "config.yaml")

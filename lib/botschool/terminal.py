@@ -47,6 +47,33 @@ def stoppable() -> Iterator[Callable[[], bool]]:
 
 
 @contextmanager
+def exits_on_signals() -> Iterator[None]:
+    """SIGTERM and a closed terminal raise SystemExit in the block, so that it can tidy up.
+
+    A second one ends the process at once.
+    """
+    asked = False
+
+    def end(number: int, frame: object) -> None:
+        nonlocal asked
+        if asked:
+            os._exit(128 + number)
+        asked = True
+        raise SystemExit(128 + number)
+
+    signals = [number for number in SIGNALS if number != signal.SIGINT]
+    # nohup has a closed terminal ignored
+    before = {n: signal.getsignal(n) for n in signals if signal.getsignal(n) != signal.SIG_IGN}
+    for number in before:
+        signal.signal(number, end)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+@contextmanager
 def progress_bar(seed: int) -> Iterator[Callable[[float, int, int, str], None]]:
     """Gives a function to call with the share done, the steps so far, decimals of their millions,
     and a text."""

@@ -1,8 +1,8 @@
 """Hostile submissions: hostile/*.py, each with a function `hostile` that replaces students' ones.
 
 It finds COURSE (a copy of the course with solutions), HOME, TEMPORARY (with somebody else's files),
-FRIEND (an address that listens) and KNOWN (the files with the answers) to attack. What is
-"LEAKED" it prints.
+FRIEND (an address that listens), SEGMENT (shared memory of another program) and KNOWN (the files
+with the answers) to attack. What is "LEAKED" it prints.
 """
 
 import contextlib
@@ -54,6 +54,7 @@ class Trap:
         self.listener = socket.create_server(("127.0.0.1", 0))
         self.visitors = 0
         threading.Thread(target=self._listen, daemon=True).start()
+        self.segment, self.shared = shared_memory(b"precious")
         self.before = self.snapshot()
 
     def _listen(self) -> None:
@@ -61,8 +62,12 @@ class Trap:
             self.listener.accept()[0].sendall(b"1.0")
             self.visitors += 1
 
+    def close(self) -> None:
+        """Removes what would outlive this process."""
+        ctypes.CDLL(None).shmctl(self.segment, 0, None)
+
     def snapshot(self) -> dict[str, tuple]:
-        found = {}
+        found = {"shared memory": (ctypes.string_at(self.shared, 8),) if self.shared else ()}
         for top in self.watched:
             for path in [top, *top.rglob("*")]:
                 if "__pycache__" in path.parts or "submissions" in path.parts:
@@ -90,13 +95,28 @@ class Trap:
         names = {
             "COURSE": str(self.course), "HOME": str(self.home), "KNOWN": known,
             "TEMPORARY": str(self.temporary), "FRIEND": self.listener.getsockname(),
+            "SEGMENT": self.segment,
         }  # fmt: skip
         return "\n".join(f"{name} = {value!r}" for name, value in names.items()) + f"\n\n{text}"
 
 
+def shared_memory(content: bytes) -> tuple[int, int]:
+    """(number, address) of a new System V segment that anybody may use; (-1, 0) without them."""
+    libc = ctypes.CDLL(None)
+    libc.shmat.restype = ctypes.c_void_p
+    libc.shmat.argtypes = (ctypes.c_int, ctypes.c_void_p, ctypes.c_int)
+    segment = libc.shmget(0, 4096, 0o1666)
+    if segment < 0:
+        return -1, 0
+    address = libc.shmat(segment, None, 0)
+    ctypes.memmove(address, content, len(content))
+    return segment, address
+
+
 @pytest.fixture(scope="module")
 def trap(tmp_path_factory):
-    return Trap(tmp_path_factory.mktemp("trap"))
+    with contextlib.closing(Trap(tmp_path_factory.mktemp("trap"))) as one:
+        yield one
 
 
 @pytest.fixture(scope="module")
@@ -234,11 +254,25 @@ def no_confinement():
 
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="numbers of x86-64")
 @pytest.mark.parametrize(
-    "kind", ["changes_modes", "reads_processes", "reads_solutions", "truncates", "uses_the_network"]
+    "kind",
+    [
+        "changes_modes",
+        "reads_processes",
+        "reads_solutions",
+        "shares_memory",
+        "truncates",
+        "uses_the_network",
+    ],
 )
 def test_attacks_are_real(tmp_path, kind):
     """Unconfined they do succeed (only those that harm nothing but the trap)."""
-    trap, number = Trap(tmp_path / "trap"), 3
+    with contextlib.closing(Trap(tmp_path / "trap")) as trap:
+        succeeds(kind, trap, tmp_path)
+
+
+def succeeds(kind, trap, tmp_path):
+    """Grades the attack as on a system that cannot confine, and looks for what it has done."""
+    number = 3
     one = building.source(number)
     names = [name for functions in one.functions.values() for name in functions]
     replace = f"{' = '.join(names)} = hostile"

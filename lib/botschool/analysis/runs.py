@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -67,18 +68,21 @@ def read_stat(path: Path | str) -> np.ndarray:
     """
     path = Path(path)
     try:
-        with open(path, "rb") as file:
+        with open(path, "rb") as file, warnings.catch_warnings():
             if file.read(len(_MAGIC)) != _MAGIC:
                 raise BotschoolError(f"{path} is no stat file: it is not in numpy's .npy format.")
             file.seek(0)
+            warnings.simplefilter("ignore")  # of what a damaged header looks like
             numbers = np.lib.format.read_array(file, allow_pickle=False)
+    except BotschoolError:
+        raise
     except FileNotFoundError as error:
         raise BotschoolError(
             f"there is no file {path}: name the statS<seed>.npy of a run, or its folder."
         ) from error
     except OSError as error:
         raise BotschoolError(f"{path} cannot be read ({error.strerror or error}).") from error
-    except (ValueError, EOFError, MemoryError) as error:
+    except Exception as error:  # a damaged header can fail in any way
         raise BotschoolError(
             f"{path} is no stat file, or is damaged: run the experiment again with this seed."
         ) from error

@@ -141,7 +141,10 @@ class Record:
         }
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
+        """The reverse of state(). Raises ValueError."""
+        steps = state["stat"][:, 0]
+        if not ((steps >= 0) & (steps <= state["steps"])).all() or (np.diff(steps) < 0).any():
+            raise ValueError("the first column is not the steps so far")
         self.steps = int(state["steps"])
         self._rows = [tuple(row) for row in state["stat"].tolist()]
         self.best, self.best_fitness = state["best"], float(state["best_fitness"])

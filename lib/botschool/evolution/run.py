@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+import numpy as np
+
 from botschool import problems
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
@@ -180,6 +182,10 @@ class Run:
                 given.shape[free:] != value.shape[free:]
             ):
                 raise ValueError(f"{name} has another type or shape")
+            counts = given.dtype.kind in "iu" and (given < 0).any()
+            lost = value.ndim == 0 and np.isfinite(value) and not np.isfinite(given)
+            if counts or lost:
+                raise ValueError(f"{name} holds what no run saves")
         for part in self.parts:
             prefix = part + "."
             values = {k.removeprefix(prefix): v for k, v in state.items() if k.startswith(prefix)}

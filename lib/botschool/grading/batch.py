@@ -26,6 +26,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.checks import Wrong
 from botschool.grading.confined import submission_files
 from botschool.grading.exercise import Exercise, folder_of, load_exercise
+from botschool.grading.secret import DEFAULT, VARIABLE
 from botschool.grading.submission import Result, grade
 from botschool.output import save_bytes
 from botschool.sandbox.paths import IMPORT_ROOT
@@ -55,10 +56,11 @@ class Grades:
     pictures ([name, base64]), missing, and problem (why there is none; "").
     """
 
-    def __init__(self, root: Path, fresh: bool = False) -> None:
-        """fresh: grade again what was graded before."""
+    def __init__(self, root: Path, fresh: bool = False, secret: str | None = None) -> None:
+        """fresh: grade again what was graded before; secret: else BOTSCHOOL_GRADING_SEED's."""
         self._root = root
         self._fresh = fresh
+        self._secret = secret or os.environ.get(VARIABLE) or DEFAULT
         self._cache = root / STATE / "grades"
         self._exercises: dict[int, Exercise] = {}
         self._running: set[subprocess.Popen] = set()
@@ -123,15 +125,21 @@ class Grades:
         exercise = self.exercise(job.number)
         limit = sum(task.seconds + 5 for task in exercise.tasks) + SPARE_SECONDS
         temporary = Path(tempfile.mkdtemp(prefix="botschool-"))
-        command = interpreter("botschool.grading.batch", str(job.number), str(job.file))
-        environment = os.environ | {"TMPDIR": str(temporary), "BOTSCHOOL_COURSE": str(self._root)}
+        lifeline, ours = os.pipe()
+        arguments = str(job.number), str(job.file), str(lifeline)
+        environment = os.environ | {
+            "TMPDIR": str(temporary),
+            "BOTSCHOOL_COURSE": str(self._root),
+            VARIABLE: self._secret,
+        }
         try:
             process = subprocess.Popen(
-                command,
+                interpreter("botschool.grading.batch", *arguments),
                 env=environment,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
+                pass_fds=(lifeline,),
                 start_new_session=True,
             )
             self._running.add(process)
@@ -153,6 +161,8 @@ class Grades:
             reason = lines[-1] if lines else f"exit code {process.returncode}"
             return self.nothing(job.number, f"The grader failed: {reason}.")
         finally:
+            os.close(lifeline)
+            os.close(ours)
             remove_tree(temporary)
 
     def nothing(self, number: int, problem: str) -> dict[str, Any]:
@@ -170,7 +180,7 @@ class Grades:
         }  # fmt: skip
 
     def _key(self, job: Job) -> str:
-        digest = hashlib.sha256(_versions(self._root, job.number).encode())
+        digest = hashlib.sha256(f"{self._secret}\n{_versions(self._root, job.number)}".encode())
         for path in submission_files(job.file):
             name = str(path.relative_to(job.file.parent)).encode(errors="surrogateescape")
             digest.update(hashlib.sha256(name).digest())
@@ -204,7 +214,7 @@ def to_record(result: Result) -> dict[str, Any]:
 @functools.lru_cache(maxsize=64)
 def _versions(root: Path, number: int) -> str:
     """What a result depends on beside the submission."""
-    stamps = [sys.version, os.environ.get("BOTSCHOOL_GRADING_SEED", ""), str(number)]
+    stamps = [sys.version, str(number)]
     package = IMPORT_ROOT / "botschool"
     for top in (package, folder_of(number, root)):
         for path in sorted(top.rglob("*") if top == package else top.glob("test_*.py")):
@@ -226,8 +236,12 @@ def make_state(root: Path) -> Path:
 
 
 def main() -> None:
-    """Grades a file (argument 2) of an exercise (argument 1); the result goes to stdout as JSON."""
-    number, file = int(sys.argv[1]), Path(sys.argv[2])
+    """Grades a file (argument 2) of an exercise (argument 1); the result goes to stdout as JSON.
+
+    Argument 3: a pipe's descriptor; when its other end is closed, the grading is ended.
+    """
+    number, file, lifeline = int(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3])
+    threading.Thread(target=_end_with, args=(lifeline,), daemon=True).start()
     out = os.dup(1)
     os.dup2(2, 1)  # whatever a grader prints is no part of the result
     try:
@@ -236,3 +250,9 @@ def main() -> None:
         sys.exit(str(error))
     with open(out, "w", encoding="ascii") as stream:
         json.dump(record, stream)
+
+
+def _end_with(pipe: int) -> None:
+    """Ends this process, and so its fork server and children, when a pipe is closed."""
+    os.read(pipe, 1)
+    os._exit(1)

@@ -73,8 +73,22 @@ def plain(text: str) -> str:
     return "".join(c if c in "\n\t" or c.isprintable() or c == " " else "\ufffd" for c in text)
 
 
-_SHORT = reprlib.Repr()  # looks at the beginning of what is long
-_SHORT.maxlist = _SHORT.maxdict = _SHORT.maxstring = _SHORT.maxlong = _SHORT.maxother = 400
+class _Short(reprlib.Repr):
+    """repr() in bounded work: of a value that holds others, again and again the same perhaps."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlist = self.maxtuple = self.maxset = self.maxfrozenset = self.maxdict = 400
+        self.maxstring = self.maxlong = self.maxother = 400
+        self._left = 1000
+
+    def repr1(self, value: Any, level: int) -> str:
+        self._left -= 1
+        return super().repr1(value, level) if self._left > 0 else "..."
+
+    def repr_int(self, value: int, level: int) -> str:
+        many = value.bit_length()
+        return super().repr_int(value, level) if many < 4000 else f"an integer of {many} bits"
 
 
 def show(value: Any, longest: int = 60) -> str:
@@ -85,7 +99,7 @@ def show(value: Any, longest: int = 60) -> str:
         return _numbers(value) if value.ndim else f"{value.item():.6g}"
     if isinstance(value, float):
         return f"{value:.6g}"
-    text = _SHORT.repr(value)
+    text = _Short().repr(value)
     return text if len(text) <= longest else text[: longest - 3] + "..."
 
 

@@ -83,14 +83,16 @@ def grade_all(
     root: Path,
     workers: int,
     fresh: bool,
+    secret: str | None = None,
     start: Callable[[int], None] = lambda count: None,
     report: Callable[[], None] = lambda: None,
 ) -> list[tuple[Submission, list[dict[str, Any]]]]:
     """Grades every submission and writes grades.csv and feedback/STUDENT.html into `output`.
 
+    secret: of the grading seeds, else as of batch.Grades.
     start(count) is called with the number of files, report() after each of them.
     """
-    grades = Grades(root, fresh)
+    grades = Grades(root, fresh, secret)
     submissions = find_submissions(folder, numbers, grades, root)
     names = page_names([one.folder.name for one in submissions])
     _check_own(output, names)

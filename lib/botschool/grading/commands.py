@@ -12,7 +12,7 @@ from pathlib import Path
 from rich.console import Console
 
 from botschool.errors import BotschoolError
-from botschool.grading.batch import Grades, Job
+from botschool.grading.batch import STATE, Grades, Job, make_state
 from botschool.grading.checks import Wrong
 from botschool.grading.debug import DirectStudent
 from botschool.grading.exercise import (
@@ -25,9 +25,12 @@ from botschool.grading.exercise import (
     submission_file,
 )
 from botschool.grading.report import Screen, counting, notice
+from botschool.grading.secret import grading_secret
 from botschool.grading.submission import grade
+from botschool.terminal import exits_on_signals
 
 
+@exits_on_signals()
 def grade_command(what: str, submission: str | None, as_json: bool, debug: bool) -> bool:
     """Grades exercise "3" or task "3.2" and prints the report; True for full marks."""
     number, task = _named(what)
@@ -100,6 +103,7 @@ def hint_command(what: str) -> None:
         console.print(f"[dim]One more: botschool hint {what}[/]")
 
 
+@exits_on_signals()
 def progress_command(workers: int | None) -> None:
     """Prints the table of all exercises."""
     from botschool.grading.progress import summary, table
@@ -122,6 +126,7 @@ def progress_command(workers: int | None) -> None:
     _notice(console, list(results.values()))
 
 
+@exits_on_signals()
 def watch_command(what: str, submission: str | None) -> None:
     """Grades after every save, until Ctrl-C."""
     from botschool.grading.watching import watch
@@ -159,6 +164,7 @@ def release_command(folder: Path) -> None:
     print(f"{folder}: {count} files for students, without solutions.")
 
 
+@exits_on_signals()
 def grade_all_command(
     folder: Path, output: Path, exercise: str, workers: int | None, fresh: bool
 ) -> None:
@@ -170,8 +176,15 @@ def grade_all_command(
     for number in numbers:
         folder_of(number, root)
     console = Console(highlight=False)
+    try:
+        state = make_state(root)
+    except OSError:
+        state = root / STATE
+    secret, said = grading_secret(state)
     with counting("Grading", console) as (start, step):
-        table = grade_all(folder, output, numbers, root, _workers(workers), fresh, start, step)
+        table = grade_all(
+            folder, output, numbers, root, _workers(workers), fresh, secret, start, step
+        )
     results = [result for _, all_of in table for result in all_of]
     totals = [sum(result["points"] for result in all_of) for _, all_of in table]
     problems = [(one, r) for one, all_of in table for r in all_of if r["problem"]]
@@ -183,6 +196,8 @@ def grade_all_command(
         shown = ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
         console.print(f"Not all could be graded, see the notes in the table: {shown}", markup=False)
     console.print(f"Table: {output / TABLE}   Feedback: {output / PAGES}", markup=False)
+    if said:
+        console.print(said, markup=False, soft_wrap=True)
     _notice(console, results)
 
 

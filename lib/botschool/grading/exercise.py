@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from botschool.errors import BotschoolError
+from botschool.grading.secret import DEFAULT, VARIABLE
 from botschool.grading.student import Student
 from botschool.paths import course_root
 
@@ -68,7 +69,7 @@ class Exercise:
 
     def seed(self, index: int) -> int:
         """A grading seed; they follow from BOTSCHOOL_GRADING_SEED, an instructor's secret."""
-        secret = os.environ.get("BOTSCHOOL_GRADING_SEED", "botschool")
+        secret = os.environ.get(VARIABLE) or DEFAULT
         digest = hashlib.sha256(f"{secret}:{self.number}:{index}".encode()).digest()
         return int.from_bytes(digest[:4], "little") % 2**31
 

@@ -16,10 +16,13 @@ from botschool.grading.checks import Wrong, plain
 from botschool.grading.confined import fork_server, submission_files
 from botschool.grading.exercise import Exercise, Task
 from botschool.grading.student import Student
+from botschool.grading.timelimit import TookTooLong, processor_time_limit
 from botschool.sandbox import ForkServer
 
 LOADING_SECONDS = 10
 """Time for all that a file or a notebook does besides defining functions, when it is graded."""
+CHECK_SECONDS = 60
+"""Processor time that a check may use in the grader's own process."""
 _CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
 _DEFINITION = re.compile(r"^(async def|def|class)\b", re.MULTILINE)
 _LINE = re.compile(r" in line (\d+)")
@@ -257,7 +260,10 @@ def _problem(task: Task, check: Callable[[Student], None], student: Student) -> 
     """Why a check is not passed, in a sentence; None when it is."""
     answers = student.answers
     try:
-        check(student)
+        with processor_time_limit(CHECK_SECONDS):
+            check(student)
+    except TookTooLong:
+        return f"{student.said} returned something that takes too long to judge."
     except Wrong as error:
         return str(error)
     except BotschoolError:

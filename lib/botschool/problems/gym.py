@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import difflib
-import importlib
+import importlib.util
+import multiprocessing
 import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator
+from functools import cache
+from pathlib import Path
 
 import gymnasium
 import numpy as np
@@ -223,8 +226,10 @@ def _fitted(action: np.ndarray | int, space):
 
 def make_env(name: str, **options) -> gymnasium.Env:
     """gymnasium.make with errors for learners; a `module:` may lie in the present folder."""
-    if ":" in name and os.getcwd() not in sys.path:
-        sys.path.insert(0, os.getcwd())
+    if ":" in name:
+        if os.getcwd() not in sys.path:
+            sys.path.insert(0, os.getcwd())
+        _say_if_local(name.partition(":")[0])
     if name in PACKAGES and name not in gymnasium.registry:
         _import_package(name)
     own = f"botschool/{name}"
@@ -247,6 +252,22 @@ def make_env(name: str, **options) -> gymnasium.Env:
         raise BotschoolError(f"There is no environment '{name}'; {hint}") from None
     except Exception as error:
         raise BotschoolError(f"{name} cannot be made: {_sentence(error)}") from error
+
+
+@cache
+def _say_if_local(module: str) -> None:
+    """A line on stderr, once, when a module is taken from the present folder."""
+    if multiprocessing.parent_process() is not None:
+        return
+    try:
+        spec = importlib.util.find_spec(module.partition(".")[0])
+    except (ImportError, ValueError):
+        return
+    places = [] if spec is None else [spec.origin, *(spec.submodule_search_locations or ())]
+    for place in filter(None, places):
+        if Path(place).parent.resolve() == Path.cwd().resolve():
+            print(f"{module} is taken from the present folder: {place}", file=sys.stderr)
+            return
 
 
 def _import_package(name: str) -> None:

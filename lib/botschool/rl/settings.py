@@ -62,13 +62,13 @@ class Settings:
     def load(cls, path: Path) -> Settings:
         """The reverse of save. Raises BotschoolError."""
         try:
-            found = yaml.safe_load(path.read_text(encoding="utf-8"))
+            found = yaml.load(path.read_text(encoding="utf-8"), _PlainLoader)
         except FileNotFoundError:
             raise BotschoolError(
                 f"{path.parent} is no folder of a training (it has no {path.name}): name one that "
                 "`botschool rl list` shows."
             ) from None
-        except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        except Exception as error:  # of a file that may hold anything
             raise BotschoolError(
                 f"{path} cannot be read: {' '.join(str(error).split())}."
             ) from None
@@ -78,6 +78,15 @@ class Settings:
                 "`botschool rl train`."
             )
         return cls(**found)
+
+
+class _PlainLoader(yaml.SafeLoader):
+    """Without aliases: `save` writes none, and a few lines of them make billions of values."""
+
+    def compose_node(self, parent: object, index: object) -> yaml.Node:
+        if self.check_event(yaml.AliasEvent):
+            raise yaml.YAMLError("it has an alias, as no training writes")
+        return super().compose_node(parent, index)
 
 
 def check_algorithm(algo: str) -> str:

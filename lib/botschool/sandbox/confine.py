@@ -38,7 +38,7 @@ def limit(seconds: float, memory: int, file_size: int) -> None:
         ("RLIMIT_CPU", cpu),
         ("RLIMIT_AS", memory + _in_use()),
         ("RLIMIT_FSIZE", file_size),
-        ("RLIMIT_CORE", 0),
+        ("RLIMIT_CORE", 1),  # with 0, a core dump still goes to a program that collects them
         ("RLIMIT_NOFILE", 256),
         ("RLIMIT_MEMLOCK", 0),
     ):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from botschool.sandbox import protocol
+from botschool.sandbox import protocol, usage
 from botschool.sandbox.errors import SandboxError
 from botschool.sandbox.scratch import Scratch
 from botschool.sandbox.server import START_SECONDS, ForkServer, homes
@@ -174,14 +174,8 @@ class Child:
 
     def _look(self) -> None:
         while not self._closed.wait(POLL_SECONDS) and self._code is None:
-            if _threads(self._pid) > MAX_THREADS:
+            if usage.threads(self._pid) > MAX_THREADS:
                 self._end(f"it started more than {MAX_THREADS} threads")
-            if reason := self._scratch.trouble():
+            removed = usage.removed_bytes(self._pid, self._scratch.root, MAX_FILE)
+            if reason := self._scratch.trouble(removed):
                 self._end(reason)
-
-
-def _threads(pid: int) -> int:
-    try:
-        return os.stat(f"/proc/{pid}/task").st_nlink - 2
-    except OSError:
-        return 0

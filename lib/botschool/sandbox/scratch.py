@@ -50,9 +50,12 @@ class Scratch:
             self.remove()
             raise
 
-    def trouble(self) -> str:
-        """Which limit the written files exceed, in words; "" if none."""
-        size = count = 0
+    def trouble(self, removed: int = 0) -> str:
+        """Which limit the written files exceed, in words; "" if none.
+
+        removed: bytes of files that were removed and are still on the disk.
+        """
+        size, count = removed, 0
         try:
             for _, entry, depth in _entries(self.root):
                 count += 1
@@ -64,11 +67,13 @@ class Scratch:
                 if depth > MAX_DEPTH:
                     return f"it made folders more than {MAX_DEPTH} levels deep"
                 if size > MAX_WRITTEN:
-                    return f"it wrote more than {MAX_WRITTEN // 2**20} MB of files"
+                    break
         except FileNotFoundError:
             return ""
         except OSError:
             return "it made a folder that cannot be read"
+        if size > MAX_WRITTEN:
+            return f"it wrote more than {MAX_WRITTEN // 2**20} MB of files"
         return ""
 
     def copy(self, name: str) -> Path:

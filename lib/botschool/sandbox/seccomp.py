@@ -30,14 +30,27 @@ _REFUSED = {
     # files by other ways than Landlock sees (truncate: before its third version)
     "truncate": (76, 45), "open_by_handle_at": (304, 265), "mount": (165, 40),
     "umount2": (166, 39), "pivot_root": (155, 41), "chroot": (161, 51), "swapon": (167, 224),
-    "swapoff": (168, 225), "acct": (163, 89), "quotactl": (179, 60), "sync": (162, 81),
+    "swapoff": (168, 225), "acct": (163, 89), "quotactl": (179, 60),
+    "quotactl_fd": (443, 443), "sync": (162, 81),
+    # memory, messages and semaphores shared with others (System V, POSIX)
+    "shmget": (29, 194), "shmat": (30, 196), "shmctl": (31, 195), "shmdt": (67, 197),
+    "semget": (64, 190), "semop": (65, 193), "semctl": (66, 191), "semtimedop": (220, 192),
+    "msgget": (68, 186), "msgsnd": (69, 189), "msgrcv": (70, 188), "msgctl": (71, 187),
+    "mq_open": (240, 180), "mq_unlink": (241, 181), "mq_timedsend": (242, 182),
+    "mq_timedreceive": (243, 183), "mq_notify": (244, 184), "mq_getsetattr": (245, 185),
+    # watching what others do with files
+    "inotify_init": (253, None), "inotify_init1": (294, 26), "inotify_add_watch": (254, 27),
+    "inotify_rm_watch": (255, 28), "fanotify_init": (300, 262), "fanotify_mark": (301, 263),
+    # what keeps removed files on the disk unseen: rules (of Landlock) and requests (aio) hold them
+    "landlock_create_ruleset": (444, 444), "landlock_add_rule": (445, 445),
+    "landlock_restrict_self": (446, 446), "io_setup": (206, 0),
     # memory that outlives the process or escapes its limits
-    "shmget": (29, 194), "semget": (64, 190), "msgget": (68, 186), "mq_open": (240, 180),
     "memfd_create": (319, 279), "memfd_secret": (447, 447), "add_key": (248, 217),
     "request_key": (249, 218), "keyctl": (250, 219),
     # the kernel itself
     "bpf": (321, 280), "perf_event_open": (298, 241), "userfaultfd": (323, 282),
-    "kexec_load": (246, 104), "init_module": (175, 105), "finit_module": (313, 273),
+    "kexec_load": (246, 104), "kexec_file_load": (320, 294), "process_mrelease": (448, 448),
+    "modify_ldt": (154, None), "init_module": (175, 105), "finit_module": (313, 273),
     "delete_module": (176, 106), "reboot": (169, 142), "settimeofday": (164, 170),
     "clock_settime": (227, 112), "adjtimex": (159, 171), "clock_adjtime": (305, 266),
     "sethostname": (170, 161), "setdomainname": (171, 162), "syslog": (103, 116),
@@ -54,15 +67,16 @@ _PRETENDED = {
 }  # fmt: skip
 _CONDITIONAL = {
     "clone": (56, 220), "clone3": (435, 435), "kill": (62, 129), "tgkill": (234, 131),
-    "ioctl": (16, 29), "fcntl": (72, 25), "prctl": (157, 167),
+    "ioctl": (16, 29), "fcntl": (72, 25), "prctl": (157, 167), "fallocate": (285, 47),
 }  # fmt: skip
 
-_CLONE_THREAD = 0x10000
+_CLONE_FILES, _CLONE_THREAD = 0x400, 0x10000
 _IOCTLS = (0x5401, 0x5413, 0x541B, 0x5421, 0x5450, 0x5451)
 """isatty, window size, bytes to read, non-blocking, close-on-exec."""
 _FCNTLS = (8, 10, 15, 1024, 1026)
 """F_SETOWN, F_SETSIG, F_SETOWN_EX (they send signals to others), F_SETLEASE, F_NOTIFY."""
-_PR_SET_PDEATHSIG = 1
+_PRCTLS = (1, 4)
+"""PR_SET_PDEATHSIG, PR_SET_DUMPABLE (the caller could no longer see open files)."""
 
 _LOAD, _EQUAL, _AT_LEAST, _ANY_BIT, _RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
 _NUMBER, _ARCHITECTURE, _FIRST, _SECOND = 0, 4, 16, 24  # offsets in seccomp_data
@@ -100,13 +114,16 @@ def program(machine: str, pid: int) -> list[Instruction] | None:
     number = {name: numbers[column] for name, numbers in _CONDITIONAL.items()}
     # clone3 hides its flags in memory: the C library falls back to clone
     code += _when(number["clone3"], [_UNKNOWN])
-    threads = [(_LOAD, 0, 0, _FIRST), (_ANY_BIT, 0, 1, _CLONE_THREAD), _ALLOW, _REFUSE]
-    code += _when(number["clone"], threads)
+    # no processes, and no threads with open files of their own, which the caller would not see
+    threads = [(_LOAD, 0, 0, _FIRST), (_ANY_BIT, 0, 2, _CLONE_THREAD)]
+    code += _when(number["clone"], [*threads, (_ANY_BIT, 0, 1, _CLONE_FILES), _ALLOW, _REFUSE])
+    # it fills the disk at once: the C library then writes, which takes its time
+    code += _when(number["fallocate"], [_fail(errno.EOPNOTSUPP)])
     for name in ("kill", "tgkill"):
         code += _when(number[name], _arguments(_FIRST, (pid,), _ALLOW, _REFUSE))
     code += _when(number["ioctl"], _arguments(_SECOND, _IOCTLS, _ALLOW, _fail(errno.ENOTTY)))
     code += _when(number["fcntl"], _arguments(_SECOND, _FCNTLS, _REFUSE, _ALLOW))
-    code += _when(number["prctl"], _arguments(_FIRST, (_PR_SET_PDEATHSIG,), _REFUSE, _ALLOW))
+    code += _when(number["prctl"], _arguments(_FIRST, _PRCTLS, _REFUSE, _ALLOW))
     return [*code, _ALLOW]
 
 
