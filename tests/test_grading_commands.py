@@ -59,9 +59,9 @@ def test_grade(course):
     [
         (["grade", "x"], "names no exercise"),
         (["grade", "3."], "names no exercise"),
-        (["grade", "16"], "names no exercise"),
+        (["grade", "3.2.1"], "names no exercise"),
         (["grade", "³"], "names no exercise"),
-        (["grade", "4"], "There is no exercise 4 yet; there are 3."),
+        (["grade", "4"], "There is no exercise 4; there are 3."),
         (["grade", "3.9"], "its tasks are 3.1, 3.2"),
         (["grade", "3", "--debug"], "--debug runs one task"),
         (["grade", "3", "--submission", "nowhere"], "There is no tiny.py in"),
@@ -102,7 +102,6 @@ def test_progress(course):
     assert code == 0 and len(out.splitlines()) <= 22
     lines = {line.split()[0]: line for line in out.splitlines()}
     assert "1/2" in lines["3"] and " 60 " in lines["3"] and "3.2 Adding" in lines["3"]
-    assert "Master tournament" in lines["15"] and "not there yet" in lines["15"]
     assert "60 of 100 points" in out
     assert all(len(line) <= 80 for line in out.splitlines())
 

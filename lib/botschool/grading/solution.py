@@ -16,6 +16,7 @@ def run_solution(number: int, root: Path | None = None) -> list[Path]:
     """Runs it in results/exNN; returns the files that it made or changed. Raises BotschoolError."""
     root = (root or course_root()).resolve()
     exercise = load_exercise(number, root)
+    exercise.require()
     found = sorted(root.glob(f"solutions/ex{number:02d}_*/{exercise.file}"))
     if not found:
         raise BotschoolError(
