@@ -10,7 +10,7 @@ import pytest
 
 import tiny_course
 from botschool.errors import BotschoolError
-from botschool.grading import apart, extras
+from botschool.grading import batch, extras
 from botschool.grading.exercise import exercise_numbers, load_exercise, submission_file
 from botschool.grading.skeleton import skeleton
 from running import call, environment_of_command
@@ -105,7 +105,7 @@ def test_an_exercise_without_its_packages_says_what_to_install(sixteen, monkeypa
     exercise = load_exercise(13, sixteen[0])
     with pytest.raises(BotschoolError, match=r"needs stable-baselines3.*make test-ex13.*\[rl\]"):
         exercise.require()
-    job = apart.Job(13, submission_file(13, "solutions", sixteen[0]))
-    result = apart.Grades(sixteen[0]).of([job], 1)[job]
+    job = batch.Job(13, submission_file(13, "solutions", sixteen[0]))
+    result = batch.Grades(sixteen[0]).of([job], 1)[job]
     assert result["points"] == 0 and "needs stable-baselines3" in result["problem"]
     load_exercise(1, sixteen[0]).require()
