@@ -155,14 +155,18 @@ extras_of() {
         sed -n 's/.*extras=(\([^)]*\)).*/\1/p' | tr -d '",'
 }
 
-# The exercises that need an extra, as "9 and 10"
+# The exercises that need an extra, as " (exercises 9 and 10)"
 exercises_with() {
     found=
     for folder in exercises/ex[0-9][0-9]_*; do
         number=${folder#exercises/ex}; number=${number%%_*}; number=${number#0}
         case " $(extras_of "$number") " in *" $1 "*) found="$found${found:+, }$number" ;; esac
     done
-    say "$found" | sed 's/\(.*\), /\1 and /'
+    case $found in
+        "") ;;
+        *,*) say " (exercises $found)" | sed 's/\(.*\), /\1 and /' ;;
+        *) say " (exercise $found)" ;;
+    esac
 }
 
 # What an extra brings, in words
@@ -195,8 +199,7 @@ without() {
     say "No wheels for Python $("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])') on this system:"
     names=
     for extra in $1; do
-        exercises=$(exercises_with "$extra")
-        say "  $(title "$extra")${exercises:+ (exercises $exercises)}"
+        say "  $(title "$extra")$(exercises_with "$extra")"
         names="$names${names:+,}$extra"
     done
     say "Python 3.11 on Linux (x86-64) has them: PYTHON=python3.11 make $2. To compile them for this one:" \
