@@ -15,12 +15,15 @@ case "$*" in
         echo "$*" >>calls
         for extra in $WITHOUT; do
             case "$*" in *"botschool[$extra]"*)
-                echo "WARNING: something else"
                 [ -z "$OFFLINE" ] || echo "Retrying after connection broken by name resolution"
-                echo "ERROR: No matching distribution found for $extra"
+                echo "ERROR: Cannot install botschool[$extra]: conflicting dependencies."
                 exit 1 ;;
             esac
         done ;;
+    "-m pip download"*)
+        [ -n "$CONFLICT" ] && exit
+        echo "ERROR: No matching distribution found for $WITHOUT"
+        exit 1 ;;
     *) echo 3.13 ;;
 esac
 """
@@ -100,6 +103,11 @@ def test_an_exercise_without_wheels_says_how_to_get_them(setup):
     code, _, errors, _, stamps = setup("extra", "pybullet", WITHOUT="pybullet")
     assert code == 2 and not stamps
     assert errors.startswith("error: No wheels for Python 3.13") and "exercises 9 and 10" in errors
+
+
+def test_a_real_conflict_is_no_missing_wheel(setup):
+    code, _, errors, _, stamps = setup("tests", WITHOUT="rl", CONFLICT="1")
+    assert code == 2 and ".tests" not in stamps and "conflicting dependencies" in errors
 
 
 def test_without_network_nothing_is_left_out(setup):

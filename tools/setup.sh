@@ -169,7 +169,13 @@ exercises_with() {
     esac
 }
 
-# What an extra brings, in words
+# Of an extra, what may have no wheel; and what it brings, in words
+package_of() {
+    case $1 in
+        rl) say torch ;;
+        *) say "$1" ;;
+    esac
+}
 title() {
     case $1 in
         box2d) say "Box2D" ;;
@@ -181,6 +187,7 @@ title() {
 
 # try_extra NAME: installs its packages; false if one of them has no wheel for this Python and system.
 try_extra() {
+    package=$(package_of "$1")
     set -- "$1" "botschool[$1]"
     case $1 in
         pybullet) # and what exercise 10 builds, where it is (a student's copy has none)
@@ -189,9 +196,16 @@ try_extra() {
             [ -z "${TORCH:-}" ] || set -- "$@" --extra-index-url https://download.pytorch.org/whl/cpu ;;
     esac
     shift
-    run_pip --only-binary pybullet,box2d,torch "$@" >"$log" 2>&1 && return
-    grep -q 'No matching distribution found' "$log" && ! without_network && return 1
+    run_pip --only-binary "$package" "$@" >"$log" 2>&1 && return
+    without_network || has_wheel "$package" || return 1
     show_failure
+}
+
+# What pip says of a failed installation differs, so it is asked for the wheel alone.
+has_wheel() {
+    pinned=$(sed -n "s/^\($1==[^; ]*\).*/\1/p" constraints.txt 2>/dev/null)
+    answer=$("$python" -m pip download --no-deps --only-binary :all: -d build/wheel "${pinned:-$1}" 2>&1) && return
+    case $answer in *"No matching distribution found"*) return 1 ;; esac
 }
 
 # without EXTRAS GOAL: which of them have no wheel here, and how to get them all the same.
