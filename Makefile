@@ -41,7 +41,7 @@ test-ex%: .venv/.module $$(call extras,$$*) FORCE ## grade exercise N; SUBMISSIO
 	@$(BIN)/botschool grade $* $(if $(SUBMISSION),--submission "$$SUBMISSION")
 
 solution-ex%: .venv/.module $$(call extras,$$*) FORCE ## run the solution of exercise N in results/exNN
-	@$(BIN)/python -m botschool.grading.solution $*
+	@$(BIN)/botschool show $* --submission solutions
 
 skeletons: .venv/.module ## generate the exercises' files from the solutions
 	@$(BIN)/botschool skeletons

@@ -19,7 +19,7 @@ from botschool.grading.collect import grade_all, page_names
 from botschool.grading.exercise import load_exercise
 from botschool.grading.release import find_leaks, release
 from botschool.grading.report import Screen
-from botschool.grading.solution import run_solution
+from botschool.grading.show import show
 from botschool.grading.submission import grade
 from botschool.grading.watching import watch
 from botschool.sandbox import seccomp
@@ -234,12 +234,17 @@ def test_release_needs_a_place_of_its_own(course, tmp_path):
     assert release(course, tmp_path / "empty") > 0
 
 
-def test_solution_is_run_in_results(course):
-    made = run_solution(3, course)
-    assert made == [course.resolve() / "results" / "ex03" / "picture.txt"]
+def test_a_finished_file_is_run_in_results(course):
+    made = course.resolve() / "results" / "ex03" / "picture.txt"
+    assert show(3, "solutions", course) == [made]
+    code, out, errors = call("show", "3", cwd=course)
+    assert code == 2 and "task 3.1" in errors and "ended with an error" in errors
+    (course / "exercises" / FOLDER / FILE).write_text(SOLUTION)
+    code, out, errors = call("show", "3", cwd=course)
+    assert (code, errors) == (0, "") and "made: results/ex03/picture.txt" in out
     (course / "solutions" / FOLDER / FILE).unlink()
-    with pytest.raises(BotschoolError, match="no solution of exercise 3"):
-        run_solution(3, course)
+    with pytest.raises(BotschoolError, match=r"no tiny\.py in"):
+        show(3, "solutions", course)
 
 
 # --- a class

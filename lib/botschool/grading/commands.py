@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import time
 import traceback
@@ -152,12 +153,36 @@ def watch_command(what: str, submission: str | None) -> None:
         signal.signal(signal.SIGINT, before)
 
 
-def release_command(folder: Path) -> None:
-    """Makes the students' copy."""
+def show_command(what: str, submission: str | None) -> None:
+    """Runs a finished exercise and names what it has made."""
+    from botschool.grading.show import show
+
+    for path in show(_named(what)[0], submission):
+        print(f"made: {os.path.relpath(path)}  ({path.stat().st_size / 1000:.0f} kB)")
+
+
+def release_command(folder: Path, exercises: str) -> None:
+    """Makes the students' copy, or brings it up to date."""
     from botschool.grading.release import release
 
-    count = release(course_root(), folder)
-    print(f"{folder}: {count} files for students, without solutions.")
+    numbers = None if exercises == "all" else _numbers(exercises)
+    done = release(course_root(), folder, numbers)
+    for path in done.edited:
+        print(f"left alone, because it was edited: {path}")
+    print(f"{folder}: {done.files} files for students, {done.written} of them new or changed.")
+
+
+def _numbers(text: str) -> set[int]:
+    """ "1-3,7" -> {1, 2, 3, 7}. Raises BotschoolError."""
+    found: set[int] = set()
+    for part in text.split(","):
+        first, dash, last = (each.strip() for each in part.partition("-"))
+        if not re.fullmatch(r"[0-9]{1,3}", first) or (
+            dash and not re.fullmatch("[0-9]{1,3}", last)
+        ):
+            raise BotschoolError(f"'{text[:30]}' names no exercises: say which, as 1-3,7.")
+        found |= set(range(int(first), int(last or first) + 1))
+    return found
 
 
 def grade_all_command(
