@@ -1,5 +1,6 @@
 # Every target sets up what it needs by itself, in .venv and build/, and again only when inputs change.
 # Another interpreter: PYTHON=python3.12 make test
+# PyTorch without its CUDA packages (some GB): TORCH=cpu make test
 
 BIN := .venv/bin
 CPP := $(shell find lib tests -name '*.cpp' -o -name '*.hpp' -o -name '*.h' 2>/dev/null)
@@ -30,17 +31,17 @@ test: .venv/.tests ## the tests that take seconds
 test-long: .venv/.tests ## the tests that take minutes: whole runs, many seeds
 	@$(BIN)/python -m pytest -q -m long
 
+# What an exercise trains and simulates with can be large: its grader names the extras it needs.
+.SECONDEXPANSION:
+extras = $(addprefix .venv/.extra-,$(shell tools/setup.sh extras $(1)))
+
 # The student's own file, or SUBMISSION=FOLDER (SUBMISSION=solutions is the reference).
 export SUBMISSION
-test-ex%: .venv/.module FORCE ## grade exercise N; SUBMISSION=FOLDER grades another folder
+test-ex%: .venv/.module $$(call extras,$$*) FORCE ## grade exercise N; SUBMISSION=FOLDER grades another folder
 	@$(BIN)/botschool grade $* $(if $(SUBMISSION),--submission "$$SUBMISSION")
 
-solution-ex%: .venv/.module FORCE ## run the solution of exercise N in results/exNN
-	@$(BIN)/python -m botschool.grading.solution $*
-
-# What these exercises train and simulate with is large, so only they ask for it.
-LARGE := 5 9 10 11 12 13 14
-$(LARGE:%=test-ex%) $(LARGE:%=solution-ex%): .venv/.bodies
+solution-ex%: .venv/.module $$(call extras,$$*) FORCE ## run the solution of exercise N in results/exNN
+	@$(BIN)/botschool show $* --submission solutions
 
 skeletons: .venv/.module ## generate the exercises' files from the solutions
 	@$(BIN)/botschool skeletons
@@ -81,11 +82,15 @@ clean: ## remove what the targets above set up; results stay
 .venv/.tools: .venv/.made pyproject.toml constraints.txt
 	@tools/setup.sh tools
 
-.venv/.module: .venv/.tools $(CPP_INPUTS)
+.venv/.sources: .venv/.made FORCE
+	@tools/setup.sh sources
+
+.venv/.module: .venv/.tools .venv/.sources $(CPP_INPUTS)
 	@tools/setup.sh module
 
-.venv/.bodies: .venv/.module
-	@tools/setup.sh bodies
+.PRECIOUS: .venv/.extra-%
+.venv/.extra-%: .venv/.module
+	@tools/setup.sh extra $*
 
 .venv/.tests: .venv/.module
 	@tools/setup.sh tests

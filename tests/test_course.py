@@ -1,8 +1,21 @@
-"""What exercises import: its names stay, whatever moves behind them."""
+"""What exercises import keeps its names; a new exercise is two folders and nothing else."""
 
 import importlib
+import re
+import shutil
+import subprocess
+from pathlib import Path
 
 import pytest
+
+import tiny_course
+from botschool.errors import BotschoolError
+from botschool.grading import batch, extras
+from botschool.grading.exercise import exercise_numbers, load_exercise, submission_file
+from botschool.grading.skeleton import skeleton
+from running import call, environment_of_command
+
+ROOT = Path(__file__).parents[1]
 
 OLD = {
     "course_coevolution": "play",
@@ -21,3 +34,78 @@ def test_modules_that_moved_keep_their_old_names(module, name):
     assert getattr(old, name) is getattr(new, name)
     public = {name for name in vars(new) if not name.startswith("_")}
     assert public <= vars(old).keys()
+
+
+@pytest.mark.parametrize("number", exercise_numbers(ROOT))
+def test_titles_of_texts_are_the_graders(number):
+    exercise = load_exercise(number, ROOT)
+    (text,) = ROOT.glob(f"exercises/ex{number:02d}_*/README.md")
+    heading = text.read_text(encoding="utf-8").splitlines()[0]
+    assert heading == f"# Exercise {number}. {exercise.title}"
+    course = (ROOT / "README.md").read_text(encoding="utf-8").partition("## The course")[2]
+    assert f" {number} {exercise.title}".lower() in " ".join(course.split()).lower()
+
+
+@pytest.fixture
+def sixteen(tmp_path):
+    """The folder of a course with some of our exercises and a sixteenth; its environment."""
+    root = tmp_path / "course"
+    for name in ("ex01_gymnasium", "ex13_inside_ppo"):
+        for top in ("exercises", "solutions"):
+            shutil.copytree(ROOT / top / name, root / top / name)
+    for name in ("Makefile", "tools/setup.sh", "pyproject.toml", "constraints.txt"):
+        (root / name).parent.mkdir(exist_ok=True)
+        shutil.copy(ROOT / name, root / name)
+    texts = {
+        f"solutions/ex16_tiny/{tiny_course.FILE}": tiny_course.SOLUTION,
+        f"exercises/ex16_tiny/{tiny_course.FILE}": skeleton(tiny_course.SOLUTION),
+        "exercises/ex16_tiny/test_tiny.py": tiny_course.GRADER,
+        "exercises/ex16_tiny/HINTS.md": tiny_course.HINTS,
+        "exercises/ex16_tiny/README.md": "# Exercise 16. Tiny\n",
+    }
+    for name, text in texts.items():
+        text = re.sub(r"\b3\.([12])\b", r"16.\1", text).replace("Exercise(3,", "Exercise(16,")
+        text = text.replace('file="tiny.py"', 'file="tiny.py", extras=("rl",)')
+        (root / name).parent.mkdir(exist_ok=True)
+        (root / name).write_text(text, encoding="utf-8")
+    return root, environment_of_command() | {"BOTSCHOOL_COURSE": str(root)}
+
+
+def test_a_sixteenth_exercise_is_two_folders(sixteen, tmp_path):
+    pytest.importorskip("torch")
+    root, env = sixteen
+    code, out, errors = call("grade", "16", env=env)
+    assert (code, errors) == (1, "") and "0 of 100 points" in out and "Next: task 16.1" in out
+    code, out, _ = call("grade", "16", "--submission", "solutions", cwd=root, env=env)
+    assert code == 0 and "100 of 100 points" in out
+    assert "Hint 1 of 2 for task 16.1" in call("hint", "16.1", env=env)[1]
+    code, out, _ = call("progress", env=env)
+    titles = {line.split()[0]: line for line in out.splitlines()}
+    assert code == 0 and {"1", "13", "16"} <= titles.keys() and "Tiny" in titles["16"]
+    code, _, errors = call("grade", "15", env=env)
+    assert code == 2 and "There is no exercise 15; there are 1, 13, 16." in errors
+    assert call("release", tmp_path / "copy", env=env)[0] == 0
+    code, out, _ = call("grade", "16", env=env | {"BOTSCHOOL_COURSE": str(tmp_path / "copy")})
+    assert code == 1 and "0 of 100 points" in out
+    for folder in (root, tmp_path / "copy"):
+        for number, needed in ((1, []), (13, ["rl"]), (16, ["rl"])):
+            assert _set_up_for(folder, number) == needed
+
+
+def _set_up_for(root, number):
+    """The extras that `make test-exN` would install."""
+    command = ["make", "-n", f"test-ex{number}"]
+    done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=True)
+    assert f"botschool grade {number}" in done.stdout
+    return re.findall(r"setup\.sh extra (\S+)", done.stdout)
+
+
+def test_an_exercise_without_its_packages_says_what_to_install(sixteen, monkeypatch):
+    monkeypatch.setattr(extras, "_installed", lambda name: name != "stable-baselines3")
+    exercise = load_exercise(13, sixteen[0])
+    with pytest.raises(BotschoolError, match=r"needs stable-baselines3.*make test-ex13.*\[rl\]"):
+        exercise.require()
+    job = batch.Job(13, submission_file(13, "solutions", sixteen[0]))
+    result = batch.Grades(sixteen[0]).of([job], 1)[job]
+    assert result["points"] == 0 and "needs stable-baselines3" in result["problem"]
+    load_exercise(1, sixteen[0]).require()

@@ -22,7 +22,7 @@ from botschool.grading.exercise import load_exercise
 from botschool.grading.release import find_leaks, release
 from botschool.grading.report import Screen
 from botschool.grading.secret import grading_secret
-from botschool.grading.solution import run_solution
+from botschool.grading.show import show
 from botschool.grading.submission import grade
 from botschool.grading.watching import watch
 from botschool.sandbox import seccomp
@@ -62,9 +62,9 @@ def test_grade(course):
     [
         (["grade", "x"], "names no exercise"),
         (["grade", "3."], "names no exercise"),
-        (["grade", "16"], "names no exercise"),
+        (["grade", "3.2.1"], "names no exercise"),
         (["grade", "³"], "names no exercise"),
-        (["grade", "4"], "There is no exercise 4 yet; there are 3."),
+        (["grade", "4"], "There is no exercise 4; there are 3."),
         (["grade", "3.9"], "its tasks are 3.1, 3.2"),
         (["grade", "3", "--debug"], "--debug runs one task"),
         (["grade", "3", "--submission", "nowhere"], "There is no tiny.py in"),
@@ -105,7 +105,6 @@ def test_progress(course):
     assert code == 0 and len(out.splitlines()) <= 22
     lines = {line.split()[0]: line for line in out.splitlines()}
     assert "1/2" in lines["3"] and " 60 " in lines["3"] and "3.2 Adding" in lines["3"]
-    assert "Master tournament" in lines["15"] and "not there yet" in lines["15"]
     assert "60 of 100 points" in out
     assert all(len(line) <= 80 for line in out.splitlines())
 
@@ -238,12 +237,17 @@ def test_release_needs_a_place_of_its_own(course, tmp_path):
     assert release(course, tmp_path / "empty") > 0
 
 
-def test_solution_is_run_in_results(course):
-    made = run_solution(3, course)
-    assert made == [course.resolve() / "results" / "ex03" / "picture.txt"]
+def test_a_finished_file_is_run_in_results(course):
+    made = course.resolve() / "results" / "ex03" / "picture.txt"
+    assert show(3, "solutions", course) == [made]
+    code, out, errors = call("show", "3", cwd=course)
+    assert code == 2 and "task 3.1" in errors and "ended with an error" in errors
+    (course / "exercises" / FOLDER / FILE).write_text(SOLUTION)
+    code, out, errors = call("show", "3", cwd=course)
+    assert (code, errors) == (0, "") and "made: results/ex03/picture.txt" in out
     (course / "solutions" / FOLDER / FILE).unlink()
-    with pytest.raises(BotschoolError, match="no solution of exercise 3"):
-        run_solution(3, course)
+    with pytest.raises(BotschoolError, match=r"no tiny\.py in"):
+        show(3, "solutions", course)
 
 
 # --- a class

@@ -292,7 +292,7 @@ def test_nothing_is_printed():
 
 def test_without_pybullet_it_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "pybullet", None)
-    with pytest.raises(BotschoolError, match=r"pip install 'botschool\[bullet\]'"):
+    with pytest.raises(BotschoolError, match=r"pip install 'botschool\[pybullet\]'"):
         problems.make("AntBulletEnv-v5")
 
 

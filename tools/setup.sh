@@ -1,5 +1,6 @@
 #!/bin/sh
-# One step of what the Makefile sets up: tools/setup.sh venv|tools|module|bodies|tests|sanitize
+# One step of what the Makefile sets up: tools/setup.sh venv|tools|sources|module|extra NAME|tests|sanitize
+# or a question: tools/setup.sh extras EXERCISE
 # Says in a line what it does; a tool's own output appears only when it fails.
 set -u
 
@@ -74,17 +75,27 @@ check_compiler() {
 
 # quietly COMMAND...: its output goes to the log, and to the screen only if it fails
 quietly() {
-    "$@" >"$log" 2>&1 && return
+    "$@" >"$log" 2>&1 || show_failure
+}
+
+show_failure() {
     grep -vE '^(Requirement already|Collecting|Processing|Looking) | (Downloading|Using cached|━)' "$log" >&2
-    if grep -qE 'connection broken|ConnectionError|name resolution|Read timed out' "$log"; then
+    if without_network; then
         fail "this step failed (its output is above): packages come from the network, is it there?"
     fi
     fail "this step failed (its output is above): run make again when the cause is mended"
 }
 
+without_network() {
+    grep -qE 'connection broken|ConnectionError|name resolution|Read timed out' "$log"
+}
+
 pip_install() {
-    PIP_USER=0 quietly "$python" -m pip install --no-input --disable-pip-version-check \
-        -c constraints.txt "$@"
+    quietly run_pip "$@"
+}
+
+run_pip() {
+    PIP_USER=0 "$python" -m pip install --no-input --disable-pip-version-check -c constraints.txt "$@"
 }
 
 # Which interpreter .venv was made with, and where: a virtual environment cannot be moved.
@@ -137,21 +148,102 @@ build_module() {
     pip_install --no-build-isolation -e .
 }
 
-# What exercise 10 builds, where it is (a student's copy has none)
-own_environments() {
-    [ ! -d envs/balance_bot ] || say '-e envs/balance_bot'
+# The extras of pyproject.toml that an exercise (3, or a task of it, 3.2) needs: its grader says extras=("NAME",).
+extras_of() {
+    number=${1%%.*}; number=${number#0}
+    cat "exercises/ex$(printf %02d "$number" 2>/dev/null)"_*/test_*.py 2>/dev/null |
+        sed -n 's/.*extras=(\([^)]*\)).*/\1/p' | tr -d '",'
 }
 
-install_bodies() {
-    say "Installing PyTorch, Stable-Baselines3, PyBullet and Box2D (a minute or two)"
-    # shellcheck disable=SC2046
-    pip_install 'botschool[bodies]' $(own_environments)
+# The exercises that need an extra, as " (exercises 9 and 10)"
+exercises_with() {
+    found=
+    for folder in exercises/ex[0-9][0-9]_*; do
+        number=${folder#exercises/ex}; number=${number%%_*}; number=${number#0}
+        case " $(extras_of "$number") " in *" $1 "*) found="$found${found:+, }$number" ;; esac
+    done
+    case $found in
+        "") ;;
+        *,*) say " (exercises $found)" | sed 's/\(.*\), /\1 and /' ;;
+        *) say " (exercise $found)" ;;
+    esac
 }
 
+# Of an extra, what may have no wheel; and what it brings, in words
+package_of() {
+    case $1 in
+        rl) say torch ;;
+        *) say "$1" ;;
+    esac
+}
+title() {
+    case $1 in
+        box2d) say "Box2D" ;;
+        pybullet) say "PyBullet" ;;
+        rl) say "PyTorch and Stable-Baselines3" ;;
+        *) say "$1" ;;
+    esac
+}
+
+# try_extra NAME: installs its packages; false if one of them has no wheel for this Python and system.
+try_extra() {
+    package=$(package_of "$1")
+    set -- "$1" "botschool[$1]"
+    case $1 in
+        pybullet) # and what exercise 10 builds, where it is (a student's copy has none)
+            [ ! -d envs/balance_bot ] || set -- "$@" -e envs/balance_bot ;;
+        rl)
+            [ -z "${TORCH:-}" ] || set -- "$@" --extra-index-url https://download.pytorch.org/whl/cpu ;;
+    esac
+    shift
+    run_pip --only-binary "$package" "$@" >"$log" 2>&1 && return
+    without_network || has_wheel "$package" || return 1
+    show_failure
+}
+
+# What pip says of a failed installation differs, so it is asked for the wheel alone.
+has_wheel() {
+    pinned=$(sed -n "s/^\($1==[^; ]*\).*/\1/p" constraints.txt 2>/dev/null)
+    answer=$("$python" -m pip download --no-deps --only-binary :all: -d build/wheel "${pinned:-$1}" 2>&1) && return
+    case $answer in *"No matching distribution found"*) return 1 ;; esac
+}
+
+# without EXTRAS GOAL: which of them have no wheel here, and how to get them all the same.
+without() {
+    say "No wheels for Python $("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])') on this system:"
+    names=
+    for extra in $1; do
+        say "  $(title "$extra")$(exercises_with "$extra")"
+        names="$names${names:+,}$extra"
+    done
+    say "Python 3.11 on Linux (x86-64) has them: PYTHON=python3.11 make $2. To compile them for this one:" \
+        ".venv/bin/python -m pip install 'botschool[$names]'"
+}
+
+install_extra() {
+    say "Installing $(title "$1") (up to two minutes)"
+    try_extra "$1" || fail "$(without "$1" build)"
+    touch ".venv/.extra-$1"
+}
+
+# All that the tests can use; tests of what has no wheel here are skipped.
 install_tests() {
     say "Installing what the tests need (one to three minutes)"
-    # shellcheck disable=SC2046
-    pip_install 'botschool[all]' $(own_environments)
+    pip_install 'botschool[test]'
+    left=
+    for extra in box2d pybullet rl; do
+        if try_extra "$extra"; then touch ".venv/.extra-$extra"; else left="$left $extra"; fi
+    done
+    case $left in *pybullet*) ;; *) pip_install 'botschool[compare]' ;; esac
+    [ -z "$left" ] || say "Notice: some tests will be skipped. $(without "$left" test)"
+}
+
+# The list of Python files: installed again when it changes, so that all are found where they are.
+list_sources() {
+    find lib/botschool -name '*.py' | sort >.venv/.sources-now
+    if cmp -s .venv/.sources-now .venv/.sources; then rm .venv/.sources-now
+    else mv .venv/.sources-now .venv/.sources
+    fi
 }
 
 build_sanitized() {
@@ -162,11 +254,17 @@ build_sanitized() {
     quietly cmake --build build/sanitize --target core_tests
 }
 
+case ${TORCH:-cpu} in
+    cpu) ;;
+    *) fail "TORCH=$TORCH is not known: TORCH=cpu installs PyTorch without its CUDA packages" ;;
+esac
 case $1 in
     venv) make_venv ;;
     tools) install_tools && touch .venv/.tools ;;
+    sources) list_sources ;;
     module) build_module && touch .venv/.module ;;
-    bodies) install_bodies && touch .venv/.bodies ;;
+    extra) install_extra "$2" ;;
+    extras) extras_of "$2" ;;
     tests) install_tests && touch .venv/.tests ;;
     sanitize) build_sanitized ;;
 esac

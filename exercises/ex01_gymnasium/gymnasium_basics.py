@@ -187,7 +187,7 @@ def compare(environment_ids: list[str], episodes: int, seed: int) -> list[dict]:
 # %% [markdown]
 # ## The picture
 #
-# `make solution-ex1` (or running this file once all tasks are done) prints the table of random
+# `botschool show 1` (or running this file once all tasks are done) prints the table of random
 # agents, draws how their returns are spread, and films two episodes of your rule.
 
 # %%

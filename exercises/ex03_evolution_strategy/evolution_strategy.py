@@ -197,7 +197,7 @@ def train(environment: str, seed: int) -> np.ndarray:
 # %% [markdown]
 # ## The picture
 #
-# `make solution-ex3` (or running this file once all tasks are done) draws the fitness curves of
+# `botschool show 3` (or running this file once all tasks are done) draws the fitness curves of
 # ten replications on Pendulum with their band, and films the best controllers.
 
 # %%

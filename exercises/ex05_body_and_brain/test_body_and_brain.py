@@ -23,6 +23,7 @@ exercise = Exercise(
     "Body and brain",
     file="body_and_brain.py",
     imports=("botschool.envs.bodybrain",),
+    extras=("box2d",),
 )
 BODY, OBSERVATIONS = 64, 35
 

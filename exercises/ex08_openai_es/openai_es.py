@@ -217,7 +217,7 @@ def train(environment: str, seed: int) -> np.ndarray:
 # %% [markdown]
 # ## Curves with their verdicts
 #
-# `make solution-ex8` (or running this file once all tasks are done) evolves three problems with
+# `botschool show 8` (or running this file once all tasks are done) evolves three problems with
 # careful and with rash hyperparameters, judges the curves and marks the largest fall of each.
 
 # %%

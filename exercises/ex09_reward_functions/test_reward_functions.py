@@ -13,6 +13,7 @@ exercise = Exercise(
     "Reward functions",
     file="reward_functions.py",
     imports=("botschool.course.locomotion", "botschool.evolution.run", "pybullet"),
+    extras=("pybullet",),
 )
 ROBOTS = {"Hopper": 3, "HalfCheetah": 6, "Ant": 8, "Walker2D": 6, "Humanoid": 17}
 STEP = 0.0165

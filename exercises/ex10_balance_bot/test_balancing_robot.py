@@ -35,6 +35,7 @@ exercise = Exercise(
     "A new environment",
     file="balancing_robot.py",
     imports=("pybullet", "pybullet_data"),
+    extras=("pybullet",),
 )
 NAME = "BalanceBotBulletEnv-v0"
 LIMIT = 24.6

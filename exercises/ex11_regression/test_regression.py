@@ -21,7 +21,11 @@ from botschool.grading import (
 )
 
 exercise = Exercise(
-    11, "Back-propagation", file="regression.py", imports=("torch", "torch._dynamo")
+    11,
+    "Back-propagation",
+    file="regression.py",
+    imports=("torch", "torch._dynamo"),
+    extras=("rl",),
 )
 SIZES = ((1, 1, 1, 1), (4, 2, 2, 1), (7, 3, 5, 2), (30, 4, 9, 3))
 """Of patterns, inputs, hidden neurons, outputs."""

@@ -16,7 +16,11 @@ from botschool.grading import Exercise, Student, expect, expect_array, expect_cl
 
 gymnasium.register_envs(botschool.envs)
 exercise = Exercise(
-    12, "Cross-entropy", file="cross_entropy.py", imports=("torch", "torch._dynamo")
+    12,
+    "Cross-entropy",
+    file="cross_entropy.py",
+    imports=("torch", "torch._dynamo"),
+    extras=("rl",),
 )
 SINGLE = 1e-5
 """Tolerance where the submission computes in single precision."""

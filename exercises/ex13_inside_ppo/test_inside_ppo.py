@@ -14,7 +14,7 @@ import numpy as np
 
 from botschool.grading import Exercise, Student, expect, expect_array, expect_close, show
 
-exercise = Exercise(13, "Inside PPO", file="inside_ppo.py")
+exercise = Exercise(13, "Inside PPO", file="inside_ppo.py", extras=("rl",))
 CLOSE = 1e-6
 
 

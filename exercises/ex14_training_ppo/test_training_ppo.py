@@ -40,6 +40,7 @@ exercise = Exercise(
         "botschool.rl.callbacks",
         "tensorboard.backend.event_processing.event_accumulator",
     ),
+    extras=("rl",),
 )
 CLOSE = 1e-6
 SHORT = {"n_steps": 16, "batch_size": 64, "n_epochs": 2, "normalize": False}

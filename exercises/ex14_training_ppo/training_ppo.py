@@ -276,7 +276,7 @@ def at_equal_steps(groups: dict[str, list[dict]], points: int) -> dict:
 # %% [markdown]
 # ## Two problems, some variations, and evolution beside them
 #
-# `make solution-ex14` (or running this file once all tasks are done) trains PPO on CartPole, whose
+# `botschool show 14` (or running this file once all tasks are done) trains PPO on CartPole, whose
 # policy chooses left or right, and on the pushed CartPole of exercise 12, whose policy draws a
 # force from a Gaussian. Change the problems, variations, seeds and steps as you like: that is what
 # this exercise is for. Several trainings at a time can be had by running copies of the file with

@@ -252,7 +252,7 @@ def describe(poses: np.ndarray) -> dict:
 # %% [markdown]
 # ## The tournament
 #
-# `make solution-ex15` (or running this file once all tasks are done) takes your own run (see
+# `botschool show 15` (or running this file once all tasks are done) takes your own run (see
 # README.md) or, if there is none, the one that the course has evolved.
 
 # %%

@@ -228,7 +228,7 @@ def random_search(environment_id: str, nnetworks: int, nhiddens: int, seed: int)
 # %% [markdown]
 # ## The picture
 #
-# `make solution-ex2` (or running this file once all tasks are done) draws how the fitness of 200
+# `botschool show 2` (or running this file once all tasks are done) draws how the fitness of 200
 # random networks is spread in four environments, and films the best one of CartPole. It takes a
 # minute or two.
 

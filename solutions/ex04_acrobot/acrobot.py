@@ -249,7 +249,7 @@ def compare(
 # %% [markdown]
 # ## The picture
 #
-# `make solution-ex4` (or running this file once all tasks are done) does ten runs of the whole
+# `botschool show 4` (or running this file once all tasks are done) does ten runs of the whole
 # experiment, which takes less than a minute, draws their curves, prints what the robots are
 # worth, and films the best one.
 

@@ -310,7 +310,7 @@ def loss(matrix: np.ndarray) -> dict:
 # %% [markdown]
 # ## The pictures
 #
-# `make solution-ex5` (or running this file once all tasks are done) evolves three walkers for a few
+# `botschool show 5` (or running this file once all tasks are done) evolves three walkers for a few
 # minutes and draws their bodies in `my_walkers.png`. Then it takes three walkers that have evolved
 # longer, from `data/genotypes`: their bodies are drawn in `walkers.png`, each brain in each body in
 # `matrix.png`, and they are filmed.

@@ -319,7 +319,7 @@ def reactions(brain: dict, observation: np.ndarray, memories: np.ndarray) -> np.
 # %% [markdown]
 # ## The robots
 #
-# `make solution-ex6` (or running this file once all tasks are done) compares your own replications
+# `botschool show 6` (or running this file once all tasks are done) compares your own replications
 # (see README.md) or, if there are none, the three that the course has evolved.
 
 # %%

@@ -263,7 +263,7 @@ def draw_portraits(
 # %% [markdown]
 # ## The portraits
 #
-# `make solution-ex7` (or running this file once all tasks are done) draws the pendulum without a
+# `botschool show 7` (or running this file once all tasks are done) draws the pendulum without a
 # motor and three stages of evolution, each with four episodes, and films the last stage.
 
 # %%

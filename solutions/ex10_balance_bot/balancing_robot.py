@@ -449,7 +449,7 @@ def train(seed: int) -> list[list[np.ndarray]]:
 # %% [markdown]
 # ## The picture
 #
-# `make solution-ex10` (or running this file once all tasks are done) evolves a controller and
+# `botschool show 10` (or running this file once all tasks are done) evolves a controller and
 # trains another one, draws how far the robot leans in twenty episodes of each, films the evolved
 # one, and writes the package, ready to be installed.
 

@@ -344,7 +344,7 @@ def feature_maps(network: nn.Module, low: float, high: float, n: int) -> np.ndar
 # %% [markdown]
 # ## Features and losses
 #
-# `make solution-ex11` (or running this file once all tasks are done) draws the features of three
+# `botschool show 11` (or running this file once all tasks are done) draws the features of three
 # trained networks, and shows what minibatches and normalisation are worth.
 
 # %%

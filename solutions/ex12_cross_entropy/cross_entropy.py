@@ -343,7 +343,7 @@ def train(
 # %% [markdown]
 # ## Every episode a dot
 #
-# `make solution-ex12` (or running this file once all tasks are done) trains policies for three
+# `botschool show 12` (or running this file once all tasks are done) trains policies for three
 # problems, Pendulum the last of them and the hardest, draws all episodes of the trainings and what
 # the policies do in which situation, and films the pendulum.
 

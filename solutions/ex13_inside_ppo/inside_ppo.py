@@ -290,7 +290,7 @@ def responses(activations: np.ndarray, observations: np.ndarray) -> np.ndarray:
 # %% [markdown]
 # ## Your numbers beside those of Stable-Baselines3
 #
-# `make solution-ex13` (or running this file once all tasks are done) trains PPO on CartPole,
+# `botschool show 13` (or running this file once all tasks are done) trains PPO on CartPole,
 # compares your functions with what Stable-Baselines3 computes on a rollout of it, and draws what
 # the hidden neurons respond to, before and after training.
 

@@ -11,7 +11,9 @@ app = typer.Typer()
 
 Submission = Annotated[
     str | None,
-    typer.Option(help="Grade another folder; `solutions` is the reference.", metavar="FOLDER"),
+    typer.Option(
+        help="The files of another folder; `solutions` is the reference.", metavar="FOLDER"
+    ),
 ]
 GradingWorkers = Annotated[
     int | None,
@@ -66,14 +68,36 @@ def watch(
     watch_command(what, submission)
 
 
-@app.command(epilog="Example: botschool release ../course-for-students")
-def release(
-    folder: Annotated[Path, typer.Argument(help="A new folder.", metavar="FOLDER")],
+@app.command(epilog="Example: botschool show 3")
+def show(
+    exercise: Annotated[str, typer.Argument(help="Exercise N.", metavar="N")],
+    submission: Submission = None,
 ) -> None:
-    """For instructors: make a copy of the repository for students, without solutions."""
+    """Run your finished file in results/exNN, and say what it has made."""
+    from botschool.grading.commands import show_command
+
+    show_command(exercise, submission)
+
+
+@app.command(epilog="Example: botschool release ../course-for-students --exercises 1-3")
+def release(
+    folder: Annotated[
+        Path, typer.Argument(help="A new folder, or a copy to bring up to date.", metavar="FOLDER")
+    ],
+    exercises: Annotated[
+        str,
+        typer.Option(
+            "-e", "--exercises", help="Those to add, as 1-3,7; earlier ones stay.", metavar="N,N-N"
+        ),
+    ] = "all",
+) -> None:
+    """For instructors: make a copy of the repository for students, without solutions.
+
+    In a copy that is there already, files that were edited since are left alone.
+    """
     from botschool.grading.commands import release_command
 
-    release_command(folder)
+    release_command(folder, exercises)
 
 
 @app.command("grade-all", epilog="Example: botschool grade-all submissions --exercise 3 -o grades")

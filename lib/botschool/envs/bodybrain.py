@@ -22,7 +22,7 @@ try:
     )
 except ImportError as error:
     raise gymnasium.error.DependencyNotInstalled(
-        "Box2D, which `pip install 'gymnasium[box2d]'` installs"
+        "Box2D, which `pip install 'botschool[box2d]'` installs"
     ) from error
 
 FPS = 50

@@ -59,7 +59,7 @@ def import_pybullet() -> ModuleType:
             import pybullet
     except ImportError:
         raise BotschoolError(
-            "robots in 3D need PyBullet: install it with `pip install 'botschool[bullet]'`."
+            "robots in 3D need PyBullet: install it with `pip install 'botschool[pybullet]'`."
         ) from None
     return pybullet
 

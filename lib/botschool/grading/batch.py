@@ -123,6 +123,10 @@ class Grades:
 
     def _grade(self, job: Job) -> dict[str, Any]:
         exercise = self.exercise(job.number)
+        try:
+            exercise.require()
+        except BotschoolError as error:
+            return self.nothing(job.number, str(error))
         limit = sum(task.seconds + 5 for task in exercise.tasks) + SPARE_SECONDS
         temporary = Path(tempfile.mkdtemp(prefix="botschool-"))
         lifeline, ours = os.pipe()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import time
 import traceback
@@ -16,7 +17,6 @@ from botschool.grading.batch import STATE, Grades, Job, make_state
 from botschool.grading.checks import Wrong
 from botschool.grading.debug import DirectStudent
 from botschool.grading.exercise import (
-    EXERCISES,
     Exercise,
     course_root,
     exercise_numbers,
@@ -38,6 +38,7 @@ def grade_command(what: str, submission: str | None, as_json: bool, debug: bool)
     if task:
         exercise.find(what)
     file = submission_file(number, submission)
+    exercise.require()
     if debug:
         if not task:
             raise BotschoolError(f"--debug runs one task: say which, as botschool grade {number}.1")
@@ -135,6 +136,7 @@ def watch_command(what: str, submission: str | None) -> None:
     exercise = load_exercise(number)
     tasks = [exercise.find(what)] if task else exercise.tasks
     file = submission_file(number, submission)
+    exercise.require()
     asked = False
 
     def stop(number: int, frame: object) -> None:
@@ -156,12 +158,36 @@ def watch_command(what: str, submission: str | None) -> None:
         signal.signal(signal.SIGINT, before)
 
 
-def release_command(folder: Path) -> None:
-    """Makes the students' copy."""
+def show_command(what: str, submission: str | None) -> None:
+    """Runs a finished exercise and names what it has made."""
+    from botschool.grading.show import show
+
+    for path in show(_named(what)[0], submission):
+        print(f"made: {os.path.relpath(path)}  ({path.stat().st_size / 1000:.0f} kB)")
+
+
+def release_command(folder: Path, exercises: str) -> None:
+    """Makes the students' copy, or brings it up to date."""
     from botschool.grading.release import release
 
-    count = release(course_root(), folder)
-    print(f"{folder}: {count} files for students, without solutions.")
+    numbers = None if exercises == "all" else _numbers(exercises)
+    done = release(course_root(), folder, numbers)
+    for path in done.edited:
+        print(f"left alone, because it was edited: {path}")
+    print(f"{folder}: {done.files} files for students, {done.written} of them new or changed.")
+
+
+def _numbers(text: str) -> set[int]:
+    """ "1-3,7" -> {1, 2, 3, 7}. Raises BotschoolError."""
+    found: set[int] = set()
+    for part in text.split(","):
+        first, dash, last = (each.strip() for each in part.partition("-"))
+        if not re.fullmatch(r"[0-9]{1,3}", first) or (
+            dash and not re.fullmatch("[0-9]{1,3}", last)
+        ):
+            raise BotschoolError(f"'{text[:30]}' names no exercises: say which, as 1-3,7.")
+        found |= set(range(int(first), int(last or first) + 1))
+    return found
 
 
 @exits_on_signals()
@@ -205,7 +231,7 @@ def _named(what: str) -> tuple[int, str]:
     """ "3.2" -> (3, "2"); "3" -> (3, ""). Raises BotschoolError."""
     number, dot, task = what.partition(".")
     good = [part.isascii() and part.isdigit() and len(part) < 4 for part in (number, task)]
-    if not good[0] or (dot and not good[1]) or not 1 <= int(number) <= EXERCISES:
+    if not good[0] or (dot and not good[1]):
         raise BotschoolError(
             f"'{what[:30]}' names no exercise: give its number, as 3, or a task, as 3.2."
         )

@@ -5,18 +5,19 @@ from __future__ import annotations
 import hashlib
 import importlib.util
 import os
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from botschool.errors import BotschoolError
+from botschool.grading.extras import missing_packages
 from botschool.grading.secret import DEFAULT, VARIABLE
 from botschool.grading.student import Student
 from botschool.paths import course_root
 
 POINTS = 100
 """What every exercise is worth."""
-EXERCISES = 15
 
 
 @dataclass
@@ -54,18 +55,41 @@ class Exercise:
     def has_the_right_shape(student): ...
     """
 
-    def __init__(self, number: int, title: str, file: str, imports: tuple[str, ...] = ()) -> None:
-        """imports: modules that take long to import; no task's time is used up by them."""
+    def __init__(
+        self,
+        number: int,
+        title: str,
+        file: str,
+        imports: tuple[str, ...] = (),
+        extras: tuple[str, ...] = (),
+    ) -> None:
+        """What the exercise is called, the file that students write, and what it needs.
+
+        imports: modules that take long to import; no task's time is used up by them. extras: of
+        pyproject.toml, whose packages the exercise needs; `make test-exN` reads them from the
+        grader's text, so they stand there as extras=("rl",), and installs them. A grader imports
+        these packages inside its functions, so that it can be loaded without them.
+        """
         self.number = number
         self.title = title
         self.file = file
         self.imports = imports
+        self.extras = extras
         self.tasks: list[Task] = []
 
     def task(self, id: str, title: str, seconds: float = 20, memory: int = 4096) -> Task:
         """Adds a task; seconds: wall time for all its checks; memory: MB beyond the imports."""
         self.tasks.append(Task(id, title, seconds, memory, self.imports))
         return self.tasks[-1]
+
+    def require(self) -> None:
+        """Raises BotschoolError that says what to install if a package is not installed."""
+        missing = missing_packages(self.extras)
+        if missing:
+            raise BotschoolError(
+                f"Exercise {self.number} needs {' and '.join(missing)}: install what it needs with "
+                f"'make test-ex{self.number}' or 'pip install botschool[{','.join(self.extras)}]'."
+            )
 
     def seed(self, index: int) -> int:
         """A grading seed; they follow from BOTSCHOOL_GRADING_SEED, an instructor's secret."""
@@ -88,7 +112,7 @@ def folder_of(number: int, root: Path | None = None) -> Path:
     found = sorted((root / "exercises").glob(f"ex{number:02d}_*"))
     if not found:
         have = ", ".join(map(str, exercise_numbers(root)))
-        raise BotschoolError(f"There is no exercise {number} yet; there are {have}.")
+        raise BotschoolError(f"There is no exercise {number}; there are {have}.")
     return found[0]
 
 
@@ -104,8 +128,10 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
     graders = sorted(folder.glob("test_*.py"))
     if not graders:
         raise BotschoolError(f"{folder} holds no grader file test_*.py: restore it.")
-    spec = importlib.util.spec_from_file_location(f"grader_{number}", graders[0])
+    name = f"grader_{number}"
+    spec = importlib.util.spec_from_file_location(name, graders[0])
     module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module  # dataclasses look their module up
     spec.loader.exec_module(module)
     return module.exercise
 

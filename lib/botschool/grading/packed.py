@@ -8,18 +8,26 @@ from __future__ import annotations
 
 import base64
 import linecache
+import re
+import sys
+import types
 import zlib
 from pathlib import Path
 from typing import Any
 
 
 def pack(grader: str) -> str:
-    """The text of a Python file that declares the same exercise as this one."""
+    """The text of a Python file that declares the same exercise as this one.
+
+    Its extras stay readable, as `make test-exN` must know them before there is a Python.
+    """
     packed = base64.b85encode(zlib.compress(grader.encode(), 9)).decode()
     lines = "\n".join(f'    "{packed[at : at + 90]}"' for at in range(0, len(packed), 90))
+    extras = re.search(r"extras=\([^)]*\)", grader)
+    needs = f"# Needs {extras[0]}.\n" if extras else ""
     return (
         '"""The grader of this exercise, packed because it computes what you are asked for."""\n\n'
-        "from botschool.grading.packed import unpack\n\n"
+        f"{needs}from botschool.grading.packed import unpack\n\n"
         f"exercise = unpack(\n    __file__,\n{lines},\n)\n"
     )
 
@@ -30,6 +38,8 @@ def unpack(file: str, packed: str) -> Any:
     name = str(Path(file).with_suffix(".unpacked"))
     # so that the source of its drivers can be sent to a child
     linecache.cache[name] = (len(source), None, source.splitlines(keepends=True), name)
-    names: dict[str, Any] = {"__name__": Path(file).stem, "__file__": file}
-    exec(compile(source, name, "exec"), names)
-    return names["exercise"]
+    module = types.ModuleType(f"unpacked_{Path(file).stem}")
+    module.__file__ = file
+    sys.modules[module.__name__] = module  # dataclasses look their module up
+    exec(compile(source, name, "exec", dont_inherit=True), vars(module))
+    return module.exercise

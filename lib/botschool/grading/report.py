@@ -63,9 +63,10 @@ class Screen:
             )
             return
         if not missing:
+            own = "exercises" in self._file.parts
+            run = f"botschool show {result.exercise}" if own else f"python {self._file}"
             self.console.print(
-                f"[green]All done![/] See what you have made: python {escape(str(self._file))}",
-                soft_wrap=True,
+                f"[green]All done![/] See what you have made: {escape(run)}", soft_wrap=True
             )
             return
         task = missing[0]
