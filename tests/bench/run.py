@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import json
 import tempfile
+from collections.abc import Iterator
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -17,6 +18,7 @@ import numpy as np
 from bodies import locomotors
 from bodies import two_workers as two_workers_on_bodies
 from bodybrain import bodybrain
+from comparison import comparison, notice
 from processes import Neighbours, help_seconds, peak_memory
 from report import Table, machine, rate, verdict
 from roofline import roofline
@@ -233,6 +235,7 @@ def memory_and_start(seconds: float, repetitions: int) -> Table:
 
 
 PARTS = {
+    "others": (comparison, (0.1, 2), (0.5, 5)),
     "gymnasium": (beside_gymnasium, (0.1, 2), (0.3, 5)),
     "instructions": (instruction_sets, (0.05, 2), (0.15, 5)),
     "roofline": (roofline, (0.05, 2), (0.3, 5)),
@@ -244,23 +247,31 @@ PARTS = {
     "bodybrain": (bodybrain, (5,), (30,)),
     "memory": (memory_and_start, (2, 3), (8, 10)),
 }
-"""What is measured: a function that gives a table, its arguments with --quick and without."""
+"""What is measured: a function that gives tables, its arguments with --quick and without."""
+
+
+def measured(names: list[str], quick: bool) -> Iterator[Table]:
+    """The tables of these parts, one after the other."""
+    for name in names:
+        part, rough, thorough = PARTS[name]
+        found = part(*(rough if quick else thorough))
+        yield from [found] if isinstance(found, Table) else found
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Speed, memory and start-up of botschool.")
-    parser.add_argument("--quick", action="store_true", help="rougher, in about 20 s")
+    parser.add_argument("--quick", action="store_true", help="rougher, in a few minutes")
     parser.add_argument("--only", nargs="+", choices=PARTS, metavar="PART", help=" ".join(PARTS))
-    parser.add_argument("--markdown", action="store_true", help="tables for docs/results.md")
+    parser.add_argument("--markdown", action="store_true", help="tables in Markdown")
     parser.add_argument("--json", type=Path, metavar="FILE", help="also write all numbers there")
     options = parser.parse_args()
     print(f"Machine: {machine()}\n")
     tables, neighbours = [], Neighbours()
-    for name in options.only or PARTS:
-        part, rough, thorough = PARTS[name]
-        tables.append(part(*(rough if options.quick else thorough)))
-        tables[-1].show(options.markdown)
+    for table in measured(options.only or list(PARTS), options.quick):
+        tables.append(table)
+        table.show(options.markdown)
     print(neighbours.sentence())
+    print(notice())
     if options.json:
         data = {
             "machine": machine(),
