@@ -62,10 +62,10 @@ def run(row: Row, steps: float, seed: int) -> dict:
     experiment = config.load(DATA / f"{row.file}.ini")
     experiment.algo.maxmsteps = min(steps, experiment.algo.maxmsteps)
     with tempfile.TemporaryDirectory() as folder:
-        start = time.monotonic()
+        start = time.process_time()
         run = Run(experiment, seed)
         evolve(run, Path(folder))
-        seconds = time.monotonic() - start
+        seconds = time.process_time() - start
         stat = read_stat(RunFiles(Path(folder), seed).stat)
     genotype, normalisation = run.policy.split(run.record.bestg)
     outcome = run.problem.evaluate(
