@@ -1,5 +1,5 @@
 #!/bin/sh
-# One step of what the Makefile sets up: tools/setup.sh venv|tools|module|bodies|tests|sanitize
+# One step of what the Makefile sets up: tools/setup.sh venv|tools|module|bodies|tests|bench|sanitize
 # Says in a line what it does; a tool's own output appears only when it fails.
 set -u
 
@@ -154,6 +154,11 @@ install_tests() {
     pip_install 'botschool[all]' $(own_environments)
 }
 
+install_bench() {
+    say "Installing gymnax and EnvPool, to compare with (1 GB, some minutes)"
+    pip_install 'botschool[bench]'
+}
+
 build_sanitized() {
     check_compiler
     say "Compiling the C++ tests with sanitizers (up to a minute)"
@@ -168,5 +173,6 @@ case $1 in
     module) build_module && touch .venv/.module ;;
     bodies) install_bodies && touch .venv/.bodies ;;
     tests) install_tests && touch .venv/.tests ;;
+    bench) install_bench && touch .venv/.bench ;;
     sanitize) build_sanitized ;;
 esac

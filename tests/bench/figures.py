@@ -74,10 +74,12 @@ def short(rate: float) -> str:
     return f"{rate / unit:.2g} {letter}" if rate / unit < 10 else f"{rate / unit:.0f} {letter}"
 
 
-def es_and_ppo(parts: dict) -> Figure:
+def es_and_ppo(parts: dict) -> Figure | None:
     """Acrobot: both against steps and against time."""
     es = parts["evolved"]["data"]["acrobot"]
     runs = parts["trained"]["data"]["Acrobot-v1"]
+    if "curve" not in runs[0]:
+        return None
     figure = Figure(figsize=(9, 3.6), layout="constrained")
     steps = grid(es["steps"])
     ppo_steps = np.mean([run["steps"] for run in runs], axis=0)
@@ -128,7 +130,8 @@ def draw(parts: dict, folder: Path) -> list[str]:
     """Draws what the data suffice for; returns the names of the files."""
     drawn = []
     for name, (figure, needed) in FIGURES.items():
-        if set(needed) <= set(parts):
-            figure(parts).savefig(folder / f"{name}.png", dpi=110, metadata={"Software": None})
+        made = figure(parts) if set(needed) <= set(parts) else None
+        if made:
+            made.savefig(folder / f"{name}.png", dpi=110, metadata={"Software": None})
             drawn.append(f"{name}.png")
     return drawn

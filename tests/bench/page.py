@@ -42,7 +42,7 @@ def markdown(columns: list[str], rows: list[list[str]]) -> str:
 def conditions(parts: dict) -> str:
     """Where each part was measured."""
     rows = [
-        [name, f"{s['minutes']:g}", s["date"], s["commit"], s["machine"], s["note"]]
+        [name, str(s["minutes"] or "-"), s["date"], s["commit"], s["machine"], s["note"]]
         for name, s in ((name, part["measured"]) for name, part in parts.items())
     ]
     return markdown(["part", "minutes", "date", "commit", "machine", "meanwhile"], rows)
