@@ -66,7 +66,11 @@ def _present(contestants: dict) -> dict:
 
 
 def _serve(make, cores: int, pipe) -> None:
-    """A contestant's process: a problem's name prepares, a number plays for so many seconds."""
+    """A contestant's process: a problem's name prepares, a number plays for so many seconds.
+
+    On one core the seconds are processor time, of all threads.
+    """
+    clock = time.process_time if cores == 1 else time.perf_counter
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:cores])
     contestant = None
@@ -77,8 +81,8 @@ def _serve(make, cores: int, pipe) -> None:
             compiling = getattr(contestant, "compiling", None)
             pipe.send({"compiling": compiling, "ended": played.ended, "reward": played.reward})
         else:
-            steps, start = 0, time.perf_counter()
-            while (elapsed := time.perf_counter() - start) < asked:
+            steps, start = 0, clock()
+            while (elapsed := clock() - start) < asked:
                 steps += contestant.play().steps
             pipe.send(steps / elapsed)
 
@@ -134,7 +138,9 @@ def comparison(seconds: float, repetitions: int) -> list[Table]:
     for cores in (1, 2):
         measured = measure(_present(CONTESTANTS), cores, seconds, repetitions)
         title = f"Steps/s of networks and environments, {cores} core{'s' * (cores - 1)}"
-        about = conditions + "All processes are bound to the same core" + "s" * (cores - 1) + "."
+        bound = "the same core" if cores == 1 else f"the same {cores} cores"
+        seconds_are = "processor time of the whole process" if cores == 1 else "by the clock"
+        about = conditions + f"Each process is bound to {bound}; seconds: {seconds_are}."
         tables.append(_rates(measured, CONTESTANTS, title, about))
         tables[-1].numbers = measured
     alone = measure(_present(ALONE), 1, seconds, repetitions)

@@ -241,7 +241,7 @@ def memory_and_start(seconds: float, repetitions: int) -> Table:
 
 
 PARTS = {
-    "others": (comparison, (0.1, 2), (0.5, 5)),
+    "others": (comparison, (0.1, 2), (0.5, 3)),
     "gymnasium": (beside_gymnasium, (0.1, 2), (0.3, 5)),
     "instructions": (instruction_sets, (0.05, 2), (0.15, 5)),
     "roofline": (roofline, (0.05, 2), (0.3, 5)),
