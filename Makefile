@@ -52,10 +52,10 @@ nbgrader: .venv/.tests ## a course folder for nbgrader in results/nbgrader
 check-course: .venv/.tests ## prove that exercises and grading work (some minutes)
 	@$(BIN)/python -m pytest -q -m course tests/course
 
-bench: .venv/.module ## the speed of evaluation beside Gymnasium's own loop
+bench: .venv/.module ## the speed of evaluation beside gymnax, EnvPool and Gymnasium
 	@$(BIN)/python tests/bench/run.py
 
-results: .venv/.module ## what the experiments reach with 10 seeds each (some minutes)
+results: .venv/.bench ## measure all of docs/results.md anew and write it (about MINUTES minutes)
 	@$(BIN)/python tests/bench/results.py
 
 lint: .venv/.tests ## check style: ruff and clang-format
@@ -91,6 +91,9 @@ clean: ## remove what the targets above set up; results stay
 .PRECIOUS: .venv/.extra-%
 .venv/.extra-%: .venv/.module
 	@tools/setup.sh extra $*
+
+.venv/.bench: .venv/.tests
+	@tools/setup.sh bench
 
 .venv/.tests: .venv/.module
 	@tools/setup.sh tests

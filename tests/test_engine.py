@@ -239,13 +239,12 @@ def test_python_goes_on_during_an_evaluation():
         done.set()
 
     thread = threading.Thread(target=work)
-    started = time.perf_counter()
     thread.start()
     while not done.is_set():
         time.sleep(0.001)
         ticks += 1
     thread.join()
-    assert ticks > 0.1 * (time.perf_counter() - started) / 0.001
+    assert ticks >= 10  # 1 or 2 if the evaluation kept the interpreter to itself
 
 
 def test_engines_work_side_by_side():

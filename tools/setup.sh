@@ -1,5 +1,5 @@
 #!/bin/sh
-# One step of what the Makefile sets up: tools/setup.sh venv|tools|sources|module|extra NAME|tests|sanitize
+# One step of what the Makefile sets up: tools/setup.sh venv|tools|sources|module|extra NAME|tests|bench|sanitize
 # or a question: tools/setup.sh extras EXERCISE
 # Says in a line what it does; a tool's own output appears only when it fails.
 set -u
@@ -246,6 +246,11 @@ list_sources() {
     fi
 }
 
+install_bench() {
+    say "Installing gymnax and EnvPool, to compare with (1 GB, some minutes)"
+    pip_install 'botschool[bench]'
+}
+
 build_sanitized() {
     check_compiler
     say "Compiling the C++ tests with sanitizers (up to a minute)"
@@ -266,5 +271,6 @@ case $1 in
     extra) install_extra "$2" ;;
     extras) extras_of "$2" ;;
     tests) install_tests && touch .venv/.tests ;;
+    bench) install_bench && touch .venv/.bench ;;
     sanitize) build_sanitized ;;
 esac

@@ -1,13 +1,11 @@
-"""The PPO of lib/walkthroughs/ppo.py beside that of Stable-Baselines3: same hyperparameters.
+"""The PPO of lib/walkthroughs/ppo.py beside that of Stable-Baselines3: a part of results.py.
 
-Both train on CartPole-v1 and Pendulum-v1 with several seeds. Prints a Markdown table for
-docs/results.md, and `--picture FILE` draws the learning curves. Every training is kept in
-`--folder`, so that an interrupted comparison goes on where it was.
+Both train on CartPole-v1 and Pendulum-v1 with the same hyperparameters and several seeds. Every
+training is kept in a folder, so that an interrupted comparison goes on where it was.
 """
 
 from __future__ import annotations
 
-import argparse
 import multiprocessing
 import sys
 from concurrent.futures import ProcessPoolExecutor
@@ -15,7 +13,6 @@ from itertools import combinations
 from pathlib import Path
 
 import numpy as np
-from report import Table, machine
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "lib" / "walkthroughs"))
 
@@ -30,7 +27,8 @@ SETTINGS = {
     },
 }  # fmt: skip
 """Those of rl-zoo, but a plain Gaussian for Pendulum."""
-LIBRARIES = {"walkthrough": "#0072b2", "Stable-Baselines3": "#d55e00"}
+LIBRARIES = ("walkthrough", "Stable-Baselines3")
+PROCESSES = 2
 POINTS = 20
 """Of a learning curve, equally spaced; each is the mean of the last 20 training episodes."""
 EVALUATED, NEW_SEED = 100, 1_000_000
@@ -96,20 +94,6 @@ def curve(episodes: np.ndarray, steps: int) -> np.ndarray:
     return np.array([episodes[max(0, end - 20) : end, 1].mean() for end in ends])
 
 
-def add_rows(table: Table, env: str, curves: dict, new: dict) -> None:
-    for library, rows in curves.items():
-        cells = [
-            f"{rows[:, int(POINTS * share) - 1].mean():.0f} +- "
-            f"{rows[:, int(POINTS * share) - 1].std(ddof=1):.0f}"
-            for share in (0.1, 0.25, 0.5, 0.75, 1)
-        ]
-        whole = rows.mean(axis=1)
-        table.add(
-            env, library, *cells, f"{whole.mean():.1f} +- {whole.std(ddof=1):.1f}",
-            f"{new[library].mean():.1f} +- {new[library].std(ddof=1):.1f}",
-        )  # fmt: skip
-
-
 def agreement(env: str, curves: dict, new: dict) -> str:
     """In words, whether the two could be one algorithm.
 
@@ -140,64 +124,29 @@ def distance(one: np.ndarray, other: np.ndarray) -> float:
     return float(np.mean(apart / np.maximum(spread, 1e-9)))
 
 
-def draw(file: Path, found: dict) -> None:
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(10, 4.2), layout="constrained")
-    panels = figure.subplots(1, len(found))
-    for axes, (env, (curves, _)) in zip(np.atleast_1d(panels), found.items(), strict=True):
-        steps = np.arange(1, POINTS + 1) * SETTINGS[env]["total_timesteps"] / POINTS / 1000
-        for library, rows in curves.items():
-            colour = LIBRARIES[library]
-            axes.fill_between(steps, rows.min(0), rows.max(0), alpha=0.2, color=colour, lw=0)
-            axes.plot(steps, rows.T, color=colour, linewidth=0.5, alpha=0.5)
-            axes.plot(steps, rows.mean(0), color=colour, linewidth=2.2, label=library)
-        axes.set(title=env, xlabel="thousand steps", ylabel="return, last 20 training episodes")
-        axes.grid(alpha=0.3)
-        axes.spines[["top", "right"]].set_visible(False)
-        axes.legend(frameon=False, loc="lower right")
-    figure.savefig(file, dpi=110)
-    print(f"picture: {file}")
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seeds", type=int, default=5, help="seeds 1 to this (default 5)")
-    parser.add_argument("--processes", type=int, default=2, help="side by side (default 2)")
-    parser.add_argument("--only", choices=SETTINGS, help="this problem")
-    parser.add_argument("--folder", type=Path, default=Path("results/ppo_compare"))
-    parser.add_argument("--picture", type=Path, help="draw the learning curves to this file")
-    options = parser.parse_args()
-    options.folder.mkdir(parents=True, exist_ok=True)
-    seeds = range(1, options.seeds + 1)
-    problems = [options.only] if options.only else list(SETTINGS)
-    jobs = [(lib, env, seed) for seed in seeds for env in problems for lib in LIBRARIES]
+def compared(seeds: int, folder: Path) -> dict:
+    """{problem: {"steps", "libraries": {library: {"curves", "new"}}, "agreement"}}."""
+    folder.mkdir(parents=True, exist_ok=True)
+    numbers = range(1, seeds + 1)
+    jobs = [(lib, env, seed) for seed in numbers for env in SETTINGS for lib in LIBRARIES]
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(options.processes, mp_context=context) as pool:
-        for future in [pool.submit(trained, *job, options.folder) for job in jobs]:
+    with ProcessPoolExecutor(PROCESSES, mp_context=context) as pool:
+        for future in [pool.submit(trained, *job, folder) for job in jobs]:
             future.result()
-    shares = ["10 %", "25 %", "50 %", "75 %", "100 %"]
-    table = Table(
-        "PPO: the walkthrough beside Stable-Baselines3",
-        f"{options.seeds} seeds, mean +- sd; {machine()}.",
-        ["problem", "PPO of", *shares, "whole curve", "new episodes"],
-    )
     found = {}
-    for env in problems:
+    for env in SETTINGS:
         curves, new = {}, {}
         for library in LIBRARIES:
-            runs = [np.load(place_of(library, env, seed, options.folder)) for seed in seeds]
+            runs = [np.load(place_of(library, env, seed, folder)) for seed in numbers]
             steps = SETTINGS[env]["total_timesteps"]
             curves[library] = np.stack([curve(run["episodes"], steps) for run in runs])
             new[library] = np.array([run["new"].mean() for run in runs])
-        found[env] = curves, new
-        add_rows(table, env, curves, new)
-    table.show(markdown=True)
-    for env, (curves, new) in found.items():
-        print(agreement(env, curves, new))
-    if options.picture:
-        draw(options.picture, found)
-
-
-if __name__ == "__main__":
-    main()
+        found[env] = {
+            "steps": SETTINGS[env]["total_timesteps"],
+            "libraries": {
+                library: {"curves": rows.round(1).tolist(), "new": new[library].round(2).tolist()}
+                for library, rows in curves.items()
+            },
+            "agreement": agreement(env, curves, new),
+        }
+    return found

@@ -20,6 +20,8 @@ class Table:
     about: str
     columns: list[str]
     rows: list[list[str]] = field(default_factory=list)
+    numbers: dict = field(default_factory=dict)
+    """What a figure is drawn from, where there is one."""
 
     def add(self, *cells: str) -> None:
         """Appends a row, one cell a column."""

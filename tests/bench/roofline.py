@@ -15,11 +15,11 @@ _SGEMM = """
 import sys, time
 import numpy as np
 a, b = np.random.default_rng(1).standard_normal((2, 512, 512)).astype(np.float32)
-best, end = 0.0, time.perf_counter() + float(sys.argv[1])
-while time.perf_counter() < end:
-    start = time.perf_counter()
+best, end = 0.0, time.process_time() + float(sys.argv[1])
+while time.process_time() < end:
+    start = time.process_time()
     a @ b
-    best = max(best, 512**3 / (time.perf_counter() - start))
+    best = max(best, 512**3 / (time.process_time() - start))
 print(best)
 """
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import json
 import tempfile
+from collections.abc import Iterator
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -17,6 +18,7 @@ import numpy as np
 from bodies import locomotors
 from bodies import two_workers as two_workers_on_bodies
 from bodybrain import bodybrain
+from comparison import comparison, notice
 from processes import Neighbours, help_seconds, peak_memory
 from report import Table, machine, rate, verdict
 from roofline import roofline
@@ -120,14 +122,19 @@ def two_workers_evaluating(repetitions: int) -> Table:
     table = Table(
         "Two workers against one: evaluation",
         f"Steps/s of the native evaluation of {_episodes()}; the fastest of {repetitions} "
-        f"calls each, taking turns. The target is {TWO_WORKERS} times one.",
-        ["experiment", "1 worker", "2 workers", "2 / 1", ""],
+        f"calls each, taking turns.",
+        ["experiment", "1 worker", "2 workers", "2 / 1", "target", ""],
     )
     for case in CASES:
         batch = Batch(case.load(), case.episodes)
         one, two = best_call([partial(batch.evaluate, w) for w in (1, 2)], repetitions)
         table.add(
-            case.file, rate(one), rate(two), f"{two / one:.2f}", verdict(two / one >= TWO_WORKERS)
+            case.file,
+            rate(one),
+            rate(two),
+            f"{two / one:.2f}",
+            str(TWO_WORKERS),
+            verdict(two / one >= TWO_WORKERS),
         )
     return table
 
@@ -139,8 +146,8 @@ def two_workers_running(seconds: float, repetitions: int) -> Table:
         f"Steps/s of a run's first generations, about {seconds} s of them, the same on both sides; "
         f"each generation's shortest time in {repetitions} repetitions that take turns; no files. "
         "Evaluating: the share of one worker's time that a second can halve; the rest is the "
-        f"algorithm in numpy. At most: 2 / 1 if it were halved. The target is {TWO_WORKERS}.",
-        ["experiment", "1 worker", "evaluating", "2 workers", "2 / 1", "at most", ""],
+        f"algorithm in numpy. At most: 2 / 1 if it were halved.",
+        ["experiment", "1 worker", "evaluating", "2 workers", "2 / 1", "at most", "target", ""],
     )
     for case in CASES:
         experiment = case.load()
@@ -161,6 +168,7 @@ def two_workers_running(seconds: float, repetitions: int) -> Table:
             rate(two.steps.sum() / two.whole.sum()),
             f"{ratio:.2f}",
             f"{1 / (1 - share / 2):.2f}",
+            str(TWO_WORKERS),
             verdict(ratio >= TWO_WORKERS),
         )
     return table
@@ -233,6 +241,7 @@ def memory_and_start(seconds: float, repetitions: int) -> Table:
 
 
 PARTS = {
+    "others": (comparison, (0.1, 2), (0.5, 3)),
     "gymnasium": (beside_gymnasium, (0.1, 2), (0.3, 5)),
     "instructions": (instruction_sets, (0.05, 2), (0.15, 5)),
     "roofline": (roofline, (0.05, 2), (0.3, 5)),
@@ -244,23 +253,31 @@ PARTS = {
     "bodybrain": (bodybrain, (5,), (30,)),
     "memory": (memory_and_start, (2, 3), (8, 10)),
 }
-"""What is measured: a function that gives a table, its arguments with --quick and without."""
+"""What is measured: a function that gives tables, its arguments with --quick and without."""
+
+
+def measured(names: list[str], quick: bool) -> Iterator[Table]:
+    """The tables of these parts, one after the other."""
+    for name in names:
+        part, rough, thorough = PARTS[name]
+        found = part(*(rough if quick else thorough))
+        yield from [found] if isinstance(found, Table) else found
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Speed, memory and start-up of botschool.")
-    parser.add_argument("--quick", action="store_true", help="rougher, in about 20 s")
+    parser.add_argument("--quick", action="store_true", help="rougher, in a few minutes")
     parser.add_argument("--only", nargs="+", choices=PARTS, metavar="PART", help=" ".join(PARTS))
-    parser.add_argument("--markdown", action="store_true", help="tables for docs/results.md")
+    parser.add_argument("--markdown", action="store_true", help="tables in Markdown")
     parser.add_argument("--json", type=Path, metavar="FILE", help="also write all numbers there")
     options = parser.parse_args()
     print(f"Machine: {machine()}\n")
     tables, neighbours = [], Neighbours()
-    for name in options.only or PARTS:
-        part, rough, thorough = PARTS[name]
-        tables.append(part(*(rough if options.quick else thorough)))
-        tables[-1].show(options.markdown)
+    for table in measured(options.only or list(PARTS), options.quick):
+        tables.append(table)
+        table.show(options.markdown)
     print(neighbours.sentence())
+    print(notice())
     if options.json:
         data = {
             "machine": machine(),

@@ -109,18 +109,18 @@ class GymnasiumLoop:
 def rates(
     contestants: list[Callable[[], int]], seconds: float, repetitions: int
 ) -> list[list[float]]:
-    """Steps per second of each contestant in each repetition.
+    """Steps per second of processor time of each contestant in each repetition.
 
-    A contestant is a function that does some work and returns its steps. They take turns, so
-    that whatever else the machine does disturbs all alike.
+    A contestant is a function that does some work in this thread and returns its steps. They take
+    turns, so that whatever else the machine does disturbs all alike.
     """
     for contestant in contestants:
         contestant()
     measured = [[] for _ in contestants]
     for _ in range(repetitions):
         for contestant, results in zip(contestants, measured, strict=True):
-            steps, start = 0, time.perf_counter()
-            while (elapsed := time.perf_counter() - start) < seconds:
+            steps, start = 0, time.process_time()
+            while (elapsed := time.process_time() - start) < seconds:
                 steps += contestant()
             results.append(steps / elapsed)
     return measured

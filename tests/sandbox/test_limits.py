@@ -3,7 +3,6 @@
 import ctypes
 import os
 import sys
-import time
 
 import pytest
 
@@ -12,10 +11,8 @@ from botschool.sandbox import process, scratch, usage
 
 def test_output_is_bounded(sandboxed):
     one = sandboxed("def talk():\n    while True: print('x' * 100_000)\n")
-    start = time.monotonic()
-    assert one.ask("talk") is None
+    assert one.ask("talk") is None  # not a TimeoutError: it did not go on until its time was over
     assert one.child.ending() == "it printed more than 16 MB"
-    assert time.monotonic() - start < 10
     assert len(one.child.printed()) < process.OUTPUT_KEPT + 100
 
 

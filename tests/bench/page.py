@@ -1,0 +1,153 @@
+"""docs/results.md: its blocks, `<!-- NAME -->` to `<!-- end -->`, made from docs/results."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+from evolved import BOX2D, ROWS
+from report import Table
+from trained import PROBLEMS
+
+DOCS = Path(__file__).parents[2] / "docs"
+DATA = DOCS / "results"
+PAGE = DOCS / "results.md"
+PUBLISHED_PPO = {"CartPole-v1": "500", "Pendulum-v1": "-172 +- 104", "Acrobot-v1": "-73.5 +- 18"}
+SPEED = ("others", "gymnasium", "workers", "runs", "memory")
+"""Parts of the bench that the page shows."""
+SHARES = (10, 25, 50, 75, 100)
+
+
+def load() -> dict:
+    """{part: what its file holds}; a part that was never measured is missing."""
+    return {
+        file.stem: json.loads(file.read_text(encoding="utf-8"))
+        for file in sorted(DATA.glob("*.json"))
+    }
+
+
+def spread(values, digits: int = 1) -> str:
+    """Mean +- standard deviation."""
+    values = np.asarray(values, dtype=float)
+    deviation = f" +- {values.std(ddof=1):.{digits}f}" if len(values) > 1 else ""
+    return f"{values.mean():.{digits}f}{deviation}"
+
+
+def markdown(columns: list[str], rows: list[list[str]]) -> str:
+    return Table("", "", columns, rows).markdown()
+
+
+def conditions(parts: dict) -> str:
+    """Where each part was measured."""
+    rows = [
+        [name, str(s["minutes"] or "-"), s["date"], s["commit"], s["machine"], s["note"]]
+        for name, s in ((name, part["measured"]) for name, part in parts.items())
+    ]
+    return markdown(["part", "minutes", "date", "commit", "machine", "meanwhile"], rows)
+
+
+def solved(row, runs: list[dict]) -> str:
+    """How many runs solved the problem, and the steps that took."""
+    if row.solved is None:
+        return "-"
+    after = [each["solved"] / 1e6 for each in runs if each["solved"] is not None]
+    count = f"{row.solved:g} on {len(after)} of {len(runs)} seeds"
+    if not after:
+        return count
+    return f"{count}, after {np.median(after):.2g} M steps (median), {max(after):.2g} M (most)"
+
+
+def evolved(parts: dict) -> str:
+    """A row for each experiment file."""
+    lines = []
+    found = parts["evolved"]["data"] | parts.get("box2d", {"data": {}})["data"]
+    for row in [row for row in ROWS + BOX2D if row.file in found]:
+        of, runs = found[row.file], found[row.file]["runs"]
+        best, new, seconds = ([each[key] for each in runs] for key in ("best", "new", "seconds"))
+        lines.append([
+            f"{row.file}.ini", of["algorithm"], f"{of['steps']:g} M", str(len(runs)), spread(best),
+            f"{min(best):.1f} to {max(best):.1f}", f"{np.mean(new):.1f}", solved(row, runs),
+            row.published, f"{np.mean(seconds):.1f} s",
+        ])  # fmt: skip
+    return markdown(
+        [
+            "experiment", "algorithm", "steps", "seeds", "best post-evaluated", "range",
+            "in new episodes", "solved", "published", "a run, one core",
+        ],
+        lines,
+    )  # fmt: skip
+
+
+def tables(part: str):
+    """A function that gives the tables of a part of the bench, without its internal targets."""
+
+    def shown(parts: dict) -> str:
+        texts = []
+        for table in parts["speed"]["data"][part]:
+            kept = [i for i, name in enumerate(table["columns"]) if name not in ("", "target")]
+            columns = [table["columns"][i] for i in kept]
+            rows = [[row[i] for i in kept] for row in table["rows"]]
+            texts.append(f"**{table['title']}**\n\n{markdown(columns, rows)}\n\n{table['about']}")
+        return "\n\n".join(texts)
+
+    return shown
+
+
+def trained(parts: dict) -> str:
+    """PPO's defaults."""
+    rows = []
+    for problem, runs in parts["trained"]["data"].items():
+        best, last = ([each[key] for each in runs] for key in ("best", "last"))
+        rows.append([
+            problem, str(len(runs)), spread(best), f"{min(best):.1f} to {max(best):.1f}",
+            spread(last), f"{min(last):.1f} to {max(last):.1f}", str(PROBLEMS[problem]),
+            PUBLISHED_PPO[problem],
+        ])  # fmt: skip
+    columns = ["problem", "seeds", "best model", "range", "last model", "range", "aim", "rl-zoo"]
+    return markdown(columns, rows)
+
+
+def ppo(parts: dict) -> str:
+    """Two PPOs side by side."""
+    rows, sentences = [], []
+    for problem, found in parts["ppo"]["data"].items():
+        for library, of in found["libraries"].items():
+            curves = np.array(of["curves"])
+            at = [curves[:, curves.shape[1] * share // 100 - 1] for share in SHARES]
+            rows.append([problem, library, *(spread(each, 0) for each in at), spread(of["new"])])
+        sentences.append(found["agreement"])
+    columns = ["problem", "PPO of", *(f"{share} %" for share in SHARES), "new episodes"]
+    return "\n\n".join([markdown(columns, rows), *sentences])
+
+
+BLOCKS = {
+    "conditions": (conditions, None),
+    "evolved": (evolved, "evolved"),
+    "trained": (trained, "trained"),
+    "ppo": (ppo, "ppo"),
+    **{part: (tables(part), "speed") for part in SPEED},
+}
+"""Who makes each block, and the part of the data without which it stays as it is."""
+
+
+def filled(text: str, parts: dict) -> str:
+    """The page with its blocks made anew."""
+
+    def block(match: re.Match) -> str:
+        make, needed = BLOCKS[match[2]]
+        if needed and needed not in parts:
+            return match[0]
+        return f"{match[1]}\n{make(parts)}\n{match[3]}"
+
+    return re.sub(r"(<!-- (\w+) -->)\n(?:.*?\n)??(<!-- end -->)", block, text, flags=re.DOTALL)
+
+
+def write() -> None:
+    """Writes the page and its figures."""
+    import figures
+
+    parts = load()
+    PAGE.write_text(filled(PAGE.read_text(encoding="utf-8"), parts), encoding="utf-8")
+    print(f"{PAGE}; figures: {', '.join(figures.draw(parts, DOCS / 'images'))}")

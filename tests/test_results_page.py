@@ -1,0 +1,64 @@
+"""docs/results.md is what its data give, and all that are compared play the same networks."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+BENCH = Path(__file__).parent / "bench"
+
+
+@pytest.fixture(autouse=True)
+def bench(monkeypatch):
+    monkeypatch.syspath_prepend(str(BENCH))
+    before = set(sys.modules)
+    yield
+    for name in set(sys.modules) - before:
+        if (BENCH / f"{name}.py").exists():
+            del sys.modules[name]
+
+
+def test_the_page_is_made_from_its_data():
+    import page
+
+    text = page.PAGE.read_text(encoding="utf-8")
+    assert page.filled(text, page.load()) == text, "run tests/bench/results.py --only"
+    assert set(page.BLOCKS) == set(page.re.findall(r"<!-- (?!end)(\w+) -->", text))
+
+
+def test_a_block_without_data_stays():
+    import page
+
+    text = "<!-- ppo -->\nold\n<!-- end -->\n<!-- conditions -->\n<!-- end -->\n"
+    made = page.filled(text, {})
+    assert made.startswith("<!-- ppo -->\nold\n<!-- end -->\n<!-- conditions -->\n| part")
+    assert page.filled(made, {}) == made
+
+
+@pytest.mark.parametrize("problem", ["Acrobot-v1", "Pendulum-v1"])
+def test_the_batched_network_is_the_policy(problem):
+    import contestants
+    from speed import DATA
+
+    weights = contestants.Weights.of(problem, DATA)
+    b1, b2, w1, w2 = weights.layers()
+    rng = np.random.default_rng(1)
+    for i in (0, 7):
+        observation = rng.standard_normal(w1.shape[2]).astype(np.float32)
+        weights.policy.load(weights.genotypes[i], None)
+        weights.policy.reset(1, 0)
+        expected = weights.policy.act(observation)
+        output = w2[i] @ np.tanh(w1[i] @ observation + b1[i]) + b2[i]
+        assert (output.argmax() if isinstance(expected, int) else output) == pytest.approx(
+            expected, 1e-5
+        )
+
+
+def test_missing_packages_are_named_and_left_out(monkeypatch):
+    import comparison
+
+    monkeypatch.setattr(comparison.importlib.util, "find_spec", lambda name: None)
+    assert "gymnax, envpool" in comparison.notice()
+    assert "botschool[bench]" in comparison.notice()
+    assert list(comparison._present(comparison.CONTESTANTS)) == ["botschool", "Gymnasium's loop"]
