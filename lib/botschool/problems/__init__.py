@@ -9,14 +9,10 @@ every other name is a Gymnasium id (gym.py).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from botschool.errors import BotschoolError
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.native import NATIVE, NativeProblem
-
-if TYPE_CHECKING:
-    from botschool.config import Experiment
 
 __all__ = ["Episodes", "Interrupted", "Outcome", "Problem", "make", "names", "of"]
 
@@ -37,8 +33,8 @@ def make(name: str, robots: Sequence[str] = ()) -> Problem:
     return GymProblem(name)
 
 
-def of(experiment: Experiment) -> Problem:
-    """The problem of an experiment. Raises BotschoolError."""
+def of(experiment) -> Problem:
+    """The problem of a botschool.config.Experiment. Raises BotschoolError."""
     exp = experiment.exp
     return make(exp.environment, [name.strip() for name in exp.robots.split(",") if name.strip()])
 
