@@ -9,9 +9,8 @@ using namespace botschool;
 namespace {
 
 // 1000 x 800, two Kheperas, a cylinder, a wall inside, a light
-constexpr Plan kYard{
-    1000, 800, 2, {{&kKhepera, 144}, {&kKhepera, 144}}, 0, 1, 50, 1, {{200, 500, 260, 500}},
-    700,  500};
+constexpr Plan kYard{1000, 800, 2, {{"Khepera"}, {"Khepera"}}, 0, 1, 50, 1, {{200, 500, 260, 500}},
+                     700,  500};
 
 template <int L>
 struct Yard : World<L, kYard> {
@@ -107,11 +106,25 @@ TEST(no_action_leads_out_of_the_arena) {
 }
 
 TEST(an_epuck_has_the_mean_gain_of_the_khepera) {
+  const RobotModel &khepera = *find_robot("Khepera"), &epuck = *find_robot("e-puck");
   double sum = 0;
-  for (const double gain : kKhepera.gain) sum += gain;
-  for (const double gain : kEpuck.gain) CHECK(near(gain, sum / kInfrared));
-  CHECK(kEpuck.wall.d0 == kKhepera.wall.d0 && kEpuck.round.w == kKhepera.round.w);
+  for (const double gain : khepera.gain) sum += gain;
+  for (const double gain : epuck.gain) CHECK(near(gain, sum / kInfrared));
+  CHECK(epuck.wall.d0 == khepera.wall.d0 && epuck.round.w == khepera.round.w);
   // clockwise, from the one at the front on the right
   const double published[]{342.8, 314.1, 270.0, 208.5, 151.2, 90.0, 45.8, 17.1};
-  for (int i = 0; i < kInfrared; ++i) CHECK(kEpuck.direction[i] == published[i]);
+  for (int i = 0; i < kInfrared; ++i) CHECK(epuck.direction[i] == published[i]);
+}
+
+TEST(robots_are_chosen_for_a_world) {
+  Yard<1> yard;
+  ArenaOptions options;
+  options.robot[1] = find_robot("marXbot");
+  yard.set({10, &options});
+  CHECK(yard.model[0]->radius == 27.5 && yard.speed[0] == 144);
+  CHECK(yard.model[1]->radius == 85 && yard.speed[1] == 360);
+  CHECK(yard.blocked() == -1);
+  yard.place(0, 1, 80, 400, 0);  // too near the wall for its size
+  CHECK(yard.blocked() == 1);
+  CHECK(find_robot("nobody") == nullptr);
 }

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <vector>
 
 #include "check.hpp"
 
@@ -207,4 +209,85 @@ TEST(engine_refuses_what_does_not_fit) {
   CHECK(refused([] { make_stepper("no such"); }, "no native problem"));
   spec.inputs += 1;
   CHECK(refused([&] { Engine(info.name, spec, ""); }, "inputs and"));
+}
+
+namespace {
+
+/// 200 observations, 70 actuators: more than any problem of ours.
+template <int L>
+struct Wide : ProblemBase {
+  static Info info() {
+    Info info;
+    info.name = "Wide";
+    info.observations = 200;
+    info.outputs = 70;
+    info.states = 90;
+    info.limit = 5;
+    return info;
+  }
+  double state[90][L];
+  void start(int lane, Random& random) {
+    for (auto& value : state) value[lane] = random.uniform(-1, 1);
+  }
+  template <class T>
+  void observe(T* out) const {
+    for (int i = 0; i < 200 * L; ++i) out[i] = static_cast<T>(state[i / L % 90][i % L]);
+  }
+  void step(const double* action, double* reward, std::int64_t* ended) {
+    for (int l = 0; l < L; ++l) {
+      reward[l] = action[69 * L + l];
+      state[89][l] += reward[l];
+      ended[l] = 0;
+    }
+  }
+};
+
+}  // namespace
+
+TEST(a_problem_of_many_observations_and_actuators_is_recorded) {
+  struct Last final : Recorder {
+    void start(const double* state) override { first = state[89]; }
+    void neurons(const Real*, int) override {}
+    void step(const double* observation, const double* action, const double* state,
+              double reward) override {
+      CHECK(observation[199] == static_cast<Real>(observation[109]));
+      CHECK(action[69] == reward);
+      total += reward;
+      last = state[89];
+      ++steps;
+    }
+    double first = 0, last = 0, total = 0;
+    int steps = 0;
+  };
+  struct Once final : Queue {
+    std::ptrdiff_t next() override { return left-- > 0 ? 0 : -1; }
+    int left = 1;
+  };
+  Spec spec;
+  spec.inputs = 200;
+  spec.outputs = 70;
+  spec.nhiddens = 3;
+  const Layout layout = make_layout(spec);
+  std::vector<double> genotype(layout.parameters), moments(400);
+  initial_parameters(layout, 1, 0, genotype.data());
+  const std::int32_t candidate = 0;
+  const std::uint64_t seed = 1;
+  const std::uint32_t episode = 0;
+  const std::uint8_t collect = 1;
+  double fitness = 0;
+  std::int32_t steps = 0;
+  const Jobs jobs{genotype.data(), genotype.size(), nullptr,  1,   &candidate, 0,
+                  &seed,           &episode,        &collect, {5}, &fitness,   &steps,
+                  moments.data()};
+  using Rolled = Rollout<Wide, 4>;
+  std::vector<double> workspace(Rolled::workspace(layout) / sizeof(double) + 16);
+  void* place = workspace.data();
+  std::size_t room = workspace.size() * sizeof(double);
+  std::align(64, Rolled::workspace(layout), place, room);
+  Last last;
+  Once queue;
+  Rolled::run(layout, jobs, queue, &last, place);
+  CHECK(last.steps == 5 && steps == 5);
+  CHECK(std::fabs(last.total - fitness) < 1e-12);
+  CHECK(std::fabs(last.last - last.first - fitness) < 1e-12);
 }
