@@ -210,7 +210,7 @@ REFUSED = {
     "other algorithm": (
         text(algo="popsize = 5"),
         "line 6",
-        "popsize is a hyperparameter of SSS, archive, archivestar, coevo2 and maxsolvestar, but this",
+        "popsize is a hyperparameter of SSS, archive, archivestar, coevo2 and maxsolvestar, but",
         "remove the line, or set algo = SSS",
     ),
     "key twice": (text("bias = 1\nBIAS = 0"), "line 5", "BIAS is given a second time", "line 4"),
