@@ -70,6 +70,25 @@ COEVO2_DEFAULTS = {
     "evolving": "random",
     "saveeach": 100,
 }
+ARCHIVE_DEFAULTS = {
+    "maxmsteps": 75000,
+    "ngenerations": 0,
+    "popsize": 1,
+    "samplesize": 20,
+    "stepsize": 0.01,
+    "noiseStdDev": 0.02,
+    "wdecay": 0,
+    "ncompetitors": 10,
+    "checkoverfiteveryn": 0,
+    "saveeach": 1000,
+}
+COMPETITIVE_DEFAULTS = {
+    "coevo2": COEVO2_DEFAULTS,
+    "archive": ARCHIVE_DEFAULTS | {"addtoarchiveevery": 10},
+    "archivestar": ARCHIVE_DEFAULTS
+    | {"popsize": 5, "addtoarchiveevery": 10, "seldifferentiated": 1, "preferential": 1},
+    "maxsolvestar": ARCHIVE_DEFAULTS | {"nphases": 10, "archivelen": 25000},
+}
 
 
 def text(policy="", algo="", exp="environment = CartPole-v1"):
@@ -97,7 +116,7 @@ def test_defaults(tmp_path):
     for algo, defaults in (
         ("OpenAI-ES", OPENAI_ES_DEFAULTS),
         ("SSS", SSS_DEFAULTS),
-        ("coevo2", COEVO2_DEFAULTS),
+        *COMPETITIVE_DEFAULTS.items(),
     ):
         path = write(tmp_path, text(exp=f"environment = X-v0\nalgo = {algo}"))
         assert to_dict(load(path)) == {
@@ -191,7 +210,7 @@ REFUSED = {
     "other algorithm": (
         text(algo="popsize = 5"),
         "line 6",
-        "popsize is a hyperparameter of SSS and coevo2, but this experiment uses OpenAI-ES",
+        "popsize is a hyperparameter of SSS, archive, archivestar, coevo2 and maxsolvestar, but",
         "remove the line, or set algo = SSS",
     ),
     "key twice": (text("bias = 1\nBIAS = 0"), "line 5", "BIAS is given a second time", "line 4"),
@@ -203,7 +222,10 @@ REFUSED = {
     "no equals sign": (text("bias 1"), "line 4", "bias 1 lacks an = sign", "key = value"),
     "no key": (text("= 1"), "line 4", "nothing before its = sign"),
     "unknown algorithm": (text(exp="environment = X\nalgo = coevo"), "line 3", "mean coevo2?"),
-    "strange algorithm": (text(exp="environment = X\nalgo = qq"), "OpenAI-ES, SSS, coevo2"),
+    "strange algorithm": (
+        text(exp="environment = X\nalgo = qq"),
+        "OpenAI-ES, SSS, archive, archivestar, coevo2, maxsolvestar",
+    ),
     "word for a number": (
         text("nhiddens = ten"),
         "line 4",
@@ -351,13 +373,13 @@ def test_refused_dict(data, part):
 def test_describe_lists_every_hyperparameter_with_default_and_help():
     rows = describe()
     listed = {(section, name): default for section, name, default, _ in rows}
-    assert len(listed) == len(rows) == 3 + 19 + 7 + 4 + 9
+    assert len(listed) == len(rows) == 3 + 19 + 7 + 4 + 9 + 11 + 13 + 12
     for section, defaults in (
         ("EXP", {"environment": None, "algo": "OpenAI-ES", "robots": ""}),
         ("POLICY", POLICY_DEFAULTS),
         ("ALGO OpenAI-ES", OPENAI_ES_DEFAULTS),
         ("ALGO SSS", SSS_DEFAULTS),
-        ("ALGO coevo2", COEVO2_DEFAULTS),
+        *[(f"ALGO {algo}", defaults) for algo, defaults in COMPETITIVE_DEFAULTS.items()],
     ):
         assert {
             name: value for (part, name), value in listed.items() if part == section

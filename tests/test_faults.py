@@ -73,7 +73,11 @@ def test_help_loads_nothing_heavy():
         ("nhiddens = 3", "nhiddens = -1", ["line 8", "nhiddens = -1", "0 to 10000"]),
         ("[POLICY]", "", ["[POLICY]"]),
         ("[ALGO]", "[ALGOS]", ["[ALGOS]", "[ALGO]"]),
-        ("algo = SSS", "algo = CMA-ES", ["line 3", "CMA-ES", "OpenAI-ES, SSS, coevo2"]),
+        (
+            "algo = SSS",
+            "algo = CMA-ES",
+            ["line 3", "CMA-ES", "OpenAI-ES, SSS, archive, archivestar"],
+        ),
         ("algo = SSS", "algo = SSSS", ["line 3", "did you mean SSS?"]),
         ("popsize = 6", "popsize = 7", ["popsize = 7", "popsize = 8"]),
         ("nhiddens = 3", "nhiddens = 3\nnrobots = 2", ["nrobots"]),

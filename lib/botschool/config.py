@@ -279,8 +279,9 @@ def _unknown(key: str, section: str, cls: type) -> str:
         return f"{key} belongs in section [ALGO], not [{section}]: move the line there"
     if owners:
         chosen = next(algo for algo, entry in ALGORITHMS.items() if entry.config is cls)
+        listed = " and ".join(filter(None, (", ".join(owners[:-1]), owners[-1])))
         return (
-            f"{key} is a hyperparameter of {' and '.join(owners)}, but this experiment uses "
+            f"{key} is a hyperparameter of {listed}, but this experiment uses "
             f"{chosen}: remove the line, or set algo = {owners[0]} in section [EXP]"
         )
     return f"{key} is no hyperparameter: {nearest(key, (f.name for f in fields(cls)))}"

@@ -174,21 +174,21 @@ class Coevolution(Run):
         progress = f" {last['local progress']:+.2f}" if "local progress" in last else ""
         return (
             f"gen. {self.record.generation}  {self._who}{progress}  "
-            f"mean {last['predators']:.2f} : {last['prey']:.2f}"
+            f"mean {_shown(last['predators'], '.2f')} : {_shown(last['prey'], '.2f')}"
         )
 
     def line(self) -> str:
         """A line about the last generation."""
         last = self.record.last
-        summary = [
-            f"{name} {last[name]:{'+' if name == 'local progress' else ''}.3f}"
-            for name in (*self.record.columns[len(STAT) :], "average parameter")
-        ]
-        summary[-1] = summary[-1].removeprefix("average ")
+        summary = "  ".join(
+            f"{name} {_shown(last[name], '+.3f' if name == 'local progress' else '.3f')}"
+            for name in self.record.columns[len(STAT) :]
+        )
         return (
             f"seed {self.seed}  generation {self.record.generation} "
             f"({100 * self.budget.share(self):.1f}%)  {self._who} evolved  "
-            f"steps {self.record.steps}  {'  '.join(summary)}{self._left()}"
+            f"steps {self.record.steps}  {summary}  "
+            f"parameter {last['average parameter']:.3f}{self._left()}"
         )
 
     def _left(self) -> str:
@@ -206,7 +206,13 @@ class Coevolution(Run):
         """A sentence about the whole run."""
         last = self.record.last
         return (
-            f"seed {self.seed}: predators {last['predators']:.3f}, prey {last['prey']:.3f} on "
+            f"seed {self.seed}: predators {_shown(last['predators'], '.3f')}, "
+            f"prey {_shown(last['prey'], '.3f')} on "
             f"average in generation {self.record.generation}, after {self.record.steps} steps; "
             f"best of both: {files.bestg}"
         )
+
+
+def _shown(value: float, form: str) -> str:
+    """The number, or - if it is not known yet."""
+    return "-" if math.isnan(value) else f"{value:{form}}"
