@@ -4,7 +4,7 @@ import contextlib
 
 import pytest
 
-from botschool.sandbox import Child, ForkServer, Limits, Scratch, paths
+from botschool.sandbox import Allowance, Child, ForkServer, Limits, Scratch, paths
 
 SECONDS = 20
 
@@ -22,7 +22,9 @@ class Sandboxed:
 
     def ask(self, name, *arguments, seconds=SECONDS):
         """The answer to a call: {"value"} or {"error", "text", "line"}; None when it has ended."""
-        return self.child.ask({"name": name, "arguments": arguments, "options": {}}, seconds)
+        return self.child.ask(
+            {"name": name, "arguments": arguments, "options": {}}, Allowance(seconds)
+        )
 
     def close(self):
         self.child.kill()

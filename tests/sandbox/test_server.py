@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from botschool.sandbox import Child, ForkServer, Limits, SandboxError, Scratch
+from botschool.sandbox import Allowance, Child, ForkServer, Limits, SandboxError, Scratch
 
 
 def test_imports_are_made_before_a_child_starts(tmp_path):
@@ -24,7 +24,7 @@ def test_imports_are_made_before_a_child_starts(tmp_path):
             for _ in range(2):
                 child = Child(server, scratch, file.name, Limits(1))
                 request = {"name": "get", "arguments": [], "options": {}}
-                assert child.ask(request, 1) == {"value": 7}
+                assert child.ask(request, Allowance(1)) == {"value": 7}
                 child.kill()
                 assert child.printed() == ""
         with (

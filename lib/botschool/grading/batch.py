@@ -24,7 +24,7 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.checks import Wrong
-from botschool.grading.confined import submission_files
+from botschool.grading.confined import MachineFault, machine_fault, submission_files
 from botschool.grading.exercise import Exercise, folder_of, load_exercise
 from botschool.grading.secret import DEFAULT, VARIABLE
 from botschool.grading.submission import Result, grade
@@ -38,7 +38,11 @@ STATE = ".botschool"
 MAX_KEPT = 5000
 """Results that are remembered; those not asked for longest are forgotten first."""
 SPARE_SECONDS = 60
-"""What a grader's process may take beyond the limits of its tasks and 5 seconds for each."""
+WALL_FACTOR = 5
+"""A grader's process may take so many times the limits of its tasks, with 5 seconds more for each,
+and SPARE_SECONDS: in the time that passes, with other programs beside it."""
+MACHINE_FAULT = 75
+"""Exit code of a grader's process, as EX_TEMPFAIL of sysexits.h."""
 
 
 @dataclass(frozen=True)
@@ -78,14 +82,24 @@ class Grades:
         workers: int,
         report: Callable[[Job, dict], None] = lambda job, result: None,
     ) -> dict[Job, dict[str, Any]]:
-        """The results of all jobs; reports each as soon as it is there."""
-        results = {}
+        """The results of all jobs; reports each as soon as it is there.
+
+        Where the machine was at fault (MachineFault, a grader that was killed or took too long)
+        a job is done again at the end, while nothing else runs.
+        """
+        results, again = {}, []
         with ThreadPoolExecutor(workers) as pool:
             try:
                 futures = {pool.submit(self._result, job): job for job in dict.fromkeys(jobs)}
                 for future in as_completed(futures):
-                    job = futures[future]
-                    results[job] = future.result()
+                    job, result = futures[future], future.result()
+                    if result is None:
+                        again.append(job)
+                    else:
+                        results[job] = result
+                        report(job, result)
+                for job in again:
+                    results[job] = pool.submit(self._result, job, alone=True).result()
                     report(job, results[job])
             except BaseException:
                 self._stopped.set()
@@ -102,7 +116,8 @@ class Grades:
             for path in kept[MAX_KEPT:]:
                 path.unlink()
 
-    def _result(self, job: Job) -> dict[str, Any]:
+    def _result(self, job: Job, alone: bool = False) -> dict[str, Any] | None:
+        """None: to be done again, alone."""
         try:
             key = self._key(job)
         except Wrong as error:
@@ -113,7 +128,9 @@ class Grades:
                 result = json.loads(place.read_bytes())
                 place.touch()
                 return result
-        result = self._grade(job)
+        result = self._grade(job, alone)
+        if result is None:
+            return None
         if not result["problem"] and not self._stopped.is_set():
             with contextlib.suppress(OSError, BotschoolError):
                 make_state(self._root)
@@ -121,16 +138,16 @@ class Grades:
                 save_bytes(place, json.dumps(result).encode())
         return result
 
-    def _grade(self, job: Job) -> dict[str, Any]:
+    def _grade(self, job: Job, alone: bool) -> dict[str, Any] | None:
         exercise = self.exercise(job.number)
         try:
             exercise.require()
         except BotschoolError as error:
             return self.nothing(job.number, str(error))
-        limit = sum(task.seconds + 5 for task in exercise.tasks) + SPARE_SECONDS
+        limit = sum(WALL_FACTOR * (task.seconds + 5) for task in exercise.tasks) + SPARE_SECONDS
         temporary = Path(tempfile.mkdtemp(prefix="botschool-"))
         lifeline, ours = os.pipe()
-        arguments = str(job.number), str(job.file), str(lifeline)
+        arguments = str(job.number), str(job.file), str(lifeline), "alone" if alone else ""
         environment = os.environ | {
             "TMPDIR": str(temporary),
             "BOTSCHOOL_COURSE": str(self._root),
@@ -154,15 +171,18 @@ class Grades:
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.communicate()
-                return self.nothing(
-                    job.number, f"The grading took longer than {limit:.0f} seconds."
-                )
+                reason = f"The grading took longer than {limit:.0f} seconds."
+                return self.nothing(job.number, reason) if alone else None
             finally:
                 self._running.discard(process)
             if process.returncode == 0:
                 return json.loads(out)
+            if not alone and (process.returncode == MACHINE_FAULT or process.returncode < 0):
+                return None
             lines = errors.decode(errors="replace").strip().splitlines()
             reason = lines[-1] if lines else f"exit code {process.returncode}"
+            if process.returncode == MACHINE_FAULT:
+                return self.nothing(job.number, reason)
             return self.nothing(job.number, f"The grader failed: {reason}.")
         finally:
             os.close(lifeline)
@@ -243,13 +263,22 @@ def main() -> None:
     """Grades a file (argument 2) of an exercise (argument 1); the result goes to stdout as JSON.
 
     Argument 3: a pipe's descriptor; when its other end is closed, the grading is ended.
+    Argument 4: "alone" if nothing else is graded meanwhile.
+    The exit code is MACHINE_FAULT if the machine was at fault.
     """
     number, file, lifeline = int(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3])
     threading.Thread(target=_end_with, args=(lifeline,), daemon=True).start()
     out = os.dup(1)
     os.dup2(2, 1)  # whatever a grader prints is no part of the result
     try:
-        record = to_record(grade(load_exercise(number), file))
+        record = to_record(grade(load_exercise(number), file, alone=sys.argv[4] == "alone"))
+    except MachineFault as error:
+        print(error, file=sys.stderr)
+        sys.exit(MACHINE_FAULT)
+    except (MemoryError, OSError) as error:
+        fault = machine_fault(error)
+        print(fault, file=sys.stderr)
+        sys.exit(MACHINE_FAULT if isinstance(fault, MachineFault) else 1)
     except BotschoolError as error:
         sys.exit(str(error))
     with open(out, "w", encoding="ascii") as stream:

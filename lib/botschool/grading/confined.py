@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -18,15 +19,38 @@ _PRIVATE = ("solutions", "exercises", "tests", "results", "build", ".git", ".bot
 """Of a course folder: what no submission may read."""
 
 
+class MachineFault(BotschoolError):
+    """What this machine did, and no submission: it was short of memory or disk, or killed."""
+
+
+SHORTAGES = tuple(
+    getattr(errno, name)
+    for name in ("ENOMEM", "ENOSPC", "EDQUOT", "EAGAIN", "EMFILE", "ENFILE", "EIO")
+)
+
+
 @contextmanager
 def translated() -> Iterator[None]:
-    """Raises Wrong for what is refused, BotschoolError for what this machine cannot do."""
+    """Raises Wrong for what is refused, MachineFault for what this machine cannot do."""
     try:
         yield
     except Refused as error:
         raise Wrong(str(error)) from None
     except SandboxError as error:
-        raise BotschoolError(str(error)) from None
+        raise MachineFault(str(error)) from None
+    except OSError as error:
+        raise machine_fault(error) from None
+
+
+def machine_fault(error: OSError | MemoryError) -> MachineFault | Exception:
+    """What to raise for an error of the grader itself: a MachineFault if something is short."""
+    if isinstance(error, OSError) and error.errno not in SHORTAGES:
+        return error
+    reason = getattr(error, "strerror", None) or "not enough memory"
+    return MachineFault(
+        f"The grader could not go on ({reason}): free some memory and disk space, or use fewer "
+        "workers (-w), and grade again."
+    )
 
 
 def fork_server(imports: Iterable[str] = ()) -> ForkServer:

@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
+import errno
 import inspect
+import os
 import textwrap
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from botschool.grading.checks import NotDone, Wrong, plain, show
-from botschool.grading.confined import fork_server, scratch_copy, start_child
-from botschool.sandbox import Child, ForkServer, Limits
+from botschool.grading.confined import (
+    MachineFault,
+    fork_server,
+    machine_fault,
+    scratch_copy,
+    start_child,
+)
+from botschool.sandbox import Allowance, Child, ForkServer, Limits
+from botschool.sandbox.usage import is_full
 
 
 class Student:
     """The file of a submission, ready to be called.
 
-    Every call is limited by what is left of `seconds` (wall time; the first start of the child
-    does not count). A child that died, hung or was killed is replaced at the next call, so that
-    later checks are judged on their own.
+    All calls together are limited to `seconds` of processor time, and generously in the time that
+    passes (sandbox.Allowance). A child that died, hung or was killed is replaced at the next call,
+    so that later checks are judged on their own.
     """
 
     def __init__(
@@ -28,15 +36,18 @@ class Student:
         seconds: float = 20,
         memory: int = 4096,
         server: ForkServer | None = None,
+        tried: bool = True,
     ) -> None:
         """memory: MB of address space; server: else one of its own.
 
+        tried: whether a fault that may be the machine's has been met before, and the submission
+        is to blame if it comes again and nothing speaks against the machine.
         Raises Wrong when the submission is too large.
         """
         self._file = Path(file)
         self._memory = memory * 2**20
-        self._seconds = seconds
-        self._deadline: float | None = None
+        self._allowance = Allowance(seconds)
+        self._tried = tried
         self._child: Child | None = None
         self._printed = ""
         self.missing: list[str] = []
@@ -76,14 +87,17 @@ class Student:
 
     @property
     def seconds_left(self) -> float:
-        """Wall time left."""
-        return self._seconds if self._deadline is None else self._deadline - time.monotonic()
+        """What is left of the time."""
+        return self._allowance.left
 
     def scratch(self, name: str) -> Path:
         """A file that the submission has written beside its own, as a copy that stays as it is."""
         try:
             return self._scratch.copy(name)
-        except OSError:
+        except OSError as error:
+            fault = machine_fault(error)
+            if isinstance(fault, MachineFault):
+                raise fault from None
             raise Wrong(f"{self.said} should have written the file {name}, but has not.") from None
 
     def pictures(self) -> list[tuple[str, bytes]]:
@@ -113,24 +127,46 @@ class Student:
             limits = Limits(self.seconds_left, self._memory)
             self._child = start_child(self._server, self._scratch, self._file, limits)
             self.missing = self._child.missing
-            if self._deadline is None:
-                self._deadline = time.monotonic() + self._seconds
         try:
-            answer = self._child.ask(request, self.seconds_left)
+            answer = self._child.ask(request, self._allowance)
         except TimeoutError:
             self.stop()
+            slept = ": it waits instead of computing" if self._allowance.slept else ""
             raise Wrong(
-                f"{self.said} did not return within the task's {self._seconds:g} seconds."
+                f"{self.said} did not return within the task's {self._allowance.seconds:g} "
+                f"seconds{slept}."
             ) from None
         except ValueError:
             self.stop()
             raise Wrong(f"{self.said} sent back something that is no plain data.") from None
         if answer is None:
             reason = self._child.ending()
+            self._blame_the_machine_for_a_kill()
             self.stop()
             raise Wrong(f"The program ended while {self.said} was running: {reason}.")
         self.answers += 1
+        self._blame_the_machine_for_a_full_disk(answer)
         return _value(answer, self.said)
+
+    def _blame_the_machine_for_a_kill(self) -> None:
+        """Raises MachineFault for one that the grader did not make."""
+        if not self._child.was_killed():
+            return
+        memory = self._child.memory_ran_out()
+        if memory or not self._tried:
+            why = "for lack of memory" if memory else "from outside"
+            raise MachineFault(
+                f"A process of the grading was killed {why} while {self.said} was running: close "
+                "other programs, or use fewer workers (-w), and grade again."
+            )
+
+    def _blame_the_machine_for_a_full_disk(self, answer: dict[str, Any]) -> None:
+        """Raises MachineFault if the submission could not write because of others."""
+        full = os.strerror(errno.ENOSPC) in str(answer.get("text"))
+        if full and (is_full(self._scratch.root) or not self._tried):
+            raise MachineFault(
+                f"The disk was full while {self.said} was running: free some space and grade again."
+            )
 
 
 def _value(answer: dict[str, Any], said: str) -> Any:

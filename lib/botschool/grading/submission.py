@@ -8,19 +8,27 @@ import tempfile
 import traceback
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 from botschool.errors import BotschoolError
 from botschool.grading.cells import Script, Unreadable, scripts
 from botschool.grading.checks import Wrong, plain
-from botschool.grading.confined import fork_server, submission_files
+from botschool.grading.confined import (
+    MachineFault,
+    fork_server,
+    machine_fault,
+    submission_files,
+)
 from botschool.grading.exercise import Exercise, Task
 from botschool.grading.student import Student
 from botschool.grading.timelimit import TookTooLong, processor_time_limit
 from botschool.sandbox import ForkServer
 
+T = TypeVar("T")
 LOADING_SECONDS = 10
-"""Time for all that a file or a notebook does besides defining functions, when it is graded."""
+"""Processor time for all that a file or a notebook does besides defining functions."""
 CHECK_SECONDS = 60
 """Processor time that a check may use in the grader's own process."""
 _CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
@@ -90,16 +98,19 @@ def grade(
     report: Callable[[TaskResult], None] = lambda result: None,
     tasks: Iterable[Task] | None = None,
     server: ForkServer | None = None,
+    alone: bool = True,
 ) -> Result:
     """Grades a submission's file; reports each task as soon as it is judged.
 
     tasks: else all; server: else one is made and closed.
+    alone: whether no others are graded at the same time; what may be the fault of the machine is
+    then tried once more. Raises BotschoolError, of which MachineFault says that it was its fault.
     """
     if server is None:
         with fork_server(exercise.imports) as own:
-            return grade(exercise, file, report, tasks, own)
+            return grade(exercise, file, report, tasks, own, alone)
     results = []
-    with Submission(file, server) as submission:
+    with Submission(file, server, alone=alone) as submission:
         for task in exercise.tasks if tasks is None else tasks:
             results.append(submission.grade(task))
             report(results[-1])
@@ -114,9 +125,18 @@ class Submission:
     """
 
     def __init__(
-        self, file: Path, server: ForkServer, sources: list[str] | None = None, name: str = ""
+        self,
+        file: Path,
+        server: ForkServer,
+        sources: list[str] | None = None,
+        name: str = "",
+        alone: bool = True,
     ) -> None:
-        """sources: of a notebook (the file), the texts of its code cells; name: of its script."""
+        """sources: of a notebook (the file), the texts of its code cells; name: of its script.
+
+        alone: as of `grade`.
+        """
+        self._alone = alone
         self._given = file
         self._sources = sources
         self._server = server
@@ -144,7 +164,8 @@ class Submission:
         """Grades a task; lines in the message are those of the file, or of a notebook's cell."""
         if self._failure:
             return TaskResult(task.id, task.title, 0, task.max_points, self._failure)
-        result = grade_task(task, self._file if self._script else self._given, self._server)
+        file = self._file if self._script else self._given
+        result = grade_task(task, file, self._server, self._alone)
         result.message = self._placed(result.message)
         if result.message:
             result.message = "\n".join([result.message, *self._notes])
@@ -155,7 +176,8 @@ class Submission:
         if self._sources is not None:
             everything, defined = scripts(self._sources)
             self._write(everything)
-        trouble = _trouble(self._file if self._script else self._given, self._server)
+        file = self._file if self._script else self._given
+        trouble = _twice(partial(_trouble, file, self._server), self._alone)
         if not trouble:
             return
         trouble = self._placed(trouble).removeprefix("Your file cannot be loaded: ").rstrip(".")
@@ -212,7 +234,17 @@ class Submission:
         return f"the cell '{shown[:40]}{'...' if len(shown) > 40 else ''}'"
 
 
-def _trouble(file: Path, server: ForkServer) -> str:
+def _twice(attempt: Callable[[bool], T], alone: bool) -> T:
+    """attempt(whether it was tried before), once more after a MachineFault if nobody else runs."""
+    try:
+        return attempt(False)
+    except MachineFault:
+        if not alone:
+            raise
+    return attempt(True)
+
+
+def _trouble(file: Path, server: ForkServer, tried: bool) -> str:
     """Why a submission's file cannot be loaded, in a sentence; "" if it can.
 
     Raises Wrong when it may not be.
@@ -221,7 +253,7 @@ def _trouble(file: Path, server: ForkServer) -> str:
     def loads(module):
         return True
 
-    student = Student(file, LOADING_SECONDS, server=server)
+    student = Student(file, LOADING_SECONDS, server=server, tried=tried)
     try:
         student.run(loads, said="the code outside functions")
     except Wrong as error:
@@ -231,13 +263,20 @@ def _trouble(file: Path, server: ForkServer) -> str:
     return ""
 
 
-def grade_task(task: Task, file: Path, server: ForkServer) -> TaskResult:
-    """Runs a task's checks on a file, in a child of its own. Raises BotschoolError."""
+def grade_task(task: Task, file: Path, server: ForkServer, alone: bool = True) -> TaskResult:
+    """Runs a task's checks on a file, in a child of its own; alone: as of `grade`.
+
+    Raises BotschoolError.
+    """
+    return _twice(partial(_grade_task, task, file, server), alone)
+
+
+def _grade_task(task: Task, file: Path, server: ForkServer, tried: bool) -> TaskResult:
     result = TaskResult(task.id, task.title, 0, task.max_points, "")
     problems: list[str] = []
     student = None
     try:
-        student = Student(file, task.seconds, task.memory, server)
+        student = Student(file, task.seconds, task.memory, server, tried)
         for worth, _, check in task.checks:
             problem = _problem(task, check, student)
             if problem is None:
@@ -268,17 +307,27 @@ def _problem(task: Task, check: Callable[[Student], None], student: Student) -> 
         return str(error)
     except BotschoolError:
         raise  # the grader's own trouble, not the submission's
+    except OSError as error:
+        fault = machine_fault(error)
+        if isinstance(fault, MachineFault):
+            raise fault from error
+        return _unjudged(task, student, answers, error)
     except Exception as error:
-        said = f"{type(error).__name__}: {str(error)[:200]}"
-        # with nothing from the submission at hand, or by a name that is not there
-        if student.answers == answers or isinstance(error, (NameError, ImportError)):
-            place = traceback.extract_tb(error.__traceback__)[-1]
-            raise GraderFault(
-                f"The grader of task {task.id} has a fault, which is not the submission's "
-                f"({said}, in {Path(place.filename).name} line {place.lineno}): it must be mended."
-            ) from error
-        return (
-            f"{student.said} returned something that cannot be judged ({said}). If it is what the "
-            "task asks for, tell your instructor."
-        )
+        return _unjudged(task, student, answers, error)
     return None
+
+
+def _unjudged(task: Task, student: Student, answers: int, error: Exception) -> str:
+    """An exception in a check: a sentence. Raises GraderFault if no answer can have caused it."""
+    said = f"{type(error).__name__}: {str(error)[:200]}"
+    # with nothing from the submission at hand, or by a name that is not there
+    if student.answers == answers or isinstance(error, (NameError, ImportError)):
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        raise GraderFault(
+            f"The grader of task {task.id} has a fault, which is not the submission's "
+            f"({said}, in {Path(place.filename).name} line {place.lineno}): it must be mended."
+        ) from error
+    return (
+        f"{student.said} returned something that cannot be judged ({said}). If it is what the "
+        "task asks for, tell your instructor."
+    )

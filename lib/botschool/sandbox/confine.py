@@ -33,16 +33,16 @@ def limit(seconds: float, memory: int, file_size: int) -> None:
     """Limits: seconds, bytes of address space beyond the present ones, bytes of a file."""
     with contextlib.suppress(OSError):  # when memory runs out it is this process that goes
         Path("/proc/self/oom_score_adj").write_text("1000")
-    cpu = 2 * int(seconds) + 2  # the caller watches the time; this holds if it has gone
-    for name, value in (
-        ("RLIMIT_CPU", cpu),
+    cpu = int(seconds) + 2  # the caller watches the time; this holds if it has gone
+    for name, *values in (
+        ("RLIMIT_CPU", cpu, cpu + 2),  # a signal to say so, then the end
         ("RLIMIT_AS", memory + _in_use()),
         ("RLIMIT_FSIZE", file_size),
         ("RLIMIT_CORE", 1),  # with 0, a core dump still goes to a program that collects them
         ("RLIMIT_NOFILE", 256),
         ("RLIMIT_MEMLOCK", 0),
     ):
-        _set(name, value)
+        _set(name, *values)
 
 
 def _in_use() -> int:
@@ -52,14 +52,17 @@ def _in_use() -> int:
         return 0
 
 
-def _set(name: str, value: int) -> None:
+def _set(name: str, value: int, most: int | None = None) -> None:
+    """Sets a soft and a hard limit, neither above the present hard one."""
     try:
         import resource
 
         which = getattr(resource, name)
         hard = resource.getrlimit(which)[1]
-        value = value if hard == resource.RLIM_INFINITY else min(value, hard)
-        resource.setrlimit(which, (value, value))
+        pair = value, value if most is None else most
+        if hard != resource.RLIM_INFINITY:
+            pair = min(pair[0], hard), min(pair[1], hard)
+        resource.setrlimit(which, pair)
     except (ImportError, AttributeError, ValueError, OSError):
         pass
 

@@ -6,13 +6,13 @@ import contextlib
 import os
 import signal
 import threading
-import time
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from botschool.sandbox import protocol, usage
+from botschool.sandbox.allowance import Allowance
 from botschool.sandbox.errors import SandboxError
 from botschool.sandbox.scratch import Scratch
 from botschool.sandbox.server import START_SECONDS, ForkServer, homes
@@ -33,6 +33,7 @@ class Limits:
     """What a child may use."""
 
     seconds: float = 20
+    """Of processor time; past them the system ends it, if the caller has not."""
     memory: int = 4 * 2**30
     """Bytes of address space beyond those of the imports."""
 
@@ -59,6 +60,7 @@ class Child:
         self._closed = threading.Event()
         self._ending = threading.Lock()
         self._code: int | None = None
+        self._memory_kills = usage.memory_kills()
         to_child, self._requests = os.pipe()
         self._answers, from_child = os.pipe()
         self._output, its_output = os.pipe()
@@ -98,15 +100,15 @@ class Child:
             raise SandboxError(f"The confined child process did not start: {lines[-1]}.")
         return protocol.unpack(message)["missing"]
 
-    def ask(self, request: dict[str, Any], seconds: float) -> dict[str, Any] | None:
+    def ask(self, request: dict[str, Any], allowance: Allowance) -> dict[str, Any] | None:
         """The answer to a request; None if the child has ended.
 
-        Raises TimeoutError, and ValueError for what is no answer.
+        Raises TimeoutError when nothing is left of the allowance, ValueError for what is no answer.
         """
-        deadline = time.monotonic() + seconds
-        with contextlib.suppress(BrokenPipeError):
-            protocol.send(self._requests, protocol.pack(request), seconds)
-        message = protocol.receive(self._answers, deadline - time.monotonic())
+        with allowance.charged(self._pid) as left:
+            with contextlib.suppress(BrokenPipeError):
+                protocol.send(self._requests, protocol.pack(request), left)
+            message = protocol.receive(self._answers, left)
         answer = None if message is None else protocol.unpack(message)
         if answer is not None and not isinstance(answer, dict):
             raise ValueError("not an answer")
@@ -124,11 +126,21 @@ class Child:
             return "it closed its connection"
         if self._reason:
             return self._reason
-        if code == -signal.SIGKILL or code == -getattr(signal, "SIGXCPU", 0):
-            return "it used too much time or memory"
+        if code == -getattr(signal, "SIGXCPU", 0):
+            return "it used too much time"
+        if code == -signal.SIGKILL:
+            return "it was killed, by itself or for lack of memory"
         if code < 0:
             return f"it crashed (signal {-code})"
         return "it called exit, so nothing came back"
+
+    def was_killed(self) -> bool:
+        """Whether something else than this object has killed it: the system, a user, or itself."""
+        return self._wait(1) == -signal.SIGKILL and not self._reason and not self._closed.is_set()
+
+    def memory_ran_out(self) -> bool:
+        """Whether Linux has killed a process for lack of memory since this one was started."""
+        return usage.memory_kills() > self._memory_kills
 
     def kill(self) -> None:
         """Ends the process, with all its threads and what it started."""

@@ -14,6 +14,7 @@ import os
 import re
 import selectors
 import time
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,9 @@ MAX_DEPTH = 50
 """Levels of lists in lists."""
 MAX_DIGITS = 300
 """Digits."""
+POLL_SECONDS = 0.05
+"""Between two looks at how much time is left."""
+Left = Callable[[], float]
 _HEAD = 16
 _KIND = re.compile(r"[<>|=]?[biuf][1248]")
 
@@ -62,42 +66,62 @@ def unpack(message: bytes) -> Any:
     return value
 
 
-def receive(fd: int, seconds: float) -> bytes | None:
-    """The next message from a pipe; None at its end. Raises TimeoutError and ValueError."""
-    deadline = time.monotonic() + seconds
-    head = _read(fd, _HEAD, deadline)
+def receive(fd: int, seconds: float | Left) -> bytes | None:
+    """The next message from a pipe; None at its end. Raises TimeoutError and ValueError.
+
+    seconds: or a function that tells how many are left.
+    """
+    left = _left(seconds)
+    head = _read(fd, _HEAD, left)
     if head is None:
         return None
     text, data = int.from_bytes(head[:8], "little"), int.from_bytes(head[8:], "little")
     if text > MAX_TEXT or data > MAX_DATA:
         raise ValueError("a message is too long")
-    rest = _read(fd, text + data, deadline)
+    rest = _read(fd, text + data, left)
     return None if rest is None else head + rest
 
 
-def send(fd: int, message: bytes, seconds: float) -> None:
-    """Writes to a pipe that does not block. Raises TimeoutError and BrokenPipeError."""
-    deadline = time.monotonic() + seconds
-    left = memoryview(message)
+def send(fd: int, message: bytes, seconds: float | Left) -> None:
+    """Writes to a pipe that does not block. Raises TimeoutError and BrokenPipeError.
+
+    seconds: or a function that tells how many are left.
+    """
+    left = _left(seconds)
+    rest = memoryview(message)
     with selectors.DefaultSelector() as selector:
         selector.register(fd, selectors.EVENT_WRITE)
-        while left:
-            if not selector.select(max(0.0, deadline - time.monotonic())):
-                raise TimeoutError
+        while rest:
+            _wait(selector, left)
             try:
-                left = left[os.write(fd, left) :]
+                rest = rest[os.write(fd, rest) :]
             except BlockingIOError:
                 continue
 
 
-def _read(fd: int, count: int, deadline: float) -> bytes | None:
+def _left(seconds: float | Left) -> Left:
+    if callable(seconds):
+        return seconds
+    deadline = time.monotonic() + seconds
+    return lambda: deadline - time.monotonic()
+
+
+def _wait(selector: selectors.BaseSelector, left: Left) -> None:
+    """Until the pipe is ready. Raises TimeoutError."""
+    while True:
+        seconds = left()
+        if seconds <= 0:
+            raise TimeoutError
+        if selector.select(min(seconds, POLL_SECONDS)):
+            return
+
+
+def _read(fd: int, count: int, left: Left) -> bytes | None:
     parts = bytearray()
     with selectors.DefaultSelector() as selector:
         selector.register(fd, selectors.EVENT_READ)
         while len(parts) < count:
-            left = deadline - time.monotonic()
-            if left <= 0 or not selector.select(left):
-                raise TimeoutError
+            _wait(selector, left)
             part = os.read(fd, min(count - len(parts), 2**20))
             if not part:
                 return None

@@ -8,6 +8,9 @@ import stat
 from collections.abc import Iterator
 from pathlib import Path
 
+MIN_FREE, MIN_FREE_FILES = 16 * 2**20, 100
+"""Bytes and files below which a file system counts as full."""
+
 
 def threads(pid: int) -> int:
     """The number of its threads."""
@@ -54,3 +57,38 @@ def _mapped_files(pid: int, root: str) -> Iterator[tuple[tuple[int, int], int | 
                     status = os.stat(f"/proc/{pid}/map_files/{addresses}")
                     size = status.st_blocks * 512
                 yield (os.makedev(major, minor), int(inode)), size
+
+
+def processor_seconds(pid: int) -> float | None:
+    """Processor time of all its threads, ended ones too; None if it cannot be known."""
+    try:
+        text = Path(f"/proc/{pid}/stat").read_text(errors="replace")
+    except OSError:
+        return None
+    fields = text[text.rindex(")") + 2 :].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def delayed_seconds(pid: int) -> float:
+    """How long its first thread was ready to run and had to wait for a processor."""
+    with contextlib.suppress(OSError, IndexError):
+        return int(Path(f"/proc/{pid}/schedstat").read_text().split()[1]) / 1e9
+    return 0.0
+
+
+def memory_kills() -> int:
+    """How many processes Linux has killed for lack of memory since it was started."""
+    with contextlib.suppress(OSError):
+        for line in Path("/proc/vmstat").read_text().splitlines():
+            if line.startswith("oom_kill "):
+                return int(line.split()[1])
+    return 0
+
+
+def is_full(folder: Path) -> bool:
+    """Whether hardly anything can be written to a folder's file system any more."""
+    try:
+        status = os.statvfs(folder)
+    except OSError:
+        return False
+    return status.f_bavail * status.f_frsize < MIN_FREE or 0 < status.f_favail < MIN_FREE_FILES
