@@ -23,7 +23,7 @@ from botschool.grading.leaks import find_leaks
 from botschool.grading.release import MANIFEST, release
 from botschool.grading.report import Screen
 from botschool.grading.secret import grading_secret
-from botschool.grading.show import show
+from botschool.grading.showing import show
 from botschool.grading.submission import grade
 from botschool.grading.watching import watch
 from botschool.sandbox import seccomp

@@ -10,7 +10,7 @@ import pytest
 import building
 from botschool.grading.exercise import load_exercise
 from botschool.grading.release import release
-from botschool.grading.show import show
+from botschool.grading.showing import show
 from botschool.grading.submission import grade
 
 pytestmark = pytest.mark.course

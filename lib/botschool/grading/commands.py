@@ -160,7 +160,7 @@ def watch_command(what: str, submission: str | None) -> None:
 
 def show_command(what: str, submission: str | None) -> None:
     """Runs a finished exercise and names what it has made."""
-    from botschool.grading.show import show
+    from botschool.grading.showing import show
 
     for path in show(_named(what)[0], submission):
         print(f"made: {os.path.relpath(path)}  ({path.stat().st_size / 1000:.0f} kB)")
