@@ -251,6 +251,34 @@ def test_a_finished_file_is_run_in_results(course):
         show(3, str(course / "solutions"), course)
 
 
+@pytest.mark.parametrize("released", [False, True])
+def test_start_and_reset(course, tmp_path, monkeypatch, released):
+    root = course
+    if released:
+        root = tmp_path / "copy"
+        release(course, root)
+        monkeypatch.setenv("BOTSCHOOL_COURSE", str(root))
+    file = root / "exercises" / FOLDER / FILE
+    skeleton = file.read_text()
+    code, out, _ = call("start", "3", cwd=root)
+    assert code == 0 and "Exercise 3. Tiny" in out and f"exercises/{FOLDER}/README.md" in out
+    assert "as it began.\n" in call("reset", "3", cwd=root)[1]
+    for number in (1, 2):
+        file.write_text(f"{SOLUTION}# {number}\n")
+        code, out, _ = call("reset", "3", cwd=root)
+        kept = file.with_name(f"tiny_old{number}.py")
+        assert code == 0 and kept.name in out and file.read_text() == skeleton
+        assert kept.read_text() == f"{SOLUTION}# {number}\n"
+    file.unlink()
+    code, out, _ = call("start", "3", cwd=root)
+    assert code == 0 and "has been made" in out and file.read_text() == skeleton
+    if released:
+        (root / MANIFEST).unlink()
+        file.write_text(SOLUTION)
+        code, _, errors = call("reset", "3", cwd=root)
+        assert code == 2 and "is not kept here" in errors and file.read_text() == SOLUTION
+
+
 # --- a class
 
 SCRIPT = "<script>alert(1)</script>"
