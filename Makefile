@@ -1,6 +1,6 @@
 # Every target sets up what it needs by itself, in .venv and build/, and again only when inputs change.
-# Another interpreter: PYTHON=python3.12 make test
-# PyTorch without its CUDA packages (some GB): TORCH=cpu make test
+# Another interpreter: PYTHON=python3.12 make demo
+# PyTorch without its CUDA packages (some GB): TORCH=cpu make test-ex11
 
 BIN := .venv/bin
 CPP := $(shell find lib tests -name '*.cpp' -o -name '*.hpp' -o -name '*.h' 2>/dev/null)
@@ -9,8 +9,7 @@ CPP_INPUTS := $(filter lib/%,$(CPP)) $(shell find lib -name CMakeLists.txt -o -n
 # Packages that another project put on the path (ROS, for one) would shadow the pinned ones.
 unexport PYTHONPATH PYTHONHOME
 .NOTPARALLEL:
-.PHONY: help demo build test test-long check-course nbgrader skeletons bench results lint format \
-	sanitize clean FORCE
+.PHONY: help demo build clean FORCE
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z%-]+:.*## / { sub("%", "N", $$1); printf "make %-14s %s\n", $$1, $$2 }' Makefile
@@ -25,20 +24,22 @@ demo: .venv/.module ## evolve a policy for Acrobot, then draw its curve and film
 
 build: .venv/.module ## the Python environment and the C++ module
 
+# What an exercise trains and simulates with can be large: its grader names the extras it needs.
+.SECONDEXPANSION:
+extras = $(addprefix .venv/.extra-,$(shell tools/setup.sh extras $(1)))
+
+# The student's own file, or SUBMISSION=FOLDER.
+export SUBMISSION
+test-ex%: .venv/.module $$(call extras,$$*) FORCE ## grade exercise N; SUBMISSION=FOLDER grades another folder
+	@$(BIN)/botschool grade $* $(if $(SUBMISSION),--submission "$$SUBMISSION")
+
+# BEGIN NOT RELEASED
+.PHONY: test test-long check-course nbgrader skeletons bench results lint format sanitize
 test: .venv/.tests ## the tests that take seconds
 	@$(BIN)/python -m pytest -q
 
 test-long: .venv/.tests ## the tests that take minutes: whole runs, many seeds
 	@$(BIN)/python -m pytest -q -m long
-
-# What an exercise trains and simulates with can be large: its grader names the extras it needs.
-.SECONDEXPANSION:
-extras = $(addprefix .venv/.extra-,$(shell tools/setup.sh extras $(1)))
-
-# The student's own file, or SUBMISSION=FOLDER (SUBMISSION=solutions is the reference).
-export SUBMISSION
-test-ex%: .venv/.module $$(call extras,$$*) FORCE ## grade exercise N; SUBMISSION=FOLDER grades another folder
-	@$(BIN)/botschool grade $* $(if $(SUBMISSION),--submission "$$SUBMISSION")
 
 solution-ex%: .venv/.module $$(call extras,$$*) FORCE ## run the solution of exercise N in results/exNN
 	@$(BIN)/botschool show $* --submission solutions
@@ -71,6 +72,7 @@ format: .venv/.tests ## put the style right where a tool can
 sanitize: .venv/.tools ## the C++ tests under address and undefined-behaviour sanitizers
 	@tools/setup.sh sanitize
 	@build/sanitize/core_tests
+# END NOT RELEASED
 
 clean: ## remove what the targets above set up; results stay
 	rm -rf .venv build .pytest_cache .ruff_cache .hypothesis

@@ -19,10 +19,11 @@ from botschool.errors import BotschoolError
 from botschool.grading import batch
 from botschool.grading.collect import grade_all, page_names
 from botschool.grading.exercise import load_exercise
-from botschool.grading.release import find_leaks, release
+from botschool.grading.leaks import find_leaks
+from botschool.grading.release import MANIFEST, release
 from botschool.grading.report import Screen
 from botschool.grading.secret import grading_secret
-from botschool.grading.show import show
+from botschool.grading.showing import show
 from botschool.grading.submission import grade
 from botschool.grading.watching import watch
 from botschool.sandbox import seccomp
@@ -181,17 +182,17 @@ def test_release(course, tmp_path):
     (course / "exercises" / FOLDER / FILE).write_text(SOLUTION)
     (course / "lib" / "x.so").touch()
     (course / "exercises" / FOLDER / ".notes.py").touch()
-    count = release(course, tmp_path / "copy")
+    done = release(course, tmp_path / "copy")
     names = {
         path.relative_to(tmp_path / "copy").as_posix()
         for path in (tmp_path / "copy").rglob("*")
         if path.is_file()
     }
     assert names == {
-        "Makefile", "lib/code.py", "docs/results.md", "tests/test_open.py",
+        "Makefile", "lib/code.py", "docs/guide.md", MANIFEST,
         *(f"exercises/{FOLDER}/{n}" for n in (FILE, "test_tiny.py", "HINTS.md", "README.md")),
     }  # fmt: skip
-    assert count == len(names)
+    assert done.files == done.written == len(names) - 1
     assert "NotImplementedError" in (tmp_path / "copy" / "exercises" / FOLDER / FILE).read_text()
     with pytest.raises(BotschoolError, match="student's copy already"):
         release(tmp_path / "copy", tmp_path / "again")
@@ -211,7 +212,7 @@ def test_released_graders_work_and_cannot_be_read(course, tmp_path, monkeypatch)
     assert before["points"] == 40
 
 
-@pytest.mark.parametrize("place", ["lib/code.py", "docs/results.md", f"exercises/{FOLDER}/mine.py"])
+@pytest.mark.parametrize("place", ["lib/code.py", "docs/guide.md", f"exercises/{FOLDER}/mine.py"])
 @pytest.mark.parametrize("what", ["region", "line", "answer"])
 def test_release_stops_at_a_leak(course, tmp_path, place, what):
     leak = {
@@ -234,12 +235,12 @@ def test_release_needs_a_place_of_its_own(course, tmp_path):
     with pytest.raises(BotschoolError, match="no folder"):
         release(course, tmp_path / "file")
     (tmp_path / "empty").mkdir()
-    assert release(course, tmp_path / "empty") > 0
+    assert release(course, tmp_path / "empty").files > 0
 
 
 def test_a_finished_file_is_run_in_results(course):
     made = course.resolve() / "results" / "ex03" / "picture.txt"
-    assert show(3, "solutions", course) == [made]
+    assert show(3, str(course / "solutions"), course) == [made]
     code, out, errors = call("show", "3", cwd=course)
     assert code == 2 and "task 3.1" in errors and "ended with an error" in errors
     (course / "exercises" / FOLDER / FILE).write_text(SOLUTION)
@@ -247,7 +248,35 @@ def test_a_finished_file_is_run_in_results(course):
     assert (code, errors) == (0, "") and "made: results/ex03/picture.txt" in out
     (course / "solutions" / FOLDER / FILE).unlink()
     with pytest.raises(BotschoolError, match=r"no tiny\.py in"):
-        show(3, "solutions", course)
+        show(3, str(course / "solutions"), course)
+
+
+@pytest.mark.parametrize("released", [False, True])
+def test_start_and_reset(course, tmp_path, monkeypatch, released):
+    root = course
+    if released:
+        root = tmp_path / "copy"
+        release(course, root)
+        monkeypatch.setenv("BOTSCHOOL_COURSE", str(root))
+    file = root / "exercises" / FOLDER / FILE
+    skeleton = file.read_text()
+    code, out, _ = call("start", "3", cwd=root)
+    assert code == 0 and "Exercise 3. Tiny" in out and f"exercises/{FOLDER}/README.md" in out
+    assert "as it began.\n" in call("reset", "3", cwd=root)[1]
+    for number in (1, 2):
+        file.write_text(f"{SOLUTION}# {number}\n")
+        code, out, _ = call("reset", "3", cwd=root)
+        kept = file.with_name(f"tiny_old{number}.py")
+        assert code == 0 and kept.name in out and file.read_text() == skeleton
+        assert kept.read_text() == f"{SOLUTION}# {number}\n"
+    file.unlink()
+    code, out, _ = call("start", "3", cwd=root)
+    assert code == 0 and "has been made" in out and file.read_text() == skeleton
+    if released:
+        (root / MANIFEST).unlink()
+        file.write_text(SOLUTION)
+        code, _, errors = call("reset", "3", cwd=root)
+        assert code == 2 and "is not kept here" in errors and file.read_text() == SOLUTION
 
 
 # --- a class

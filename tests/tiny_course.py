@@ -96,7 +96,7 @@ def make_course(root: Path) -> Path:
         "tests/test_open.py": "",
         "lib/code.py": "x = 1\n",
         "docs/instructors.md": "secret",
-        "docs/results.md": "open",
+        "docs/guide.md": "open",
         "Makefile": "",
         ".git/config": "",
     }.items():

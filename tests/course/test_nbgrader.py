@@ -16,9 +16,9 @@ import pytest
 import building
 from botschool.errors import BotschoolError
 from botschool.grading.cells import Unreadable, definitions, plain_python, scripts, whole
+from botschool.grading.leaks import find_leaks
 from botschool.grading.nbgrader import make_course
 from botschool.grading.notebook import grade_cell
-from botschool.grading.release import find_leaks
 from botschool.grading.submission import grade
 
 REGION = re.compile(

@@ -10,10 +10,10 @@ import re
 import pytest
 
 import building
-from botschool.errors import BotschoolError
 from botschool.grading.batch import Grades, Job
 from botschool.grading.hints import read_hints
-from botschool.grading.release import find_leaks, release, released_files
+from botschool.grading.leaks import find_leaks
+from botschool.grading.release import release, released_files
 from botschool.grading.skeleton import pairs
 from botschool.grading.submission import grade
 
@@ -157,15 +157,11 @@ def test_release_tells_no_answers(tmp_path):
     for needed in ("Makefile", "tools/setup.sh", "pyproject.toml", "constraints.txt", "README.md",
                    "LICENSE", "lib/CMakeLists.txt", "lib/botschool/cli/app.py"):  # fmt: skip
         assert needed in names
-    assert not [
-        name for name in names if re.search(r"solutions/|tests/course|mutants|\.git/", name)
-    ]
+    assert not [name for name in names if re.search(r"solutions/|tests/|mutants|\.git/", name)]
     for number in building.NUMBERS:
         one = building.source(number)
         place = tmp_path / "copy" / "exercises" / one.folder / one.file
         assert place.read_text(encoding="utf-8") == one.skeleton
-    with pytest.raises(BotschoolError, match="not empty"):
-        release(building.ROOT, tmp_path / "copy")
 
 
 def test_leaks_are_found(tmp_path):

@@ -3,13 +3,15 @@
 import subprocess
 import sys
 
-import balance_bot  # noqa: F401
 import gymnasium
 import numpy as np
 import pytest
-from balance_bot.env import FASTEST, BalanceBotEnv
-from balance_bot.world import pybullet
 from gymnasium.utils.env_checker import check_env
+
+pybullet = pytest.importorskip("pybullet")
+
+import balance_bot  # noqa: E402, F401
+from balance_bot.env import FASTEST, BalanceBotEnv  # noqa: E402
 
 NAME = "BalanceBotBulletEnv-v0"
 

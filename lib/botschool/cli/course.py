@@ -23,6 +23,25 @@ GradingWorkers = Annotated[
 ]
 
 
+Number = Annotated[str, typer.Argument(help="Exercise N.", metavar="N")]
+
+
+@app.command(epilog="Example: botschool start 3")
+def start(exercise: Number) -> None:
+    """Say what to read, where to write and how to go on."""
+    from botschool.grading.commands import start_command
+
+    start_command(exercise)
+
+
+@app.command(epilog="Example: botschool reset 3")
+def reset(exercise: Number) -> None:
+    """Put your file back to its beginning; what you had is kept beside it."""
+    from botschool.grading.commands import reset_command
+
+    reset_command(exercise)
+
+
 @app.command(epilog="Example: botschool grade 3, or botschool grade 3.2 for one task")
 def grade(
     what: Annotated[str, typer.Argument(help="Exercise N or task N.T.", metavar="N[.T]")],
@@ -70,7 +89,7 @@ def watch(
 
 @app.command(epilog="Example: botschool show 3")
 def show(
-    exercise: Annotated[str, typer.Argument(help="Exercise N.", metavar="N")],
+    exercise: Number,
     submission: Submission = None,
 ) -> None:
     """Run your finished file in results/exNN, and say what it has made."""

@@ -158,9 +158,39 @@ def watch_command(what: str, submission: str | None) -> None:
         signal.signal(signal.SIGINT, before)
 
 
+def start_command(what: str) -> None:
+    """Says what an exercise is, where its files are and what to do; makes a missing file."""
+    from botschool.grading.starting import start
+
+    number, root = _named(what)[0], course_root()
+    exercise = load_exercise(number, root)
+    file, made = start(number, root)
+    console = Console(highlight=False, soft_wrap=True)
+    console.print(f"[bold]Exercise {number}. {exercise.title}[/]: {len(exercise.tasks)} tasks")
+    for does, path in (("Read", file.parent / "README.md"), ("Write into", file)):
+        console.print(f"  {does:<11}{os.path.relpath(path)}", markup=False)
+    if made:
+        console.print("  (it was missing and has been made)")
+    console.print(f"  {'Grade':<11}botschool grade {number}, or botschool watch {number}")
+    console.print(f"  {'A hint':<11}botschool hint {number}.1")
+    exercise.require()
+
+
+def reset_command(what: str) -> None:
+    """Puts a student's file back to its beginning and keeps the old one."""
+    from botschool.grading.starting import reset
+
+    file, kept = reset(_named(what)[0], course_root())
+    name = os.path.relpath(file)
+    if kept is None:
+        print(f"{name} is as it began.")
+    else:
+        print(f"{name} is as it began; yours is kept as {os.path.relpath(kept)}.")
+
+
 def show_command(what: str, submission: str | None) -> None:
     """Runs a finished exercise and names what it has made."""
-    from botschool.grading.show import show
+    from botschool.grading.showing import show
 
     for path in show(_named(what)[0], submission):
         print(f"made: {os.path.relpath(path)}  ({path.stat().st_size / 1000:.0f} kB)")

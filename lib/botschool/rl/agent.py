@@ -13,7 +13,7 @@ import numpy as np
 from gymnasium import spaces
 
 from botschool.errors import BotschoolError
-from botschool.output import cannot_write, written_whole
+from botschool.output import save_bytes
 from botschool.rl.environments import described, make
 from botschool.rl.folder import RunFolder
 from botschool.rl.model import build
@@ -29,16 +29,13 @@ Normalise = Callable[[np.ndarray], np.ndarray]
 
 def save_model(model: BaseAlgorithm, path: Path) -> None:
     """Writes a model, whole or not at all. Raises BotschoolError."""
-    try:
-        with written_whole(path) as temporary:
-            model.save(temporary)
-            scaling = model.get_vec_normalize_env()
-            if scaling is not None:
-                with ZipFile(temporary, "a") as archive:
-                    archive.writestr(NORMALISATION, _scaling_bytes(scaling))
-    except (OSError, RuntimeError) as error:
-        reason = getattr(error, "strerror", None) or " ".join(str(error).split())[:120]
-        raise cannot_write(path, reason) from error
+    content = BytesIO()
+    model.save(content)
+    scaling = model.get_vec_normalize_env()
+    if scaling is not None:
+        with ZipFile(content, "a") as archive:
+            archive.writestr(NORMALISATION, _scaling_bytes(scaling))
+    save_bytes(path, content.getvalue())
 
 
 def _scaling_bytes(scaling) -> bytes:

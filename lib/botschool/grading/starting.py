@@ -1,0 +1,57 @@
+"""A student's file at its beginning: `botschool start` and `botschool reset`."""
+
+from __future__ import annotations
+
+import json
+from itertools import count
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.grading.exercise import folder_of, load_exercise
+from botschool.grading.release import MANIFEST
+from botschool.grading.skeleton import skeleton
+from botschool.output import save_bytes
+
+
+def original(number: int, root: Path) -> str:
+    """The skeleton of an exercise's file: of its solution, or as it was released.
+
+    Raises BotschoolError where there is neither.
+    """
+    folder, file = folder_of(number, root).name, load_exercise(number, root).file
+    solution = root / "solutions" / folder / file
+    if solution.is_file():
+        return skeleton(solution.read_text(encoding="utf-8"))
+    try:
+        released = json.loads((root / MANIFEST).read_text(encoding="utf-8"))
+        return released["skeletons"][f"exercises/{folder}/{file}"]
+    except (OSError, ValueError, KeyError, TypeError):
+        raise BotschoolError(
+            f"How {file} began is not kept here ({MANIFEST} is missing or damaged)."
+        ) from None
+
+
+def start(number: int, root: Path) -> tuple[Path, bool]:
+    """The student's file, and whether it was missing and has been made. Raises BotschoolError."""
+    file = folder_of(number, root) / load_exercise(number, root).file
+    if file.exists():
+        return file, False
+    save_bytes(file, original(number, root).encode())
+    return file, True
+
+
+def reset(number: int, root: Path) -> tuple[Path, Path | None]:
+    """Puts the student's file back to its beginning.
+
+    Returns it and what the old one is called now, None if it was as it began (or missing). Raises
+    BotschoolError.
+    """
+    text = original(number, root)
+    file, made = start(number, root)
+    if made or file.read_bytes() == text.encode():
+        return file, None
+    names = (file.with_name(f"{file.stem}_old{n}{file.suffix}") for n in count(1))
+    kept = next(name for name in names if not name.exists())
+    save_bytes(kept, file.read_bytes())
+    save_bytes(file, text.encode())
+    return file, kept

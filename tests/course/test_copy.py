@@ -1,0 +1,78 @@
+"""The students' copy from nothing to the picture; tests/test_release.py is the quick form."""
+
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+import building
+from botschool.grading.exercise import load_exercise
+from botschool.grading.release import release
+from botschool.grading.showing import show
+from botschool.grading.submission import grade
+
+pytestmark = pytest.mark.course
+
+for_each_exercise = pytest.mark.parametrize("number", building.NUMBERS)
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("released") / "copy"
+    release(building.ROOT, folder)
+    return folder
+
+
+def put(copy, number, text):
+    one = building.source(number)
+    file = copy / "exercises" / one.folder / one.file
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+@for_each_exercise
+def test_packed_grader_gives_the_solution_everything(copy, number):
+    exercise = load_exercise(number, copy)
+    result = grade(exercise, put(copy, number, building.source(number).solution))
+    assert result.points == 100, [task for task in result.tasks if task.message]
+
+
+@for_each_exercise
+def test_packed_grader_finds_a_mutant(copy, number):
+    mutant = sorted((building.HERE / "mutants" / f"ex{number:02d}").glob("*.py"))[0]
+    text = mutant.read_text(encoding="utf-8")
+    named = text.splitlines()[0].removeprefix("# loses: ").split(", ")
+    file = put(copy, number, building.inserted(building.source(number).solution, text))
+    result = grade(load_exercise(number, copy), file)
+    lost = {task.id for task in result.tasks if task.points < task.max_points}
+    assert lost == set(named), [(task.id, task.message) for task in result.tasks if task.message]
+
+
+@for_each_exercise
+def test_finished_file_run_by_itself_makes_its_pictures(copy, number, capfd):
+    """What the README promises `botschool show N` to make is there, under results/exNN."""
+    put(copy, number, building.source(number).solution)
+    made = show(number, root=copy)
+    assert made and all(path.is_relative_to(copy / "results" / f"ex{number:02d}") for path in made)
+    images = [path for path in made if path.suffix in (".png", ".mp4", ".html")]
+    assert images and all(path.stat().st_size > 1000 for path in images)
+    outside = set(os.listdir(copy)) - set(os.listdir(building.ROOT)) - {".release.json", "results"}
+    assert not outside
+
+
+@pytest.mark.skipif(not shutil.which("make"), reason="needs make")
+def test_from_nothing_to_the_first_points(copy):
+    """`make test-ex1` sets up all it needs by itself."""
+    put(copy, 1, building.source(1).solution)
+    variables = {name: os.environ[name] for name in os.environ if name != "BOTSCHOOL_COURSE"}
+    done = subprocess.run(
+        ["make", "test-ex1"],
+        cwd=copy,
+        env=variables | {"PYTHON": sys.executable},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "100 of 100 points" in done.stdout

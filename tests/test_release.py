@@ -1,0 +1,212 @@
+"""The students' copy as they hold it: every packed grader works, and no text names what is absent.
+
+`make check-course` does the rest (tests/course/test_copy.py): solutions, mutants, pictures.
+"""
+
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from botschool.errors import BotschoolError
+from botschool.grading.exercise import exercise_numbers, load_exercise
+from botschool.grading.release import MANIFEST, release
+from running import call, environment_of_command
+from tiny_course import FILE, FOLDER, SOLUTION, make_course
+
+ROOT = Path(__file__).parents[1]
+NUMBERS = exercise_numbers(ROOT)
+TEXTS = (".md", ".py", ".ini", ".yaml", "Makefile")
+PLACE = re.compile(
+    r"(?<![\w./~-])((?:lib|data|exercises|solutions|tests|docs|envs|tools)/[\w./-]*\w)"
+)
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory):
+    if not (ROOT / "solutions").is_dir():
+        pytest.skip("this is a student's copy itself")
+    folder = tmp_path_factory.mktemp("released") / "copy"
+    release(ROOT, folder)
+    return folder
+
+
+def test_progress_grades_every_skeleton_to_nothing(copy):
+    code, out, errors = call(
+        "progress", env=environment_of_command() | {"BOTSCHOOL_COURSE": str(copy)}
+    )
+    rows = [line.split() for line in out.splitlines() if re.match(r" *\d+ +\w", line)]
+    assert (code, errors) == (0, "")
+    assert [int(row[0]) for row in rows[: len(NUMBERS)]] == NUMBERS
+    assert f"0 of {100 * len(NUMBERS)} points" in out
+    for number in NUMBERS:
+        tasks = len(load_exercise(number, ROOT).tasks)
+        assert re.search(rf"^ *{number} .* 0/{tasks}  {number}\.1 ", out, re.MULTILINE), out
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_packed_grader_declares_the_same_exercise(copy, number, command, monkeypatch):
+    ours, packed = load_exercise(number, ROOT), load_exercise(number, copy)
+    assert {**vars(packed), "tasks": 0} == {**vars(ours), "tasks": 0}
+    for task, found in zip(ours.tasks, packed.tasks, strict=True):
+        assert (found.id, found.title, found.max_points) == (task.id, task.title, task.max_points)
+        assert [check[:2] for check in found.checks] == [check[:2] for check in task.checks]
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(copy))
+    for task in ours.tasks:
+        code, out, _ = command("hint", task.id)
+        assert code == 0 and f"for task {task.id}, {task.title}" in out
+    setup = ["sh", "tools/setup.sh", "extras", str(number)]
+    done = subprocess.run(setup, cwd=copy, capture_output=True, text=True, check=True)
+    assert tuple(done.stdout.split()) == ours.extras
+
+
+def texts(copy):
+    """path -> text of what students read: documents, the exercises' files, experiments."""
+    for path in sorted(copy.rglob("*")):
+        name = path.relative_to(copy).as_posix()
+        source = name.startswith("lib/") and path.suffix == ".py"
+        if path.name.endswith(TEXTS) and not source and not path.name.startswith("test_"):
+            yield name, path.read_text(encoding="utf-8")
+
+
+def absent(copy, name, text):
+    """What a text names that the copy does not have: targets of make, files and folders, links."""
+    targets = re.findall(r"^([a-z%-]+):", (copy / "Makefile").read_text(), re.MULTILINE)
+    known = [re.compile(target.replace("%", r"\d+")) for target in targets]
+    for target in re.findall(r"(?:[`']|^|PYTHON=\S+ |TORCH=\S+ )make ([a-z][\w-]*)", text, re.M):
+        if re.search(rf"[`'=]\S* ?make {target}|^make {target}", text, re.MULTILINE) and not any(
+            each.fullmatch(target) for each in known
+        ):
+            yield f"make {target}"
+    for place in PLACE.findall(text):
+        if not (copy / place).exists() and not re.search(r"[A-Z]{3}", place):
+            yield place
+    if name.endswith(".md"):
+        for link in re.findall(r"\]\(([^)#\s:]+)(?:#[^)]*)?\)", text):
+            if not (copy / name).parent.joinpath(link).exists():
+                yield link
+    yield from re.findall(r"solution-ex\S*|SUBMISSION=solutions|CONTRIBUTING\S*", text)
+
+
+def test_no_text_names_what_the_copy_does_not_have(copy):
+    found = {name: list(absent(copy, name, text)) for name, text in texts(copy)}
+    assert len(found) > 60 and "exercises/README.md" in found
+    assert not {name: what for name, what in found.items() if what}
+    bad = "`make bench`, `make solution-ex3`, solutions/ex01_gymnasium, [x](y.md), make it\n"
+    assert list(absent(copy, "docs/x.md", bad)) == [
+        "make bench", "make solution-ex3", "solutions/ex01_gymnasium", "y.md", "solution-ex3`,",
+    ]  # fmt: skip
+
+
+def test_no_marks_of_what_was_left_out_remain(copy):
+    assert not [name for name, text in texts(copy) if "NOT RELEASED" in text]
+    assert "bench" not in (copy / "Makefile").read_text()
+    make = subprocess.run(["make", "help"], cwd=copy, capture_output=True, text=True, check=True)
+    assert "make test-exN" in make.stdout and "solution" not in make.stdout
+
+
+def test_start_page(copy):
+    """The copy's README is the students' start page, with links that lead somewhere."""
+    text = (copy / "README.md").read_text(encoding="utf-8")
+    for number in NUMBERS:
+        assert (
+            f"| {number} | [{load_exercise(number, ROOT).title}](exercises/ex{number:02d}_" in text
+        )
+
+
+# --- a copy that is brought up to date
+
+
+@pytest.fixture
+def course(tmp_path):
+    """A small course of the exercises 3 and 4."""
+    root = make_course(tmp_path / "course")
+    for top in ("exercises", "solutions"):
+        shutil.copytree(root / top / FOLDER, root / top / "ex04_more")
+    rows = "| 3 | [Tiny](ex03_tiny/README.md) |\n| 4 | [More](ex04_more/README.md) |\n"
+    (root / "exercises" / "README.md").write_text(f"# Start\n\n{rows}")
+    return root
+
+
+def git(folder, *arguments):
+    command = ["git", "-c", "user.name=x", "-c", "user.email=x@y", *arguments]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout
+
+
+def test_chosen_exercises_come_one_after_another(course, tmp_path):
+    copy = tmp_path / "copy"
+    release(course, copy, {3})
+    assert [path.name for path in copy.glob("exercises/ex*")] == [FOLDER]
+    assert "Tiny" in (copy / "README.md").read_text()
+    assert "More" not in (copy / "README.md").read_text()
+    release(course, copy, {4})
+    assert sorted(path.name for path in copy.glob("exercises/ex*")) == [FOLDER, "ex04_more"]
+    assert "(exercises/ex04_more/README.md)" in (copy / "README.md").read_text()
+    with pytest.raises(BotschoolError, match="no exercise 7"):
+        release(course, copy, {7})
+
+
+@pytest.mark.skipif(not shutil.which("git"), reason="needs git")
+def test_update_keeps_what_students_and_git_have(course, tmp_path):
+    copy = tmp_path / "copy"
+    copy.mkdir()
+    git(copy, "init", "-q")
+    release(course, copy)
+    git(copy, "add", "-A")
+    git(copy, "commit", "-qm", "released")
+    mine, notes = copy / "exercises" / FOLDER / FILE, copy / "exercises" / FOLDER / "notes.txt"
+    mine.write_text(SOLUTION)
+    notes.write_text("mine")
+    (course / "lib" / "code.py").write_text("x = 2\n")
+    (course / "lib" / "new.py").write_text("y = 3\n")
+    (course / "docs" / "guide.md").unlink()
+    solution = course / "solutions" / FOLDER / FILE
+    solution.write_text(SOLUTION.replace("Their sum.", "The sum of all."))
+    done = release(course, copy)
+    assert done.edited == [f"exercises/{FOLDER}/{FILE}"]
+    assert mine.read_text() == SOLUTION and notes.read_text() == "mine"
+    assert (copy / "lib" / "code.py").read_text() == "x = 2\n"
+    assert (copy / "lib" / "new.py").is_file()
+    changed = git(copy, "status", "--porcelain", "--untracked-files=all").split("\n")
+    assert sorted(line[3:] for line in changed if line) == [
+        MANIFEST, "docs/guide.md", f"exercises/{FOLDER}/notes.txt", f"exercises/{FOLDER}/{FILE}",
+        "lib/code.py", "lib/new.py",
+    ]  # fmt: skip
+    again = release(course, copy)
+    assert (again.written, again.edited) == (0, done.edited)
+
+
+def test_update_writes_through_no_link(course, tmp_path):
+    copy, elsewhere = tmp_path / "copy", tmp_path / "elsewhere"
+    release(course, copy)
+    shutil.move(copy / "lib", elsewhere)
+    (copy / "lib").symlink_to(elsewhere)
+    (course / "lib" / "code.py").write_text("x = 2\n")
+    assert release(course, copy).edited == ["lib/code.py"]
+    assert (elsewhere / "code.py").read_text() == "x = 1\n"
+
+
+def test_update_removes_what_was_given_up_unless_edited(course, tmp_path):
+    copy = tmp_path / "copy"
+    (course / "lib" / "other.py").write_text("")
+    release(course, copy)
+    for name in ("code.py", "other.py"):
+        (course / "lib" / name).unlink()
+    (copy / "lib" / "other.py").write_text("mine")
+    release(course, copy)
+    assert [path.name for path in (copy / "lib").iterdir()] == ["other.py"]
+
+
+def test_no_other_folder_is_taken_for_a_copy(course, tmp_path):
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "thesis.txt").write_text("mine")
+    with pytest.raises(BotschoolError, match="not empty"):
+        release(course, other)
+    (other / MANIFEST).write_text(json.dumps(["nothing"]))
+    with pytest.raises(BotschoolError, match="damaged"):
+        release(course, other)
+    assert sorted(path.name for path in other.iterdir()) == [MANIFEST, "thesis.txt"]
