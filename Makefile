@@ -56,7 +56,7 @@ check-course: .venv/.tests ## prove that exercises and grading work (some minute
 bench: .venv/.module ## the speed of evaluation beside gymnax, EnvPool and Gymnasium
 	@$(BIN)/python tests/bench/run.py
 
-results: .venv/.bench ## measure all of docs/results.md anew and write it (about MINUTES minutes)
+results: .venv/.bench ## measure all of docs/results.md anew and write it (about 40 minutes)
 	@$(BIN)/python tests/bench/results.py
 
 lint: .venv/.tests ## check style: ruff and clang-format

@@ -159,8 +159,8 @@ def checks(found: list[dict]) -> tuple[str, str]:
 def _conditions(measured: dict) -> Table:
     table = Table(
         "The conditions of each side",
-        f"{versions()}. Compilation is not part of the times above. Ends of episodes / 1000 steps "
-        f"and reward / step, in {', '.join(PROBLEMS)}, show that all play the same problems: "
+        f"{versions()}. Compilation (processor time) is not part of the above. Ends of episodes / "
+        f"1000 steps and reward / step, in {', '.join(PROBLEMS)}, show that all play the same: "
         "each draws its own episodes, so they agree but for chance.",
         ["contestant", "precision", "compiling", "ends / 1000 steps", "reward / step"],
     )
@@ -170,7 +170,9 @@ def _conditions(measured: dict) -> Table:
         table.add(
             name,
             getattr(make, "func", make).precision,
-            f"{min(compiled):.1f} to {max(compiled):.1f} s a problem" if compiled else "before",
+            f"{min(compiled):.1f} to {max(compiled):.1f} s a problem"
+            if compiled
+            else "ahead of time",
             *(("-", "-") if name in UNLIKE else checks(found)),
         )
     return table

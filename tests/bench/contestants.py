@@ -150,10 +150,10 @@ class Gymnax:
             self._played = tuple(jnp.asarray(layer) for layer in weights.layers())
         else:
             self._played = jnp.asarray(weights.random_actions(STEPS).swapaxes(0, 1))
-        start = time.perf_counter()
+        start = time.process_time()
         batch = jax.jit(jax.vmap(rollout))
         self._compiled = batch.lower(self._keys, self._played).compile()
-        self.compiling = time.perf_counter() - start
+        self.compiling = time.process_time() - start
 
     def play(self) -> Played:
         """One call of the compiled function."""

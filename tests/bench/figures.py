@@ -62,7 +62,7 @@ def speed(parts: dict) -> Figure:
         bars = axes.bar(places, rates, width * 0.92, color=COLOURS[i], label=name)
         axes.bar_label(bars, [short(rate) for rate in rates], fontsize=7, padding=2)
     axes.set_xticks(range(len(measured)), list(measured))
-    panel(axes, yscale="log", ylabel="steps / s, one core")
+    panel(axes, yscale="log", ylabel="steps / s, one core", ylim=(1e4, None))
     axes.grid(visible=False, axis="x")
     axes.legend(frameon=False, ncols=len(names), loc="lower center", bbox_to_anchor=(0.5, 1))
     return figure

@@ -53,10 +53,8 @@ def solved(row, runs: list[dict]) -> str:
     if row.solved is None:
         return "-"
     after = [each["solved"] / 1e6 for each in runs if each["solved"] is not None]
-    count = f"{row.solved:g} on {len(after)} of {len(runs)} seeds"
-    if not after:
-        return count
-    return f"{count}, after {np.median(after):.2g} M steps (median), {max(after):.2g} M (most)"
+    count = f"{row.solved:g} on {len(after)} of {len(runs)}"
+    return f"{count}: {np.median(after):.2g} M, {max(after):.2g} M" if after else count
 
 
 def evolved(parts: dict) -> str:
@@ -74,7 +72,7 @@ def evolved(parts: dict) -> str:
     return markdown(
         [
             "experiment", "algorithm", "steps", "seeds", "best post-evaluated", "range",
-            "in new episodes", "solved", "published", "a run, one core",
+            "in new episodes", "solved (steps)", "published", "a run, one core",
         ],
         lines,
     )  # fmt: skip
@@ -84,6 +82,8 @@ def tables(part: str):
     """A function that gives the tables of a part of the bench, without its internal targets."""
 
     def shown(parts: dict) -> str:
+        if part not in parts["speed"]["data"]:
+            return "Not measured yet: `make results` does."
         texts = []
         for table in parts["speed"]["data"][part]:
             kept = [i for i, name in enumerate(table["columns"]) if name not in ("", "target")]

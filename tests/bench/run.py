@@ -64,7 +64,7 @@ def beside_gymnasium(seconds: float, repetitions: int) -> Table:
         "Steps/s of the whole policy-plus-problem evaluation, one core",
         f"Each experiment file's network with random initial genotypes; best of {repetitions} "
         "interleaved repetitions. Native: as many episodes as one generation has, and "
-        f"{_episodes()}; the slower of the two counts. Gymnasium: a Python loop over "
+        f"{_episodes()}; the ratio is that of the slower of the two. Gymnasium: a Python loop over "
         "gymnasium.make(id) with the same network (double precision) and genotypes. Original "
         "library: published for another machine of this kind, not measured here.",
         [
