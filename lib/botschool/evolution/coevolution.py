@@ -90,7 +90,7 @@ class Coevolution(Run):
                 "meet: set normalize = 0."
             )
 
-    def advance(self) -> None:
+    def advance(self, goes_on: bool = False) -> None:
         """One generation; the very first call lets everyone meet everyone, which is none yet.
 
         Raises Interrupted on request; a generation that fails is dropped.
@@ -111,6 +111,7 @@ class Coevolution(Run):
         finally:
             self.part = 0.0
         self.record.bestg = np.concatenate(algorithm.parameters[:, 0])
+        self.report(self)
 
     def _play(self, predators: np.ndarray, prey: np.ndarray) -> np.ndarray:
         """Fitness of every predator against every prey, by one native call.
