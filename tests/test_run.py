@@ -51,6 +51,9 @@ class Evaluations:
 
 def observed(folder, *arguments, **options):
     run = Run(small(folder, *arguments, **options), seed=7)
+    run.together = (
+        False  # one evaluation after another; tests/test_together.py: nothing else differs
+    )
     evaluations = Evaluations(run)
     assert evolve(run, folder)
     return run, evaluations.generations()

@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
+import numpy as np
 from numpy.random import Generator, Philox
+from numpy.random.bit_generator import ISeedSequence
 
 POST_EVALUATION_SEED = 100_000
 """Post-evaluation of a run with seed S uses seed S + 100000 and episodes 0, 1, ..."""
 
 
+class _Key(ISeedSequence):
+    """A key as it is. `Philox(key=...)` gives the same numbers, but asks the system for entropy
+    first, which takes most of its time."""
+
+    def __init__(self, *words: int) -> None:
+        self._words = words
+
+    def generate_state(self, n_words: int, dtype: type = np.uint64) -> np.ndarray:
+        return np.array(self._words, dtype=dtype)
+
+
 def generator(seed: int, generation: int) -> Generator:
     """Numbers of one generation: Philox4x64-10 (Salmon et al. 2011) keyed by both."""
-    return Generator(Philox(key=[seed, generation]))
+    return Generator(Philox(_Key(seed, generation)))

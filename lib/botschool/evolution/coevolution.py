@@ -89,7 +89,7 @@ class Coevolution(Run):
                 "meet: set normalize = 0."
             )
 
-    def advance(self) -> None:
+    def advance(self, goes_on: bool = False) -> None:
         """One generation, or what the algorithm does before the first one.
 
         Raises Interrupted on request; a generation that fails is dropped.
@@ -107,6 +107,7 @@ class Coevolution(Run):
         if algorithm.generation > generation:
             self.record.add(algorithm)
             self._started = self._started or (began, generation, share)
+        self.report(self)
 
     def _play(self, predators: np.ndarray, prey: np.ndarray, pairs: np.ndarray) -> np.ndarray:
         """The predator's fitness in each meeting: the algorithm's `Play`."""

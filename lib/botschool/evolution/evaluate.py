@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,6 +28,14 @@ class Measured:
 def mean(values: np.ndarray) -> float:
     """Mean by an exact sum: the same bits on every machine and Python, in any order."""
     return math.fsum(values.tolist()) / len(values)
+
+
+def means(returns: np.ndarray, episodes: int) -> np.ndarray:
+    """The mean of every `episodes` values in a row, each as `mean` gives it."""
+    if episodes == 1:
+        return returns + 0.0  # a sum of one is exact; 0.0 makes a 0 positive, as fsum does
+    rows = returns.reshape(-1, episodes).tolist()
+    return np.array([math.fsum(row) / episodes for row in rows])
 
 
 class Evaluator:
@@ -55,30 +63,79 @@ class Evaluator:
         self.normalisation = None
         if self._moments is not None:
             self.normalisation = np.repeat([0.0, 1.0], policy.spec.inputs)
+        # arrays that are the same in every generation, by the number of candidates
+        self._alone: dict[int, tuple[np.ndarray, np.ndarray]] = {}
+        self._behind: dict[int, tuple[np.ndarray, np.ndarray]] = {}
+        self._post_episodes = Episodes.of([seed + POST_EVALUATION_SEED], policy.config.pepisodes)
         self._owed = self._owed_next = 0.0
         self._collected: list[tuple[float, np.ndarray, np.ndarray]] = []
 
     def measure(self, candidates: np.ndarray, seeds: np.ndarray) -> Measured:
         """Starts a generation: mean return of every candidate over `episodes` episodes."""
-        episodes = self.policy.config.episodes
-        outcome = self._run(candidates, Episodes.of(seeds, episodes))
-        self._owed_next = self._owed + COLLECTED * len(outcome.fitness)
-        fitness = [mean(returns) for returns in outcome.fitness.reshape(-1, episodes)]
-        return Measured(np.array(fitness), int(outcome.steps.sum()))
+        return self._measured(self._run(candidates, self._of(seeds)))
 
-    def post_evaluate(self, genotype: np.ndarray) -> Measured:
+    def measure_both(
+        self, candidates: np.ndarray, seeds: np.ndarray, genotype: np.ndarray
+    ) -> tuple[Measured, Measured]:
+        """measure(candidates, seeds), and post_evaluate(genotype) that `collects` nothing, in one
+        evaluation: the post-evaluation takes the lanes that the candidates leave."""
+        own, post = self._of(seeds), self._post_episodes
+        if len(seeds) not in self._behind:
+            row = post.candidate + np.int32(len(seeds))
+            self._behind[len(seeds)] = (
+                np.concatenate([own.candidate, row]),
+                np.concatenate([own.episode, post.episode]),
+            )
+        candidate, episode = self._behind[len(seeds)]
+        both = Episodes(candidate, np.concatenate([own.seed, post.seed]), episode)
+        outcome = self._run(np.concatenate([candidates, genotype[None]]), both)
+        n = len(own)
+        return (
+            self._measured(Outcome(outcome.fitness[:n], outcome.steps[:n])),
+            Measured(outcome.fitness[n:], int(outcome.steps[n:].sum())),
+        )
+
+    def _of(self, seeds: np.ndarray) -> Episodes:
+        """Episodes.of(seeds, episodes), of which only the seeds are new in each generation."""
+        episodes = self.policy.config.episodes
+        if len(seeds) not in self._alone:
+            made = Episodes.of(seeds, episodes)
+            self._alone[len(seeds)] = made.candidate, made.episode
+        candidate, episode = self._alone[len(seeds)]
+        seed = np.asarray(seeds, dtype=np.uint64).repeat(episodes)
+        return Episodes(candidate, seed, episode)
+
+    def _measured(self, outcome: Outcome) -> Measured:
+        self._owed_next = self._owed + COLLECTED * len(outcome.fitness)
+        fitness = means(outcome.fitness, self.policy.config.episodes)
+        return Measured(fitness, int(outcome.steps.sum()))
+
+    @property
+    def post_steps(self) -> int:
+        """The most steps that a post-evaluation can take."""
+        longest = self.problem.steps(self.policy.config.maxsteps)
+        return self.policy.config.pepisodes * longest
+
+    @property
+    def collects(self) -> int:
+        """In how many episodes the generation's post-evaluation is to collect normalisation data:
+        the first ones, while the share collected so far is below 1 % of the evaluation episodes.
+        """
+        if self._moments is None:
+            return 0
+        return min(math.ceil(self._owed_next - 1e-9), self.policy.config.pepisodes)
+
+    def post_evaluate(self, genotype: np.ndarray, stoppable: bool = True) -> Measured:
         """Return of one genotype in each of `pepisodes` fixed episodes; shape (pepisodes,).
 
-        The first of them also collect normalisation data while the share collected so far is
-        below 1 % of the evaluation episodes.
+        The first of them also collect normalisation data, if there `collects` any.
         """
-        episodes = Episodes.of([self.seed + POST_EVALUATION_SEED], self.policy.config.pepisodes)
-        collecting = 0
+        episodes, collecting = self._post_episodes, self.collects
         if self._moments is not None:
-            collecting = min(int(np.ceil(self._owed_next - 1e-9)), len(episodes))
             self._owed_next -= collecting
-            episodes.collect = (np.arange(len(episodes)) < collecting).astype(np.uint8)
-        outcome = self._run(genotype[None], episodes)
+            collect = (np.arange(len(episodes)) < collecting).astype(np.uint8)
+            episodes = replace(episodes, collect=collect)
+        outcome = self._run(genotype[None], episodes, stoppable)
         robots = self.problem.interface.robots
         self._collected = [
             (float(robots * outcome.steps[i]), *np.split(outcome.moments[i], 2))
@@ -95,7 +152,7 @@ class Evaluator:
             self.normalisation = self._moments.vectors()
         self._collected = []
 
-    def _run(self, genotypes: np.ndarray, episodes: Episodes) -> Outcome:
+    def _run(self, genotypes: np.ndarray, episodes: Episodes, stoppable: bool = True) -> Outcome:
         return self.problem.evaluate(
             self.policy,
             genotypes,
@@ -103,7 +160,7 @@ class Evaluator:
             episodes,
             self.policy.config.maxsteps,
             self._workers,
-            self._stopping,
+            self._stopping if stoppable else lambda: False,
         )
 
     def state(self) -> dict[str, np.ndarray]:

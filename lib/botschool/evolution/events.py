@@ -1,8 +1,17 @@
-"""The run's curves for TensorBoard (`tensorboard --logdir FOLDER`)."""
+"""The run's curves for TensorBoard (`tensorboard --logdir FOLDER`).
+
+An event file is a TFRecord file of Event messages in Protocol Buffers' wire format; what is needed
+of both is here, as importing TensorBoard takes longer than many a run. Formats:
+https://github.com/tensorflow/tensorboard/tree/master/tensorboard/compat/proto (event.proto,
+summary.proto), https://protobuf.dev/programming-guides/encoding and
+https://www.tensorflow.org/tutorials/load_data/tfrecord#tfrecords_format_details
+"""
 
 from __future__ import annotations
 
+import math
 import shutil
+import struct
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -28,30 +37,83 @@ class Events:
 
     def append(self, first: int, rows: np.ndarray, columns: Sequence[str] = STAT) -> None:
         """Generations from number `first`; rows: shape (generations, columns), steps first."""
-        from tensorboard.compat.proto.event_pb2 import Event
-        from tensorboard.compat.proto.summary_pb2 import Summary
-        from tensorboard.summary.writer.record_writer import RecordWriter
-
-        events = [] if self._file else [Event(wall_time=time.time(), file_version="brain.Event:2")]
-        for generation, row in enumerate(rows, first + 1):
+        now = time.time()
+        events = [] if self._file else [event(now, version="brain.Event:2")]
+        for generation, row in enumerate(rows.tolist(), first + 1):
             if row[0] < self._next:
                 continue
             self._next = row[0] + self._spacing
-            values = [
-                Summary.Value(tag=name, simple_value=value)
-                for name, value in zip(columns[1:], row[1:], strict=True)
-            ]
-            values.append(Summary.Value(tag="generation", simple_value=generation))
-            summary = Summary(value=values)
-            events.append(Event(wall_time=time.time(), step=int(row[0]), summary=summary))
+            values = [*zip(columns[1:], row[1:], strict=True), ("generation", generation)]
+            events.append(event(now, int(row[0]), values))
         try:
             if self._file is None:
                 shutil.rmtree(self._folder, ignore_errors=True)
                 self._folder.mkdir()
-                self._file = self._folder / f"events.out.tfevents.{int(time.time())}"
+                self._file = self._folder / f"events.out.tfevents.{int(now)}"
             with open(self._file, "ab") as file:
-                writer = RecordWriter(file)
-                for event in events:
-                    writer.write(event.SerializeToString())
+                file.write(b"".join(map(record, events)))
         except OSError as error:
             raise cannot_write(self._folder, error.strerror or str(error)) from error
+
+
+def event(
+    now: float, step: int = 0, values: Sequence[tuple[str, float]] = (), version: str = ""
+) -> bytes:
+    """An Event message: values of tags at a step, or the version that begins a file."""
+    message = b"\x09" + struct.pack("<d", now)  # 1: wall_time
+    if step:
+        message += b"\x10" + _varint(step)  # 2: step
+    if version:
+        message += _field(b"\x1a", version.encode())  # 3: file_version
+    if values:
+        summary = b"".join(_field(b"\x0a", _value(*each)) for each in values)  # 1: value
+        message += _field(b"\x2a", summary)  # 5: summary
+    return message
+
+
+def _value(tag: str, number: float) -> bytes:
+    try:
+        single = struct.pack("<f", number)
+    except OverflowError:
+        single = struct.pack("<f", math.copysign(math.inf, number))
+    return _field(b"\x0a", tag.encode()) + b"\x15" + single  # 1: tag, 2: simple_value
+
+
+def _field(key: bytes, content: bytes) -> bytes:
+    return key + _varint(len(content)) + content
+
+
+def _varint(number: int) -> bytes:
+    """Seven bits a byte, the lowest first."""
+    coded = bytearray()
+    while number > 0x7F:
+        coded.append(number & 0x7F | 0x80)
+        number >>= 7
+    coded.append(number)
+    return bytes(coded)
+
+
+def record(content: bytes) -> bytes:
+    """A TFRecord: length, its checksum, content, its checksum."""
+    length = struct.pack("<Q", len(content))
+    return b"".join([length, _checksum(length), content, _checksum(content)])
+
+
+def _checksum(content: bytes) -> bytes:
+    """The masked CRC-32C."""
+    crc = 0xFFFFFFFF
+    for byte in content:
+        crc = CRC[(crc ^ byte) & 0xFF] ^ crc >> 8
+    crc ^= 0xFFFFFFFF
+    return struct.pack("<I", ((crc >> 15 | crc << 17) + 0xA282EAD8) & 0xFFFFFFFF)
+
+
+def _table() -> list[int]:
+    """CRC-32C of every byte: Castagnoli's polynomial, its lowest bit first."""
+    table = np.arange(256, dtype=np.uint32)
+    for _ in range(8):
+        table = np.where(table & 1, table >> 1 ^ np.uint32(0x82F63B78), table >> 1)
+    return table.tolist()
+
+
+CRC = _table()

@@ -1,32 +1,74 @@
-"""What a user sees while robots evolve: a progress bar, or a line per generation."""
+"""What a user sees while robots evolve: progress bars, or a line per generation."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from botschool.evolution.run import Run
 from botschool.terminal import progress_bar
 
+SECONDS = 0.1
+"""Between two messages; a generation may take less than a millisecond."""
+
+Bar = tuple[float, int, int, str]
+"""Arguments for a progress bar: see botschool.terminal."""
+
 
 @contextmanager
 def reporting(seed: int, terminal: bool) -> Iterator[Callable[[Run], None]]:
     """Gives a function to call with the run after each generation, and at will during one."""
     if terminal:
-        with progress_bar(seed) as show:
-            yield lambda run: show(
-                run.limit.share(run),
-                run.record.steps,
-                2,
-                run.numbers() if run.record.generation else "",
-            )
-        return
-    printed = 0
+        with progress_bar(seed) as show, messages(True, lambda bar: show(*bar)) as report:
+            yield report
+    else:
+        with messages(False, print_lines) as report:
+            yield report
 
-    def line(run: Run) -> None:
-        nonlocal printed
-        if run.record.generation > printed:
+
+def print_lines(lines: list[str]) -> None:
+    """Prints them at once."""
+    print("\n".join(lines), flush=True)
+
+
+@contextmanager
+def messages(
+    terminal: bool, send: Callable[[Bar | list[str]], None]
+) -> Iterator[Callable[[Run], None]]:
+    """As `reporting`, but calls `send` every SECONDS, and at the end: with what a progress bar is
+    to show, or with the lines since the last time."""
+    newest: Run | None = None
+    lines: list[str] = []
+    printed, sent = 0, -SECONDS
+
+    def report(run: Run) -> None:
+        nonlocal newest, printed, sent
+        newest = run
+        if not terminal and run.record.generation > printed:
+            lines.append(run.line())
             printed = run.record.generation
-            print(run.line(), flush=True)
+        now = time.monotonic()
+        if now >= sent + SECONDS:
+            flush()
+            sent = now
 
-    yield line
+    def flush() -> None:
+        nonlocal newest
+        if terminal and newest:
+            send(bar(newest))
+            newest = None
+        elif lines:
+            send(lines.copy())
+            lines.clear()
+
+    try:
+        yield report
+    finally:
+        flush()
+
+
+def bar(run: Run) -> Bar:
+    """What a progress bar is to show of a run."""
+    share, record = run.limit.share(run), run.record
+    return share, record.steps, 2, run.numbers() if record.generation else ""

@@ -18,7 +18,7 @@ from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution import checkpoint
 from botschool.evolution.algorithm import ALGORITHMS
-from botschool.evolution.evaluate import Evaluator, mean
+from botschool.evolution.evaluate import Evaluator, Measured, mean
 from botschool.evolution.events import Events
 from botschool.evolution.record import Record, RunFiles
 from botschool.output import cannot_write, remove_leftovers
@@ -26,6 +26,22 @@ from botschool.policy import Policy
 from botschool.problems import Interrupted
 
 EVENT_SECONDS = 10
+WAITING_STEPS = 1_000_000
+"""A post-evaluation that may take more steps never waits: to stop, a run has to finish it."""
+
+
+@dataclass(frozen=True)
+class Open:
+    """A generation that is done but for the post-evaluation of its best candidate."""
+
+    saved: np.ndarray
+    """The best candidate, as it would be saved."""
+    best: float
+    average: float
+    steps: int
+    parameter: float
+    before: dict[str, dict[str, np.ndarray]]
+    """State of the algorithm and the evaluator before the generation, by the names of `parts`."""
 
 
 @dataclass(frozen=True)
@@ -68,6 +84,9 @@ class Run:
     """Seconds that the last save took."""
     part = 0.0
     """How much of the present generation is done."""
+    together = True
+    """Whether a post-evaluation may be evaluated together with the next generation's candidates.
+    The files are the same without; it takes longer."""
     budget: Limit
     """Where it ends by its experiment."""
     limit: Limit
@@ -90,6 +109,7 @@ class Run:
         self.check()
         self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
         self.report: Callable[[Run], None] = lambda run: None
+        self._open: Open | None = None
         self.begin()
 
     def check(self) -> None:
@@ -145,25 +165,81 @@ class Run:
             f"{record.bestg_fitness:.2f} after {record.steps} steps; best robot: {files.bestg}"
         )
 
-    def advance(self) -> None:
-        """One generation. Raises Interrupted on request; a generation that fails is dropped."""
+    def advance(self, goes_on: bool = False) -> None:
+        """One generation. Raises Interrupted on request; a generation that fails is dropped.
+
+        goes_on: whether `advance` or `settle` is called next, so that the generation's
+        post-evaluation and its entry in the record may wait for that call.
+        """
         candidates, seeds = self.algorithm.ask()
-        measured = self.evaluator.measure(candidates, seeds)
+        if self._open is None:
+            measured = self.evaluator.measure(candidates, seeds)
+        else:
+            last = self._best_of(self._open)
+            measured, post = self.evaluator.measure_both(candidates, seeds, last)
+            self._close(post)
 
         best = int(measured.fitness.argmax())
-        post = self.evaluator.post_evaluate(candidates[best])
         saved = self.policy.join(candidates[best], self.evaluator.normalisation)
-        post_fitness = mean(post.fitness)
-
+        waits = goes_on and self._may_wait(measured.steps)
+        before = {}
+        if waits:
+            before = {part: getattr(self, part).state() for part in ("algorithm", "evaluator")}
+        else:
+            post = self.evaluator.post_evaluate(candidates[best])
         self.algorithm.tell(measured.fitness)
         self.evaluator.refresh()
-        self.record.steps += measured.steps + post.steps
-        self.record.offer(saved, float(measured.fitness[best]), post_fitness)
-        self.record.add(
+        self._open = Open(
+            saved,
             float(measured.fitness[best]),
             mean(measured.fitness),
+            measured.steps,
             self.algorithm.average_parameter(),
+            before,
         )
+        if not waits:
+            self._close(post)
+
+    def _may_wait(self, steps: int) -> bool:
+        """Whether the post-evaluation of a generation that took so many steps may be evaluated
+        together with the next one's candidates: it has no part in what they are, and surely they
+        will be evaluated."""
+        most = self.evaluator.post_steps
+        return (
+            self.together
+            and self.problem.native
+            and self.evaluator.collects == 0
+            and most <= WAITING_STEPS
+            and self.record.steps + steps + most < self.limit.steps
+            and self.record.generation + 1 < self.limit.generations
+        )
+
+    def settle(self) -> None:
+        """Post-evaluates the newest generation, if that has waited; after that the record is whole.
+
+        If it fails, the generation is dropped.
+        """
+        if self._open is None:
+            return
+        try:
+            post = self.evaluator.post_evaluate(self._best_of(self._open), stoppable=False)
+        except BaseException:
+            for part, state in self._open.before.items():
+                getattr(self, part).restore(state)
+            self._open = None
+            raise
+        self._close(post)
+
+    def _best_of(self, generation: Open) -> np.ndarray:
+        return generation.saved[: self.policy.genotype_size]
+
+    def _close(self, post: Measured) -> None:
+        """Enters the open generation into the record; post: its best one's post-evaluation."""
+        done, self._open = self._open, None
+        self.record.steps += done.steps + post.steps
+        self.record.offer(done.saved, done.best, mean(post.fitness))
+        self.record.add(done.best, done.average, done.parameter)
+        self.report(self)
 
     def state(self) -> dict:
         """All that a checkpoint holds, as arrays."""
@@ -229,6 +305,7 @@ def evolve(
 
     def save(ended: bool = False) -> None:
         began = time.monotonic()
+        run.settle()
         checkpoint.save(files.checkpoint, run.experiment, run.seed, run.state())
         run.write(files, ended)
         log()
@@ -240,8 +317,7 @@ def evolve(
         while not limit.reached(run):
             if run.stopping():
                 raise Interrupted
-            run.advance()
-            report(run)
+            run.advance(goes_on=True)
             now = time.monotonic()
             if run.due(now - saved):
                 save()
@@ -254,6 +330,8 @@ def evolve(
         save(ended=True)
         return False
     except Exception:
+        with suppress(BotschoolError):
+            run.settle()
         with suppress(BotschoolError):
             save(ended=True)
         raise

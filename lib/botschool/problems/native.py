@@ -78,7 +78,8 @@ class NativeProblem(Problem):
         for first in range(0, len(episodes), batch):
             if stopping():
                 raise Interrupted
-            part = episodes.part(slice(first, first + batch))
+            whole = len(episodes) <= batch
+            part = episodes if whole else episodes.part(slice(first, first + batch))
             parts.append(
                 self.engine(policy).evaluate(
                     genotypes,
@@ -94,7 +95,7 @@ class NativeProblem(Problem):
                 )
             )
         fitness, steps, moments = parts[0] if len(parts) == 1 else _concatenated(parts)
-        if not np.all(np.isfinite(fitness)):
+        if not np.isfinite(fitness).all():
             first = int(np.argmin(np.isfinite(fitness)))
             raise self.broken(
                 f"a return of {fitness[first]}", episodes.seed[first], episodes.episode[first]

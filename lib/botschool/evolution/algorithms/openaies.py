@@ -12,17 +12,25 @@ and moves the centre a step that way with Adam (Kingma and Ba 2015).
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, algorithm
+from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
 from botschool.hyperparameters import NO_YES, WEIGHT_DECAY, hyper
 from botschool.seeds import generator
 
 BETA1, BETA2, EPSILON = 0.9, 0.999, 1e-8
 DECAY = 0.005
+
+
+@cache
+def ranks(count: int) -> np.ndarray:
+    """The utilities of `count` candidates, the worst first; not to be changed."""
+    return np.linspace(-0.5, 0.5, count)
 
 
 def gradient(fitness: np.ndarray, samples: np.ndarray) -> np.ndarray:
@@ -33,7 +41,7 @@ def gradient(fitness: np.ndarray, samples: np.ndarray) -> np.ndarray:
     """
     # rank the candidates: utilities from -0.5 (worst) to 0.5 (best)
     utilities = np.empty(len(fitness))
-    utilities[np.argsort(fitness, kind="stable")] = np.linspace(-0.5, 0.5, len(fitness))
+    utilities[fitness.argsort(kind="stable")] = ranks(len(fitness))
 
     # directions weighted by how much better + is than -
     weights = utilities[0::2] - utilities[1::2]
@@ -114,6 +122,10 @@ class OpenAIES:
         self.config = config
         self.seed = seed
         self.generation = 0
+        count = 2 * config.samplesize
+        numbers = np.arange(count, dtype=np.uint64)
+        self._own_seeds = numbers // np.uint64(2) if config.symseed else numbers
+        self._seeds_used = config.samplesize if config.symseed else count
         self.centre = initial(0)
         self.m = np.zeros_like(self.centre)
         self.v = np.zeros_like(self.centre)
@@ -126,13 +138,7 @@ class OpenAIES:
         shape = (self.config.samplesize, len(self.centre))
         self.samples = generator(self.seed, self.generation).standard_normal(shape)
         candidates = mirrored(self.centre, self.samples, self.config.noiseStdDev)
-        if self.config.symseed:
-            pairs = np.arange(self.config.samplesize, dtype=np.uint64)
-            seeds = np.repeat(self.seed + self.generation * self.config.samplesize + pairs, 2)
-        else:
-            numbers = np.arange(len(candidates), dtype=np.uint64)
-            seeds = self.seed + self.generation * len(candidates) + numbers
-        return candidates, seeds
+        return candidates, self.seed + self.generation * self._seeds_used + self._own_seeds
 
     def tell(self, fitness: np.ndarray) -> None:
         """Moves the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
@@ -140,13 +146,13 @@ class OpenAIES:
         rising = gradient(fitness, self.samples)
         m, v = adam(self.m, self.v, rising, self.centre, config.wdecay)
         t = self.generation + 1
-        step = config.stepsize * np.sqrt(1 - BETA2**t) / (1 - BETA1**t)
+        step = config.stepsize * math.sqrt(1 - BETA2**t) / (1 - BETA1**t)
         self.centre = self.centre - step * m / (np.sqrt(v) + EPSILON)
         self.m, self.v, self.generation = m, v, t
 
     def average_parameter(self) -> float:
         """Average absolute parameter of the centre."""
-        return float(np.mean(np.abs(self.centre)))
+        return mean_absolute(self.centre)
 
     def state(self) -> dict[str, np.ndarray]:
         """All that a checkpoint needs besides config and seed."""

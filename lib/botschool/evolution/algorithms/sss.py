@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, algorithm
+from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
 from botschool.hyperparameters import hyper
 from botschool.seeds import generator
 
@@ -80,7 +80,7 @@ class SSS:
 
     def average_parameter(self) -> float:
         """Average absolute parameter of the population."""
-        return float(np.mean(np.abs(self.population)))
+        return mean_absolute(self.population)
 
     def state(self) -> dict[str, np.ndarray]:
         """All that a checkpoint needs besides config and seed."""
