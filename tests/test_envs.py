@@ -210,7 +210,7 @@ def test_the_opponent_is_the_one_that_was_evolved(name, tmp_path):
             env.reset(seed=1)
             for transition in transitions:
                 env.step(transition.action[own])
-            states.append(env.unwrapped._chase.state)
+            states.append(env.unwrapped._simulation.state)
     assert np.array_equal(states[0], states[1]) and np.array_equal(states[0], states[2])
     assert states[0] == pytest.approx(transitions[-1].state, rel=0, abs=0.05)
     assert other != own

@@ -9,7 +9,7 @@
 
 BOTSCHOOL_BEGIN
 
-constexpr double kLongestWay = 1e6;  ///< of a wheel in a step, mm
+constexpr double kMaxWay = 1e6;  ///< of a wheel in a step, mm
 
 /// What happened to a robot in a step, one value a lane.
 template <int L>
@@ -85,7 +85,7 @@ struct World : ProblemBase {
 
   /// Moves a robot along the exact arc of its wheels (actions: left, right); one that would
   /// overlap a wall, a cylinder or another robot, or jump across a wall, stays where it was. So
-  /// does one whose action is not a number, or more than kLongestWay.
+  /// does one whose action is not a number, or more than kMaxWay.
   void drive(int robot, const double* BOTSCHOOL_RESTRICT left,
              const double* BOTSCHOOL_RESTRICT right, Bump<L>& bump) {
     const double reach = speed[robot] * kStepSeconds, axle = model[robot]->axle;
@@ -100,7 +100,7 @@ struct World : ProblemBase {
       const double ratio = half * half < 1e-8 ? 1 - half * half / 6 : s / half;
       const double chord = 0.5 * (a + b) * ratio;
       // a way beyond all reason leads nowhere: sines of such turns are no sines any more
-      const bool sane = (std::fabs(a) < kLongestWay) & (std::fabs(b) < kLongestWay);
+      const bool sane = (std::fabs(a) < kMaxWay) & (std::fabs(b) < kMaxWay);
       to_x[l] = sane ? x(robot)[l] + chord * cosine : std::numeric_limits<double>::quiet_NaN();
       to_y[l] = y(robot)[l] + chord * sine;
       const double turned = heading(robot)[l] + 2 * half;

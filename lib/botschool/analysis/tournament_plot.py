@@ -23,7 +23,7 @@ COLOURS = {"predators": "#D55E00", "prey": "#0072B2"}
 """As in the pictures of the arena."""
 PROFILES = 4
 """Generations whose profile is drawn."""
-MOST_NUMBERS = 12
+MAX_NUMBERS = 12
 """Larger heat maps have no numbers in their cells."""
 CSV_COLUMNS = ("side", "generation", "competitors", "fitness", "low", "high")
 
@@ -88,7 +88,7 @@ def _draw_maps(page: Figure | SubFigure, tables: tuple[Table, Table], generation
         if len(generations) > 6:
             axes.tick_params(axis="x", rotation=45)
         _frame_contemporaries(axes, len(generations))
-        if len(generations) <= MOST_NUMBERS:
+        if len(generations) <= MAX_NUMBERS:
             _write_numbers(axes, table.mean, (low + high) / 2)
     page.colorbar(picture, ax=panels, label="mean fitness", fraction=0.03, pad=0.02)
 

@@ -13,14 +13,14 @@ from rich.table import Table as Grid
 
 from botschool.analysis.tournament import ROLES, Estimate, Table, in_words, verdict
 
-MOST_COLUMNS = 11
+MAX_COLUMNS = 11
 """Generations or individuals that a table shows side by side."""
 
 
 def print_pairs(fitness: np.ndarray, tables: tuple[Table, Table], name: str) -> None:
     """Each predator of a generation against each prey: the predators' fitness, (n, n)."""
     count = len(fitness)
-    if count <= MOST_COLUMNS:
+    if count <= MAX_COLUMNS:
         grid = _grid(f"{name}: fitness of predators (rows) against prey (columns)")
         _columns(grid, ["", *(str(j + 1) for j in range(count)), "all"])
         for i, row in enumerate(fitness):
@@ -73,7 +73,7 @@ def print_tournament(tables: tuple[Table, Table], names: Sequence[str]) -> None:
 
 
 def _means(table: Table, other: str, numbers: Sequence[str]) -> Grid:
-    chosen = spaced(len(numbers), MOST_COLUMNS)
+    chosen = spaced(len(numbers), MAX_COLUMNS)
     title = f"{table.role} (rows, by generation) against {other} (columns): mean fitness"
     if len(chosen) < len(numbers):
         title += f"; {len(chosen)} of {len(numbers)} generations"
@@ -89,7 +89,7 @@ def _brief(table: Table, other: str, numbers: Sequence[str]) -> Grid:
     """Each generation against the competitors before it, of its own time, and after it."""
     grid = _grid(f"{table.role} against {other} of other times: mean fitness, 95 % interval")
     _columns(grid, ["generation", "before it", "its own", "after it"])
-    for i in spaced(len(numbers), MOST_COLUMNS):
+    for i in spaced(len(numbers), MAX_COLUMNS):
         parts = [slice(0, i), slice(i, i + 1), slice(i + 1, None)]
         cells = [_estimate(table.mean[i, part], table.samples[:, i, part]) for part in parts]
         grid.add_row(numbers[i], *cells)

@@ -82,7 +82,7 @@ def post_evaluate(
     """Shows a robot, by chance or from a file; or lets the populations of a folder meet."""
     from botschool import config
     from botschool.analysis import coevolution
-    from botschool.render.pairs import Chases
+    from botschool.render.pairs import PairEpisodes
     from botschool.render.watch import PostEvaluation, read_genotype
 
     if genotype is None:
@@ -100,6 +100,6 @@ def post_evaluate(
 
         def show(population) -> None:
             pairs = population.predators, population.prey
-            watching.show(Chases(experiment, seed, *pairs, population.name))
+            watching.show(PairEpisodes(experiment, seed, *pairs, population.name))
 
         coevolution.post_evaluate(experiment, seed, folder, request, workers, show)

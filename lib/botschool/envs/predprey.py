@@ -11,7 +11,7 @@ from gymnasium.utils import seeding
 from botschool.envs.predprey_sides import (
     FPS,
     ROBOTS,
-    Chase,
+    PredpreySimulation,
     action_space,
     observation_space,
     wheels,
@@ -44,7 +44,7 @@ class PredPrey(ParallelEnv):
         self.agents: list[str] = []
         self.observation_spaces = {agent: observation_space() for agent in ROBOTS}
         self.action_spaces = {agent: action_space() for agent in ROBOTS}
-        self._chase = Chase(max_steps, render_mode)
+        self._simulation = PredpreySimulation(max_steps, render_mode)
         self._random: np.random.Generator | None = None
 
     def observation_space(self, agent: str) -> spaces.Box:
@@ -56,10 +56,10 @@ class PredPrey(ParallelEnv):
     def reset(self, seed: int | None = None, options: dict | None = None):
         if seed is not None or self._random is None:
             self._random, _ = seeding.np_random(seed)
-        self._chase.start(self._random)
+        self._simulation.start(self._random)
         self.agents = list(ROBOTS)
-        self._chase.show()
-        return _each(self._chase.views()), {agent: {} for agent in ROBOTS}
+        self._simulation.show()
+        return _each(self._simulation.views()), {agent: {} for agent in ROBOTS}
 
     def step(self, actions: dict[str, np.ndarray]):
         if not self.agents:
@@ -67,12 +67,12 @@ class PredPrey(ParallelEnv):
         for agent in ROBOTS:
             if agent not in actions:
                 raise BotschoolError(f"Both robots act in a step, but the {agent} has no action.")
-        rewards, over = self._chase.act(*(wheels(agent, actions[agent]) for agent in ROBOTS))
-        self._chase.show()
+        rewards, over = self._simulation.act(*(wheels(agent, actions[agent]) for agent in ROBOTS))
+        self._simulation.show()
         if over:
             self.agents = []
         return (
-            _each(self._chase.views()),
+            _each(self._simulation.views()),
             _each(rewards),
             dict.fromkeys(ROBOTS, over),
             dict.fromkeys(ROBOTS, False),
@@ -81,13 +81,13 @@ class PredPrey(ParallelEnv):
 
     def state(self) -> np.ndarray:
         """x, y and heading of predator and prey, steps done; float64."""
-        return self._chase.state
+        return self._simulation.state
 
     def render(self) -> np.ndarray | None:
-        return self._chase.render()
+        return self._simulation.render()
 
     def close(self) -> None:
-        self._chase.close()
+        self._simulation.close()
 
 
 def _each(values) -> dict:
@@ -97,6 +97,7 @@ def _each(values) -> dict:
 def parallel_env(max_steps: int | None = None, render_mode: str | None = None) -> PredPrey:
     """The environment. max_steps: longest episode, None for the problem's own 2000.
 
-    Observations are float32 (24,), actions (2,) from -1 to 1; rewards are those of Chase.act.
+    Observations are float32 (24,), actions (2,) from -1 to 1; rewards are those of
+    PredpreySimulation.act.
     """
     return PredPrey(max_steps, render_mode)

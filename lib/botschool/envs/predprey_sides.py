@@ -47,8 +47,8 @@ def wheels(robot: str, action) -> np.ndarray:
     return given
 
 
-class Chase(Simulation):
-    """Both robots on their stage. What the predator gets at the end, the prey lacks of 1."""
+class PredpreySimulation(Simulation):
+    """Both robots. What the predator gets at the end, the prey lacks of 1."""
 
     def __init__(self, max_steps: int | None, render_mode: str | None) -> None:
         super().__init__(PROBLEM, render_mode, max_steps)
@@ -76,7 +76,7 @@ class OneSide(gymnasium.Env):
     path of a .npy file): of one network, or of both, of which the opponent's is taken; None is a
     random initial network, always the same. experiment: the .ini file whose [POLICY] the genotype
     was evolved with, None for data/experiments/predprey.ini. max_steps: longest episode, None for
-    the problem's own. Rewards are those of Chase.act. Raises BotschoolError.
+    the problem's own. Rewards are those of PredpreySimulation.act. Raises BotschoolError.
     """
 
     metadata: ClassVar[dict] = {"render_modes": RENDER_MODES, "render_fps": FPS}
@@ -94,27 +94,27 @@ class OneSide(gymnasium.Env):
         self._side = ROBOTS.index(side)
         self._policy = _policy(experiment)
         self._policy.load(*_network(self._policy, opponent, 1 - self._side))
-        self._chase = Chase(max_steps, render_mode)
+        self._simulation = PredpreySimulation(max_steps, render_mode)
 
     def reset(self, *, seed: int | None = None, options: dict | None = None):
         super().reset(seed=seed)
-        self._policy.reset(self._chase.start(self.np_random), 0)
-        self._chase.show()
-        return self._chase.views()[self._side], {}
+        self._policy.reset(self._simulation.start(self.np_random), 0)
+        self._simulation.show()
+        return self._simulation.views()[self._side], {}
 
     def step(self, action: np.ndarray):
         own = wheels(ROBOTS[self._side], action)
-        theirs = self._policy.act(self._chase.views()[1 - self._side])
+        theirs = self._policy.act(self._simulation.views()[1 - self._side])
         pair = (own, theirs) if self._side == 0 else (theirs, own)
-        rewards, over = self._chase.act(*pair)
-        self._chase.show()
-        return self._chase.views()[self._side], rewards[self._side], over, False, {}
+        rewards, over = self._simulation.act(*pair)
+        self._simulation.show()
+        return self._simulation.views()[self._side], rewards[self._side], over, False, {}
 
     def render(self) -> np.ndarray | None:
-        return self._chase.render()
+        return self._simulation.render()
 
     def close(self) -> None:
-        self._chase.close()
+        self._simulation.close()
 
 
 def _policy(experiment: str | os.PathLike[str] | None) -> Policy:

@@ -8,7 +8,7 @@ from botschool.config import Experiment
 from botschool.render.watch import PostEvaluation
 
 
-class Chases(PostEvaluation):
+class PairEpisodes(PostEvaluation):
     """Episodes of pairs: the first predator with every prey, then the second, and so on.
 
     predators, prey: networks, each (individuals, nparameters). Every pair has `pepisodes`
