@@ -78,7 +78,7 @@ class Exercise:
         self.tasks: list[Task] = []
 
     def task(self, id: str, title: str, seconds: float = 20, memory: int = 4096) -> Task:
-        """Adds a task; seconds: wall time for all its checks; memory: MB beyond the imports."""
+        """Adds a task; seconds: processor time of all its checks; memory: MB beyond the imports."""
         self.tasks.append(Task(id, title, seconds, memory, self.imports))
         return self.tasks[-1]
 
