@@ -16,178 +16,94 @@ from pathlib import Path
 
 import numpy as np
 
-OPENAIES = "algo = OpenAI-ES"
-SSS = "algo = SSS"
-
-RUNS: dict[str, tuple[str, list[str], list[str], list[str], str]] = {
-    # name: environment, [EXP], [POLICY], [ALGO], further arguments
+RUNS = {
+    # name: environment, algo, [POLICY], [ALGO], further arguments
     "acrobot": (
         "Acrobot-v1",
-        [OPENAIES],
-        [
-            "episodes = 1",
-            "pepisodes = 10",
-            "maxsteps = 500",
-            "nhiddens = 10",
-            "bias = 1",
-            "afunction = 2",
-            "out_type = 3",
-            "winit = 1",
-        ],
-        ["maxmsteps = 20", "samplesize = 20", "stepsize = 0.01", "noiseStdDev = 0.02"],
+        "OpenAI-ES",
+        "episodes=1 pepisodes=10 maxsteps=500 nhiddens=10 bias=1 afunction=2 out_type=3 winit=1",
+        "maxmsteps=20 samplesize=20 stepsize=0.01 noiseStdDev=0.02",
         "--steps 600000",
     ),
     "acrobot, weight decay, a seed for each": (
         "Acrobot-v1",
-        [OPENAIES],
-        ["episodes = 2", "pepisodes = 7", "maxsteps = 300", "nhiddens = 4", "winit = 1"],
-        ["maxmsteps = 0.3", "samplesize = 7", "wdecay = 1", "symseed = 0"],
+        "OpenAI-ES",
+        "episodes=2 pepisodes=7 maxsteps=300 nhiddens=4 winit=1",
+        "maxmsteps=0.3 samplesize=7 wdecay=1 symseed=0",
         "-w 2",
     ),
     "cartpole, SSS": (
         "CartPole-v1",
-        [SSS],
-        [
-            "episodes = 5",
-            "pepisodes = 20",
-            "maxsteps = 500",
-            "nhiddens = 10",
-            "bias = 1",
-            "afunction = 2",
-            "out_type = 3",
-            "winit = 0",
-        ],
-        ["maxmsteps = 0.4", "popsize = 20", "mutrate = 0.1"],
+        "SSS",
+        "episodes=5 pepisodes=20 maxsteps=500 nhiddens=10 bias=1 afunction=2 out_type=3 winit=0",
+        "maxmsteps=0.4 popsize=20 mutrate=0.1",
         "-s 3",
     ),
     "cartpole, OpenAI-ES": (
         "CartPole-v1",
-        [OPENAIES],
-        [
-            "episodes = 1",
-            "pepisodes = 20",
-            "maxsteps = 500",
-            "nhiddens = 10",
-            "bias = 1",
-            "afunction = 2",
-            "out_type = 3",
-            "winit = 0",
-        ],
-        ["maxmsteps = 0.5", "samplesize = 20", "stepsize = 0.03", "noiseStdDev = 0.1"],
+        "OpenAI-ES",
+        "episodes=1 pepisodes=20 maxsteps=500 nhiddens=10 bias=1 afunction=2 out_type=3 winit=0",
+        "maxmsteps=0.5 samplesize=20 stepsize=0.03 noiseStdDev=0.1",
         "",
     ),
     "cartpole, saved every generation, normalised": (
         "CartPole-v0",
-        [OPENAIES],
-        ["episodes = 3", "pepisodes = 4", "maxsteps = 500", "normalize = 1", "architecture = 2"],
-        ["maxmsteps = 0.05", "samplesize = 5", "wdecay = 2", "saveeach = 0"],
+        "OpenAI-ES",
+        "episodes=3 pepisodes=4 maxsteps=500 normalize=1 architecture=2",
+        "maxmsteps=0.05 samplesize=5 wdecay=2 saveeach=0",
         "-s 9",
     ),
     "pendulum, normalised": (
         "Pendulum-v1",
-        [OPENAIES],
-        [
-            "episodes = 1",
-            "pepisodes = 10",
-            "maxsteps = 200",
-            "nhiddens = 20",
-            "bias = 1",
-            "afunction = 2",
-            "out_type = 3",
-            "winit = 1",
-            "normalize = 1",
-            "clip = 1",
-        ],
-        ["maxmsteps = 0.5", "samplesize = 20", "stepsize = 0.03", "noiseStdDev = 0.1"],
+        "OpenAI-ES",
+        "episodes=1 pepisodes=10 maxsteps=200 nhiddens=20 bias=1 afunction=2 out_type=3 "
+        "winit=1 normalize=1 clip=1",
+        "maxmsteps=0.5 samplesize=20 stepsize=0.03 noiseStdDev=0.1",
         "-w 2",
     ),
     "pendulum, noise and bins": (
         "Pendulum-v1",
-        [SSS],
-        [
-            "episodes = 2",
-            "pepisodes = 3",
-            "maxsteps = 90",
-            "nbins = 5",
-            "action_noise = 2",
-            "nhiddens = 5",
-            "normalize = 1",
-        ],
-        ["maxmsteps = 0.1", "popsize = 8"],
+        "SSS",
+        "episodes=2 pepisodes=3 maxsteps=90 nbins=5 action_noise=2 nhiddens=5 normalize=1",
+        "maxmsteps=0.1 popsize=8",
         "",
     ),
     "mountain car, normalised": (
         "MountainCarContinuous-v0",
-        [SSS],
-        [
-            "episodes = 3",
-            "pepisodes = 20",
-            "maxsteps = 999",
-            "nhiddens = 10",
-            "bias = 1",
-            "afunction = 2",
-            "out_type = 3",
-            "winit = 0",
-            "normalize = 1",
-            "clip = 1",
-        ],
-        ["maxmsteps = 0.8", "popsize = 20", "mutrate = 0.5"],
+        "SSS",
+        "episodes=3 pepisodes=20 maxsteps=999 nhiddens=10 bias=1 afunction=2 out_type=3 "
+        "winit=0 normalize=1 clip=1",
+        "maxmsteps=0.8 popsize=20 mutrate=0.5",
         "",
     ),
     "swing-up": (
         "envSwingupCustom",
-        [OPENAIES],
-        [
-            "episodes = 1",
-            "pepisodes = 20",
-            "maxsteps = 1000",
-            "nhiddens = 20",
-            "nlayers = 2",
-            "bias = 1",
-            "afunction = 2",
-            "out_type = 3",
-            "winit = 1",
-        ],
-        ["maxmsteps = 1", "samplesize = 20", "stepsize = 0.03", "noiseStdDev = 0.1"],
+        "OpenAI-ES",
+        "episodes=1 pepisodes=20 maxsteps=1000 nhiddens=20 nlayers=2 bias=1 afunction=2 "
+        "out_type=3 winit=1",
+        "maxmsteps=1 samplesize=20 stepsize=0.03 noiseStdDev=0.1",
         "",
     ),
     "double pole": (
         "ErDpole",
-        [OPENAIES],
-        [
-            "episodes = 3",
-            "pepisodes = 50",
-            "maxsteps = 1000",
-            "nhiddens = 10",
-            "bias = 1",
-            "architecture = 1",
-            "afunction = 2",
-            "out_type = 3",
-            "winit = 1",
-        ],
-        ["maxmsteps = 0.7", "samplesize = 40", "stepsize = 0.03", "noiseStdDev = 0.1"],
+        "OpenAI-ES",
+        "episodes=3 pepisodes=50 maxsteps=1000 nhiddens=10 bias=1 architecture=1 afunction=2 "
+        "out_type=3 winit=1",
+        "maxmsteps=0.7 samplesize=40 stepsize=0.03 noiseStdDev=0.1",
         "",
     ),
     "wheeled robot": (
         "ErDiscrim",
-        [OPENAIES],
-        [
-            "episodes = 2",
-            "pepisodes = 5",
-            "maxsteps = 200",
-            "nhiddens = 5",
-            "bias = 1",
-            "architecture = 1",
-            "out_type = 2",
-        ],
-        ["maxmsteps = 0.1", "samplesize = 5"],
+        "OpenAI-ES",
+        "episodes=2 pepisodes=5 maxsteps=200 nhiddens=5 bias=1 architecture=1 out_type=2",
+        "maxmsteps=0.1 samplesize=5",
         "--generations 11",
     ),
     "in Gymnasium": (
         "MountainCar-v0",
-        [SSS],
-        ["episodes = 1", "pepisodes = 2", "maxsteps = 40", "nhiddens = 3", "normalize = 1"],
-        ["maxmsteps = 0.002", "popsize = 4"],
+        "SSS",
+        "episodes=1 pepisodes=2 maxsteps=40 nhiddens=3 normalize=1",
+        "maxmsteps=0.002 popsize=4",
         "",
     ),
 }
@@ -195,8 +111,9 @@ RUNS: dict[str, tuple[str, list[str], list[str], list[str], str]] = {
 
 def write(name: str, folder: Path) -> tuple[Path, list[str]]:
     """Writes a run's experiment file; gives it, and the arguments of `botschool es` after -f."""
-    environment, exp, policy, algo, arguments = RUNS[name]
-    lines = ["[EXP]", f"environment = {environment}", *exp, "[POLICY]", *policy, "[ALGO]", *algo]
+    environment, algo, policy, hyperparameters, arguments = RUNS[name]
+    lines = ["[EXP]", f"environment = {environment}", f"algo = {algo}"]
+    lines += ["[POLICY]", *policy.split(), "[ALGO]", *hyperparameters.split()]
     path = folder / "own.ini"
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return path, arguments.split()
