@@ -51,9 +51,7 @@ class Evaluations:
 
 def observed(folder, *arguments, **options):
     run = Run(small(folder, *arguments, **options), seed=7)
-    run.together = (
-        False  # one evaluation after another; tests/test_together.py: nothing else differs
-    )
+    run.together = False  # tests/test_together.py proves that nothing else differs
     evaluations = Evaluations(run)
     assert evolve(run, folder)
     return run, evaluations.generations()

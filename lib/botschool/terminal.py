@@ -7,6 +7,7 @@ import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 
 SHOW_CURSOR = b"\x1b[?25h\n"
 """What a terminal needs after a progress bar that was broken off."""
@@ -74,9 +75,52 @@ def exits_on_signals() -> Iterator[None]:
 
 
 @contextmanager
+def unheard() -> Iterator[None]:
+    """Processes that start meanwhile never get SIGNALS; here they come at the end."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
 def progress_bar(seed: int) -> Iterator[Callable[[float, int, int, str], None]]:
     """Gives a function to call with the share done, the steps so far, decimals of their millions,
     and a text."""
+    with progress_bars() as bars:
+        yield partial(bars.show, seed)
+
+
+class Bars:
+    """A progress bar for each seed that has been shown and is not finished."""
+
+    def __init__(self, progress) -> None:
+        """progress: rich.progress.Progress with the columns of `progress_bars`."""
+        self._progress = progress
+        self._tasks = {}
+
+    def show(self, seed: int, share: float, steps: int, decimals: int, numbers: str) -> None:
+        """What `progress_bar` says, for a seed."""
+        if seed not in self._tasks:
+            empty = {"steps": "", "numbers": ""}
+            self._tasks[seed] = self._progress.add_task("", total=1.0, seed=seed, **empty)
+        fields = {"steps": f"{steps / 1e6:.{decimals}f}M", "numbers": numbers}
+        self._progress.update(self._tasks[seed], completed=min(share, 1.0), **fields)
+
+    def finish(self, seed: int, text: str) -> None:
+        """Puts a text in the place of a seed's bar."""
+        if seed in self._tasks:
+            self._progress.remove_task(self._tasks.pop(seed))
+        self._progress.print(text, markup=False, highlight=False, soft_wrap=True)
+
+
+@contextmanager
+def progress_bars() -> Iterator[Bars]:
+    """Several progress bars, one below the other."""
     from rich.progress import (
         BarColumn,
         Progress,
@@ -94,13 +138,7 @@ def progress_bar(seed: int) -> Iterator[Callable[[float, int, int, str], None]]:
         TextColumn("{task.fields[numbers]}"),
     )
     with Progress(*columns, refresh_per_second=5) as progress:
-        task = progress.add_task("", total=1.0, seed=seed, steps="", numbers="")
-
-        def show(share: float, steps: int, decimals: int, numbers: str) -> None:
-            millions = f"{steps / 1e6:.{decimals}f}M"
-            progress.update(task, completed=min(share, 1.0), steps=millions, numbers=numbers)
-
-        yield show
+        yield Bars(progress)
 
 
 def has_display() -> bool:

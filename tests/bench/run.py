@@ -33,6 +33,7 @@ from speed import (
     run_times,
     undisturbed,
 )
+from together import together_or_apart
 
 from botschool import _core, config
 from botschool.analysis.populations import Population, Populations
@@ -247,6 +248,7 @@ PARTS = {
     "roofline": (roofline, (0.05, 2), (0.3, 5)),
     "workers": (two_workers_evaluating, (20,), (200,)),
     "runs": (two_workers_running, (0.15, 2), (0.5, 7)),
+    "together": (together_or_apart, (0.15, 2), (0.5, 7)),
     "coevolution": (coevolution, (20, 0), (80, 2)),
     "bodies": (locomotors, (5,), (50,)),
     "bodyworkers": (two_workers_on_bodies, (1,), (4,)),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -108,6 +109,7 @@ def es(
         raise BotschoolError("--resume continues a run and --force replaces it: give one of them.")
     seeds = list(range(seed, seed + replications))
     terminal = sys.stdout.isatty()
+    gc.freeze()  # modules stay to the end: nothing to collect among them
     if not replicate(
         experiment, seeds, output, workers, steps, resume, force, terminal, generations
     ):

@@ -1,4 +1,4 @@
-"""Several runs of one experiment, with consecutive seeds, one after another."""
+"""Several runs of one experiment, with consecutive seeds."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from pathlib import Path
 
 from botschool.config import Experiment, competitive
 from botschool.evolution.coevolution import Coevolution
-from botschool.evolution.progress import reporting
+from botschool.evolution.progress import print_lines, reporting
 from botschool.evolution.record import RunFiles
 from botschool.evolution.run import Run, claim, evolve
 from botschool.terminal import stoppable
@@ -23,26 +23,28 @@ def replicate(
     terminal: bool,
     generations: int | None = None,
 ) -> bool:
-    """Runs every seed and prints where the results are; False when the user stopped it."""
+    """Runs every seed and prints where the results are; False when the user stopped it.
+
+    Several runs of a native problem share the workers: they run side by side, each on as many
+    workers as there are for it. Everything else runs one after another, each on all workers.
+    """
     kind = Coevolution if competitive(experiment) else Run
     with stoppable() as stopping:
         runs = [kind(experiment, seed, workers, stopping) for seed in seeds[:1]]
         claim(folder, seeds, resume, force)
+        processes = min(workers, len(seeds))
+        if processes > 1 and runs[0].problem.native:
+            from botschool.evolution.side_by_side import Task, evolve_all
+
+            share = workers // processes
+            task = Task(kind, experiment, folder, share, steps, resume, generations, terminal)
+            return evolve_all(task, seeds, processes, stopping)
         for seed in seeds:
             run = runs.pop() if runs else kind(experiment, seed, workers, stopping)
             with reporting(seed, terminal) as report:
                 finished = evolve(run, folder, steps, resume, report, generations)
-            _print_result(run, RunFiles(folder, seed), finished)
+            if text := run.ending(RunFiles(folder, seed), finished):
+                print_lines([text])
             if not finished:
                 return False
     return True
-
-
-def _print_result(run: Run, files: RunFiles, finished: bool) -> None:
-    if not finished:
-        print(
-            f"seed {run.seed}: stopped after {run.record.generation} generations; all is saved, "
-            "add --resume to the same command to go on."
-        )
-    elif run.record.generation:
-        print(run.result(files))

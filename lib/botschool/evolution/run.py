@@ -165,6 +165,15 @@ class Run:
             f"{record.bestg_fitness:.2f} after {record.steps} steps; best robot: {files.bestg}"
         )
 
+    def ending(self, files: RunFiles, finished: bool) -> str:
+        """What to say at its end; "" if there is nothing."""
+        if not finished:
+            return (
+                f"seed {self.seed}: stopped after {self.record.generation} generations; all is "
+                "saved, add --resume to the same command to go on."
+            )
+        return self.result(files) if self.record.generation else ""
+
     def advance(self, goes_on: bool = False) -> None:
         """One generation. Raises Interrupted on request; a generation that fails is dropped.
 

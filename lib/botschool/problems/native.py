@@ -84,7 +84,7 @@ class NativeProblem(Problem):
                 self.engine(policy).evaluate(
                     genotypes,
                     normalisation,
-                    np.atleast_2d(part.candidate),
+                    part.candidate if part.candidate.ndim == 2 else part.candidate[None],
                     part.seed,
                     part.episode,
                     part.collect,
