@@ -158,7 +158,7 @@ def test_the_specification_has_every_hyperparameter_with_its_default():
     missing = [
         f"{section} {name} = {default}"
         for section, name, default, _ in config.describe()
-        if default is not None
+        if default not in (None, "")
         and (f"{default:g}" if isinstance(default, float) else str(default))
         not in told.get(name, ())
     ]
