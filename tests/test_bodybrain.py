@@ -296,7 +296,7 @@ def test_fitness_is_a_pure_function(problem):
         again = problem.evaluate(policy, genotypes, None, some, 60)
         np.testing.assert_array_equal(again.fitness, one.fitness[order])
     fresh = problems.make(ID)
-    alone = fresh.evaluate(policy, genotypes, None, batch.part(slice(4, 5)), 60)
+    alone = fresh.evaluate(policy, genotypes, None, batch.select(slice(4, 5)), 60)
     assert alone.fitness[0] == one.fitness[4]
     workers = problem.evaluate(policy, genotypes, None, batch, 60, workers=2)
     np.testing.assert_array_equal(workers.fitness, one.fitness)

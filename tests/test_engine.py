@@ -50,7 +50,7 @@ class Batch:
 
     def evaluate(self, engine, chosen=slice(None), threads=1, genotypes=None, candidate=None):
         """Fitness, steps and moments of the chosen episodes."""
-        part = self.episodes.part(chosen)
+        part = self.episodes.select(chosen)
         return engine.evaluate(
             self.genotypes if genotypes is None else genotypes,
             self.normalisation,

@@ -56,7 +56,7 @@ class Coevolution(Run):
     0, 1, ... So the fitness of a meeting is a pure function of the two who met.
     """
 
-    parts = ("algorithm", "record")
+    checkpointed = ("algorithm", "record")
     growing = ("record.", "algorithm.archive_")
 
     def begin(self) -> None:
@@ -101,7 +101,7 @@ class Coevolution(Run):
         try:
             algorithm.advance(self._play)
         finally:
-            self.part = 0.0
+            self.progress = 0.0
         self.record.steps += self._steps
         self.record.bestg, _ = algorithm.best()
         if algorithm.generation > generation:
@@ -115,7 +115,7 @@ class Coevolution(Run):
         self._steps += steps
         if self.record.steps and self.algorithm.plays > 1:
             self._plays += 1
-            self.part = self._plays / self.algorithm.plays
+            self.progress = self._plays / self.algorithm.plays
             self.report(self)
         return fitness
 

@@ -41,7 +41,7 @@ class Open:
     steps: int
     parameter: float
     before: dict[str, dict[str, np.ndarray]]
-    """State of the algorithm and the evaluator before the generation, by the names of `parts`."""
+    """State of the algorithm and the evaluator before the generation, by name."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class Limit:
 
     def share(self, run: Run) -> float:
         """How much is done, from 0 to 1."""
-        generations = run.record.generation + run.part
+        generations = run.record.generation + run.progress
         return min(1.0, max(run.record.steps / self.steps, generations / self.generations))
 
 
@@ -76,13 +76,13 @@ class Run:
     nor interruptions show in its files.
     """
 
-    parts = ("algorithm", "evaluator", "record")
+    checkpointed = ("algorithm", "evaluator", "record")
     """Attributes that a checkpoint holds."""
     growing: tuple[str, ...] = ("record.",)
     """How names of arrays in a checkpoint begin that get longer with the run."""
     saving = 0.0
     """Seconds that the last save took."""
-    part = 0.0
+    progress = 0.0
     """How much of the present generation is done."""
     together = True
     """Whether a post-evaluation may be evaluated together with the next generation's candidates.
@@ -193,7 +193,7 @@ class Run:
         waits = goes_on and self._may_wait(measured.steps)
         before = {}
         if waits:
-            before = {part: getattr(self, part).state() for part in ("algorithm", "evaluator")}
+            before = {owner: getattr(self, owner).state() for owner in ("algorithm", "evaluator")}
         else:
             post = self.evaluator.post_evaluate(candidates[best])
         self.algorithm.tell(measured.fitness)
@@ -233,8 +233,8 @@ class Run:
         try:
             post = self.evaluator.post_evaluate(self._best_of(self._open), stoppable=False)
         except BaseException:
-            for part, state in self._open.before.items():
-                getattr(self, part).restore(state)
+            for owner, state in self._open.before.items():
+                getattr(self, owner).restore(state)
             self._open = None
             raise
         self._close(post)
@@ -253,9 +253,9 @@ class Run:
     def state(self) -> dict:
         """All that a checkpoint holds, as arrays."""
         return {
-            f"{part}.{name}": value
-            for part in self.parts
-            for name, value in getattr(self, part).state().items()
+            f"{owner}.{name}": value
+            for owner in self.checkpointed
+            for name, value in getattr(self, owner).state().items()
         }
 
     def restore(self, state: dict) -> None:
@@ -271,10 +271,10 @@ class Run:
             lost = value.ndim == 0 and np.isfinite(value) and not np.isfinite(given)
             if counts or lost:
                 raise ValueError(f"{name} holds what no run saves")
-        for part in self.parts:
-            prefix = part + "."
+        for owner in self.checkpointed:
+            prefix = owner + "."
             values = {k.removeprefix(prefix): v for k, v in state.items() if k.startswith(prefix)}
-            getattr(self, part).restore(values)
+            getattr(self, owner).restore(values)
 
 
 def evolve(

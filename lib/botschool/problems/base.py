@@ -40,7 +40,7 @@ class Episodes:
             np.tile(np.arange(episodes, dtype=np.uint32), n),
         )
 
-    def part(self, chosen: slice) -> Episodes:
+    def select(self, chosen: slice) -> Episodes:
         """Some of the episodes."""
         collect = None if self.collect is None else self.collect[chosen]
         return Episodes(

@@ -79,15 +79,15 @@ class NativeProblem(Problem):
             if stopping():
                 raise Interrupted
             whole = len(episodes) <= batch
-            part = episodes if whole else episodes.part(slice(first, first + batch))
+            chosen = episodes if whole else episodes.select(slice(first, first + batch))
             parts.append(
                 self.engine(policy).evaluate(
                     genotypes,
                     normalisation,
-                    part.candidate if part.candidate.ndim == 2 else part.candidate[None],
-                    part.seed,
-                    part.episode,
-                    part.collect,
+                    chosen.candidate if chosen.candidate.ndim == 2 else chosen.candidate[None],
+                    chosen.seed,
+                    chosen.episode,
+                    chosen.collect,
                     limit,
                     workers,
                     bool(policy.config.heterogeneous),

@@ -84,10 +84,10 @@ class Workers:
         for i, chunk in enumerate(chunks):
             if i in done:
                 continue
-            part = episodes.part(chunk)
-            used, part.candidate = np.unique(part.candidate, return_inverse=True)
+            chosen = episodes.select(chunk)
+            used, chosen.candidate = np.unique(chosen.candidate, return_inverse=True)
             with _unheard(signal.SIGINT):  # Ctrl-C is the main process's affair
-                future = self._pool.submit(_evaluate, genotypes[used], normalisation, part)
+                future = self._pool.submit(_evaluate, genotypes[used], normalisation, chosen)
             running[future] = i
         while running:
             finished, _ = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)
