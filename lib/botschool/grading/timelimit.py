@@ -8,7 +8,6 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-
 POLL_SECONDS = 0.5
 """Of processor time of the whole process, between two looks."""
 
