@@ -29,8 +29,8 @@ from botschool.sandbox import ForkServer
 T = TypeVar("T")
 LOADING_SECONDS = 10
 """Processor time for all that a file or a notebook does besides defining functions."""
-CHECK_SECONDS = 60
-"""Processor time that a check may use in the grader's own process."""
+CHECK_SECONDS = 20
+"""Processor time that a check may use in the grader's own thread; our solutions need up to 3."""
 _CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
 _DEFINITION = re.compile(r"^(async def|def|class)\b", re.MULTILINE)
 _LINE = re.compile(r" in line (\d+)")
