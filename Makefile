@@ -94,8 +94,10 @@ clean: ## remove what the targets above set up; results stay
 .venv/.extra-%: .venv/.module
 	@tools/setup.sh extra $*
 
+# BEGIN NOT RELEASED
 .venv/.bench: .venv/.tests
 	@tools/setup.sh bench
 
 .venv/.tests: .venv/.module
 	@tools/setup.sh tests
+# END NOT RELEASED
