@@ -110,9 +110,13 @@ def es(
     seeds = list(range(seed, seed + replications))
     terminal = sys.stdout.isatty()
     gc.freeze()  # modules stay to the end: nothing to collect among them
-    if not replicate(
-        experiment, seeds, output, workers, steps, resume, force, terminal, generations
-    ):
+    try:
+        finished = replicate(
+            experiment, seeds, output, workers, steps, resume, force, terminal, generations
+        )
+    finally:
+        gc.unfreeze()
+    if not finished:
         raise typer.Exit(130)
 
 
