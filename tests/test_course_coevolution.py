@@ -7,6 +7,7 @@ import pytest
 
 from botschool import arena as arenas
 from botschool.course.coevolution import (
+    _touching,
     draw_chases,
     draw_red_queen,
     draw_tournament,
@@ -106,6 +107,14 @@ def test_runs_that_cannot_be_used(course):
     save(course / "run", 4, (0, 1))
     with pytest.raises(BotschoolError, match=re.escape("several seeds (3, 4)")):
         load_run("run")
+
+
+def test_a_caught_prey_is_drawn_touching():
+    places = np.array([[[0.0, 0.0], [900.0, 0.0]], [[300.0, 0.0], [300.0, 200.0]]])
+    drawn = _touching(places, 170.0)
+    assert drawn[-1].tolist() == [[300.0, 30.0], [300.0, 200.0]]
+    assert np.array_equal(drawn[:-1], places[:-1])
+    assert places[-1, 0].tolist() == [300.0, 0.0], "the recorded chase stays as it is"
 
 
 def test_pictures(tmp_path):

@@ -313,14 +313,12 @@ hiding = exercise.task("15.6", "What contemporary fitness hides")
 
 
 def parts_of(matrix: np.ndarray) -> dict:
-    parts: dict[str, list] = {"change": [], "own": [], "others": []}
-    for g in range(len(matrix) - 1):
-        old, new = matrix[g, g], matrix[g + 1, g + 1]
-        first, last = matrix[g + 1, g] - old, new - matrix[g, g + 1]
-        parts["change"].append(new - old)
-        parts["own"].append((first + last) / 2)
-        parts["others"].append(new - old - (first + last) / 2)
-    return parts
+    later = range(1, len(matrix))
+    return {
+        "change": [matrix[g, g] - matrix[0, 0] for g in later],
+        "own": [matrix[g].mean() - matrix[0].mean() for g in later],
+        "others": [matrix[:, g].mean() - matrix[:, 0].mean() for g in later],
+    }
 
 
 @hiding.check(3)

@@ -219,32 +219,37 @@ def cycles(matrix: np.ndarray) -> float:
 # %% [markdown]
 # ## Task 15.6. What contemporary fitness hides
 #
-# A run shows how its robots do against those of the same time. From generation $g$ to the next one
-# this changes by
+# A run shows how its robots do against those of the same time. From the first generation to
+# generation $g$ this has changed by
 #
-# $$f(g+1, g+1) - f(g, g)$$
+# $$f(g, g) - f(0, 0)$$
 #
 # Two things have happened in between: the side itself has changed, and so have its competitors. To
-# tell them apart, change one after the other. If the side changes first, its own part is
-# $f(g+1, g) - f(g, g)$, and that of the others $f(g+1, g+1) - f(g+1, g)$. If the competitors change
-# first, then the part of the others is $f(g, g+1) - f(g, g)$, and its own one
-# $f(g+1, g+1) - f(g, g+1)$. Neither order is better, so take the mean of both.
+# see one of them, hold the other one still. The side's *own* part is what generation $g$ gains on
+# the first one against the very same competitors, the mean over those of all generations. The part
+# of the *others* is what competitors of generation $g$ leave to the side, compared with the first
+# ones, the mean over all generations of the side:
+#
+# $$\text{own} = \frac{1}{G} \sum_k \left( f(g, k) - f(0, k) \right), \qquad
+# \text{others} = \frac{1}{G} \sum_k \left( f(k, g) - f(k, 0) \right)$$
+#
+# Both parts together are the change only if a gain is worth the same against all competitors. Why
+# not go from each generation to the next and add up what it gains on those of its time? In a circle
+# each generation beats the last one. Such a sum would grow for ever, though nobody becomes better.
 
 
 # %%
 def red_queen(matrix: np.ndarray) -> dict:
-    """The change of the contemporary fitness and its two parts, from each generation to the next.
+    """The change of the contemporary fitness since the first generation, and its causes.
 
     matrix: shape (G, G), G >= 2. Returns a dict of "change", "own" and "others", each of the shape
-    (G - 1,); the first one is the sum of the two others.
+    (G - 1,), for generations 1 to G - 1.
     """
-    ### BEGIN SOLUTION task 15.6: split the change of contemporary fitness
-    before, after = np.diag(matrix)[:-1], np.diag(matrix)[1:]
-    newer, older = np.diag(matrix, -1), np.diag(matrix, 1)
+    ### BEGIN SOLUTION task 15.6: what both sides have done to contemporary fitness
     return {
-        "change": after - before,
-        "own": (newer - before + after - older) / 2,
-        "others": (older - before + after - newer) / 2,
+        "change": np.diag(matrix)[1:] - matrix[0, 0],
+        "own": (matrix[1:] - matrix[0]).mean(axis=1),
+        "others": (matrix[:, 1:] - matrix[:, :1]).mean(axis=0),
     }
     ### END SOLUTION
 

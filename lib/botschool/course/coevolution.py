@@ -155,9 +155,10 @@ def _draw_profile(axes, profile: dict, generations: list[int], colour: str) -> N
 
 
 def draw_red_queen(file: str | Path, found: dict[str, dict], generations: list[int]) -> None:
-    """What contemporary fitness shows and what it hides, summed up over generations.
+    """What contemporary fitness shows and what it hides, since the first generation.
 
-    found: "predators" and "prey" -> "change", "own" and "others", each (G - 1,).
+    found: "predators" and "prey" -> "change", "own" and "others", each (G - 1,), of all
+    generations but the first.
     """
     from matplotlib.figure import Figure
 
@@ -166,12 +167,12 @@ def draw_red_queen(file: str | Path, found: dict[str, dict], generations: list[i
         other = next(name for name in found if name != side)
         lines = (
             ("change", "what is seen: fitness against those of the same time", "black", "-"),
-            ("own", f"what the {side} have gained", COLOURS[side], "-"),
-            ("others", f"what the {other} have taken from them", COLOURS[other], "--"),
+            ("own", f"what the {side} have gained, against all {other}", COLOURS[side], "-"),
+            ("others", f"what the {other} have taken, from all {side}", COLOURS[other], "--"),
         )
         for name, label, colour, style in lines:
-            total = np.concatenate([[0.0], np.cumsum(parts[name])])
-            axes.plot(generations, total, style, color=colour, lw=2, label=label)
+            change = np.concatenate([[0.0], parts[name]])
+            axes.plot(generations, change, style, color=colour, lw=2, label=label)
         axes.axhline(0, color="black", lw=0.6)
         axes.set(title=side, xlabel="generation")
         _tidy(axes)
@@ -216,20 +217,36 @@ def _draw_chase(axes, chase: dict) -> None:
     axes.add_patch(
         Rectangle((0, 0), arena.width, arena.height, facecolor="#f7f7f5", edgecolor="#555555", lw=2)
     )
+    poses = chase["poses"][..., :2]
+    if chase["caught"]:
+        poses = _touching(poses, sum(model.radius for model in arena.models))
     names = ("#fbd9bf", COLOURS["predators"], "#5e2900"), ("#c5e1f2", COLOURS["prey"], "#00304d")
     for k, colours in enumerate(names):
-        way = chase["poses"][:, k]
-        pieces = np.stack([way[:-1, :2], way[1:, :2]], axis=1)
+        way = poses[:, k]
+        pieces = np.stack([way[:-1], way[1:]], axis=1)
         fade = LinearSegmentedColormap.from_list(colours[1], colours)
         lines = LineCollection(pieces, cmap=fade, linewidths=1.3, capstyle="round", zorder=2 + k)
         lines.set_array(np.arange(len(pieces)))
         axes.add_collection(lines)
-        axes.plot(*way[0, :2], "o", ms=7, mfc="white", mec=colours[1], mew=2, zorder=5)
-        axes.add_patch(Circle(way[-1, :2], arena.models[k].radius, color=colours[1], zorder=6))
+        axes.plot(*way[0], "o", ms=7, mfc="white", mec=colours[1], mew=2, zorder=5)
+        axes.add_patch(Circle(way[-1], arena.models[k].radius, color=colours[1], zorder=6))
     if chase["caught"]:
-        axes.plot(*chase["poses"][-1, :, :2].mean(axis=0), "X", ms=10, color="black", zorder=7)
+        axes.plot(*poses[-1].mean(axis=0), "X", ms=10, color="black", zorder=7)
     axes.set(xlim=(-40, arena.width + 40), ylim=(-40, arena.height + 40), aspect="equal")
     axes.axis("off")
+
+
+def _touching(places: np.ndarray, apart: float) -> np.ndarray:
+    """Places with the predator led up to the prey that it has caught, shape (T + 1, 2, 2), in mm.
+
+    The arena does not carry out a move that ends in a collision, so the last poses leave a gap.
+    apart: distance of the centres of robots that touch.
+    """
+    predator, prey = places[-1]
+    away = predator - prey
+    led = places.copy()
+    led[-1, 0] = prey + away * (apart / np.linalg.norm(away))
+    return led
 
 
 def _tidy(axes) -> None:
