@@ -187,9 +187,9 @@ def test_a_run_that_fails_stops_the_others_and_all_is_saved(tmp_path):
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_runs_side_by_side_that_are_stopped_go_on(number, tmp_path):
-    ini = write_experiment(tmp_path, "CartPole-v1", "OpenAI-ES", maxmsteps=0.6)
-    own, results = experiment(tmp_path, "CartPole-v1", "OpenAI-ES", maxmsteps=0.6), "results"
-    arguments = ["es", "-f", ini, "-n", 2, "-w", 2, "-o", tmp_path / results]
+    results = tmp_path / "results"
+    ini = write_experiment(tmp_path, "CartPole-v1", "OpenAI-ES", maxmsteps=1000)
+    arguments = ["es", "-f", ini, "-n", 2, "-w", 2, "-o", results]
     process = start(*arguments, start_new_session=True)
     while "generation 20 " not in process.stdout.readline():
         assert process.poll() is None
@@ -198,11 +198,15 @@ def test_runs_side_by_side_that_are_stopped_go_on(number, tmp_path):
     code, out, errors = finish(process)
     assert (code, errors) == (130, "")
     assert out.count("stopped after") == 2
-    before = contents(tmp_path / results)
+    before = contents(results)
+    steps = max(np.load(results / f"statS{seed}.npy")[-6] for seed in (1, 2))
+    length = {"maxmsteps": steps / 1e6 + 0.05}
+    write_experiment(tmp_path, "CartPole-v1", "OpenAI-ES", **length)
     assert call(*arguments, "--resume")[0] == 0
-    assert contents(tmp_path / results) != before
+    assert contents(results) != before
+    own = experiment(tmp_path, "CartPole-v1", "OpenAI-ES", **length)
     assert run_seeds(own, tmp_path / "whole", [1, 2])
-    assert same(tmp_path / "whole", tmp_path / results)
+    assert same(tmp_path / "whole", results)
 
 
 def test_a_process_that_dies_is_told_in_a_sentence(tmp_path):
