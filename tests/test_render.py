@@ -4,13 +4,19 @@ import os
 import subprocess
 import sys
 
+import gymnasium
 import imageio.v3 as iio
 import numpy as np
 import pytest
 
+from botschool import problems
+from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
+from botschool.policy import Policy
 from botschool.problems.transition import Transition
 from botschool.render import panel, scenes, shapes, video, window
+from botschool.render.scene import SCENES
+from botschool.render.scenes.meters import MeterScene
 
 STATES = {
     "CartPole-v0": [0.5, 0.0, 0.1, 0.0],
@@ -351,3 +357,32 @@ def test_space_pauses_and_goes_on(monkeypatch):
     monkeypatch.setattr(pygame.time, "Clock", Clock)
     assert window.show(pressing(2, space), fps=1000, title="test") is True
     assert len(waits) == 3
+
+
+# what has no scene
+
+
+@pytest.mark.parametrize("name", ["Pendulum-v1", "CartPole-v1", "Acrobot-v1"])
+def test_a_native_problem_without_a_scene_is_drawn_by_gymnasium(name, monkeypatch):
+    problem = problems.make(name)
+    policy = Policy(name, problem.interface, PolicyConfig(nhiddens=3))
+    own = scenes.scene_of(problem)
+    monkeypatch.delitem(SCENES, problem.dynamics)
+    assert own is not None and scenes.scene_of(problem) is None
+    play = problem.play(policy, policy.initial(1), None, 1, 0, 8)
+    steps = list(scenes.with_frames(problem, play))
+    env = gymnasium.make(name, render_mode="rgb_array")
+    env.reset(seed=1)
+    env.unwrapped.state = np.array(steps[-1].state)
+    assert np.array_equal(steps[-1].frame, env.render())
+    assert (steps[0].frame != steps[-1].frame).any()
+    env.close()
+
+
+def test_one_that_gymnasium_does_not_know_is_drawn_as_meters(monkeypatch):
+    problem = problems.make("ErDpole")
+    monkeypatch.delitem(SCENES, problem.dynamics)
+    meters = scenes.scene_of(problem)
+    still = meters.draw(np.zeros(6), [0.0], np.zeros(3))
+    moved = meters.draw(np.zeros(6), [1.0], np.array([0.0, 0.5, 0.0]))
+    assert isinstance(meters, MeterScene) and (still != moved).any()

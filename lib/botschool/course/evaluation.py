@@ -81,12 +81,14 @@ class SavedRobot:
 
     def _frames(self, scene, seed: int, episodes: int):
         from botschool.render.panel import with_caption
+        from botschool.render.scenes import with_frames
 
         robot, maxsteps = (self._genotype, self._normalisation), self._policy.config.maxsteps
         for episode in range(episodes):
-            for transition in self._problem.play(
+            play = self._problem.play(
                 self._policy, *robot, seed, episode, maxsteps, render=scene is None
-            ):
+            )
+            for transition in with_frames(self._problem, play):
                 frame = scene.draw_transition(transition) if scene else transition.frame
                 yield with_caption(frame, episode + 1, transition)
 

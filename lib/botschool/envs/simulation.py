@@ -114,7 +114,8 @@ class Simulation:
             return self._scene.draw(self.state, *self._shown)
         action, seen, reward = self._shown
         step = Transition(self.steps, reward, 0.0, seen, action, np.zeros(0), self.state)
-        return next(with_frames(self._problem, iter([step]))).frame
+        (shown,) = with_frames(self._problem, iter([step]))
+        return shown.frame
 
     def close(self) -> None:
         """Closes the window, if there is one."""
