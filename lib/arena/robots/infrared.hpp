@@ -6,6 +6,17 @@
 
 BOTSCHOOL_BEGIN
 
+/// What sensors of `values` observations from 0 to 1 inherit.
+template <int values>
+struct Shares {
+  static constexpr int size = values;
+
+  template <class W>
+  static void bounds(const W&, int, double* low, double* high) {
+    for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
+  }
+};
+
 /// Where another object is, seen from a robot.
 template <class T, int L>
 struct Sight {
@@ -51,14 +62,7 @@ inline const double* readings_of(const InfraredTable& table, double angle, doubl
 
 /// Eight infrared sensors that see walls, cylinders and other robots within `range`, each
 /// summing what they give, capped at 1; by the fitted model, or by a measured table if one is set.
-struct Infrared {
-  static constexpr int size = kInfrared;
-
-  template <class W>
-  static void bounds(const W&, int, double* low, double* high) {
-    for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
-  }
-
+struct Infrared : Shares<kInfrared> {
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
     constexpr int L = W::lanes;

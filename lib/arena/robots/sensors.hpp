@@ -95,14 +95,7 @@ struct Ground {
 };
 
 /// Elapsed share of the episode.
-struct Time {
-  static constexpr int size = 1;
-
-  template <class W>
-  static void bounds(const W&, int, double* low, double* high) {
-    for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
-  }
-
+struct Time : Shares<1> {
   template <class W, class T>
   static void read(const W& world, int, T* BOTSCHOOL_RESTRICT out) {
     for (int l = 0; l < W::lanes; ++l)
@@ -111,14 +104,7 @@ struct Time {
 };
 
 /// The constant 1.
-struct Bias {
-  static constexpr int size = 1;
-
-  template <class W>
-  static void bounds(const W&, int, double* low, double* high) {
-    for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
-  }
-
+struct Bias : Shares<1> {
   template <class W, class T>
   static void read(const W&, int, T* BOTSCHOOL_RESTRICT out) {
     for (int l = 0; l < W::lanes; ++l) out[l] = T(1);
@@ -127,14 +113,9 @@ struct Bias {
 
 /// Eight light sensors around the robot: a light gives each max(0, cos(angle off its axis)) *
 /// 1 / (1 + (distance / 200 mm)^2). Walls and objects cast no shadow.
-struct Light {
-  static constexpr int sensors = 8, size = sensors;
+struct Light : Shares<8> {
+  static constexpr int sensors = size;
   static constexpr double kHalf = 200;  ///< mm at which the light is half as bright
-
-  template <class W>
-  static void bounds(const W&, int, double* low, double* high) {
-    for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
-  }
 
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
@@ -156,14 +137,9 @@ struct Light {
 
 /// A laser range finder: eight rays from the robot's edge, the first straight ahead, then every 45
 /// degrees; 1 - distance / 500 mm to what each hits first (walls, cylinders, robots), 0 beyond.
-struct Laser {
-  static constexpr int rays = 8, size = rays;
+struct Laser : Shares<8> {
+  static constexpr int rays = size;
   static constexpr double kRange = 500;
-
-  template <class W>
-  static void bounds(const W&, int, double* low, double* high) {
-    for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
-  }
 
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
