@@ -1,8 +1,14 @@
 """Environments that break in the middle of a run: one sentence, and what was finished is there."""
 
+import itertools
+import multiprocessing
+import threading
+
 import numpy as np
 import pytest
 
+from botschool.evolution.run import Run
+from botschool.problems.base import Interrupted
 from running import (
     TESTS,
     call,
@@ -62,6 +68,19 @@ def test_an_environment_that_breaks_while_it_is_watched(refused, tmp_path):
         refused("es", "-f", own, "-p", *flags, says=["draws no pictures", "--render none"])
     assert not list(tmp_path.glob("*film*"))
     assert ini.exists()
+
+
+def test_a_stopped_batch_leaves_no_process_and_no_thread(tmp_path):
+    """A thread of the pool that is just ending makes CPython's own ending fail, now and then."""
+    own = experiment(tmp_path, "tiny_envs:Tiny-v0")
+    before = threading.active_count()
+    asked = itertools.count()
+    run = Run(own, 1, workers=2, stopping=lambda: next(asked) > 0)
+    with pytest.raises(Interrupted):
+        for _ in range(1000):
+            run.advance()
+    assert threading.active_count() == before
+    assert not multiprocessing.active_children()
 
 
 def test_discrete_actions_may_start_below_zero(tmp_path):

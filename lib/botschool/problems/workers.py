@@ -101,10 +101,11 @@ class Workers:
         """Ends the processes without waiting for unfinished episodes."""
         if self._pool is None:
             return
-        processes = list((self._pool._processes or {}).values())
-        self._pool.shutdown(wait=False, cancel_futures=True)
-        for process in processes:
+        for process in list((self._pool._processes or {}).values()):
             process.terminate()
+        # Waits for the pool's own thread: at the program's end, CPython would wake it through a
+        # pipe that the thread may be closing just then.
+        self._pool.shutdown(wait=True, cancel_futures=True)
         self._pool = None
 
 
