@@ -14,16 +14,17 @@ import pytest
 from rich.console import Console
 
 from botschool.errors import BotschoolError
-from botschool.grading import batch, confined, submission
+from botschool.grading import batch, confined, judging
 from botschool.grading import exercise as exercises
 from botschool.grading.checks import NotDone, Wrong, expect_array, plain, show
 from botschool.grading.confined import fork_server
 from botschool.grading.exercise import load_exercise
 from botschool.grading.hints import next_hints, read_hints
+from botschool.grading.judging import GraderFault, grade_task
 from botschool.grading.report import Screen, notice
 from botschool.grading.skeleton import skeleton, write_skeletons
 from botschool.grading.student import Student
-from botschool.grading.submission import GraderFault, Submission, grade, grade_task
+from botschool.grading.submission import Submission, grade
 from botschool.sandbox import paths
 from tiny_course import FILE, FOLDER, HINTS, SOLUTION, make_course, submit
 
@@ -441,7 +442,7 @@ def test_showing_a_value_is_bounded_in_work():
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs timers")
 def test_checks_run_under_a_limit(course, tmp_path, monkeypatch):
-    monkeypatch.setattr(submission, "CHECK_SECONDS", 0.3)
+    monkeypatch.setattr(judging, "CHECK_SECONDS", 0.3)
     exercise = load_exercise(3, course)
 
     def endless(student):

@@ -325,7 +325,7 @@ def each_number_has_its_own_limits(student: Student):
 
 
 # ------------------------------------------------------------------- 2.5
-episodes = exercise.task("2.5", "An episode")
+episodes = exercise.task("2.5", "An episode", needs=("2.2", "2.4"))
 
 
 def lived(module, name, network, seed, maxsteps):
@@ -414,7 +414,7 @@ def sums_the_rewards(student: Student):
 
 
 # ------------------------------------------------------------------- 2.6
-measuring = exercise.task("2.6", "Fitness", seconds=30)
+measuring = exercise.task("2.6", "Fitness", seconds=30, needs=("2.5",))
 
 
 def measured(module, name, network, seeds, maxsteps):
@@ -536,7 +536,7 @@ def is_quicker_than_a_loop(student: Student):
 
 
 # ------------------------------------------------------------------- 2.8
-searching = exercise.task("2.8", "The luckiest network", seconds=40)
+searching = exercise.task("2.8", "The luckiest network", seconds=40, needs=("2.1", "2.3", "2.6"))
 
 
 def searched(student: Student, name: str, index: int, nnetworks: int, nhiddens: int):

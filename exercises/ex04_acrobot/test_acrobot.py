@@ -125,7 +125,7 @@ def speeds(student: Student):
 
 
 # ------------------------------------------------------------------- 4.2
-rules = exercise.task("4.2", "What Acrobot does, and what for")
+rules = exercise.task("4.2", "What Acrobot does, and what for", needs=("4.1",))
 
 
 @rules.check(4)
@@ -392,7 +392,7 @@ def a_budget_met_exactly(student: Student):
 
 
 # ------------------------------------------------------------------- 4.6
-worth = exercise.task("4.6", "What the robots are worth", seconds=30)
+worth = exercise.task("4.6", "What the robots are worth", seconds=30, needs=("4.4",))
 
 
 def compare_saved(module, text, files, folder, seeds, episodes, test_seed):

@@ -228,7 +228,7 @@ def steps_without_side_effects(student: Student):
 
 
 # ------------------------------------------------------------------- 8.6
-whole = exercise.task("8.6", "The whole algorithm")
+whole = exercise.task("8.6", "The whole algorithm", needs=("8.1", "8.2", "8.3", "8.4", "8.5"))
 
 
 def evolved(module, centre, target, generations, seed, options):
@@ -359,7 +359,7 @@ def verdicts(student: Student):
 
 
 # ------------------------------------------------------------------- 8.8
-training = exercise.task("8.8", "CartPole and Pendulum", seconds=50)
+training = exercise.task("8.8", "CartPole and Pendulum", seconds=50, needs=("8.6",))
 
 
 def mean_of(student: Student, environment: str, index: int) -> float:

@@ -494,7 +494,9 @@ def gradients_of_both(student: Student):
 
 
 # ------------------------------------------------------------------- 12.8
-training = exercise.task("12.8", "Training", seconds=90)
+training = exercise.task(
+    "12.8", "Training", seconds=90, needs=("12.1", "12.2", "12.3", "12.4", "12.5", "12.6", "12.7")
+)
 
 
 @functools.cache

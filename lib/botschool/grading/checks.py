@@ -18,9 +18,15 @@ class Wrong(Exception):
 class Mismatch(Wrong):
     """An answer that differs from what was expected; diagnosis.py looks for a likely cause."""
 
-    def __init__(self, sentence: str, got: np.ndarray, wanted: np.ndarray) -> None:
+    def __init__(
+        self,
+        sentence: str,
+        got: np.ndarray,
+        wanted: np.ndarray,
+        mistakes: dict[str, Any] | None = None,
+    ) -> None:
         super().__init__(sentence)
-        self.got, self.wanted = got, wanted
+        self.got, self.wanted, self.mistakes = got, wanted, mistakes or {}
 
 
 class NotDone(Wrong):
@@ -56,19 +62,26 @@ def expect_array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
     return array
 
 
-def expect_close(said: str, value: Any, expected: Any, tolerance: float = 1e-9) -> None:
+def expect_close(
+    said: str,
+    value: Any,
+    expected: Any,
+    tolerance: float = 1e-9,
+    mistakes: dict[str, Any] | None = None,
+) -> None:
     """The value equals the expected number or array, within a relative and absolute tolerance.
 
-    Raises Mismatch, which a likely cause is looked for.
+    mistakes: what typical mistakes make of it, each by a sentence that names the mistake ("The
+    biases are left out."). Raises Mismatch, for which a likely cause is looked for.
     """
     wanted = np.asarray(expected, dtype=np.float64)
     array = _array(said, value, wanted.shape)
     if array.shape != wanted.shape:
-        raise Mismatch(_but(said, value, wanted.shape), array, wanted)
+        raise Mismatch(_but(said, value, wanted.shape), array, wanted, mistakes)
     got = expect_array(said, value, wanted.shape)
     close = np.isclose(got, wanted, rtol=tolerance, atol=tolerance)
     if not close.all():
-        raise Mismatch(_unequal(said, got, wanted, close), got, wanted)
+        raise Mismatch(_unequal(said, got, wanted, close), got, wanted, mistakes)
 
 
 def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:

@@ -10,82 +10,14 @@ tests/test_grading_diagnosis.py, which also sees to it that all are silent about
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-MAX_NUMBERS = 1_000_000
-"""In an answer that is looked at."""
-Detector = Callable[["Comparison"], "str | None"]
+from botschool.grading.comparison import MAX_NUMBERS, Comparison, alike, arrays
+
+Detector = Callable[[Comparison], "str | None"]
 DETECTORS: list[Detector] = []
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """Two arrays of finite float64 that differ, and what was asked."""
-
-    got: np.ndarray
-    wanted: np.ndarray
-    arguments: tuple = ()
-    """Of the call."""
-    answer: Any = None
-    """The whole answer, of which `got` may be a part."""
-
-    def same(self, candidate: Any) -> bool:
-        """Whether the answer is this, to rounding (single precision included)."""
-        return alike(self.got, candidate)
-
-    @cached_property
-    def varied(self) -> int:
-        """How many different numbers were wanted, without 0: what little there is proves little."""
-        return len(np.unique(self.wanted[self.wanted != 0]))
-
-    @cached_property
-    def telling(self) -> bool:
-        """Whether a factor or a formula cannot fit by chance: not just one or two small integers."""
-        whole = np.all(self.wanted == np.round(self.wanted)) and np.abs(self.wanted).max() < 100
-        return self.varied >= (3 if whole else 1)
-
-    @cached_property
-    def given(self) -> list[np.ndarray]:
-        """The arrays of numbers among the arguments, and in lists and dicts there."""
-        return [each for each in _arrays(self.arguments, 0) if each.size <= MAX_NUMBERS]
-
-    @cached_property
-    def counts(self) -> list[int]:
-        """Numbers of things: lengths of the arguments and the answer, and small integers."""
-        found = set(self.wanted.shape)
-        for each in self.given:
-            found |= {*each.shape, each.size}
-            if each.ndim == 0 and each == np.round(each) and abs(float(each)) < 10_000:
-                found.add(int(each))
-        return sorted(n for n in found if n > 2)
-
-
-def alike(one: Any, other: Any) -> bool:
-    """Whether two arrays are the same, to rounding."""
-    one, other = np.asarray(one, dtype=np.float64), np.asarray(other, dtype=np.float64)
-    if one.shape != other.shape or not np.all(np.isfinite(other)):
-        return False
-    scale = float(np.abs(other).max()) if other.size else 0.0
-    return bool(np.allclose(one, other, rtol=1e-5, atol=1e-7 * scale))
-
-
-def _arrays(value: Any, depth: int) -> list[np.ndarray]:
-    if isinstance(value, np.ndarray):
-        return [value.astype(np.float64)] if value.dtype.kind in "biuf" else []
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
-        return [np.asarray(value, dtype=np.float64)] if abs(value) < 1e300 else []
-    if isinstance(value, dict):
-        value = list(value.values())
-    if not isinstance(value, (list, tuple)) or depth > 3 or len(value) > 1000:
-        return []
-    found = [each for part in value for each in _arrays(part, depth + 1)]
-    if value and all(isinstance(each, (int, float)) for each in value):
-        return [np.asarray(value, dtype=np.float64)]
-    return found
 
 
 def detector(function: Detector) -> Detector:
@@ -94,8 +26,17 @@ def detector(function: Detector) -> Detector:
     return function
 
 
-def diagnose(got: Any, wanted: Any, arguments: tuple = (), answer: Any = None) -> str:
-    """A sentence about the likely cause, or ""."""
+def diagnose(
+    got: Any,
+    wanted: Any,
+    arguments: tuple = (),
+    answer: Any = None,
+    mistakes: dict[str, Any] | None = None,
+) -> str:
+    """A sentence about the likely cause, or "".
+
+    mistakes: sentence -> what this mistake makes of the answer; these are looked at first.
+    """
     got, wanted = np.asarray(got, dtype=np.float64), np.asarray(wanted, dtype=np.float64)
     sizes_fit = 0 < got.size <= MAX_NUMBERS and 0 < wanted.size <= MAX_NUMBERS
     if not sizes_fit or not (np.all(np.isfinite(got)) and np.all(np.isfinite(wanted))):
@@ -103,6 +44,9 @@ def diagnose(got: Any, wanted: Any, arguments: tuple = (), answer: Any = None) -
     found = Comparison(got, wanted, arguments, answer)
     if alike(got, wanted):
         return ""
+    for text, made in (mistakes or {}).items():
+        if alike(got, made) and not alike(wanted, made):
+            return text
     with np.errstate(all="ignore"):
         return next((text for each in DETECTORS if (text := each(found))), "")
 
@@ -134,7 +78,9 @@ def transposed(c: Comparison) -> str | None:
 @detector
 def reshaped(c: Comparison) -> str | None:
     if c.got.shape != c.wanted.shape and c.got.size == c.wanted.size:
-        if np.array_equal(c.got.ravel(), c.wanted.ravel()) or alike(c.got.ravel(), c.wanted.ravel()):
+        if np.array_equal(c.got.ravel(), c.wanted.ravel()) or alike(
+            c.got.ravel(), c.wanted.ravel()
+        ):
             return f"The numbers are right, but their shape is {c.got.shape}: reshape it."
         if c.got.ndim == 1 and c.wanted.ndim == 2 and alike(c.got, c.wanted.T.ravel()):
             return "These are the right numbers column by column, in the wrong shape."
@@ -183,7 +129,7 @@ def exchanged(c: Comparison) -> str | None:
     for key, part in parts:
         if not isinstance(part, (list, np.ndarray, int, float)) or isinstance(part, bool):
             continue
-        if len(found := _arrays(part, 0)) != 1 or not alike(found[0], c.wanted):
+        if len(found := arrays(part, 0)) != 1 or not alike(found[0], c.wanted):
             continue
         if c.telling and not c.same(found[0]):
             name = repr(key) if isinstance(key, str) else f"number {key + 1} of your values"
@@ -203,6 +149,36 @@ def along_the_other_axis(c: Comparison) -> str | None:
                         return f"The {name} is taken along the other axis: see axis=."
                     if c.same(function(table)):
                         return f"The {name} is taken over everything: see axis=."
+    return None
+
+
+_SUMMARIES: dict[str, Callable[[np.ndarray], Any]] = {
+    "the largest": np.max,
+    "the smallest": np.min,
+    "the last": lambda values: values[-1],
+    "the first": lambda values: values[0],
+    "the mean": np.mean,
+    "the sum": np.sum,
+    "the median": np.median,
+    "the place of the largest": np.argmax,
+    "the place of the smallest": np.argmin,
+}
+
+
+@detector
+def another_summary(c: Comparison) -> str | None:
+    """One number is made of many, but another one than is asked for: the last for the best."""
+    if c.wanted.ndim or c.got.ndim:
+        return None
+    for values in (*arrays(c.answer), *c.given):
+        if values.ndim != 1 or len(np.unique(values)) < 3:
+            continue
+        made = {name: function(values) for name, function in _SUMMARIES.items()}
+        wanted = [name for name, value in made.items() if alike(value, c.wanted)]
+        got = [name for name, value in made.items() if c.same(value)]
+        if wanted and got:
+            which = " or ".join(got[:2])
+            return f"This is {which} of {len(values)} values, but {wanted[0]} is asked for."
     return None
 
 
@@ -343,7 +319,7 @@ def a_known_factor(c: Comparison) -> str | None:
             return f"{each} {n} times what was expected, and {n} is a count here: a sum for a mean?"
         if c.same(c.wanted / n):
             return f"{each} 1/{n} of what was expected, and {n} is a count here: a mean for a sum?"
-    for n in sorted({*c.counts, *(n for n in c.counts for n in (n - 1, n + 1)), 2}):
+    for n in sorted({2, *(n + step for n in c.counts for step in (-1, 0, 1))}):
         for power, what in ((1, "variance or sum"), (0.5, "standard deviation")):
             if c.same(c.wanted * ((n - 1) / n) ** power):
                 return f"The {what} is divided by n = {n} instead of n - 1 (ddof=1 in NumPy)."

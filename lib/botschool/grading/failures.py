@@ -59,10 +59,8 @@ class SourceLines:
     def at(self, name: str, line: int) -> tuple[str, str]:
         """(where it is in words, the text) of a line of a file in the submission's folder."""
         name = plain(name)[:80]
-        if name == self._file.name and self._place:
-            where = self._place(line)
-        else:
-            where = f"{name}:{line}"
+        own = name == self._file.name and self._place is not None
+        where = self._place(line) if own else f"{name}:{line}"
         lines = self.lines(name)
         text = lines[line - 1] if 0 < line <= len(lines) else ""
         return where, plain(text.expandtabs(4))
@@ -105,7 +103,9 @@ def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
     if answer.get("loading"):
         return Unloadable(name, text, near, answer, source)
     if name == "NotPlain":
-        return Wrong(f"{said} returned {_no_numbers(text)}, but numbers, lists or arrays are needed.")
+        return Wrong(
+            f"{said} returned {_no_numbers(text)}, but numbers, lists or arrays are needed."
+        )
     if name == "NotImplementedError":
         return NotDone(f"not done yet{f': {text}' if text else ''}")
     if name == "Missing":

@@ -40,8 +40,11 @@ def failure_of(error: Wrong, student: Student, seconds: float) -> Failure:
     if not isinstance(error, Mismatch):
         return Failure(text, not isinstance(error, NotDone) and student.answer is not None
                        and seconds < MAX_SECONDS, student.request)  # fmt: skip
-    arguments = (*student.request.get("arguments", ()), *student.request.get("options", {}).values())
-    cause = diagnose(error.got, error.wanted, arguments, student.answer)
+    arguments = (
+        *student.request.get("arguments", ()),
+        *student.request.get("options", {}).values(),
+    )
+    cause = diagnose(error.got, error.wanted, arguments, student.answer, error.mistakes)
     text += f"\n  {cause}" if cause else ""
     if student.pasted and student.pasted not in text:
         text += f"\n  To try it: {student.pasted}"
@@ -91,7 +94,5 @@ def same(one: Any, other: Any) -> bool:
         return len(one) == len(other) and all(map(same, one, other))
     if isinstance(one, dict) and isinstance(other, dict):
         keys = [str(key) for key in one]
-        return keys == [str(key) for key in other] and all(
-            map(same, one.values(), other.values())
-        )
+        return keys == [str(key) for key in other] and all(map(same, one.values(), other.values()))
     return one == other or (one != one and other != other)

@@ -1,13 +1,13 @@
 """The parts of a solution that stand in for a submission's functions which do not pass yet.
 
-A task that declares needs=("3.2",) calls functions of task 3.2. When it fails and 3.2 has failed, too,
-it is graded again with our 3.2 in the place of the learner's, so that one mistake costs once.
+A task that declares needs=("3.2",) calls functions of task 3.2. When it fails and 3.2 has failed,
+too, it is graded again with our 3.2 in the place of the learner's: one mistake costs once.
 
 What a hostile submission gains by that: in this one attempt its process holds our functions of the
-tasks needed, and no others: never those of the task that is graded, which `pruned` leaves out. It may
-call or read them, for the points of this task, which is the meaning. It cannot carry them to another
-task: every attempt has a process and a folder of its own, both confined and thrown away, and nothing
-that the attempt prints, draws or says in an exception is shown.
+tasks needed and of no others; those of the task that is graded are left out by `pruned`. It may
+call or read them, for the points of this task, which is the meaning. It cannot carry them to
+another task: every attempt has a process and a folder of its own, both confined and thrown away,
+and nothing that is printed, drawn or said in exceptions during this attempt is shown.
 """
 
 from __future__ import annotations

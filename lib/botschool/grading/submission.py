@@ -5,60 +5,31 @@ from __future__ import annotations
 import re
 import shutil
 import tempfile
-import traceback
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TypeVar
 
-from botschool.errors import BotschoolError
 from botschool.grading.cells import Script, Unreadable, scripts
-from botschool.grading.checks import Wrong, plain
+from botschool.grading.checks import Wrong
 from botschool.grading.confined import (
-    MachineFault,
     fork_server,
-    machine_fault,
     submission_files,
 )
 from botschool.grading.exercise import Exercise, Task
 from botschool.grading.failures import Origin
-from botschool.grading.looking import Failure, failure_of, looked_at_again
+from botschool.grading.judging import TaskResult, grade_task, tried_twice
 from botschool.grading.references import functions_of, pruned
 from botschool.grading.student import Student
-from botschool.grading.timelimit import TookTooLong, processor_time_limit
 from botschool.sandbox import ForkServer
 
-T = TypeVar("T")
-_DOES, _PLACE = ("does", "do"), ("its", "their")
 LOADING_SECONDS = 10
 """Processor time for all that a file or a notebook does besides defining functions."""
-CHECK_SECONDS = 20
-"""Processor time that a check may use in the grader's own thread; our solutions need up to 3."""
 _CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
 _DEFINITION = re.compile(r"^(async def|def|class)\b", re.MULTILINE)
 _NAME = re.compile(r"^\s*(?:async\s+def|def|class)\s+(\w+)", re.MULTILINE)
+_DOES, _PLACE = ("does", "do"), ("its", "their")
 _NOT_GRADED = "Not graded: mend the file first, as said above."
-MAX_DIAGNOSED, DIAGNOSIS_SECONDS = 2, 2.0
-"""Failed checks of a task whose calls are looked at again; processor time for that."""
-
-
-@dataclass
-class TaskResult:
-    """What a submission got for a task."""
-
-    id: str
-    title: str
-    points: int
-    max_points: int
-    message: str
-    """Why points are missing, in sentences; empty for full marks."""
-    printed: str = ""
-    """The beginning of what the submission printed."""
-    missing: list[str] = field(default_factory=list)
-    """What this system could not confine, in words."""
-    pictures: list[tuple[str, bytes]] = field(default_factory=list)
-    """(name, PNG) of those beside the submission's file after the task."""
 
 
 @dataclass
@@ -97,10 +68,6 @@ class Result:
         }
 
 
-class GraderFault(BotschoolError):
-    """A check failed by a fault of its own, not by what a submission did."""
-
-
 def grade(
     exercise: Exercise,
     file: Path,
@@ -112,7 +79,8 @@ def grade(
 ) -> Result:
     """Grades a submission's file; reports each task as soon as it is judged.
 
-    announce: is called before, with the banner if there is one. tasks: else all; server: else one is made and closed.
+    announce: is called before, with the banner if there is one. tasks: else all; server: else one
+    is made and closed.
     alone: whether no others are graded at the same time; what may be the fault of the machine is
     then tried once more. Raises BotschoolError, of which MachineFault says that it was its fault.
     """
@@ -200,14 +168,18 @@ class Submission:
         if not exercise.references or not task.needs or own in result.message:
             return result
         needed = exercise.needed(task)
-        broken = [each for each in needed if self.grade(each).points < each.max_points]
         functions = functions_of(exercise.references)
-        names = [name for each in broken for name in functions.get(each.id, ())]
-        if not names:
+        broken = [
+            each
+            for each in needed
+            if each.id in functions and self.grade(each).points < each.max_points
+        ]
+        if not broken:
             return result
+        names = [name for each in broken for name in functions[each.id]]
         source = pruned(exercise.references, [each.id for each in needed])
         again = self._attempt(task, {"source": source, "names": names})
-        which = " and ".join(f"{each.id} ({', '.join(functions.get(each.id, ()))})" for each in broken)
+        which = " and ".join(f"{each.id} ({', '.join(functions[each.id])})" for each in broken)
         yours = f"It calls yours of task {which}, which {_DOES[len(broken) > 1]} not pass yet"
         if again.points <= result.points:
             lines = [f"{yours}; with ours in their place this task fails as well.", again.message]
@@ -226,7 +198,7 @@ class Submission:
             self._write(everything)
         file = self._file if self._script else self._given
         place = self._place if self._script else None
-        trouble = _twice(partial(_trouble, file, self._server, Origin(place)), self._alone)
+        trouble = tried_twice(partial(_trouble, file, self._server, Origin(place)), self._alone)
         if trouble is None:
             return
         self.banner = getattr(trouble, "banner", str(trouble))
@@ -288,16 +260,6 @@ class Submission:
         return f"the cell '{shown[:40]}{'...' if len(shown) > 40 else ''}'"
 
 
-def _twice(attempt: Callable[[bool], T], alone: bool) -> T:
-    """attempt(whether it was tried before), once more after a MachineFault if nobody else runs."""
-    try:
-        return attempt(False)
-    except MachineFault:
-        if not alone:
-            raise
-    return attempt(True)
-
-
 def _trouble(file: Path, server: ForkServer, origin: Origin, tried: bool) -> Wrong | None:
     """Why a submission's file cannot be loaded; None if it can.
 
@@ -315,102 +277,3 @@ def _trouble(file: Path, server: ForkServer, origin: Origin, tried: bool) -> Wro
     finally:
         student.close()
     return None
-
-
-def grade_task(
-    task: Task,
-    file: Path,
-    server: ForkServer,
-    alone: bool = True,
-    origin: Origin | None = None,
-    references: dict | None = None,
-) -> TaskResult:
-    """Runs a task's checks on a file, in a child of its own; alone: as of `grade`.
-
-    origin: where the lines of the file come from. references: as of Student; nothing is then shown
-    of what the submission prints, draws, or says in exceptions. Raises BotschoolError.
-    """
-    return _twice(partial(_grade_task, task, file, server, origin, references), alone)
-
-
-def _grade_task(
-    task: Task,
-    file: Path,
-    server: ForkServer,
-    origin: Origin | None,
-    references: dict | None,
-    tried: bool,
-) -> TaskResult:
-    result = TaskResult(task.id, task.title, 0, task.max_points, "")
-    problems: list[str] = []
-    failed: list[tuple[int, Failure]] = []
-    student = None
-    try:
-        student = Student(file, task.seconds, task.memory, server, tried, origin, references)
-        for worth, _, check in task.checks:
-            problem = _problem(task, check, student)
-            if problem is None:
-                result.points += worth
-            else:
-                failed.append((len(problems), problem))
-                problems.append(problem.text)
-        student.stop()
-        if references is None:
-            result.printed = plain(student.printed)
-            result.pictures = student.pictures()
-        result.missing = student.missing
-        for at, failure in _diagnosable(failed):
-            again = partial(Student, file, DIAGNOSIS_SECONDS, task.memory, server, True, origin)
-            problems[at] += looked_at_again(failure, partial(again, references=references))
-    except Wrong as error:
-        problems.append(str(error))
-    finally:
-        if student is not None:
-            student.close()
-    result.message = plain("\n".join(dict.fromkeys(problems)))
-    return result
-
-
-def _diagnosable(failed: list[tuple[int, Failure]]) -> list[tuple[int, Failure]]:
-    """The first failures of which nothing is known but that numbers differ, one of each function."""
-    by_name = {each.name: (at, each) for at, each in reversed(failed) if each.unexplained}
-    return sorted(by_name.values(), key=lambda pair: pair[0])[:MAX_DIAGNOSED]
-
-
-def _problem(task: Task, check: Callable[[Student], None], student: Student) -> Failure | None:
-    """Why a check is not passed; None when it is."""
-    answers = student.answers
-    before = student.seconds_left
-    try:
-        with processor_time_limit(CHECK_SECONDS):
-            check(student)
-    except TookTooLong:
-        return Failure(f"{student.said} returned something that takes too long to judge.")
-    except Wrong as error:
-        return failure_of(error, student, before - student.seconds_left)
-    except BotschoolError:
-        raise  # the grader's own trouble, not the submission's
-    except OSError as error:
-        fault = machine_fault(error)
-        if isinstance(fault, MachineFault):
-            raise fault from error
-        return Failure(_unjudged(task, student, answers, error))
-    except Exception as error:
-        return Failure(_unjudged(task, student, answers, error))
-    return None
-
-
-def _unjudged(task: Task, student: Student, answers: int, error: Exception) -> str:
-    """An exception in a check: a sentence. Raises GraderFault if no answer can have caused it."""
-    said = f"{type(error).__name__}: {str(error)[:200]}"
-    # with nothing from the submission at hand, or by a name that is not there
-    if student.answers == answers or isinstance(error, (NameError, ImportError)):
-        place = traceback.extract_tb(error.__traceback__)[-1]
-        raise GraderFault(
-            f"The grader of task {task.id} has a fault, which is not the submission's "
-            f"({said}, in {Path(place.filename).name} line {place.lineno}): it must be mended."
-        ) from error
-    return (
-        f"{student.said} returned something that cannot be judged ({said}). If it is what the "
-        "task asks for, tell your instructor."
-    )

@@ -52,7 +52,7 @@ def show(value: Any, longest: int = 60) -> str:
 def numbers(array: np.ndarray, digits: int) -> str:
     """A small array in one line; digits: behind the point, at most."""
     text = np.array2string(array, precision=digits, separator=", ", threshold=8)
-    return " ".join(text.split()).replace("[ ", "[")
+    return " ".join(text.split()).replace("[ ", "[").replace(" ,", ",")
 
 
 def kind(value: Any) -> str:

@@ -17,6 +17,8 @@ from typing import Any
 MAX_TEXT = 500
 MAX_NAMES, MAX_NAME = 5000, 60
 """Among which the nearest is looked for; characters of each."""
+ALIKE = 0.7
+"""Ratio of difflib."""
 _WRONG_CALL = re.compile(r"(?:\w+\.)*(\w+)\(\) (?:missing|takes|got an unexpected|got multiple)")
 
 
@@ -87,9 +89,9 @@ def _near(error: BaseException, frame: FrameType | None) -> str | None:
     if isinstance(error, AttributeError) and error.name:
         return nearest(error.name, dir(error.obj))
     if isinstance(error, ModuleNotFoundError) and error.name:
-        own = {name.partition(".")[0] for name in sys.modules} | sys.stdlib_module_names
-        installed = {each.name for each in pkgutil.iter_modules()}
-        return nearest(error.name, sorted(own | installed))
+        loaded = {name.partition(".")[0] for name in sys.modules} - sys.stdlib_module_names
+        others = {each.name for each in pkgutil.iter_modules()} | sys.stdlib_module_names
+        return nearest(error.name, sorted(loaded)) or nearest(error.name, sorted(others))
     if isinstance(error, ImportError) and error.name in sys.modules and error.args:
         found = re.match(r"cannot import name '(\w+)'", str(error))
         return nearest(found[1], dir(sys.modules[error.name])) if found else None
@@ -103,7 +105,7 @@ def nearest(name: str, names: Iterable[str]) -> str | None:
         return None
     if alike := [each for each in known if _plain(each) == _plain(name)]:
         return alike[0]
-    found = difflib.get_close_matches(name, known, 1, 0.6)
+    found = difflib.get_close_matches(name, known, 1, ALIKE)
     if not found:  # rank for rank_individuals, and the other way round
         found = [each for each in known if min(len(each), len(name)) > 3 and (
             each.startswith(name) or name.startswith(each))]  # fmt: skip

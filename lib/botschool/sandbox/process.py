@@ -136,7 +136,9 @@ class Child:
         told = protocol.read_some(self._answers, MAX_TRACE, WHERE_SECONDS).decode(errors="replace")
         threads = re.split(r"(?=^(?:Current thread|Thread) 0x)", told, flags=re.MULTILINE)
         threads.sort(key=lambda thread: not thread.startswith("Current"))
-        inside = re.compile(rf'^  File "{re.escape(str(self._scratch.folder))}/(.+)", line (\d+) in')
+        inside = re.compile(
+            rf'^  File "{re.escape(str(self._scratch.folder))}/(.+)", line (\d+) in'
+        )
         for thread in threads:
             found = [inside.match(line) for line in thread.splitlines()]
             if any(found):
