@@ -85,8 +85,12 @@ CASES = {
     "n times": (lambda r: (17 * (w := r.normal()), w, (line(r, 17),)), "17 times"),
     "1/n": (lambda r: ((w := line(r, 3)) / 17, w, (table(r, 17, 3),)), "1/17"),
     "n for n - 1": (lambda r: ((w := r.normal()) * 16 / 17, w, (line(r, 17),)), "ddof=1"),
-    "deviation": (lambda r: ((x := line(r, 9)).std(), x.std(ddof=1), (x,)), "n = 9 instead of n"),
-    "deviation by n - 1": (lambda r: ((x := line(r, 9)).std(ddof=1), x.std(), (x,)), "n - 1 = 8"),
+    "deviation": (
+        lambda r: ((x := line(r, 9)).std(), x.std(ddof=1), (x,)), "n - 1 were mixed up (n = 9)"
+    ),
+    "deviation by n - 1": (
+        lambda r: ((x := line(r, 9)).std(ddof=1), x.std(), (x,)), "mixed up (n = 9)"
+    ),
     "square": (lambda r: ((w := line(r)) ** 2, w), "square of"),
     "tanh forgotten": (lambda r: (np.arctanh(w := np.tanh(line(r))), w), "before tanh"),
     "logarithm": (lambda r: (np.log(w := r.uniform(0.1, 5, 6)), w), "np.exp missing"),

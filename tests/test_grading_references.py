@@ -166,7 +166,7 @@ def test_what_a_hostile_submission_can_take_from_it(graded, server, tmp_path):
     """Our function of the same task is not there; what it finds of others gets nowhere."""
     references = {"source": pruned(SOLUTION, {"3.1"}), "names": ["smaller"]}
     student = Student(submit(tmp_path / "real", HOSTILE), server=server, references=references)
-    with contextlib.closing(student), pytest.raises(Wrong, match=r"raised ValueError$"):
+    with contextlib.closing(student), pytest.raises(Wrong, match=r"raised ValueError\n"):
         student.call("sums", 6.5)
     assert student.printed == "['LEAKEDsmaller_marks']\n"  # so the attack is a real one
     result = graded(HOSTILE)

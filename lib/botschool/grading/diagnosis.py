@@ -305,8 +305,11 @@ def a_known_factor(c: Comparison) -> str | None:
         return None
     each = "Each number is" if c.wanted.ndim else "It is"
     known = (
-        (2.0, "twice what was expected: is a factor 1/2 missing, or something counted twice?"),
-        (0.5, "half of what was expected: is there a factor 1/2 too much, or 2 missing?"),
+        (2.0, "twice what was expected: is a factor 1/2 missing, or a sum taken for a mean of 2?"),
+        (
+            0.5,
+            "half of what was expected: is a factor 1/2 too much, or a mean of 2 taken for a sum?",
+        ),
         (1 / np.log(2), "in bits: the natural logarithm (np.log) is asked for, not np.log2."),
         (1 / np.log(10), "by np.log10: the natural logarithm (np.log) is asked for."),
         (100.0, "100 times what was expected: a share is asked for, not per cent."),
@@ -320,11 +323,12 @@ def a_known_factor(c: Comparison) -> str | None:
         if c.same(c.wanted / n):
             return f"{each} 1/{n} of what was expected, and {n} is a count here: a mean for a sum?"
     for n in sorted({2, *(n + step for n in c.counts for step in (-1, 0, 1))}):
-        for power, what in ((1, "variance or sum"), (0.5, "standard deviation")):
+        for power in (1, 0.5, -0.5, -1):
             if c.same(c.wanted * ((n - 1) / n) ** power):
-                return f"The {what} is divided by n = {n} instead of n - 1 (ddof=1 in NumPy)."
-            if c.same(c.wanted * (n / (n - 1)) ** power):
-                return f"The {what} is divided by n - 1 = {n - 1} instead of n (see ddof in NumPy)."
+                return (
+                    f"It is as if n and n - 1 were mixed up (n = {n}) in a mean, a variance or a "
+                    "standard deviation: see ddof in NumPy, correction in torch."
+                )
     return None
 
 

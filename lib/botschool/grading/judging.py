@@ -90,6 +90,8 @@ def _grade_task(
             result.printed = plain(student.printed)
             result.pictures = student.pictures()
         result.missing = student.missing
+        for at, failure in [pair for pair in failed if pair[1].pasted][:1]:
+            problems[at] += f"\n  To try it: {failure.pasted}"
         for at, failure in _diagnosable(failed):
             again = partial(Student, file, DIAGNOSIS_SECONDS, task.memory, server, True, origin)
             problems[at] += looked_at_again(failure, partial(again, references=references))

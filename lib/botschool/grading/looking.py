@@ -24,6 +24,8 @@ class Failure:
     unexplained: bool = False
     """Whether the call is worth another look."""
     request: dict[str, Any] = field(default_factory=dict)
+    pasted: str = ""
+    """The call, to paste."""
 
     @property
     def name(self) -> str:
@@ -32,7 +34,7 @@ class Failure:
 
 
 def failure_of(error: Wrong, student: Student, seconds: float) -> Failure:
-    """What a check's exception says, with a likely cause and a call to paste.
+    """What a check's exception says, with a likely cause.
 
     seconds: of processor time that the submission used in this check.
     """
@@ -46,9 +48,8 @@ def failure_of(error: Wrong, student: Student, seconds: float) -> Failure:
     )
     cause = diagnose(error.got, error.wanted, arguments, student.answer, error.mistakes)
     text += f"\n  {cause}" if cause else ""
-    if student.pasted and student.pasted not in text:
-        text += f"\n  To try it: {student.pasted}"
-    return Failure(text, not cause and seconds < MAX_SECONDS, student.request)
+    pasted = "" if student.pasted in text else student.pasted
+    return Failure(text, not cause and seconds < MAX_SECONDS, student.request, pasted)
 
 
 def looked_at_again(failure: Failure, fresh: Callable[[], Student]) -> str:

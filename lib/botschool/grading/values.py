@@ -14,6 +14,8 @@ FEW = 6
 """Numbers of an array that are all shown."""
 PASTED = 24
 """Numbers in an argument of a call that can be pasted; characters of others."""
+MAX_CALL = 300
+"""Characters of a call that can be pasted."""
 DIGITS = 6
 """At least; more where two numbers differ only in later ones."""
 
@@ -117,7 +119,7 @@ def pasted(name: str, arguments: tuple, options: dict) -> str:
     names = [""] * len(arguments) + [f"{key}=" for key in options]
     parts = [key + value for key, value in zip(names, values, strict=True)]
     text = f"{name}({', '.join(parts)})"
-    return text if len(text) <= 400 else ""
+    return text if len(text) <= MAX_CALL else ""
 
 
 def paste(value: Any) -> str:
