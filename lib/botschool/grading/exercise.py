@@ -29,6 +29,7 @@ class Task:
     seconds: float
     memory: int
     imports: tuple[str, ...] = ()
+    refused: tuple[str, ...] = ()
     checks: list[tuple[int, str, Callable[[Student], None]]] = field(default_factory=list)
 
     def check(self, points: int) -> Callable:
@@ -77,9 +78,19 @@ class Exercise:
         self.extras = extras
         self.tasks: list[Task] = []
 
-    def task(self, id: str, title: str, seconds: float = 20, memory: int = 4096) -> Task:
-        """Adds a task; seconds: processor time of all its checks; memory: MB beyond the imports."""
-        self.tasks.append(Task(id, title, seconds, memory, self.imports))
+    def task(
+        self,
+        id: str,
+        title: str,
+        seconds: float = 20,
+        memory: int = 4096,
+        refused: tuple[str, ...] = (),
+    ) -> Task:
+        """Adds a task; seconds: processor time of all its checks; memory: MB beyond the imports.
+
+        refused: functions of libraries that are the answer, as of refused.refuse.
+        """
+        self.tasks.append(Task(id, title, seconds, memory, self.imports, refused))
         return self.tasks[-1]
 
     def require(self) -> None:

@@ -18,6 +18,7 @@ from botschool.grading.confined import (
     scratch_copy,
     start_child,
 )
+from botschool.grading.refused import refuse
 from botschool.sandbox import Allowance, Child, ForkServer, Limits
 from botschool.sandbox.usage import is_full
 
@@ -37,8 +38,9 @@ class Student:
         memory: int = 4096,
         server: ForkServer | None = None,
         tried: bool = True,
+        refused: tuple[str, ...] = (),
     ) -> None:
-        """memory: MB of address space; server: else one of its own.
+        """memory: MB of address space; server: else one of its own; refused: as of Exercise.task.
 
         tried: whether a fault that may be the machine's has been met before, and the submission
         is to blame if it comes again and nothing speaks against the machine.
@@ -48,6 +50,7 @@ class Student:
         self._memory = memory * 2**20
         self._allowance = Allowance(seconds)
         self._tried = tried
+        self._refused = refused
         self._child: Child | None = None
         self._printed = ""
         self.missing: list[str] = []
@@ -76,9 +79,7 @@ class Student:
         the submission: check it again.
         """
         self.said = said or f"{driver.__name__}(...)"
-        source = textwrap.dedent(inspect.getsource(driver))
-        request = {"driver": source, "name": driver.__name__, "arguments": arguments}
-        return self._request(request)
+        return self._request(_driven(driver, *arguments))
 
     @property
     def printed(self) -> str:
@@ -121,13 +122,16 @@ class Student:
     def _request(self, request: dict[str, Any]) -> Any:
         if self.seconds_left <= 0:
             raise Wrong("the task's time was used up by the checks before.")
-        if self._child is None:
+        first = self._child is None
+        if first:
             if self._server is None:
                 self._server = self._own = fork_server()
             limits = Limits(self.seconds_left, self._memory)
             self._child = start_child(self._server, self._scratch, self._file, limits)
             self.missing = self._child.missing
         try:
+            if first and self._refused:
+                self._child.ask(_driven(refuse, list(self._refused)), self._allowance)
             answer = self._child.ask(request, self._allowance)
         except TimeoutError:
             self.stop()
@@ -167,6 +171,12 @@ class Student:
             raise MachineFault(
                 f"The disk was full while {self.said} was running: free some space and grade again."
             )
+
+
+def _driven(driver: Callable[..., Any], *arguments: Any) -> dict[str, Any]:
+    """The request that runs a driver."""
+    source = textwrap.dedent(inspect.getsource(driver))
+    return {"driver": source, "name": driver.__name__, "arguments": arguments}
 
 
 def _value(answer: dict[str, Any], said: str) -> Any:

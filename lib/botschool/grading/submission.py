@@ -276,7 +276,7 @@ def _grade_task(task: Task, file: Path, server: ForkServer, tried: bool) -> Task
     problems: list[str] = []
     student = None
     try:
-        student = Student(file, task.seconds, task.memory, server, tried)
+        student = Student(file, task.seconds, task.memory, server, tried, task.refused)
         for worth, _, check in task.checks:
             problem = _problem(task, check, student)
             if problem is None:
