@@ -46,10 +46,8 @@ def gradient_by_torch(inputs, targets, w1, b1, w2, b2):
     hidden = torch.sigmoid(nn.functional.linear(x, parameters[0], parameters[1]))
     loss = nn.functional.mse_loss(nn.functional.linear(hidden, *parameters[2:]), t)
     slopes = torch.autograd.grad(loss, parameters)
-    return {
-        "loss": loss.detach().numpy(),
-        **dict(zip(("w1", "b1", "w2", "b2"), slopes, strict=False)),
-    }
+    w1, b1, w2, b2 = (slope.numpy() for slope in slopes)
+    return {"loss": loss.detach().numpy(), "w1": w1, "b1": b1, "w2": w2, "b2": b2}
 
 
 def train(network, inputs, targets, epochs, learning_rate, momentum):
