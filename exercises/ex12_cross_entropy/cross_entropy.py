@@ -222,8 +222,8 @@ def gaussian_loss(
 # The second environment is CartPole with a motor that pushes with any force: its action is a number
 # from -1 (10 N to the left) to 1 (10 N to the right).
 #
-# The policy must learn by your losses, from episodes in the environment that `gymnasium.make` gives:
-# when it is graded, the signs of what is observed and done there may differ from the usual ones.
+# The policy must learn by your losses, from episodes in the environment that `gymnasium.make`
+# gives: when it is graded, the signs of what is observed and done there may differ from the usual.
 
 
 # %%
