@@ -44,6 +44,13 @@ CASES = {
     "exchanged in a list": (
         lambda r: (x := line(r), y := line(r), (), [x, y]), "number 2 of your values"
     ),
+    "exchanged in a row": (
+        lambda r: ((a := with_ends(r))["truncated"], a["terminated"], (), [{"x": 1.5}, a]),
+        "returned as 'terminated'",
+    ),
+    "n runs": (
+        lambda r: ((w := line(r)) * 3 / 4, w, ([{"x": line(r, 9)}] * 4,)), "mixed up (n = 4)"
+    ),
     "other axis": (
         lambda r: ((t := table(r, 4, 4)).mean(axis=0), t.mean(axis=1), (t,)), "along the other axis"
     ),
@@ -84,7 +91,7 @@ CASES = {
     "bits": (lambda r: ((w := r.normal()) / np.log(2), w), "in bits"),
     "n times": (lambda r: (17 * (w := r.normal()), w, (line(r, 17),)), "17 times"),
     "1/n": (lambda r: ((w := line(r, 3)) / 17, w, (table(r, 17, 3),)), "1/17"),
-    "n for n - 1": (lambda r: ((w := r.normal()) * 16 / 17, w, (line(r, 17),)), "ddof=1"),
+    "n for n - 1": (lambda r: ((w := r.normal()) * 16 / 17, w, (line(r, 17),)), "see ddof"),
     "deviation": (
         lambda r: ((x := line(r, 9)).std(), x.std(ddof=1), (x,)), "n - 1 were mixed up (n = 9)"
     ),

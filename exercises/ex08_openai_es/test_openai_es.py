@@ -1,5 +1,8 @@
 """Grader of exercise 8; run it with `make test-ex8`.
 
+Task 8.8 is evolved with secret signs of the parameters, so that none can be written down, and the
+evaluations are watched, so that none comes from another algorithm.
+
 Stochastic checks (task 8.8; a seed of the grader's, the mean over 100 episodes that the submission
 has not seen): CartPole-v0 at least 195, Pendulum-v1 at least -400. Over 20 seeds the solution
 reaches 200 of 200 with every one, and -215 to -145.
@@ -216,12 +219,22 @@ def later_steps(student: Student):
         compare_adam(student, inputs_of_adam(index, n, t))
 
 
-@optimiser.check(2)
+@optimiser.check(1)
 def late_steps(student: Student):
     compare_adam(student, inputs_of_adam(14, 12, 50_000))
 
 
 @optimiser.check(2)
+def where_hardly_anything_slopes(student: Student):
+    """d of 0, and so small that the 1e-8 counts: once from nothing, once with a past."""
+    for index, t in ((62, 1), (63, 40)):
+        centre, d, m, v, t, stepsize = inputs_of_adam(index, 5, t)
+        d = np.array([0.0, 1e-8, -3e-8, 2e-7, 0.0])
+        m, v = (m, v) if t == 1 else (d * 0.5, d**2)
+        compare_adam(student, [centre, d, m, v, t, stepsize])
+
+
+@optimiser.check(1)
 def steps_without_side_effects(student: Student):
     compare_adam(student, inputs_of_adam(61, 6, 3))
     expect_unchanged(student, "adam", inputs_of_adam(61, 6, 3))
@@ -348,7 +361,9 @@ def verdicts(student: Student):
     falls = (0.0, 0.05, 0.09, 0.11, 0.2, 0.29, 0.31, 0.6, 0.8)
     cases = [rising_with_fall(30 + i, fall, i % 2 == 0) for i, fall in enumerate(falls)]
     cases += [np.arange(12.0), np.full(4, -500.0), np.array([5.0, 1.0])]
-    cases += [np.array([0.0, 10.0, 9.0, 10.0])]
+    # at the limits, which belong to the milder verdict
+    cases += [np.array([0.0, 10.0, 9.0, 10.0]), np.array([0.0, 1.0, 0.0, 10.0])]
+    cases += [np.array([0.0, 3.0, 0.0, 10.0]), np.array([0.0, 30.0, 0.0, 100.0])]
     for curve in cases:
         said, answer, right = judged(student, curve)
         expect(
@@ -362,29 +377,86 @@ def verdicts(student: Student):
 training = exercise.task("8.8", "CartPole and Pendulum", seconds=50, needs=("8.6",))
 
 
-def mean_of(student: Student, environment: str, index: int) -> float:
-    """Mean return of the student's centre over 100 episodes that it has not seen."""
-    robot = Robot(environment)
-    centre = student.call("train", environment, seed=exercise.seed(index) % 100_000)
-    centre = expect_array(student.said, centre, (robot.nbiases + robot.nweights,))
-    return float(robot.evaluate(centre[None], exercise.seed(index + 1), episodes=100)[0])
+def trained(module, environment, seed, signs):
+    """The student's centre, and evidence of how it was found.
+
+    In between, each parameter reaches the network with a sign of its own: OpenAI-ES does not notice
+    this, as its samples are as often positive as negative. Evidence: the share of the evaluated
+    candidates that lie in neighbouring pairs around one point, and the calls of evolve.
+    """
+    import numpy
+
+    from botschool.course import evaluation
+
+    robot, seen, pairs, calls = evaluation.Robot, [], 0, 0
+    kept = robot.evaluate, robot.play, getattr(module, "evolve", None)
+
+    def evaluate(self, population, *arguments, **options):
+        nonlocal pairs
+        population = numpy.array(population, dtype=float)
+        half = len(population) // 2
+        if len(population) == 2 * half and half > 2:  # all on one side, then all on the other
+            middles = (population[:half] + population[half:]) / 2
+            pairs += half * bool(numpy.allclose(middles, middles[0], atol=1e-9))
+        seen.extend(population)
+        return kept[0](self, population * signs, *arguments, **options)
+
+    def play(self, parameters, *arguments, **options):
+        return kept[1](self, numpy.asarray(parameters) * signs, *arguments, **options)
+
+    def evolve(*arguments, **options):
+        nonlocal calls
+        calls += 1
+        return kept[2](*arguments, **options)
+
+    robot.evaluate, robot.play, module.evolve = evaluate, play, evolve
+    try:
+        centre = module.train(environment, seed=seed)
+    finally:
+        robot.evaluate, robot.play, module.evolve = kept
+    rows = numpy.array(seen).reshape(len(seen), -1)
+    middles = (rows[:-1] + rows[1:]) / 2
+    same = numpy.isclose(middles[:-2], middles[2:], atol=1e-9).all(axis=1)
+    return [centre, (pairs + int(same.sum())) / max(1, len(rows) / 2), calls]
+
+
+def expect_mean(student: Student, environment: str, index: int, goal: float, what: str) -> None:
+    """The student's centre reaches the goal on average over 100 episodes that it has not seen."""
+    robot, seed = Robot(environment), exercise.seed(index) % 100_000
+    size = robot.nbiases + robot.nweights
+    signs = generator(index + 100).choice([-1.0, 1.0], size)
+    said = f"train({environment!r}, seed={seed})"
+    answer = student.run(trained, environment, seed, signs, said=said)
+    expect(isinstance(answer, list) and len(answer) == 3, f"{said} gave no answer.")
+    centre = expect_array(said, answer[0], (size,))
+    mean, plain = (
+        float(robot.evaluate(each[None], exercise.seed(index + 1), episodes=100)[0])
+        for each in (signs * centre, centre)
+    )
+    expect(
+        mean >= goal or plain < goal,
+        f"{said}: the controller would do as asked, but was not evolved here: while it was sought, "
+        "robot.evaluate took each parameter with another sign, and with these it fails. So evolve "
+        "a new one, by the fitness that robot.evaluate returns.",
+    )
+    expect(
+        mean >= goal,
+        f"{said}: the controller {what.format(mean)} on average over 100 new episodes, but "
+        f"{goal:g} is asked for.",
+    )
+    _, share, calls = answer
+    expect(
+        isinstance(share, float) and isinstance(calls, int) and (share > 0.25 or calls > 0),
+        f"{said}: the controller was found, but not by this algorithm: no pairs of candidates on "
+        "both sides of a centre were evaluated.",
+    )
 
 
 @training.check(5)
 def keeps_the_pole_up(student: Student):
-    mean = mean_of(student, "CartPole-v0", 50)
-    expect(
-        mean >= 195,
-        f"{student.said}: the controller keeps the pole up for {mean:.1f} steps on average over "
-        "100 new episodes, but 195 are asked for.",
-    )
+    expect_mean(student, "CartPole-v0", 50, 195, "keeps the pole up for {:.1f} steps")
 
 
 @training.check(5)
 def swings_the_pendulum_up(student: Student):
-    mean = mean_of(student, "Pendulum-v1", 52)
-    expect(
-        mean >= -400,
-        f"{student.said}: the controller reaches {mean:.0f} on average over 100 new episodes, but "
-        "-400 is asked for.",
-    )
+    expect_mean(student, "Pendulum-v1", 52, -400, "reaches {:.0f}")

@@ -47,6 +47,7 @@ class Comparison:
     def counts(self) -> list[int]:
         """Numbers of things: lengths of the arguments and the answer, and small integers."""
         found = set(self.wanted.shape)
+        found |= {len(each) for each in self.arguments if isinstance(each, (list, dict))}
         for each in self.given:
             found |= {*each.shape, each.size}
             if each.ndim == 0 and each == np.round(each) and abs(float(each)) < 10_000:
@@ -76,4 +77,19 @@ def arrays(value: Any, depth: int = 0) -> list[np.ndarray]:
     found = [each for part in value for each in arrays(part, depth + 1)]
     if value and all(isinstance(each, (int, float)) for each in value):
         return [np.asarray(value, dtype=np.float64)]
+    return found
+
+
+def parts(answer: Any, depth: int = 0) -> list[tuple[str, Any]]:
+    """(its name, value) of the parts of an answer that are numbers or arrays of them; a few."""
+    found: list[tuple[str, Any]] = []
+    if depth > 2 or not isinstance(answer, (dict, list)):
+        return found
+    named = isinstance(answer, dict)
+    entries = answer.items() if named else enumerate(answer, 1)
+    for _, (key, value) in zip(range(50), entries, strict=False):
+        if isinstance(value, dict) or (isinstance(value, list) and not arrays(value)):
+            found += parts(value, depth + 1)
+        elif isinstance(value, (list, np.ndarray, int, float)) and not isinstance(value, bool):
+            found.append((repr(key) if named else f"number {key} of your values", value))
     return found

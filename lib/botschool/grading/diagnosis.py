@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from botschool.grading.comparison import MAX_NUMBERS, Comparison, alike, arrays
+from botschool.grading.comparison import MAX_NUMBERS, Comparison, alike, arrays, parts
 
 Detector = Callable[[Comparison], "str | None"]
 DETECTORS: list[Detector] = []
@@ -123,17 +123,10 @@ def given_back(c: Comparison) -> str | None:
 @detector
 def exchanged(c: Comparison) -> str | None:
     """What is expected here stands in another place of the answer."""
-    parts = c.answer.items() if isinstance(c.answer, dict) else (
-        enumerate(c.answer[:20]) if isinstance(c.answer, list) else ()
-    )  # fmt: skip
-    for key, part in parts:
-        if not isinstance(part, (list, np.ndarray, int, float)) or isinstance(part, bool):
-            continue
-        if len(found := arrays(part, 0)) != 1 or not alike(found[0], c.wanted):
-            continue
-        if c.telling and not c.same(found[0]):
-            name = repr(key) if isinstance(key, str) else f"number {key + 1} of your values"
-            return f"What belongs here is returned as {name}: are the two exchanged?"
+    for place, part in parts(c.answer) if c.telling else ():
+        found = arrays(part)
+        if len(found) == 1 and alike(found[0], c.wanted) and not c.same(found[0]):
+            return f"What belongs here is returned as {place}: are the two exchanged?"
     return None
 
 

@@ -32,6 +32,7 @@ class Task:
     imports: tuple[str, ...] = ()
     needs: tuple[str, ...] = ()
     """Tasks whose functions a submission calls in this one."""
+    refused: tuple[str, ...] = ()
     checks: list[tuple[int, str, Callable[[Student], None]]] = field(default_factory=list)
 
     def check(self, points: int) -> Callable:
@@ -89,13 +90,15 @@ class Exercise:
         seconds: float = 20,
         memory: int = 4096,
         needs: tuple[str, ...] = (),
+        refused: tuple[str, ...] = (),
     ) -> Task:
         """Adds a task; seconds: processor time of all its checks; memory: MB beyond the imports.
 
         needs: ids of tasks whose functions students call in this one. If one of these does not
         pass, this one is also graded with ours in its place.
+        refused: functions of libraries that are the answer, as of refused.refuse.
         """
-        self.tasks.append(Task(id, title, seconds, memory, self.imports, needs))
+        self.tasks.append(Task(id, title, seconds, memory, self.imports, needs, refused))
         return self.tasks[-1]
 
     def needed(self, task: Task) -> list[Task]:

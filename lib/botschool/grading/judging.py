@@ -77,7 +77,9 @@ def _grade_task(
     failed: list[tuple[int, Failure]] = []
     student = None
     try:
-        student = Student(file, task.seconds, task.memory, server, tried, origin, references)
+        student = Student(
+            file, task.seconds, task.memory, server, tried, origin, references, task.refused
+        )
         for worth, _, check in task.checks:
             problem = _problem(task, check, student)
             if problem is None:
@@ -93,8 +95,9 @@ def _grade_task(
         for at, failure in [pair for pair in failed if pair[1].pasted][:1]:
             problems[at] += f"\n  To try it: {failure.pasted}"
         for at, failure in _diagnosable(failed):
-            again = partial(Student, file, DIAGNOSIS_SECONDS, task.memory, server, True, origin)
-            problems[at] += looked_at_again(failure, partial(again, references=references))
+            limits = DIAGNOSIS_SECONDS, task.memory, server, True
+            again = partial(Student, file, *limits, origin, references, task.refused)
+            problems[at] += looked_at_again(failure, again)
     except Wrong as error:
         problems.append(str(error))
     finally:

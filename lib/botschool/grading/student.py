@@ -19,6 +19,7 @@ from botschool.grading.confined import (
     start_child,
 )
 from botschool.grading.failures import Origin, SourceLines, explained, where_it_was
+from botschool.grading.refused import refuse
 from botschool.grading.values import argument, pasted
 from botschool.sandbox import Allowance, Child, ForkServer, Limits
 from botschool.sandbox.usage import is_full
@@ -41,8 +42,9 @@ class Student:
         tried: bool = True,
         origin: Origin | None = None,
         references: dict[str, Any] | None = None,
+        refused: tuple[str, ...] = (),
     ) -> None:
-        """memory: MB of address space; server: else one of its own.
+        """memory: MB of address space; server: else one of its own; refused: as of Exercise.task.
 
         origin: where the lines of the file come from, if that is made of parts of another.
         references: of sandbox.Child, functions to put in the place of the submission's own.
@@ -54,6 +56,7 @@ class Student:
         self._memory = memory * 2**20
         self._allowance = Allowance(seconds)
         self._tried = tried
+        self._refused = refused
         self._child: Child | None = None
         self._printed = ""
         self.missing: list[str] = []
@@ -91,9 +94,7 @@ class Student:
         the submission: check it again.
         """
         self.said, self.pasted = said or f"{driver.__name__}(...)", ""
-        source = textwrap.dedent(inspect.getsource(driver))
-        request = {"driver": source, "name": driver.__name__, "arguments": arguments}
-        return self._request(request)
+        return self._request(_driven(driver, *arguments))
 
     def twice(self, request: dict[str, Any]) -> dict[str, Any] | None:
         """The answers to a request that is made twice, and its arguments after the first time.
@@ -149,7 +150,8 @@ class Student:
         self.request, self.answer = request, None
         if self.seconds_left <= 0:
             raise Wrong("the task's time was used up by the checks before.")
-        if self._child is None:
+        first = self._child is None
+        if first:
             if self._server is None:
                 self._server = self._own = fork_server()
             limits = Limits(self.seconds_left, self._memory)
@@ -158,6 +160,8 @@ class Student:
             )
             self.missing = self._child.missing
         try:
+            if first and self._refused:
+                self._child.ask(_driven(refuse, list(self._refused)), self._allowance)
             answer = self._child.ask(request, self._allowance)
         except TimeoutError:
             where = where_it_was(self._child.where(), self._source)
@@ -203,3 +207,9 @@ class Student:
             raise MachineFault(
                 f"The disk was full while {self.said} was running: free some space and grade again."
             )
+
+
+def _driven(driver: Callable[..., Any], *arguments: Any) -> dict[str, Any]:
+    """The request that runs a driver."""
+    source = textwrap.dedent(inspect.getsource(driver))
+    return {"driver": source, "name": driver.__name__, "arguments": arguments}
