@@ -127,6 +127,24 @@ def test_exceptions_come_with_the_own_line(graded):
     assert "\n  tiny.py:4: return y.dott(x)" in message
 
 
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ("np.ones((2, 3)) @ np.ones((2, 3))", "transpose one"),
+        ("np.ones(2) + np.ones(3)", "print .shape of both"),
+        ("print() + 1", "Something is None"),
+        ("[a for a, b, c, d in [range(5)]]", "step returns"),
+        ("[1, 2] * 0.5", "A list is no array"),
+        ("np.zeros(3 / 1)", "whole number"),
+        ("np.array([[1], [1, 2]])", "the same length"),
+    ],
+)
+def test_what_an_exception_mostly_means(graded, body, words):
+    text = f"import numpy as np\ndef double(x): return {body}\n"
+    message = said(graded, text, lambda student: student.call("double", 1))
+    assert words in message.splitlines()[-1]
+
+
 def test_exceptions_in_a_file_beside_it(course, server, tmp_path):
     file = submit(tmp_path, "import helper\ndef double(x): return helper.twice(x)\n")
     (file.parent / "helper.py").write_text("def twice(x):\n    return x / []\n")

@@ -304,18 +304,28 @@ def compare_run(student: Student, index: int, n: int, generations: int, **option
     answer = student.run(evolved, start, target, generations, seed, options, said=said)
     expect_fields(said, answer, "centre", "history")
     settings = {"samplesize": 20, "noiseStdDev": 0.02, "stepsize": 0.01, "wdecay": 0, **options}
-    samplesize, noise, stepsize, wdecay = settings.values()
-    samples_rng, centre, history = np.random.default_rng(seed), start, []
-    m, v, best = np.zeros(n), np.zeros(n), []
-    for generation in range(generations):
-        samples = samples_rng.standard_normal((samplesize, n))
-        goal = target + 0.3 * np.sin(seed + generation + np.arange(n))
-        fitness = -np.abs(around(centre, samples, noise) - goal).sum(axis=1)
-        history.append(fitness.mean())
-        best.append(fitness.max())
-        d = decayed(estimated(samples, ranked(fitness)), centre, wdecay)
-        centre, m, v = adam_step(centre, d, m, v, generation + 1, stepsize)
-    mistakes = {"It is the fitness of the best candidate, but the mean is asked for.": best}
+
+    def run(first=0, **others) -> tuple[list, list, np.ndarray]:
+        """Mean and best fitness of each generation, and the last centre."""
+        samplesize, noise, stepsize, wdecay = (settings | others).values()
+        samples_rng, centre, history, best = np.random.default_rng(seed), start, [], []
+        m, v = np.zeros(n), np.zeros(n)
+        for generation in range(generations):
+            samples = samples_rng.standard_normal((samplesize, n))
+            goal = target + 0.3 * np.sin(seed + first + generation + np.arange(n))
+            fitness = -np.abs(around(centre, samples, noise) - goal).sum(axis=1)
+            history.append(fitness.mean())
+            best.append(fitness.max())
+            d = decayed(estimated(samples, ranked(fitness)), centre, wdecay)
+            centre, m, v = adam_step(centre, d, m, v, generation + 1, stepsize)
+        return history, best, centre
+
+    history, best, centre = run()
+    mistakes = {
+        "It is the fitness of the best candidate, but the mean is asked for.": best,
+        "The weight decay (wdecay) is not handed on.": run(wdecay=0)[0],
+        "The seeds begin with seed + 1, but the first generation's is seed.": run(first=1)[0],
+    }
     expect_close(f"{said}: history", answer["history"], history, 1e-5, mistakes)
     expect_close(f"{said}: centre", answer["centre"], centre, 1e-5)
 

@@ -47,6 +47,43 @@ class Origin:
     """Functions that stand in parts which are no Python -> words for the part."""
 
 
+_ADVICE = (
+    (
+        r"matmul: |shapes .* not aligned|mat1 and mat2 shapes",
+        "The last axis of the left one must be as long as the first but one of the right one: "
+        "transpose one (.T), or exchange the two sides.",
+    ),
+    (
+        r"could not be broadcast|could not broadcast|must match the size of tensor",
+        "Arrays of these shapes cannot be combined number by number: print .shape of both.",
+    ),
+    (r"'NoneType'", "Something is None: does a function end without `return`?"),
+    (
+        r"too many values to unpack|not enough values to unpack",
+        "In Gymnasium reset returns (observation, info), and step returns (observation, reward, "
+        "terminated, truncated, info).",
+    ),
+    (
+        r"for .*: 'list' and|bad operand type for unary .*'list'|multiply sequence by non-int",
+        "A list is no array: np.array(...) makes one that can be computed with.",
+    ),
+    (
+        r"'float' object cannot be interpreted as an integer|indices must be integers",
+        "A whole number is needed here: use // for /, or int(...).",
+    ),
+    (
+        r"does not require grad|on Tensor that requires grad|on a Tensor that requires grad",
+        "torch cannot follow through NumPy, .item() or .detach(): compute the loss with torch, and "
+        "take numbers out of it only afterwards.",
+    ),
+    (
+        r"setting an array element with a sequence|inhomogeneous shape",
+        "The parts of an array must have the same length: print the length of each.",
+    ),
+)
+"""Patterns of what exceptions say -> what that mostly means to a beginner."""
+
+
 class SourceLines:
     """The lines of a submission's files, as they were handed in."""
 
@@ -116,7 +153,9 @@ def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
             "the exercise's file gives it."
         )
     colon = f": {text}" if text else ""
-    return Wrong(f"{said} raised {name}{colon}{_suggested(near, text)}{place}")
+    means = [advice for pattern, advice in _ADVICE if re.search(pattern, text)][:1]
+    below = place + "".join(f"\n  {advice}" for advice in means)
+    return Wrong(f"{said} raised {name}{colon}{_suggested(near, text)}{below}")
 
 
 def where_it_was(calls: list[tuple[str, int]], source: SourceLines) -> str:
