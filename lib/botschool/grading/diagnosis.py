@@ -63,14 +63,14 @@ def of_shapes(got: tuple[int, ...], wanted: tuple[int, ...]) -> str:
     if len(got) == len(wanted):
         apart = [i for i in range(len(got)) if got[i] != wanted[i]]
         if len(apart) == 1 and abs(got[apart[0]] - wanted[apart[0]]) == 1:
-            which = "one too many" if got[apart[0]] > wanted[apart[0]] else "one is missing"
-            return f"Along axis {apart[0]} there is {which}: an off-by-one?"
+            which = "too many" if got[apart[0]] > wanted[apart[0]] else "too few"
+            return f"Along axis {apart[0]} it is one {which}: an off-by-one?"
     return ""
 
 
 @detector
 def transposed(c: Comparison) -> str | None:
-    if c.got.ndim == 2 and c.same(c.wanted.T) and not alike(c.wanted, c.wanted.T):
+    if c.wanted.ndim > 1 and c.same(np.swapaxes(c.wanted, -1, -2)):
         return "Rows and columns are exchanged: transpose it (.T)."
     return None
 
@@ -332,6 +332,15 @@ _FORMULAS: tuple[tuple[Callable[[np.ndarray], np.ndarray], str], ...] = (
     (np.exp, "It is the exponential of what was expected: is np.log missing?"),
     (np.arctanh, "It is what was expected before tanh: apply np.tanh at the end."),
     (np.tanh, "It is the tanh of what was expected: one tanh too much."),
+    (
+        lambda x: np.tanh(np.log(x / (1 - x))),
+        "It is tanh where the logistic function is asked for.",
+    ),
+    (
+        lambda x: 1 / (1 + np.exp(-np.arctanh(x))),
+        "It is the logistic function where tanh is asked for.",
+    ),
+    (lambda x: np.log(x / (1 - x)), "It is what was expected before the logistic function."),
     (np.reciprocal, "It is 1 divided by what was expected: is a fraction upside down?"),
     (lambda x: 1 - x, "It is 1 minus what was expected."),
 )
@@ -370,7 +379,8 @@ def added_up(c: Comparison) -> str | None:
 
 @detector
 def in_proportion(c: Comparison) -> str | None:
-    if c.got.shape != c.wanted.shape or c.varied < 3 or not np.any(c.got):
+    few = 3 if np.all(c.wanted == np.round(c.wanted)) else 2
+    if c.got.shape != c.wanted.shape or c.varied < few or not np.any(c.got):
         return None
     largest = np.unravel_index(int(np.abs(c.wanted).argmax()), c.wanted.shape)
     factor = float(c.got[largest] / c.wanted[largest])
