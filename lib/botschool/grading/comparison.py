@@ -36,7 +36,7 @@ class Comparison:
     def telling(self) -> bool:
         """Whether a factor or formula cannot fit by chance: not just a number or two like 1/2."""
         parts = 60 * self.wanted
-        simple = np.abs(parts - np.round(parts)).max() < 1e-9 and np.abs(parts).max() < 6000
+        simple = np.abs(parts - np.round(parts)).max() < 1e-9 and np.abs(parts).max() < 1200
         return self.varied >= (3 if simple else 1)
 
     @cached_property
