@@ -125,6 +125,7 @@ def test_exceptions_come_with_the_own_line(graded):
         in message
     )
     assert "\n  tiny.py:4: return y.dott(x)" in message
+    assert message.count("AttributeError") == 1, "said once, though two checks fail"
 
 
 @pytest.mark.parametrize(

@@ -103,7 +103,11 @@ def _grade_task(
     finally:
         if student is not None:
             student.close()
-    result.message = plain("\n".join(dict.fromkeys(problems)))
+    # the same exception at the same line is said once, though several checks meet it
+    said: dict[str, str] = {}
+    for each in problems:
+        said.setdefault(each.partition(" raised ")[2] or each, each)
+    result.message = plain("\n".join(said.values()))
     return result
 
 
