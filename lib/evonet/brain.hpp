@@ -56,6 +56,9 @@ struct BrainMemory {
 
 template <class T, int L>
 class Brain {
+  template <class, int>
+  friend class Brain;
+
  public:
   Brain(const Layout& layout, const BrainMemory<T, L>& memory) : l_(layout), m_(memory) {}
 
@@ -85,6 +88,14 @@ class Brain {
   void clear(int lane) {
     for (int i = 0; i < l_.neurons; ++i) m_.activations[i * L + lane] = T(0);
     for (int i = 0; i < l_.cells; ++i) m_.state[i * L + lane] = T(0);
+  }
+
+  /// Goes on in a lane where another's lane, with the same parameters, is.
+  template <int W>
+  void copy(int lane, const Brain<T, W>& other, int from) {
+    for (int i = 0; i < l_.neurons; ++i)
+      m_.activations[i * L + lane] = other.m_.activations[i * W + from];
+    for (int i = 0; i < l_.cells; ++i) m_.state[i * L + lane] = other.m_.state[i * W + from];
   }
 
   /// From `inputs` to `activations` and `actions`. steps[lane]: steps done in the episode.

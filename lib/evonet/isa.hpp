@@ -17,9 +17,11 @@
 #if defined(_MSC_VER)
 #define BOTSCHOOL_RESTRICT __restrict
 #define BOTSCHOOL_INLINE __forceinline
+#define BOTSCHOOL_INLINE_LAMBDA [[msvc::forceinline]]
 #else
 #define BOTSCHOOL_RESTRICT __restrict__
 #define BOTSCHOOL_INLINE inline __attribute__((always_inline))
+#define BOTSCHOOL_INLINE_LAMBDA __attribute__((always_inline))
 #endif
 
 #define BOTSCHOOL_PRAGMA(text) _Pragma(#text)
