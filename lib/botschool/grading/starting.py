@@ -1,13 +1,17 @@
-"""A student's file at its beginning: `botschool start` and `botschool reset`."""
+"""A student's file at its beginning, and as a notebook: `botschool start` and `botschool reset`."""
 
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from itertools import count
 from pathlib import Path
+from urllib.parse import quote
 
 from botschool.errors import BotschoolError
 from botschool.grading.exercise import folder_of, load_exercise
+from botschool.grading.extras import missing_packages
 from botschool.grading.release import MANIFEST
 from botschool.grading.skeleton import skeleton
 from botschool.output import save_bytes
@@ -55,3 +59,27 @@ def reset(number: int, root: Path) -> tuple[Path, Path | None]:
     save_bytes(kept, file.read_bytes())
     save_bytes(file, text.encode())
     return file, kept
+
+
+def notebook_command(file: Path, root: Path) -> list[str]:
+    """Opens a file of the course as a notebook in JupyterLab; what is saved stays Python."""
+    place = quote(file.resolve().relative_to(root.resolve()).as_posix())
+    return [
+        sys.executable,
+        "-m",
+        "jupyterlab",
+        f"--ServerApp.root_dir={root.resolve()}",
+        f"--LabApp.default_url=/lab/tree/{place}?factory=Jupytext%20Notebook",
+    ]
+
+
+def open_notebook(number: int, file: Path, root: Path) -> None:
+    """Runs JupyterLab with the file open, until Ctrl-C. Raises BotschoolError."""
+    if missing_packages(("notebook",)):
+        raise BotschoolError(
+            "A notebook needs JupyterLab and jupytext: install them and open it with 'make "
+            f"notebook-ex{number}'."
+        )
+    done = subprocess.run(notebook_command(file, root))
+    if done.returncode != 0:
+        raise BotschoolError("JupyterLab ended with an error, see above.")
