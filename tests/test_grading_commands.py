@@ -7,6 +7,7 @@ import ctypes
 import json
 import platform
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -27,6 +28,7 @@ from botschool.grading.showing import show
 from botschool.grading.submission import grade
 from botschool.grading.watching import watch
 from botschool.sandbox import seccomp
+from browser import Browser, find_browser
 from running import call, environment_of_command, finish, one_sentence, start
 from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
 
@@ -359,25 +361,57 @@ def test_answers_after_full_marks(course, tmp_path, monkeypatch):
     refused("damaged")
 
 
-@pytest.mark.parametrize("there", [True, False])
-def test_notebook(course, monkeypatch, there):
+def test_notebook(course, monkeypatch):
     """start --notebook runs JupyterLab with the file open; without it says what installs it."""
     called = []
-    monkeypatch.setattr(starting.subprocess, "run", lambda c: called.append(c) or Done())
-    monkeypatch.setattr(starting, "missing_packages", lambda extras: [] if there else ["jupytext"])
+
+    def run(command, env):
+        called.append((command, env))
+        return subprocess.CompletedProcess(command, 0)
+
+    monkeypatch.setattr(starting.subprocess, "run", run)
     file = course / "exercises" / FOLDER / FILE
-    if not there:
-        with pytest.raises(BotschoolError, match="make notebook-ex3"):
-            starting.open_notebook(3, file, course)
-        assert not called
-        return
+    monkeypatch.setattr(starting, "find_spec", lambda name: name != "jupytext")
+    with pytest.raises(BotschoolError, match="make notebook-ex3"):
+        starting.open_notebook(3, file, course)
+    assert not called
+    monkeypatch.setattr(starting, "find_spec", lambda name: True)
     starting.open_notebook(3, file, course)
-    place = f"/lab/tree/exercises/{FOLDER}/{FILE}?factory=Jupytext%20Notebook"
-    assert called == [starting.notebook_command(file, course)] and place in called[0][-1]
+    ((command, env),) = called
+    assert command[-1].endswith(f"=/lab/workspaces/tiny/tree/exercises/{FOLDER}/{FILE}")
+    assert env["JUPYTER_CONFIG_PATH"].startswith(str(course.resolve() / ".botschool"))
 
 
-class Done:
-    returncode = 0
+def test_a_file_opens_as_a_notebook(course, tmp_path):
+    """In a real JupyterLab, in a browser: cells and no text; saving leaves it Python."""
+    pytest.importorskip("jupyterlab")
+    pytest.importorskip("jupytext")
+    if not find_browser():
+        pytest.skip("needs a Chromium")
+    file = course / "exercises" / FOLDER / FILE
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    command = starting.notebook_command(file, course)
+    options = ["--no-browser", "--allow-root", "--IdentityProvider.token=", f"--port={port}"]
+    env = starting.notebook_variables(course) | {"HOME": str(tmp_path)}
+    with open(tmp_path / "log", "w") as log:
+        process = subprocess.Popen([*command, *options], env=env, stdout=log, stderr=log)
+    browser = Browser(tmp_path / "profile")
+    try:
+        address = f"http://127.0.0.1:{port}" + command[-1].partition("=")[2]
+        deadline = time.monotonic() + 120
+        while not browser.run("document.querySelectorAll('.jp-Notebook .jp-CodeCell').length"):
+            assert time.monotonic() < deadline, (tmp_path / "log").read_text()
+            if not browser.run("!!document.querySelector('#jupyter-config-data')"):
+                browser.call("Page.navigate", url=address)
+            time.sleep(1)
+    finally:
+        browser.close()
+        for one in [*psutil.Process(process.pid).children(recursive=True), process]:
+            one.kill()
+        process.wait()
+    assert not list(file.parent.glob("*.ipynb"))
 
 
 @pytest.mark.parametrize("released", [False, True])
