@@ -131,14 +131,29 @@ def test_no_text_names_what_the_copy_does_not_have(copy):
     ]  # fmt: skip
 
 
+FIGURE = re.compile(r"^!\[([^\]]+)\]\(([^)]+)\)\n\n\*([^*]+)\*$", re.MULTILINE)
+
+
 def test_every_figure_of_the_texts_is_in_the_copy(copy):
-    """And no other: only those of the exercises that it has."""
+    """At least two in each, with a caption, the expected result on top; and no other pictures."""
     named = set()
     for number in NUMBERS:
         (readme,) = copy.glob(f"exercises/ex{number:02d}_*/README.md")
-        for figure in re.findall(r"!\[[^\]]+\]\(([^)]+)\)", readme.read_text(encoding="utf-8")):
-            named.add((readme.parent / figure).resolve())
-    assert named == {path.resolve() for path in (copy / "docs/images/course").iterdir()}
+        text = readme.read_text(encoding="utf-8")
+        found = FIGURE.findall(text)
+        assert len(found) == text.count("![") >= 2, readme
+        assert found[0][2].startswith("What you will have made"), readme
+        assert text.index("![") < text.index("**Aim:**"), readme
+        named |= {(readme.parent / place).resolve() for _, place, _ in found}
+    pictures = {path.resolve() for path in (copy / "docs/images/course").iterdir()}
+    assert named == pictures
+    assert max(path.stat().st_size for path in pictures) <= 60_000
+
+
+def test_figures_come_with_their_exercises(tmp_path):
+    release(ROOT, tmp_path / "copy", {3, 7})
+    names = {path.name[:4] for path in (tmp_path / "copy/docs/images/course").iterdir()}
+    assert names == {"ex03", "ex07"}
 
 
 def test_answers_are_packed(tmp_path):

@@ -61,11 +61,11 @@ def _untouched(number: int, root: Path, file: Path) -> bool:
 def table(results: dict[int, dict[str, Any]]) -> Table:
     """A line for each; results: exercise number -> result as of batch.Grades or stored_result."""
     shown = Table(box=None, pad_edge=False, padding=(0, 1), header_style="dim")
-    shown.add_column("", justify="right", no_wrap=True)
-    shown.add_column("exercise", no_wrap=True, overflow="ellipsis", min_width=18)
-    shown.add_column("points", no_wrap=True)
+    shown.add_column("", justify="right", no_wrap=True, min_width=2)
+    shown.add_column("exercise", no_wrap=True, overflow="ellipsis", min_width=21)
+    shown.add_column("points", no_wrap=True, min_width=_BAR)
     shown.add_column("", justify="right", no_wrap=True, min_width=3)
-    shown.add_column("tasks", justify="right", no_wrap=True)
+    shown.add_column("tasks", justify="right", no_wrap=True, min_width=5)
     shown.add_column("next", no_wrap=True, overflow="ellipsis")
     for number in sorted(results):
         shown.add_row(str(number), *_row(results[number]))
