@@ -9,6 +9,7 @@ import re
 import signal
 import time
 import traceback
+from collections import Counter
 from pathlib import Path
 
 from rich.console import Console
@@ -226,12 +227,19 @@ def show_command(what: str, submission: str | None, opens: bool) -> None:
 
     number = _named(what)[0]
     made = show(number, submission)
-    for path in made:
-        print(f"made: {os.path.relpath(path)}  ({path.stat().st_size / 1000:.0f} kB)")
+    folder = course_root().resolve() / "results" / f"ex{number:02d}"
+    tops = Counter(path.relative_to(folder).parts[0] for path in made)
+    for name, files in tops.items():
+        what = f"{files} files" if (folder / name).is_dir() else _size(folder / name)
+        print(f"made: {os.path.relpath(folder / name)}  ({what})")
     page = make_page(number, made)
     if page:
         opened = opens and open_page(page)
         print(f"{'opened' if opened else 'all on one page'}: {os.path.relpath(page)}")
+
+
+def _size(path: Path) -> str:
+    return f"{path.stat().st_size / 1000:.0f} kB"
 
 
 def answers_command(what: str) -> None:
