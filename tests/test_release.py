@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 import typer
 
-from botschool.cli.app import app
+from botschool.cli.app import commands
 from botschool.errors import BotschoolError
 from botschool.grading.answers import unpack_answers
 from botschool.grading.exercise import exercise_numbers, load_exercise
@@ -97,7 +97,7 @@ def absent(copy, name, text):
 
 
 COMMAND = re.compile(r"(?:`|^[ #]*|'|; |or )botschool ((?:[\w./,:=+-]+|[ ](?=\S))+)", re.MULTILINE)
-COMMANDS = typer.main.get_command(app).commands
+COMMANDS = typer.main.get_command(commands()).commands
 FOR_INSTRUCTORS = {"release", "grade-all", "nbgrader", "skeletons"}
 
 
