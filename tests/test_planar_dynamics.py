@@ -1,5 +1,4 @@
-"""Planar jointed bodies (docs/specification.md, "Planar runners") against MuJoCo and against laws of
-mechanics."""
+"""Planar jointed bodies (docs/specification.md, "Planar runners") against MuJoCo and mechanics."""
 
 from __future__ import annotations
 
@@ -111,7 +110,7 @@ def test_bodies_are_those_of_gymnasium(name, model, flipped):
     data = mujoco.MjData(model)
     body = _core.PlanarBody(name)
     form = hinge_form(body.table)
-    # there the pitch, and a cheetah's hinges, count clockwise; z counts from the ground or the start
+    # there the pitch, and a cheetah's hinges, count clockwise
     signs = np.ones(body.size)
     signs[2] = -1
     signs[3:] = -1 if flipped else 1

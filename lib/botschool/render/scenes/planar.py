@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from functools import partial
-from math import cos, sin
+from math import cos, pi, sin
 
 from botschool import _core
 from botschool.problems.native import INFOS
 from botschool.render.scene import Scene, draws
-from botschool.render.shapes import arrow
+from botschool.render.shapes import arrow, rectangle
 
 
 class PlanarScene(Scene):
@@ -37,27 +37,23 @@ class PlanarScene(Scene):
         order = sorted(range(len(poses)), key=lambda i: not self._hidden(i))
         for i in order:
             self._add_segment(i, poses[i])
-        pushes = []
         for _ in self._contacts:
-            pose, level = self.pose(), self.value()
-            self.add("polygon", arrow(0.5, 0.1), "force", pose=pose, size=level)
-            pushes.append(level)
-        feet = [i for i, s in enumerate(self._segments) if s["name"].endswith("foot")]
-        levels = [
-            [p for p, c in zip(pushes, self._contacts, strict=True) if c[0] == i] for i in feet
-        ]
-        self.charted = ("feet on the ground", tuple(tuple(level) for level in levels))
+            self.add("polygon", arrow(0.5, 0.1), "force", pose=self.pose(), size=self.value())
+        self._feet = [i for i, s in enumerate(self._segments) if s["name"].endswith("foot")]
+        self.charted = (("feet", tuple(self.value() for _ in self._feet)),)
 
     def _add_ground(self, far: int) -> None:
-        left, bottom, right, _ = self.view
-        self.add("polygon", [(left, 0.0), (left, bottom), (right, bottom), (right, 0.0)], "ground")
+        left, _, right, _ = self.view
+        self.add("polygon", rectangle(left, -3.0, right, 0.0), "ground")
         self.add("line", [(left, 0.0), (right, 0.0)], "muted", radius=0.006)
         way = self.pose()
-        for x in range(-10, far + 1):
-            depth = 0.14 if x % 5 == 0 else 0.07
-            self.add("line", [(x, 0.0), (x, -depth)], "muted", radius=0.006, pose=way)
-            if x % 5 == 0:
-                self.add("text", [(x, -0.22)], "ink", text=f"{x} m", pose=way)
+        for five in range(-10, far, 5):
+            comb = []
+            for x in range(five, five + 5):
+                depth = 0.14 if x == five else 0.07
+                comb += [(x, 0.0), (x, -depth), (x, 0.0)]
+            self.add("line", comb, "muted", radius=0.006, pose=way)
+            self.add("text", [(five, -0.22)], "ink", text=f"{five} m", pose=way)
 
     def _hidden(self, i: int) -> bool:
         return self._segments[i]["name"].startswith(("left", "rear"))
@@ -82,11 +78,13 @@ class PlanarScene(Scene):
                 x, z = places[segment["parent"]][0] + dx, places[segment["parent"]][1] + dz
             places.append((x, z, float(state[2 + i])))
             numbers += places[-1]
-        for (i, x, z, radius), load in zip(self._contacts, state[self._first_load :], strict=True):
+        loads = state[self._first_load :] / self._weight
+        for (i, x, z, radius), load in zip(self._contacts, loads, strict=True):
             dx, dz = _turned(x, z, places[i][2])
-            size = float(load) / (self.FULL_FORCE * self._weight)
-            numbers += [places[i][0] + dx, places[i][1] + dz - radius, 1.5707963, min(size, 1.5)]
-        return numbers
+            low = places[i][1] + dz - radius
+            numbers += [places[i][0] + dx, low, pi / 2, min(load / self.FULL_FORCE, 1.5)]
+        on_ground = {c[0] for c, load in zip(self._contacts, loads, strict=True) if load > 0}
+        return [*numbers, *(float(foot in on_ground) for foot in self._feet)]
 
 
 def _turned(x: float, z: float, angle: float) -> tuple[float, float]:
@@ -96,7 +94,7 @@ def _turned(x: float, z: float, angle: float) -> tuple[float, float]:
 for _name, _body, _far in (
     ("PlanarHopper", "hopper", 60),
     ("PlanarWalker2D", "walker2d", 60),
-    ("PlanarHalfCheetah", "halfcheetah", 500),
+    ("PlanarHalfCheetah", "halfcheetah", 700),
 ):
     for _version in (0, 5):
         _problem = f"{_name}-v{_version}"
