@@ -32,6 +32,7 @@ nb::dict to_dict(const PlanarBody& body) {
   for (const Segment& segment : body.segments()) segments.append(to_dict(segment));
   for (const Contact& c : body.contacts())
     contacts.append(nb::make_tuple(c.segment, c.x, c.z, c.radius));
+  d["name"] = body.name();
   d["segments"] = segments;
   d["contacts"] = contacts;
   d["masses"] = to_numpy(body.masses(), {body.segments().size(), 4});

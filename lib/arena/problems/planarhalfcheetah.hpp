@@ -1,5 +1,6 @@
 // Half a cheetah that is to run ahead. Version 0 is paid as in Gymnasium; version 5 for progress, with
-// a price on hinges at their limits, and it ends when the body falls. docs/specification.md, "Planar runners".
+// a price on hinges at their limits, and it ends when the body falls. docs/specification.md, "Planar
+// runners".
 #pragma once
 
 #include "../robots/jointed/runner.hpp"
@@ -17,25 +18,17 @@ constexpr Race cheetah_race(bool standard) {
   }
   return race;
 }
+inline constexpr Race kHalfCheetahRace0 = cheetah_race(true),
+                      kHalfCheetahRace5 = cheetah_race(false);
 
 template <int L>
-struct PlanarHalfCheetah0 : Runner<HalfCheetah, L> {
-  static constexpr Race race = cheetah_race(true);
-  static Info info() { return Runner<HalfCheetah, L>::describe("PlanarHalfCheetah-v0", race); }
-  void start(int lane, Random& random) { this->begin(lane, random, race); }
-  void step(const double* action, double* reward, std::int64_t* ended) {
-    this->run(race, action, reward, ended);
-  }
+struct PlanarHalfCheetah0 : Runner<HalfCheetah, kHalfCheetahRace0, L> {
+  static Info info() { return PlanarHalfCheetah0::describe("PlanarHalfCheetah-v0"); }
 };
 
 template <int L>
-struct PlanarHalfCheetah5 : Runner<HalfCheetah, L> {
-  static constexpr Race race = cheetah_race(false);
-  static Info info() { return Runner<HalfCheetah, L>::describe("PlanarHalfCheetah-v5", race); }
-  void start(int lane, Random& random) { this->begin(lane, random, race); }
-  void step(const double* action, double* reward, std::int64_t* ended) {
-    this->run(race, action, reward, ended);
-  }
+struct PlanarHalfCheetah5 : Runner<HalfCheetah, kHalfCheetahRace5, L> {
+  static Info info() { return PlanarHalfCheetah5::describe("PlanarHalfCheetah-v5"); }
 };
 
 BOTSCHOOL_END

@@ -14,25 +14,16 @@ constexpr Race hopper_race(bool standard) {
   race.lean = 0.2;
   return race;
 }
+inline constexpr Race kHopperRace0 = hopper_race(true), kHopperRace5 = hopper_race(false);
 
 template <int L>
-struct PlanarHopper0 : Runner<Hopper, L> {
-  static constexpr Race race = hopper_race(true);
-  static Info info() { return Runner<Hopper, L>::describe("PlanarHopper-v0", race); }
-  void start(int lane, Random& random) { this->begin(lane, random, race); }
-  void step(const double* action, double* reward, std::int64_t* ended) {
-    this->run(race, action, reward, ended);
-  }
+struct PlanarHopper0 : Runner<Hopper, kHopperRace0, L> {
+  static Info info() { return PlanarHopper0::describe("PlanarHopper-v0"); }
 };
 
 template <int L>
-struct PlanarHopper5 : Runner<Hopper, L> {
-  static constexpr Race race = hopper_race(false);
-  static Info info() { return Runner<Hopper, L>::describe("PlanarHopper-v5", race); }
-  void start(int lane, Random& random) { this->begin(lane, random, race); }
-  void step(const double* action, double* reward, std::int64_t* ended) {
-    this->run(race, action, reward, ended);
-  }
+struct PlanarHopper5 : Runner<Hopper, kHopperRace5, L> {
+  static Info info() { return PlanarHopper5::describe("PlanarHopper-v5"); }
 };
 
 BOTSCHOOL_END

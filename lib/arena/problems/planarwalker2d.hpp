@@ -15,25 +15,16 @@ constexpr Race walker_race(bool standard) {
   race.lean = 1;
   return race;
 }
+inline constexpr Race kWalker2DRace0 = walker_race(true), kWalker2DRace5 = walker_race(false);
 
 template <int L>
-struct PlanarWalker2D0 : Runner<Walker2D, L> {
-  static constexpr Race race = walker_race(true);
-  static Info info() { return Runner<Walker2D, L>::describe("PlanarWalker2D-v0", race); }
-  void start(int lane, Random& random) { this->begin(lane, random, race); }
-  void step(const double* action, double* reward, std::int64_t* ended) {
-    this->run(race, action, reward, ended);
-  }
+struct PlanarWalker2D0 : Runner<Walker2D, kWalker2DRace0, L> {
+  static Info info() { return PlanarWalker2D0::describe("PlanarWalker2D-v0"); }
 };
 
 template <int L>
-struct PlanarWalker2D5 : Runner<Walker2D, L> {
-  static constexpr Race race = walker_race(false);
-  static Info info() { return Runner<Walker2D, L>::describe("PlanarWalker2D-v5", race); }
-  void start(int lane, Random& random) { this->begin(lane, random, race); }
-  void step(const double* action, double* reward, std::int64_t* ended) {
-    this->run(race, action, reward, ended);
-  }
+struct PlanarWalker2D5 : Runner<Walker2D, kWalker2DRace5, L> {
+  static Info info() { return PlanarWalker2D5::describe("PlanarWalker2D-v5"); }
 };
 
 BOTSCHOOL_END

@@ -178,22 +178,20 @@ struct Dynamics {
   /// Torques of the hinges. With a substep h, springs and dampers answer to the speed after it
   /// (implicit Euler, linearised), which lets them be stiff: damping h + stiffness h^2 joins the
   /// mass matrix. With h = 0 they answer to the state as it is.
-  BOTSCHOOL_INLINE void hinges(const V* action, T h, bool passive = true) {
+  BOTSCHOOL_INLINE void hinges(const V* action, T h) {
     upwards<n - 1>(BOTSCHOOL_EACH(index) {
       constexpr int i = index + 1, k = i + 2, p = up(k);
       constexpr Hinge hinge = Body::segments[i].hinge;
       const V angle = position[k] - position[p], rate = speed[k] - speed[p];
-      V torque = number(hinge.torque) * action[index];
-      V resistance = V(T(0));
-      if (passive) {
-        const V above = angle - number(hinge.high), below = angle - number(hinge.low);
-        const V beyond = larger(above, V(T(0))) + smaller(below, V(T(0)));
-        const V out = beyond * beyond;
-        const V spring = if_positive(out, number(Body::limit.stiffness), V(T(0)));
-        const V damper = if_positive(out, number(Body::limit.damping), V(T(0)));
-        resistance = (number(hinge.damping) + damper) + V(h) * (number(hinge.stiffness) + spring);
-        torque -= (number(hinge.stiffness) * angle + spring * beyond) + resistance * rate;
-      }
+      const V above = angle - number(hinge.high), below = angle - number(hinge.low);
+      const V beyond = larger(above, V(T(0))) + smaller(below, V(T(0)));
+      const V out = beyond * beyond;
+      const V spring = if_positive(out, number(Body::limit.stiffness), V(T(0)));
+      const V damper = if_positive(out, number(Body::limit.damping), V(T(0)));
+      const V resistance =
+          (number(hinge.damping) + damper) + V(h) * (number(hinge.stiffness) + spring);
+      const V torque = number(hinge.torque) * action[index] -
+                       ((number(hinge.stiffness) * angle + spring * beyond) + resistance * rate);
       force[k] += torque;
       force[p] -= torque;
       const V both = V(h) * resistance;
@@ -322,6 +320,11 @@ struct Dynamics {
       speed[k] += gain;
       position[k] += V(h) * speed[k];
     });
+  }
+
+  /// `steps` substeps on even ground. Out of line, so that the problems of a body share it.
+  BOTSCHOOL_OUTLINE void run(const V* action, int steps, T h) {
+    for (int s = 0; s < steps; ++s) step(action, Flat{}, h);
   }
 };
 

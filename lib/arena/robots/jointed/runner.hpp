@@ -23,7 +23,7 @@ struct Race {
   int feet = -1;  ///< if not -1: contact points but the first `feet` must not touch the ground
 };
 
-template <class Body, int L>
+template <class Body, const Race& race, int L>
 struct Runner : ProblemBase {
   static constexpr int kWidth = kRegister / 4 < L ? kRegister / 4 : L;
   using Moving = Dynamics<Body, float, kWidth>;
@@ -31,7 +31,7 @@ struct Runner : ProblemBase {
   static constexpr int n = Moving::n, size = Moving::size, contacts = Moving::contacts;
   static constexpr int kStates = 2 * size + n + contacts;
 
-  static Info describe(const char* name, const Race& race) {
+  static Info describe(const char* name) {
     Info info;
     info.name = name;
     info.observations = 2 * size - 1;
@@ -64,14 +64,7 @@ struct Runner : ProblemBase {
         out[(size - 1 + k) * L + l] = static_cast<T>(clamp(relative(k, size, l), -10.0, 10.0));
   }
 
- protected:
-  /// A coordinate, or its speed with first = size, of a hinge against its segment's parent.
-  double relative(int k, int first, int lane) const {
-    return k < 3 ? state[first + k][lane]
-                 : state[first + k][lane] - state[first + Moving::up(k)][lane];
-  }
-
-  void begin(int lane, Random& random, const Race& race) {
+  void start(int lane, Random& random) {
     for (auto& row : state) row[lane] = 0;
     for (int k = 0; k < size; ++k) {
       const int p = k < 3 ? -1 : Moving::up(k);
@@ -83,7 +76,7 @@ struct Runner : ProblemBase {
     state[1][lane] += Body::start_height;
   }
 
-  void run(const Race& race, const double* action, double* reward, std::int64_t* ended) {
+  void step(const double* action, double* reward, std::int64_t* ended) {
     for (int first = 0; first < L; first += kWidth) {
       Moving body;
       load(body, first);
@@ -94,8 +87,8 @@ struct Runner : ProblemBase {
         motor[i] = V::from(within);
         effort += motor[i] * motor[i];
       }
-      move(body, motor, float(race.seconds / race.substeps), race.substeps);
-      const V standing = upright(race, body);
+      body.run(motor, race.substeps, float(race.seconds / race.substeps));
+      const V standing = upright(body);
       const V earned = number(1 / race.seconds) * body.position[0] +
                        if_positive(standing, number(race.alive), V(0.0f)) -
                        number(race.effort) * effort - number(race.at_limit) * at_limit(body);
@@ -111,6 +104,12 @@ struct Runner : ProblemBase {
   }
 
  private:
+  /// A coordinate, or its speed with first = size, of a hinge against its segment's parent.
+  double relative(int k, int first, int lane) const {
+    return k < 3 ? state[first + k][lane]
+                 : state[first + k][lane] - state[first + Moving::up(k)][lane];
+  }
+
   static V number(double x) { return V(float(x)); }
 
   void load(Moving& body, int first) const {
@@ -144,13 +143,8 @@ struct Runner : ProblemBase {
     for (int c = 0; c < contacts; ++c) write(2 * size + n + c, V(share) * body.load[c], false);
   }
 
-  /// Out of line, so that the versions of a problem share it.
-  BOTSCHOOL_OUTLINE static void move(Moving& body, const V* motor, float h, int substeps) {
-    for (int s = 0; s < substeps; ++s) body.step(motor, Flat{}, h);
-  }
-
   /// Positive where the body has not fallen.
-  static V upright(const Race& race, const Moving& body) {
+  static V upright(const Moving& body) {
     const V height = body.position[1], pitch = body.position[2];
     V margin = smaller(height - number(race.lowest), number(race.highest) - height);
     margin = smaller(margin, number(race.lean) - larger(pitch, -pitch));
