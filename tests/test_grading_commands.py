@@ -358,6 +358,7 @@ def test_answers_after_full_marks(course, tmp_path, monkeypatch):
     call("grade", "3")
     code, out, errors = call("show", "3", "--answers")
     assert (code, errors) == (0, "") and "Twice two is four, as was measured." in out
+    assert "show 3 --answers" in call("show", "3", "--no-open")[1]
     release(course, copy)  # what was given stays
     assert call("show", "3", "--answers")[1] == out
     packed.write_text("nothing")

@@ -80,7 +80,7 @@ def test_a_file_opens_as_a_notebook(copy, tmp_path):
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     command = starting.notebook_command(file, copy)
-    options = ["--no-browser", "--allow-root", "--IdentityProvider.token=", f"--port={port}"]
+    options = ["--no-browser", "--IdentityProvider.token=", f"--port={port}"]
     env = starting.notebook_variables(copy) | {"HOME": str(tmp_path)}
     with open(tmp_path / "log", "w") as log:
         process = subprocess.Popen([*command, *options], env=env, stdout=log, stderr=log)

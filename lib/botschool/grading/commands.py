@@ -223,6 +223,7 @@ def reset_command(what: str) -> None:
 
 def show_command(what: str, submission: str | None, opens: bool) -> None:
     """Runs a finished exercise, names what it has made, and opens it."""
+    from botschool.grading.answers import answers
     from botschool.grading.showing import make_page, open_page, show
 
     number = _named(what)[0]
@@ -236,6 +237,9 @@ def show_command(what: str, submission: str | None, opens: bool) -> None:
     if page:
         opened = opens and open_page(page)
         print(f"{'opened' if opened else 'all on one page'}: {os.path.relpath(page)}")
+    with contextlib.suppress(BotschoolError):
+        if answers(number, course_root()):
+            print(f"what our solution measured: botschool show {number} --answers")
 
 
 def _size(path: Path) -> str:

@@ -73,10 +73,12 @@ VIEWER = {
 def notebook_command(file: Path, root: Path) -> list[str]:
     """Opens a file of the course as a notebook in JupyterLab; what is saved stays Python."""
     place = quote(file.resolve().relative_to(root.resolve()).as_posix())
+    root_user = hasattr(os, "geteuid") and os.geteuid() == 0  # as in many containers
     return [
         sys.executable,
         "-m",
         "jupyterlab",
+        *(["--allow-root"] if root_user else []),
         f"--ServerApp.root_dir={root.resolve()}",
         # a workspace of its own: another may have the file open as text
         f"--LabApp.default_url=/lab/workspaces/{file.stem}/tree/{place}",
