@@ -147,7 +147,7 @@ def test_progress_without_a_file_or_with_a_damaged_store(course):
         stored.write_text(text)
         assert "not graded yet" in rows_of_progress()[0]["3"]
     file.unlink()
-    assert "no tiny.py: botschool start 3" in rows_of_progress()[0]["3"]
+    assert "missing: botschool start 3" in rows_of_progress()[0]["3"]
     assert "botschool start 3" in rows_of_progress("--grade")[0]["3"]
 
 

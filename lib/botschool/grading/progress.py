@@ -32,7 +32,7 @@ def stored_result(number: int, root: Path) -> dict[str, Any]:
     try:
         file = submission_file(number, None, root)
     except BotschoolError:
-        problem = f"no {exercise.file}: botschool start {number}"
+        problem = f"missing: botschool start {number}"
     else:
         found = None if _untouched(number, root, file) else recall(root, exercise)
         if found:
