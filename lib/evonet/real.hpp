@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "isa.hpp"
 
@@ -34,6 +35,35 @@ struct LanesOf {
     return y;
   }
 };
+#endif
+
+#if defined(__clang__) || __GNUC__ >= 12
+/// Swaps the right half of `a` with the left half of `b`, in each block of 2 * size values.
+template <int size, class Lanes, int... i>
+BOTSCHOOL_INLINE void swap_halves(Lanes& a, Lanes& b, std::integer_sequence<int, i...>) {
+  constexpr int n = sizeof...(i);
+  const Lanes left = __builtin_shufflevector(a, b, (i & size ? n + i - size : i)...);
+  b = __builtin_shufflevector(a, b, (i & size ? n + i : i + size)...);
+  a = left;
+}
+
+/// Turns a square of numbers: row i gets the i-th of each row.
+template <class T, int L, int size = L / 2>
+BOTSCHOOL_INLINE void transpose(LanesOf<T, L>* rows) {
+  if constexpr (size > 0) {
+    for (int i = 0; i < L; ++i)
+      if (!(i & size))
+        swap_halves<size>(rows[i], rows[i + size], std::make_integer_sequence<int, L>());
+    transpose<T, L, size / 2>(rows);
+  }
+}
+#else
+template <class T, int L>
+void transpose(LanesOf<T, L>* rows) {
+  T* value = reinterpret_cast<T*>(rows);
+  for (int i = 1; i < L; ++i)
+    for (int j = 0; j < i; ++j) std::swap(value[i * L + j], value[j * L + i]);
+}
 #endif
 
 template <class To, class From>
