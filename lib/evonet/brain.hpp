@@ -224,28 +224,50 @@ class Brain {
     }
   }
 
+  using Vector = VectorOf<T, kWidth>;
+  static constexpr int kVector = sizeof(Vector) / sizeof(T);
+
+  static Vector& vector(T* at) { return *reinterpret_cast<Vector*>(at); }
+  static Vector for_exponential(Vector x) {
+    return clamp(x, Vector{} + kExpLow<T>, Vector{} + kExpHigh<T>);
+  }
+  static Vector for_tanh(Vector x) {
+    return clamp(x + x, Vector{} - kTwiceHigh<T>, Vector{} + kTwiceHigh<T>);
+  }
+
+  /// logistic(x) = 1 / (1 + exp(-x)) and tanh(x) = e / (e + 2), e = exp(2x) - 1; each product of the
+  /// two takes one division. `hidden` keeps the output gates' 1 + exp(-x) until the new states are
+  /// known, as states of several units at a time are faster.
   void update_cells() {
-    T* BOTSCHOOL_RESTRICT hidden = m_.activations + l_.spec.inputs * L;
-    T* BOTSCHOOL_RESTRICT state = m_.state;
-    // logistic(x) = 1 / (1 + exp(-x)) and tanh(x) = e / (e + 2), e = exp(2x) - 1; each product of the
-    // two takes one division. Two passes, as each by itself is short enough for several units at once
-    for (int u = 0; u < l_.cells; ++u, state += L) {
-      T* BOTSCHOOL_RESTRICT gate = m_.gates + 4 * u * L;
-      for (int l = 0; l < L; ++l) {
-        const T forget = logistic(gate[l] + T(1));
-        const T input = T(1) + exponential(-gate[L + l]);
-        const T candidate = expm1_twice(gate[3 * L + l]);
-        state[l] = state[l] * forget + candidate / ((candidate + T(2)) * input);
-      }
+    T* hidden = m_.activations + l_.spec.inputs * L;
+    for (int i = 0; i < l_.cells * L; i += kVector) {
+      T* gate = m_.gates + i / L * 4 * L + i % L;
+      Vector scale[4];
+      Vector x[4] = {for_exponential(-(vector(gate) + T(1))), for_exponential(-vector(gate + L)),
+                     for_exponential(-vector(gate + 2 * L)), for_tanh(vector(gate + 3 * L))};
+      exponentials<4>(x, scale);
+      const Vector forget = T(1) / (T(1) + (x[0] + scale[0]));
+      const Vector input = T(1) + (x[1] + scale[1]);
+      const Vector candidate = x[3] + (scale[3] - T(1));
+      Vector& state = vector(m_.state + i);
+      state = state * forget + candidate / ((candidate + T(2)) * input);
+      vector(hidden + i) = T(1) + (x[2] + scale[2]);
     }
-    state = m_.state;
-    for (int u = 0; u < l_.cells; ++u, state += L, hidden += L) {
-      const T* BOTSCHOOL_RESTRICT gate = m_.gates + 4 * u * L;
-      for (int l = 0; l < L; ++l) {
-        const T output = T(1) + exponential(-gate[2 * L + l]);
-        const T squashed = expm1_twice(state[l]);
-        hidden[l] = squashed / ((squashed + T(2)) * output);
-      }
+    int i = 0;
+    for (; i + 4 * kVector <= l_.cells * L; i += 4 * kVector) put_out<4>(i, hidden);
+    for (; i < l_.cells * L; i += kVector) put_out<1>(i, hidden);
+  }
+
+  /// The outputs of n vectors of LSTM units.
+  template <int n>
+  void put_out(int first, T* hidden) {
+    Vector x[n], scale[n];
+    for (int i = 0; i < n; ++i) x[i] = for_tanh(vector(m_.state + first + i * kVector));
+    exponentials<n>(x, scale);
+    for (int i = 0; i < n; ++i) {
+      const Vector squashed = x[i] + (scale[i] - T(1));
+      Vector& output = vector(hidden + first + i * kVector);
+      output = squashed / ((squashed + T(2)) * output);
     }
   }
 

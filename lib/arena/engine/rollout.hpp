@@ -206,6 +206,7 @@ class Rollout {
   /// lanes that have them: in co-evolution a candidate meets several competitors, and a competitor
   /// several candidates.
   void group() {
+    if (memory_[0].network_size == 0) return;
     for (int r = 0; r < robots_; ++r) {
       Groups<L>& groups = groups_[r];
       groups.count = 0;
