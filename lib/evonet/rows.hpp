@@ -133,11 +133,19 @@ class Rows {
     for (int b = 0; b < layer_.blocks; ++b) {
       const Connections& c = layer_.block[b];
       const T* from = (c.previous ? previous_ : activations_) + std::ptrdiff_t(c.sender) * L;
-      for (int s = 0; s < c.senders; ++s, weights += rows_, from += L)
+      for (int s = 0; s < c.senders; ++s, weights += rows_, from += L) {
+        Row each[R];
+        for (int r = 0; r < R; ++r) each[r] = weight(r);
+#if defined(__GNUC__) && defined(__AVX512F__)
+        // else GCC loads them again for each lane, which costs as long as they come from far
+        if (N == 2 || N == 3)
+          for (int r = 0; r < R; ++r) asm("" : "+v"(each[r]));
+#endif
         for (int n = 0; n < N; ++n) {
           const T x = from[lane[n]];
-          for (int r = 0; r < R; ++r) total[n][r] += weight(r) * x;
+          for (int r = 0; r < R; ++r) total[n][r] += each[r] * x;
         }
+      }
     }
     for (int n = 0; n < N; ++n)
       for (int r = 0; r < R; ++r)
