@@ -87,7 +87,7 @@ class Rollout {
     problem.set(jobs.setting);
     Rollout rollout(layout, jobs, queue, recorder, problem, bytes + kHeader);
     for (int l = 0; l < L; ++l) rollout.fill(l);
-    rollout.share();
+    rollout.group();
     rollout.run();
   }
 
@@ -134,8 +134,8 @@ class Rollout {
       memory_[r].carve(layout, reinterpret_cast<Real*>(bytes));
       memory_[r].inputs = observations_ + std::ptrdiff_t(r) * layout.spec.inputs * L;
       bytes += brain_bytes(layout);
-      for (int l = 0; l < L; ++l) candidate_[r][l] = -1;
-      shared_[r] = -1;
+      memory_[r].groups = &groups_[r];
+      for (int l = 0; l < L; ++l) candidate_[r][l] = in_network_[r][l] = -1;
     }
     moments_ = reinterpret_cast<double*>(bytes);
     action_ = moments_ + 2 * layout.spec.inputs * L;
@@ -175,7 +175,7 @@ class Rollout {
       for (int l = 0; l < L; ++l)
         if (job_[l] >= 0) half.take(*this, l, lane++);
       while (lane < L / 2) half.fill(lane++);
-      half.share();
+      half.group();
       half.run();
     }
   }
@@ -251,25 +251,49 @@ class Rollout {
       --active_;
       fill(l);
     }
-    share();
+    group();
   }
 
-  /// Notes which robots have the same candidate in all lanes that work, so that its parameters are
-  /// read once for all (a block of candidates meets one competitor after another).
-  void share() {
+  /// Groups the lanes that work by candidate, so that weights of large layers are read once for all
+  /// lanes that have them: in co-evolution a candidate meets several competitors, and a competitor
+  /// several candidates.
+  void group() {
+    if (memory_[0].network_size == 0) return;
     for (int r = 0; r < robots_; ++r) {
-      std::int32_t one = -1;
-      bool same = true;
+      Groups<L>& groups = groups_[r];
+      groups.count = 0;
+      int used = 0;
       for (int l = 0; l < L; ++l) {
-        if (job_[l] < 0) continue;
-        if (one < 0) one = candidate_[r][l];
-        same &= candidate_[r][l] == one;
+        if (job_[l] < 0 || grouped_before(r, l)) continue;
+        groups.network[groups.count] = network_of(r, candidate_[r][l]);
+        groups.first[groups.count++] = used;
+        for (int other = l; other < L; ++other)
+          if (job_[other] >= 0 && candidate_[r][other] == candidate_[r][l])
+            groups.lane[used++] = other;
       }
-      memory_[r].sharing = same && one >= 0;
-      if (!memory_[r].sharing || shared_[r] == one) continue;
-      shared_[r] = one;
-      brain(r).share(genotype(r, one));
+      groups.first[groups.count] = used;
     }
+  }
+
+  bool grouped_before(int robot, int lane) const {
+    for (int l = 0; l < lane; ++l)
+      if (job_[l] >= 0 && candidate_[robot][l] == candidate_[robot][lane]) return true;
+    return false;
+  }
+
+  /// Which of the brain's L networks is a candidate's: those that no lane needs give way.
+  int network_of(int robot, std::int32_t candidate) {
+    std::int32_t* in_network = in_network_[robot];
+    int free = -1;
+    for (int n = 0; n < L; ++n) {
+      if (in_network[n] == candidate) return n;
+      bool needed = false;
+      for (int l = 0; l < L; ++l) needed |= job_[l] >= 0 && candidate_[robot][l] == in_network[n];
+      if (!needed) free = n;
+    }
+    in_network[free] = candidate;
+    brain(robot).load_network(free, genotype(robot, candidate));
+    return free;
   }
 
   const double* genotype(int robot, std::int32_t candidate) const {
@@ -335,7 +359,8 @@ class Rollout {
   NoiseKey keys_[kMaxRobots][L];
   std::ptrdiff_t job_[L];
   std::int32_t candidate_[kMaxRobots][L];
-  std::int32_t shared_[kMaxRobots];  ///< whose parameters all lanes can share
+  std::int32_t in_network_[kMaxRobots][L];  ///< whose weights the brain's networks are
+  Groups<L> groups_[kMaxRobots];
   int active_ = 0, collecting_ = 0;
   bool waiting_ = true;  ///< whether the queue may have another job
 };
