@@ -92,15 +92,17 @@ class Brain {
                                    : static_cast<T>(l_.spec.action_noise_range);
   }
 
-  /// Puts a genotype where the lanes of a group find it.
-  void load_network(int network, const double* genotype) {
+  /// Puts a genotype where the lanes of a group find it; returns whether its weights are finite.
+  bool load_network(int network, const double* genotype) {
     T* to = m_.networks + network * m_.network_size;
+    bool finite = true;
     const auto pack = [&](const Layer& layer) {
-      Rows<T, L>::pack(layer, genotype, to);
+      finite &= Rows<T, L>::pack(layer, genotype, to);
       to += Rows<T, L>::size(layer);
     };
     if (l_.cells > 0) pack(l_.gates);
     for (int i = 0; i < l_.layers; ++i) pack(l_.layer[i]);
+    return finite;
   }
 
   /// Start of an episode: all activations and states are 0.

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
 
 #include "layout.hpp"
 #include "real.hpp"
@@ -16,6 +18,7 @@ template <int L>
 struct Groups {
   int count = 0;
   int network[L], first[L + 1], lane[L];
+  bool finite[L];  ///< whether all weights of network[g] are
 };
 
 template <class T, int L>
@@ -36,17 +39,22 @@ class Rows {
   }
 
   /// Lays them out: the biases of all rows, then the weights from each sender, so that sums() reads
-  /// one stream.
-  static void pack(const Layer& layer, const double* genotype, T* to) {
+  /// one stream. Returns whether all are finite.
+  static bool pack(const Layer& layer, const double* genotype, T* to) {
     const int rows = of(layer);
+    T zero = 0;  // or NaN
     const auto put = [&](const double* from, int stride) {
-      for (int r = 0; r < rows; ++r) *to++ = static_cast<T>(from[std::ptrdiff_t(r) * stride]);
+      for (int r = 0; r < rows; ++r, ++to) {
+        *to = static_cast<T>(from[std::ptrdiff_t(r) * stride]);
+        zero += *to * T(0);
+      }
     };
     if (layer.bias >= 0) put(genotype + layer.bias, 1);
     for (int b = 0; b < layer.blocks; ++b) {
       const Connections& c = layer.block[b];
       for (int s = 0; s < c.senders; ++s) put(genotype + c.weights + c.offset + s, c.stride);
     }
+    return zero == 0;
   }
 
   /// `scratch` has room for of(layer) * L.
@@ -65,9 +73,9 @@ class Rows {
       const int lanes = groups.first[g + 1] - groups.first[g];
       const T* weights = networks + groups.network[g] * stride;
       if (lanes == 1)
-        panels<kAlone, 1>(weights, lane, 1);
+        panels<kAlone, 1>(weights, lane, 1, groups.finite[g]);
       else
-        panels<kPanel, kTogether>(weights, lane, lanes);
+        panels<kPanel, kTogether>(weights, lane, lanes, groups.finite[g]);
     }
     for (int row = 0; row < rows_; row += kWidth) turn(row, out);
   }
@@ -82,7 +90,11 @@ class Rows {
   /// Registers of rows of a lane that is alone.
   static constexpr int kAlone = 6;
 
+  /// Senders looked at before any is added.
+  static constexpr int kChunk = 64;
+
   using Row = LanesOf<T, kWidth>;
+  using Word = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
 
   static int senders(const Layer& layer) {
     int sum = 0;
@@ -92,34 +104,54 @@ class Rows {
 
   /// All rows of some lanes, R registers of rows and N lanes at a time.
   template <int R, int N>
-  void panels(const T* weights, const int* lane, int lanes) const {
+  void panels(const T* weights, const int* lane, int lanes, bool skip) const {
     int row = 0;
-    for (; row + R * kWidth <= rows_; row += R * kWidth) panel<R, N>(weights, row, lane, lanes);
-    last<R - 1, N>(weights, row, lane, lanes);
+    for (; row + R * kWidth <= rows_; row += R * kWidth)
+      panel<R, N>(weights, row, lane, lanes, skip);
+    last<R - 1, N>(weights, row, lane, lanes, skip);
   }
 
   /// The last rows: at most R registers of them.
   template <int R, int N>
-  void last(const T* weights, int row, const int* lane, int lanes) const {
+  void last(const T* weights, int row, const int* lane, int lanes, bool skip) const {
     if constexpr (R > 0) {
       if (row + R * kWidth == rows_)
-        panel<R, N>(weights, row, lane, lanes);
+        panel<R, N>(weights, row, lane, lanes, skip);
       else
-        last<R - 1, N>(weights, row, lane, lanes);
+        last<R - 1, N>(weights, row, lane, lanes, skip);
     }
   }
 
   /// R registers of rows of all lanes.
   template <int R, int N>
-  void panel(const T* weights, int row, const int* lane, int lanes) const {
-    for (; lanes >= N; lanes -= N, lane += N) tile<R, N>(weights, row, lane);
+  void panel(const T* weights, int row, const int* lane, int lanes, bool skip) const {
+    for (; lanes >= N; lanes -= N, lane += N) tile<R, N>(weights, row, lane, skip);
     if constexpr (N > 1)
-      if (lanes > 0) panel<R, N - 1>(weights, row, lane, lanes);
+      if (lanes > 0) panel<R, N - 1>(weights, row, lane, lanes, skip);
+  }
+
+  /// Writes which of the first `count` senders to add, and returns how many: all, or, to skip the
+  /// others, those that are not 0 in all N lanes. A sum of finite numbers that begins with +0 is never
+  /// -0, so adding 0 or -0 would change nothing.
+  template <int N>
+  static int choose(const T* from, const int* lane, int count, bool skip, int* sender) {
+    if (!skip) {
+      for (int s = 0; s < count; ++s) sender[s] = s;
+      return count;
+    }
+    int chosen = 0;
+    for (int s = 0; s < count; ++s, from += L) {
+      Word bits = 0;
+      for (int n = 0; n < N; ++n) bits |= bits_of<Word>(from[lane[n]]);
+      sender[chosen] = s;
+      chosen += Word(bits << 1) != 0;  // without the sign
+    }
+    return chosen;
   }
 
   /// R registers of rows of N lanes.
   template <int R, int N>
-  void tile(const T* BOTSCHOOL_RESTRICT weights, int row, const int* lane) const {
+  void tile(const T* BOTSCHOOL_RESTRICT weights, int row, const int* lane, bool skip) const {
     weights += row;
     const auto weight = [&](int r) { return *reinterpret_cast<const Row*>(weights + r * kWidth); };
     Row total[N][R];
@@ -133,18 +165,26 @@ class Rows {
     for (int b = 0; b < layer_.blocks; ++b) {
       const Connections& c = layer_.block[b];
       const T* from = (c.previous ? previous_ : activations_) + std::ptrdiff_t(c.sender) * L;
-      for (int s = 0; s < c.senders; ++s, weights += rows_, from += L) {
-        Row each[R];
-        for (int r = 0; r < R; ++r) each[r] = weight(r);
+      for (int first = 0; first < c.senders; first += kChunk) {
+        int sender[kChunk];
+        const int end = c.senders - first < kChunk ? c.senders - first : kChunk;
+        const int count = choose<N>(from, lane, end, b == 0 && skip, sender);
+        for (int i = 0; i < count; ++i) {
+          const T* own = weights + std::ptrdiff_t(sender[i]) * rows_;
+          Row each[R];
+          for (int r = 0; r < R; ++r) each[r] = *reinterpret_cast<const Row*>(own + r * kWidth);
 #if defined(__GNUC__) && defined(__AVX512F__)
-        // else GCC loads them again for each lane, which costs as long as they come from far
-        if (N == 2 || N == 3)
-          for (int r = 0; r < R; ++r) asm("" : "+v"(each[r]));
+          // else GCC loads them again for each lane, which costs as long as they come from far
+          if (N == 2 || N == 3)
+            for (int r = 0; r < R; ++r) asm("" : "+v"(each[r]));
 #endif
-        for (int n = 0; n < N; ++n) {
-          const T x = from[lane[n]];
-          for (int r = 0; r < R; ++r) total[n][r] += each[r] * x;
+          for (int n = 0; n < N; ++n) {
+            const T x = from[sender[i] * L + lane[n]];
+            for (int r = 0; r < R; ++r) total[n][r] += each[r] * x;
+          }
         }
+        weights += std::ptrdiff_t(end) * rows_;
+        from += end * L;
       }
     }
     for (int n = 0; n < N; ++n)

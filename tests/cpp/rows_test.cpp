@@ -3,6 +3,7 @@
 #include "evonet/rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 #include <vector>
@@ -50,13 +51,19 @@ float plain_sum(const Layer& layer, const double* genotype, int row, const float
   return total;
 }
 
+/// Bit for bit, but for the kind of NaN.
+bool same(float a, float b) {
+  return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));
+}
+
 /// Lanes have networks as given, -1 for idle ones.
-Groups<kLanes> grouped(const std::vector<int>& network_of) {
+Groups<kLanes> grouped(const std::vector<int>& network_of, const bool* finite) {
   Groups<kLanes> groups;
   int used = 0;
   for (int n = kLanes - 1; n >= 0; --n) {
     if (std::find(network_of.begin(), network_of.end(), n) == network_of.end()) continue;
     groups.network[groups.count] = n;
+    groups.finite[groups.count] = finite[n];
     groups.first[groups.count++] = used;
     for (int l = 0; l < kLanes; ++l)
       if (network_of[l] == n) groups.lane[used++] = l;
@@ -72,18 +79,24 @@ void check_layer(const Layout& layout, const Layer& layer, const std::vector<int
   std::vector<double> genotypes(kLanes * layout.parameters);
   const std::vector<float> drawn = numbers(genotypes.size(), 0);
   std::copy(drawn.begin(), drawn.end(), genotypes.begin());
-  const std::vector<float> now = numbers(layout.neurons * kLanes, 1);
+  // a network of wild numbers; observations that are often 0, in all lanes or in some
+  genotypes[4 * layout.parameters + layer.block[0].weights] = HUGE_VAL;
+  std::vector<float> now = numbers(layout.neurons * kLanes, 1);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (i / kLanes % 3 == 0 || i % 5 == 0) now[i] = i % 2 ? 0.0f : -0.0f;
   const std::vector<float> before = numbers(layout.neurons * kLanes, 2);
   std::vector<float> networks(kLanes * By::size(layer)), scratch(rows * kLanes), out(rows * kLanes);
+  bool finite[kLanes];
   for (int n = 0; n < kLanes; ++n)
-    By::pack(layer, &genotypes[n * layout.parameters], &networks[n * By::size(layer)]);
+    finite[n] = By::pack(layer, &genotypes[n * layout.parameters], &networks[n * By::size(layer)]);
+  for (int n = 0; n < kLanes; ++n) CHECK(finite[n] == (n != 4));
   By(layer, now.data(), before.data(), scratch.data())
-      .sums(grouped(network_of), networks.data(), By::size(layer), out.data());
+      .sums(grouped(network_of, finite), networks.data(), By::size(layer), out.data());
   for (int l = 0; l < kLanes; ++l) {
     if (network_of[l] < 0) continue;
     const double* own = &genotypes[network_of[l] * layout.parameters];
     for (int r = 0; r < rows; ++r)
-      CHECK(out[r * kLanes + l] == plain_sum(layer, own, r, now.data(), before.data(), l));
+      CHECK(same(out[r * kLanes + l], plain_sum(layer, own, r, now.data(), before.data(), l)));
   }
 }
 

@@ -265,7 +265,9 @@ class Rollout {
       int used = 0;
       for (int l = 0; l < L; ++l) {
         if (job_[l] < 0 || grouped_before(r, l)) continue;
-        groups.network[groups.count] = network_of(r, candidate_[r][l]);
+        const int network = network_of(r, candidate_[r][l]);
+        groups.network[groups.count] = network;
+        groups.finite[groups.count] = finite_[r][network];
         groups.first[groups.count++] = used;
         for (int other = l; other < L; ++other)
           if (job_[other] >= 0 && candidate_[r][other] == candidate_[r][l])
@@ -292,7 +294,7 @@ class Rollout {
       if (!needed) free = n;
     }
     in_network[free] = candidate;
-    brain(robot).load_network(free, genotype(robot, candidate));
+    finite_[robot][free] = brain(robot).load_network(free, genotype(robot, candidate));
     return free;
   }
 
@@ -360,6 +362,7 @@ class Rollout {
   std::ptrdiff_t job_[L];
   std::int32_t candidate_[kMaxRobots][L];
   std::int32_t in_network_[kMaxRobots][L];  ///< whose weights the brain's networks are
+  bool finite_[kMaxRobots][L];              ///< whether they are
   Groups<L> groups_[kMaxRobots];
   int active_ = 0, collecting_ = 0;
   bool waiting_ = true;  ///< whether the queue may have another job
