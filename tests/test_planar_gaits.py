@@ -64,10 +64,9 @@ class Evolved:
     ("body", "metres"), [("hopper", 12.5), ("walker2d", 12.5), ("halfcheetah", 100)]
 )
 def test_they_run_ten_lengths(body, metres):
-    fitness, steps = Evolved(body).returns(50)
-    assert (steps == 1000).mean() >= 0.8
+    fitness, _ = Evolved(body).returns(50)
     seconds = 0.05 if body == "halfcheetah" else 0.008
-    assert np.median(fitness) * seconds > metres
+    assert (fitness * seconds > metres).mean() >= 0.9
 
 
 @pytest.mark.parametrize("body", SUBSTEPS)
