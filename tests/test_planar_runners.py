@@ -11,7 +11,9 @@ import botschool.envs  # noqa: F401 (registers the environments)
 from botschool import _core, problems
 from botschool.config import PolicyConfig
 from botschool.policy import Policy
+from botschool.render.replay import write_replay
 from botschool.render.scenes import make_scene
+from test_replay import held, unpacked
 
 BODIES = {
     "PlanarHopper": "hopper",
@@ -225,3 +227,29 @@ def test_policies_of_evolution_act_alike_in_gymnasium(name):
         reward, _ = stepper.step(np.asarray(step.action, dtype=float))
         assert reward == step.reward
         assert np.array_equal(stepper.state, step.state)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_replays_chart_the_feet_below_the_neurons(name, tmp_path):
+    problem = problems.make(name)
+    policy = Policy(name, problem.interface, PolicyConfig(nhiddens=5, bias=1))
+    steps = list(problem.play(policy, policy.initial(1), None, 3, 0, 60))
+    spec = policy.spec
+    write_replay(
+        tmp_path / "a.html", name, "a robot", [steps], 50.0,
+        (spec.inputs, spec.outputs), make_scene(name),
+    )  # fmt: skip
+    data = held(tmp_path / "a.html")
+    feet = [i for i, s in enumerate(Parts(name, steps[0].state).segments) if "foot" in s["name"]]
+    assert data["groups"][-1] == ["feet", len(feet)]
+    charted = unpacked(data["episodes"][0]["activations"])[:, -len(feet) :]
+    down = 0
+    for row, step in zip(charted, steps, strict=True):
+        parts = Parts(name, step.state)
+        touching = {c[0] for c, f in zip(parts.contacts, parts.load, strict=True) if f > 0}
+        assert row.round(3).tolist() == [foot in touching for foot in feet]
+        down += len(touching)
+    assert down
+    assert unpacked(data["episodes"][0]["activations"]).shape[1] == sum(
+        n for _, n in data["groups"]
+    )
