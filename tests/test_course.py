@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import tiny_course
+from botschool.course import film_agent
 from botschool.errors import BotschoolError
 from botschool.grading import batch, extras
 from botschool.grading.exercise import exercise_numbers, load_exercise, submission_file
@@ -158,3 +159,10 @@ def test_own_losses_have_the_gradient_of_torch():
         assert torch.allclose(ours, theirs, atol=1e-6), (ours - theirs).abs().max()
     functions["approx_kl"] = lambda now, old: 1.0
     assert ppo._loss(functions, policy, critic, batch) is None
+
+
+@pytest.mark.parametrize("kind", [bool, float, np.bool_, np.int64])
+def test_film_of_an_agent_whose_choices_are_other_types_than_int(tmp_path, kind):
+    file = tmp_path / "agent.mp4"
+    film_agent(file, "CartPole-v1", lambda seen: kind(seen[2] + seen[3] > 0), maxsteps=3)
+    assert file.stat().st_size > 1000

@@ -276,7 +276,9 @@ def joints_and_what_they_join(student: Student):
                     f"{said}: the {key} of joint {i} is {show(value)}, but should be "
                     f"{wanted[key]!r}.",
                 )
-            expect_close(f"{said}: the axis of joint {i}", found[-1], wanted["axis"])
+            mistakes = {"A joint that names no axis turns around x, (1, 0, 0).": [0.0, 0.0, 1.0]}
+            said_of = f"{said}: the axis of joint {i}"
+            expect_close(said_of, found[-1], wanted["axis"], mistakes=mistakes)
 
 
 @reading.check(4)
@@ -331,7 +333,12 @@ def observes(student: Student):
             f"observe(), with inclination {inclination:.3f}, angular velocity {turning[0]:.3f} and "
             f"wheel speed {speed:.2f}"
         )
-        expect_close(said, answer, [inclination, turning[0], speed], 1e-4)
+        mistakes = {
+            "The angular velocity is that around z, but the body leans around x.": [
+                inclination, turning[2], speed
+            ],
+        }  # fmt: skip
+        expect_close(said, answer, [inclination, turning[0], speed], 1e-4, mistakes)
         expect(kind == "float32", f"{said} is of type {kind}, but float32 is asked for.")
 
 
@@ -402,8 +409,12 @@ def compare_drive(student: Student, speed: float, actions: list[float]) -> None:
     with World(0.1, speed) as world:
         for i, (action, answer) in enumerate(zip(actions, answers, strict=True), 1):
             said = f"drive([{action:.3f}]), call {i}, beginning with self.speed = {speed:.2f}"
+            mistakes = {
+                "The action is not cut to -1 and 1.": world.speed + action,
+                "The action is added to the speed; it does not replace it.": np.clip(action, -1, 1),
+            }
             world.act(float(np.float32(action)))
-            expect_close(f"{said}: self.speed", answer[0], world.speed, 1e-5)
+            expect_close(f"{said}: self.speed", answer[0], world.speed, 1e-5, mistakes)
             turns, wanted = np.array(answer[1:]), np.array(world.turns())
             expect(
                 np.allclose(turns, wanted, atol=1e-3),
@@ -465,7 +476,9 @@ def moves_one_step(student: Student):
 def rewards(student: Student):
     for said, ((_, reward, *_), *_), world in steps_of(student, 41):
         wanted = 1 - 0.05 * abs(world.speed)
-        expect_close(f"{said}, with self.speed = {world.speed:.3f}: reward", reward, wanted, 1e-5)
+        mistakes = {"Speed costs in both directions: see abs().": 1 - 0.05 * world.speed}
+        said_of = f"{said}, with self.speed = {world.speed:.3f}: reward"
+        expect_close(said_of, reward, wanted, 1e-5, mistakes)
 
 
 @stepping.check(5)

@@ -330,7 +330,9 @@ def last_and_best(student: Student):
         steps, returns = drawn_evaluations(index)
         last, best = measured(student, steps, returns, 100.0, "last", "best")
         expect_close(f"{student.said}: last", last, returns[-1].mean(), CLOSE)
-        expect_close(f"{student.said}: best", best, max(row.mean() for row in returns), CLOSE)
+        wanted = max(row.mean() for row in returns)
+        mistakes = {"It is the best episode, but the best mean is asked for.": returns.max()}
+        expect_close(f"{student.said}: best", best, wanted, CLOSE, mistakes)
 
 
 @success.check(4)
@@ -342,7 +344,10 @@ def average_over_the_training(student: Student):
         for i in range(1, len(m)):
             area += (m[i - 1] + m[i]) / 2 * (steps[i] - steps[i - 1])
         wanted = area / (steps[-1] - steps[0]) if len(m) > 1 else m[0]
-        expect_close(f"{student.said}: average", average, wanted, CLOSE)
+        mistakes = {
+            "Each post-evaluation counts alike, but they lie unequally far apart.": np.mean(m)
+        }
+        expect_close(f"{student.said}: average", average, wanted, CLOSE, mistakes)
 
 
 def expect_solved(student: Student, index: int, means: list[float], position: int | None) -> None:
@@ -407,7 +412,13 @@ def compare_table(student: Student, runs: list[dict], baseline: str, *keys: str)
                 sentence = f"{said}: deviation of a single run is {show(value)} instead of None."
                 expect(value is None, sentence)
             else:
-                expect_close(f"{said}: {key}", value, wanted[key], CLOSE)
+                mistakes = {
+                    "The deviation is divided by n instead of n - 1 (ddof=1).": np.std(values),
+                    "The gain is that over the worst variation, not over the baseline.": float(
+                        means[name] - min(means.values())
+                    ),
+                }
+                expect_close(f"{said}: {key}", value, wanted[key], CLOSE, mistakes)
 
 
 @table.check(5)
@@ -440,10 +451,22 @@ def compare_chance(student: Student, first: list[float], second: list[float]) ->
     n, m, total = len(first), len(second), sum(numbers)
     observed = abs(sum(numbers[:n]) / n - sum(numbers[n:]) / m)
     ways = [sum(chosen) for chosen in itertools.combinations(numbers, n)]
-    hits = sum(abs(part / n - (total - part) / m) >= observed for part in ways)
+    apart = [part / n - (total - part) / m for part in ways]
+    hits = sum(abs(each) >= observed for each in apart)
+    mistakes = {
+        "Only differences that are greater are counted: equal ones count, too.": sum(
+            abs(each) > observed for each in apart
+        ) / len(ways),
+        "Only differences in one direction are counted.": sum(
+            each >= observed for each in apart
+        ) / len(ways),
+        "Only differences in the other direction are counted.": sum(
+            -each >= observed for each in apart
+        ) / len(ways),
+    }  # fmt: skip
     answer = student.call("chance_of", first, second)
     student.said = f"chance_of({first}, {second})"
-    expect_close(student.said, answer, hits / len(ways), CLOSE)
+    expect_close(student.said, answer, hits / len(ways), CLOSE, mistakes)
 
 
 @luck.check(4)
@@ -573,7 +596,14 @@ def compare_ranks(student: Student, first: np.ndarray, second: np.ndarray) -> No
     answer = student.call("rank_correlation", first, second)
     if len(first) <= 8:
         student.said = f"rank_correlation({first.tolist()}, {second.tolist()})"
-    expect_close(student.said, answer, wanted, CLOSE)
+    mistakes = {}
+    if not alike:
+        places = [np.argsort(np.argsort(each, kind="stable")) for each in (first, second)]
+        mistakes = {
+            "The numbers are correlated, not their ranks.": np.corrcoef(first, second)[0, 1],
+            "Equal numbers are to share a rank.": np.corrcoef(*places)[0, 1],
+        }
+    expect_close(student.said, answer, wanted, CLOSE, mistakes)
 
 
 @relating.check(4)
@@ -607,7 +637,11 @@ def inside_variants(student: Student):
         names = [f"variant {kind}" for kind in which]
         answer = student.call("within_variants", numbers, names)
         got = expect_array(student.said, answer, numbers.shape)
-        expect_close(student.said, got, wanted, CLOSE)
+        mistakes = {
+            "The mean of all trainings is subtracted, not that of the variant.": numbers
+            - numbers.mean()
+        }
+        expect_close(student.said, got, wanted, CLOSE, mistakes)
         expect(
             len(set(got[which == 0].tolist())) == 1 and np.array_equal(got, np.round(got, 9)),
             f"{student.said} is not rounded to 9 decimals.",

@@ -20,7 +20,7 @@ from browser import Browser, find_browser
 
 pytestmark = pytest.mark.course
 
-for_each_exercise = pytest.mark.parametrize("number", building.NUMBERS)
+for_each_exercise = pytest.mark.parametrize("number", building.NUMBERS, ids="ex{:02d}".format)
 
 
 @pytest.fixture(scope="module")

@@ -48,10 +48,13 @@ def grade_command(what: str, submission: str | None, as_json: bool, debug: bool)
             raise BotschoolError(f"--debug runs one task: say which, as botschool grade {number}.1")
         return debug_task(exercise, what, file)
     screen = Screen()
-    report = (lambda result: None) if as_json else screen.task
+    report, announce = screen.task, screen.banner
+    if as_json:
+        report = announce = lambda shown: None
     if not as_json:
         screen.start(exercise.number, exercise.title, file)
-    result = grade(exercise, file, report, [exercise.find(what)] if task else None)
+    tasks = [exercise.find(what)] if task else None
+    result = grade(exercise, file, report, tasks, announce=announce)
     if submission is None:
         remember(course_root(), number, _points(result), graded)
     if as_json:
