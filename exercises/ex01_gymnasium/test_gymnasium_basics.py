@@ -479,7 +479,7 @@ def balances(student: Student):
 
 
 # ------------------------------------------------------------------- 1.6
-comparison = exercise.task("1.6", "Random agents compared", seconds=30)
+comparison = exercise.task("1.6", "Random agents compared", seconds=30, needs=("1.2",))
 TABLES = (
     (["Pendulum-v1", "CartPole-v1", "MountainCar-v0"], 4),
     (["CartPole-v1", "MountainCarContinuous-v0"], 3),

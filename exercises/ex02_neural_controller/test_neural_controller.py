@@ -14,6 +14,7 @@ import numpy as np
 
 from botschool.grading import (
     Exercise,
+    Mismatch,
     Student,
     expect,
     expect_array,
@@ -177,6 +178,21 @@ def changed_by(module, network, observation):
     ]
 
 
+def mistaken_outputs(network: dict, observation: np.ndarray) -> dict:
+    """What mistakes make of the outputs."""
+    W1, b1, W2, b2 = (network[key] for key in ("W1", "b1", "W2", "b2"))
+    hidden = np.tanh(W1.dot(observation) + b1)
+    return {
+        "The biases are left out.": np.tanh(W2.dot(np.tanh(W1.dot(observation)))),
+        "The biases of the hidden neurons are left out.": np.tanh(
+            W2.dot(np.tanh(W1.dot(observation))) + b2
+        ),
+        "The biases of the outputs are left out.": np.tanh(W2.dot(hidden)),
+        "tanh is left out at the outputs.": W2.dot(hidden) + b2,
+        "tanh is left out in the hidden neurons.": np.tanh(W2.dot(W1.dot(observation) + b1) + b2),
+    }
+
+
 def compare_outputs(student: Student, index: int, change) -> None:
     """The student's outputs against the formula, for networks altered by change(network)."""
     rng = np.random.default_rng(exercise.seed(index))
@@ -188,10 +204,7 @@ def compare_outputs(student: Student, index: int, change) -> None:
             student, network, observation, "{} inputs, {} hidden, {} outputs".format(*layers)
         )
         wanted = outputs_of(network, observation)
-        expect(
-            np.allclose(got, wanted, rtol=0, atol=1e-4),
-            f"{student.said} returned {show(got)}, but {show(wanted)} was expected.",
-        )
+        expect_close(student.said, got, wanted, 1e-4, mistaken_outputs(network, observation))
 
 
 @passing.check(6)
@@ -335,11 +348,19 @@ def expect_stretched(student: Student, outputs: np.ndarray, low: np.ndarray, hig
     expect(isinstance(got, list) and len(got) == len(outputs), f"{said} gave no answers.")
     for each, action in zip(outputs, got, strict=True):
         call = f"act({show(each)}, {space})"
-        action, wanted = expect_array(call, action, low.shape), low + (each + 1) / 2 * (high - low)
-        expect(
-            np.allclose(action, wanted, rtol=1e-5, atol=1e-5),
-            f"{call} returned {show(action)}, but {show(wanted)} was expected.",
-        )
+        wanted = low + (each + 1) / 2 * (high - low)
+        mistakes = {
+            "The outputs are handed on as they are: stretch them to the space's limits.": each,
+            "Outputs beyond the limits are cut off, but all are to be stretched.": each.clip(
+                low, high
+            ),
+            "The outputs are multiplied by the upper limit, but the lower one counts, too.": each
+            * high,
+            "The limits of the first number are used for all.": low[0]
+            + (each + 1) / 2 * (high[0] - low[0]),
+            "The upper limit of the first number is used for all.": each * high[0],
+        }
+        expect_close(call, action, wanted, 1e-5, mistakes)
 
 
 @acting.check(4)
@@ -359,7 +380,7 @@ def each_number_has_its_own_limits(student: Student):
 
 
 # ------------------------------------------------------------------- 2.5
-episodes = exercise.task("2.5", "An episode")
+episodes = exercise.task("2.5", "An episode", needs=("2.2", "2.4"))
 
 
 def lived(module, name, network, seed, maxsteps):
@@ -440,15 +461,15 @@ def continuous_actions(student: Student):
 def sums_the_rewards(student: Student):
     for case, (name, maxsteps) in enumerate(CASES):
         reported, found = replay(student, name, 50 + case, maxsteps)
-        expect(
-            abs(reported - found) <= 1e-3 * abs(found) + 1e-6,
-            f"{student.said}: return is {reported:.4f}, but the rewards of these actions sum up "
-            f"to {found:.4f}.",
-        )
+        if abs(reported - found) > 1e-3 * abs(found) + 1e-6:
+            raise Mismatch(
+                f"{student.said}: return is {reported:.4f}, but the rewards of these actions sum "
+                f"up to {found:.4f}.", np.array(reported), np.array(found),
+            )  # fmt: skip
 
 
 # ------------------------------------------------------------------- 2.6
-measuring = exercise.task("2.6", "Fitness", seconds=30)
+measuring = exercise.task("2.6", "Fitness", seconds=30, needs=("2.5",))
 
 
 def measured(module, name, network, seeds, maxsteps):
@@ -461,11 +482,19 @@ def expect_fitness(said: str, value: object, name: str, network: dict, seeds, ma
     """The mean return as the grader finds it, for any network."""
     got = float(expect_array(said, value, ()))
     with gymnasium.make(name) as env:
-        wanted = float(np.mean([return_of(env, network, seed, maxsteps) for seed in seeds]))
-    expect(
-        abs(got - wanted) <= 1e-3 * abs(wanted) + 1e-6,
-        f"{said} returned {got:.4f}, but the mean over {len(seeds)} episodes is {wanted:.4f}.",
-    )
+        returns = [return_of(env, network, seed, maxsteps) for seed in seeds]
+    wanted = float(np.mean(returns))
+    if abs(got - wanted) > 1e-3 * abs(wanted) + 1e-6:
+        mistakes = {
+            "It is the sum of the returns, but their mean is asked for.": np.sum(returns),
+            "It is the return of the first episode: each has a seed of its own.": returns[0],
+            "It is the return of the best episode, but the mean is asked for.": max(returns),
+            "It is the return of the last episode, but the mean is asked for.": returns[-1],
+        }
+        raise Mismatch(
+            f"{said} returned {got:.4f}, but the mean over {len(seeds)} episodes is {wanted:.4f}.",
+            got, wanted, mistakes,
+        )  # fmt: skip
 
 
 def check_fitness(student: Student, name: str, index: int, episodes: int, maxsteps: int | None):
@@ -523,10 +552,19 @@ def expect_batch(student: Student, index: int, sizes: tuple) -> None:
         for i in range(n):
             network = {key: stack[i] for key, stack in networks.items()}
             wanted = outputs_of(network, observations[i])
-            expect(
-                np.allclose(got[i], wanted, rtol=0, atol=1e-4),
-                f"{said}: network {i} gives {show(got[i])}, but {show(wanted)} when it is alone.",
-            )
+            if not np.allclose(got[i], wanted, rtol=0, atol=1e-4):
+                first = {key: stack[0] for key, stack in networks.items()}
+                mistakes = mistaken_outputs(network, observations[i]) | {
+                    "It gets the weights of network 0.": outputs_of(first, observations[i]),
+                    "It gets the second layer of network 0.": outputs_of(
+                        network | {"W2": first["W2"], "b2": first["b2"]}, observations[i]
+                    ),
+                    "It gets the observation of network 0.": outputs_of(network, observations[0]),
+                }
+                raise Mismatch(
+                    f"{said}: network {i} gives {show(got[i])}, but {show(wanted)} when it is "
+                    "alone.", got[i], wanted, mistakes,
+                )  # fmt: skip
 
 
 @batching.check(7)
@@ -570,7 +608,7 @@ def is_quicker_than_a_loop(student: Student):
 
 
 # ------------------------------------------------------------------- 2.8
-searching = exercise.task("2.8", "The luckiest network", seconds=40)
+searching = exercise.task("2.8", "The luckiest network", seconds=40, needs=("2.1", "2.3", "2.6"))
 
 
 def searched(student: Student, name: str, index: int, nnetworks: int, nhiddens: int):

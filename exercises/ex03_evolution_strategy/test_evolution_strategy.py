@@ -114,7 +114,7 @@ def equals_keep_their_order(student: Student):
 
 
 # ------------------------------------------------------------------- 3.3
-following = exercise.task("3.3", "The next population")
+following = exercise.task("3.3", "The next population", needs=("3.2",))
 
 
 def steps(module, population, fitness, mutrate, seed):
@@ -250,7 +250,7 @@ def argument_is_not_changed(student: Student):
 
 
 # ------------------------------------------------------------------- 3.4
-loop = exercise.task("3.4", "The loop")
+loop = exercise.task("3.4", "The loop", needs=("3.2", "3.3"))
 
 
 def evolved(module, name, population, target, generations, mutrate, seed):
@@ -387,7 +387,7 @@ def fitness_rises(student: Student):
 
 
 # ------------------------------------------------------------------- 3.5
-climber = exercise.task("3.5", "A hill climber")
+climber = exercise.task("3.5", "A hill climber", needs=("3.4",))
 
 
 @climber.check(5)
@@ -461,7 +461,7 @@ def a_single_replication(student: Student):
 
 
 # ------------------------------------------------------------------- 3.7
-training = exercise.task("3.7", "CartPole and Pendulum", seconds=90)
+training = exercise.task("3.7", "CartPole and Pendulum", seconds=90, needs=("3.1", "3.2", "3.4"))
 
 
 def trained(module, environment, seed, signs):

@@ -73,7 +73,7 @@ def many_observations(student: Student):
 
 
 # ------------------------------------------------------------------- 7.2
-recording = exercise.task("7.2", "Recording an episode")
+recording = exercise.task("7.2", "Recording an episode", needs=("7.1",))
 
 
 def recorded(module, gains, seed, steps):
@@ -173,7 +173,7 @@ def states_stay_as_they_are(student: Student):
 
 
 # ------------------------------------------------------------------- 7.4
-everywhere = exercise.task("7.4", "The whole state space")
+everywhere = exercise.task("7.4", "The whole state space", needs=("7.1",))
 
 
 @everywhere.check(5)
@@ -295,7 +295,7 @@ def keeps_the_best_as_they_were(student: Student):
 
 
 # ------------------------------------------------------------------- 7.6
-three = exercise.task("7.6", "Three stages", seconds=60)
+three = exercise.task("7.6", "Three stages", seconds=60, needs=("7.5",))
 
 
 def evolved(module, seed, signs):

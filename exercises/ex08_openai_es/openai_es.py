@@ -202,6 +202,10 @@ def stability(curve: np.ndarray) -> dict:
 # `Robot(environment)` is the same as in exercise 3. Start, as there, from biases 0 and Gaussian
 # weights with standard deviation 0.1; how many of each there are, `robot.nbiases` and
 # `robot.nweights` say. `robot.evaluate(candidates, seed, episodes=10)` measures fitness.
+#
+# What counts is a centre that was evolved by this algorithm, there and then: so that none can be
+# written down, `robot.evaluate` gives parameters other signs when the task is graded. Evolution
+# does not notice.
 
 
 # %%

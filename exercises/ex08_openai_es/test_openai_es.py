@@ -1,5 +1,8 @@
 """Grader of exercise 8; run it with `make test-ex8`.
 
+Task 8.8 is evolved with secret signs of the parameters, so that none can be written down, and the
+evaluations are watched, so that none comes from another algorithm.
+
 Stochastic checks (task 8.8; a seed of the grader's, the mean over 100 episodes that the submission
 has not seen): CartPole-v0 at least 195, Pendulum-v1 at least -400. Over 20 seeds the solution
 reaches 200 of 200 with every one, and -215 to -145.
@@ -84,7 +87,15 @@ def candidates_on_both_sides(student: Student):
         centre, samples = rng.normal(size=n), rng.normal(size=(samplesize, n))
         noise = round(float(rng.uniform(0.01, 0.5)), 3)
         answer = student.call("candidates_around", centre, samples, noise)
-        expect_close(student.said, answer, around(centre, samples, noise))
+        wanted = around(centre, samples, noise)
+        mistakes = {
+            "noiseStdDev is left out.": around(centre, samples, 1.0),
+            "All plus come before all minus, but the two of a sample belong together.": np.vstack(
+                [wanted[0::2], wanted[1::2]]
+            ),
+            "Minus comes before plus.": around(centre, -samples, noise),
+        }
+        expect_close(student.said, answer, wanted, mistakes=mistakes)
 
 
 @sampling.check(2)
@@ -118,7 +129,15 @@ def equals_in_their_order(student: Student):
         answer = student.call("utilities", fitness)
         if len(fitness) < 10:
             student.said = f"utilities({fitness.tolist()})"
-        expect_close(student.said, answer, ranked(fitness))
+        order = np.sort(fitness)
+        shared = [np.flatnonzero(order == each).mean() for each in fitness]
+        mistakes = {
+            "Equals share their mean rank, but the one that comes first has the lower one.":
+            np.array(shared) / (len(fitness) - 1) - 0.5,
+            "Of equals the last has the lower rank, but the first is to have it.":
+            ranked(fitness[::-1])[::-1],
+        }  # fmt: skip
+        expect_close(student.said, answer, ranked(fitness), mistakes=mistakes)
 
 
 # ------------------------------------------------------------------- 8.3
@@ -132,7 +151,12 @@ def weighted_samples(student: Student):
         samples = rng.normal(size=(samplesize, n))
         weights = rng.permutation(np.linspace(-0.5, 0.5, 2 * samplesize))
         answer = student.call("gradient", samples, weights)
-        expect_close(student.said, answer, estimated(samples, weights))
+        both = (weights[0::2] + weights[1::2])[:, None] * samples
+        mistakes = {
+            "The two utilities of a sample are added: the one of the minus side is to be "
+            "subtracted.": both.sum(axis=0) / len(weights),
+        }
+        expect_close(student.said, answer, estimated(samples, weights), mistakes=mistakes)
 
 
 @direction.check(4)
@@ -161,7 +185,18 @@ def compare_descent(student: Student, index: int, wdecay: int) -> None:
         gradient, centre = 0.02 * rng.normal(size=n), rng.normal(size=n)
         centre[n // 2] = 0.0
         answer = student.call("descent", gradient, centre, wdecay)
-        expect_close(student.said, answer, decayed(gradient, centre, wdecay))
+        wanted = decayed(gradient, centre, wdecay)
+        mistakes = {
+            "The decay has the wrong sign: it pushes the centre away from 0.": -2 * gradient
+            - wanted,
+            "The decay is left out.": -gradient,
+            "The decay of the other kind (wdecay) is taken.": decayed(
+                gradient, centre, (0, 2, 1)[wdecay]
+            ),
+            "The gradient has the wrong sign: Adam descends, but fitness is to rise.": wanted
+            + 2 * gradient,
+        }
+        expect_close(student.said, answer, wanted, mistakes=mistakes)
 
 
 @decay.check(2)
@@ -190,9 +225,18 @@ def compare_adam(student: Student, arguments: list) -> None:
         f"{student.said} must return the centre, m and v, not {show(answer)}.",
     )
     wanted = adam_step(*arguments)
+    centre, _, _, _, t, stepsize = arguments
     for name, got, value in zip(("the new m", "the new v"), answer[1:], wanted[1:], strict=True):
-        expect_close(f"{student.said}: {name}", got, value)
-    expect_close(f"{student.said}: the new centre", answer[0], wanted[0], 1e-6)
+        kept = value / (1 - (0.9 if "m" in name else 0.999) ** t)
+        mistakes = {"The corrected value is returned: correct it for this step only.": kept}
+        expect_close(f"{student.said}: {name}", got, value, mistakes=mistakes)
+    m, v = wanted[1:]
+    mistakes = {
+        "The correction of m and v for the first steps is left out.": centre
+        - stepsize * m / (np.sqrt(v) + 1e-8),
+        "The step goes the wrong way.": 2 * centre - wanted[0],
+    }
+    expect_close(f"{student.said}: the new centre", answer[0], wanted[0], 1e-6, mistakes)
 
 
 def inputs_of_adam(index: int, n: int, t: int) -> list:
@@ -216,19 +260,29 @@ def later_steps(student: Student):
         compare_adam(student, inputs_of_adam(index, n, t))
 
 
-@optimiser.check(2)
+@optimiser.check(1)
 def late_steps(student: Student):
     compare_adam(student, inputs_of_adam(14, 12, 50_000))
 
 
 @optimiser.check(2)
+def where_hardly_anything_slopes(student: Student):
+    """d of 0, and so small that the 1e-8 counts: once from nothing, once with a past."""
+    for index, t in ((62, 1), (63, 40)):
+        centre, d, m, v, t, stepsize = inputs_of_adam(index, 5, t)
+        d = np.array([0.0, 1e-8, -3e-8, 2e-7, 0.0])
+        m, v = (m, v) if t == 1 else (d * 0.5, d**2)
+        compare_adam(student, [centre, d, m, v, t, stepsize])
+
+
+@optimiser.check(1)
 def steps_without_side_effects(student: Student):
     compare_adam(student, inputs_of_adam(61, 6, 3))
     expect_unchanged(student, "adam", inputs_of_adam(61, 6, 3))
 
 
 # ------------------------------------------------------------------- 8.6
-whole = exercise.task("8.6", "The whole algorithm")
+whole = exercise.task("8.6", "The whole algorithm", needs=("8.1", "8.2", "8.3", "8.4", "8.5"))
 
 
 def evolved(module, centre, target, generations, seed, options):
@@ -250,17 +304,29 @@ def compare_run(student: Student, index: int, n: int, generations: int, **option
     answer = student.run(evolved, start, target, generations, seed, options, said=said)
     expect_fields(said, answer, "centre", "history")
     settings = {"samplesize": 20, "noiseStdDev": 0.02, "stepsize": 0.01, "wdecay": 0, **options}
-    samplesize, noise, stepsize, wdecay = settings.values()
-    samples_rng, centre, history = np.random.default_rng(seed), start, []
-    m, v = np.zeros(n), np.zeros(n)
-    for generation in range(generations):
-        samples = samples_rng.standard_normal((samplesize, n))
-        goal = target + 0.3 * np.sin(seed + generation + np.arange(n))
-        fitness = -np.abs(around(centre, samples, noise) - goal).sum(axis=1)
-        history.append(fitness.mean())
-        d = decayed(estimated(samples, ranked(fitness)), centre, wdecay)
-        centre, m, v = adam_step(centre, d, m, v, generation + 1, stepsize)
-    expect_close(f"{said}: history", answer["history"], history, 1e-5)
+
+    def run(first=0, **others) -> tuple[list, list, np.ndarray]:
+        """Mean and best fitness of each generation, and the last centre."""
+        samplesize, noise, stepsize, wdecay = (settings | others).values()
+        samples_rng, centre, history, best = np.random.default_rng(seed), start, [], []
+        m, v = np.zeros(n), np.zeros(n)
+        for generation in range(generations):
+            samples = samples_rng.standard_normal((samplesize, n))
+            goal = target + 0.3 * np.sin(seed + first + generation + np.arange(n))
+            fitness = -np.abs(around(centre, samples, noise) - goal).sum(axis=1)
+            history.append(fitness.mean())
+            best.append(fitness.max())
+            d = decayed(estimated(samples, ranked(fitness)), centre, wdecay)
+            centre, m, v = adam_step(centre, d, m, v, generation + 1, stepsize)
+        return history, best, centre
+
+    history, best, centre = run()
+    mistakes = {
+        "It is the fitness of the best candidate, but the mean is asked for.": best,
+        "The weight decay (wdecay) is not handed on.": run(wdecay=0)[0],
+        "The seeds begin with seed + 1, but the first generation's is seed.": run(first=1)[0],
+    }
+    expect_close(f"{said}: history", answer["history"], history, 1e-5, mistakes)
     expect_close(f"{said}: centre", answer["centre"], centre, 1e-5)
 
 
@@ -329,7 +395,16 @@ def drops(student: Student):
     cases += [np.arange(5.0), np.full(6, 9.0), np.array([5.0, 1.0]), np.array([3.0])]
     for curve in cases:
         said, answer, right = judged(student, curve)
-        expect_close(f"{said}: drop", answer["drop"], right["drop"])
+        height = max(float(np.ptp(curve)), 1e-300)
+        steps = np.diff(curve, prepend=curve[0])
+        mistakes = {
+            "Only the end is compared with the highest point: falls that recover count, too.":
+            (curve.max() - curve[-1]) / height,
+            "Only falls from one value to the next are looked at: a fall may take many.":
+            max(0.0, -steps.min()) / height,
+            "The drop is to be a share of the curve's whole range.": right["drop"] * height,
+        }  # fmt: skip
+        expect_close(f"{said}: drop", answer["drop"], right["drop"], mistakes=mistakes)
 
 
 @curves.check(3)
@@ -348,7 +423,9 @@ def verdicts(student: Student):
     falls = (0.0, 0.05, 0.09, 0.11, 0.2, 0.29, 0.31, 0.6, 0.8)
     cases = [rising_with_fall(30 + i, fall, i % 2 == 0) for i, fall in enumerate(falls)]
     cases += [np.arange(12.0), np.full(4, -500.0), np.array([5.0, 1.0])]
-    cases += [np.array([0.0, 10.0, 9.0, 10.0])]
+    # at the limits, which belong to the milder verdict
+    cases += [np.array([0.0, 10.0, 9.0, 10.0]), np.array([0.0, 1.0, 0.0, 10.0])]
+    cases += [np.array([0.0, 3.0, 0.0, 10.0]), np.array([0.0, 30.0, 0.0, 100.0])]
     for curve in cases:
         said, answer, right = judged(student, curve)
         expect(
@@ -359,32 +436,89 @@ def verdicts(student: Student):
 
 
 # ------------------------------------------------------------------- 8.8
-training = exercise.task("8.8", "CartPole and Pendulum", seconds=50)
+training = exercise.task("8.8", "CartPole and Pendulum", seconds=50, needs=("8.6",))
 
 
-def mean_of(student: Student, environment: str, index: int) -> float:
-    """Mean return of the student's centre over 100 episodes that it has not seen."""
-    robot = Robot(environment)
-    centre = student.call("train", environment, seed=exercise.seed(index) % 100_000)
-    centre = expect_array(student.said, centre, (robot.nbiases + robot.nweights,))
-    return float(robot.evaluate(centre[None], exercise.seed(index + 1), episodes=100)[0])
+def trained(module, environment, seed, signs):
+    """The student's centre, and evidence of how it was found.
+
+    In between, each parameter reaches the network with a sign of its own: OpenAI-ES does not notice
+    this, as its samples are as often positive as negative. Evidence: the share of the evaluated
+    candidates that lie in neighbouring pairs around one point, and the calls of evolve.
+    """
+    import numpy
+
+    from botschool.course import evaluation
+
+    robot, seen, pairs, calls = evaluation.Robot, [], 0, 0
+    kept = robot.evaluate, robot.play, getattr(module, "evolve", None)
+
+    def evaluate(self, population, *arguments, **options):
+        nonlocal pairs
+        population = numpy.array(population, dtype=float)
+        half = len(population) // 2
+        if len(population) == 2 * half and half > 2:  # all on one side, then all on the other
+            middles = (population[:half] + population[half:]) / 2
+            pairs += half * bool(numpy.allclose(middles, middles[0], atol=1e-9))
+        seen.extend(population)
+        return kept[0](self, population * signs, *arguments, **options)
+
+    def play(self, parameters, *arguments, **options):
+        return kept[1](self, numpy.asarray(parameters) * signs, *arguments, **options)
+
+    def evolve(*arguments, **options):
+        nonlocal calls
+        calls += 1
+        return kept[2](*arguments, **options)
+
+    robot.evaluate, robot.play, module.evolve = evaluate, play, evolve
+    try:
+        centre = module.train(environment, seed=seed)
+    finally:
+        robot.evaluate, robot.play, module.evolve = kept
+    rows = numpy.array(seen).reshape(len(seen), -1)
+    middles = (rows[:-1] + rows[1:]) / 2
+    same = numpy.isclose(middles[:-2], middles[2:], atol=1e-9).all(axis=1)
+    return [centre, (pairs + int(same.sum())) / max(1, len(rows) / 2), calls]
+
+
+def expect_mean(student: Student, environment: str, index: int, goal: float, what: str) -> None:
+    """The student's centre reaches the goal on average over 100 episodes that it has not seen."""
+    robot, seed = Robot(environment), exercise.seed(index) % 100_000
+    size = robot.nbiases + robot.nweights
+    signs = generator(index + 100).choice([-1.0, 1.0], size)
+    said = f"train({environment!r}, seed={seed})"
+    answer = student.run(trained, environment, seed, signs, said=said)
+    expect(isinstance(answer, list) and len(answer) == 3, f"{said} gave no answer.")
+    centre = expect_array(said, answer[0], (size,))
+    mean, plain = (
+        float(robot.evaluate(each[None], exercise.seed(index + 1), episodes=100)[0])
+        for each in (signs * centre, centre)
+    )
+    expect(
+        mean >= goal or plain < goal,
+        f"{said}: the controller would do as asked, but was not evolved here: while it was sought, "
+        "robot.evaluate took each parameter with another sign, and with these it fails. So evolve "
+        "a new one, by the fitness that robot.evaluate returns.",
+    )
+    expect(
+        mean >= goal,
+        f"{said}: the controller {what.format(mean)} on average over 100 new episodes, but "
+        f"{goal:g} is asked for.",
+    )
+    _, share, calls = answer
+    expect(
+        isinstance(share, float) and isinstance(calls, int) and (share > 0.25 or calls > 0),
+        f"{said}: the controller was found, but not by this algorithm: no pairs of candidates on "
+        "both sides of a centre were evaluated.",
+    )
 
 
 @training.check(5)
 def keeps_the_pole_up(student: Student):
-    mean = mean_of(student, "CartPole-v0", 50)
-    expect(
-        mean >= 195,
-        f"{student.said}: the controller keeps the pole up for {mean:.1f} steps on average over "
-        "100 new episodes, but 195 are asked for.",
-    )
+    expect_mean(student, "CartPole-v0", 50, 195, "keeps the pole up for {:.1f} steps")
 
 
 @training.check(5)
 def swings_the_pendulum_up(student: Student):
-    mean = mean_of(student, "Pendulum-v1", 52)
-    expect(
-        mean >= -400,
-        f"{student.said}: the controller reaches {mean:.0f} on average over 100 new episodes, but "
-        "-400 is asked for.",
-    )
+    expect_mean(student, "Pendulum-v1", 52, -400, "reaches {:.0f}")

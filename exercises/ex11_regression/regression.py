@@ -57,8 +57,8 @@ class Network(nn.Module):
 # %% [markdown]
 # ## Task 11.2. The gradient by hand
 #
-# No torch here, only NumPy and the formulas of `README.md`. X holds the inputs (n rows), T the
-# targets (m columns). Forward:
+# No torch here (its `backward` is refused), only NumPy and the formulas of `README.md`. X holds the
+# inputs (n rows), T the targets (m columns). Forward:
 #
 # $$H = \mathrm{logistic}(X W_1^\top + b_1) \qquad Y = H W_2^\top + b_2 \qquad
 # L = \frac{1}{n m} \sum (Y - T)^2$$
@@ -158,6 +158,9 @@ def train(
 #
 # No straight line separates the two kinds, so no single neuron can tell them apart. Two hidden
 # neurons can, but they do not always find out: training may get stuck. Then begin anew.
+#
+# The network must be trained, step by step along gradients (`train`, or those of task 11.2).
+# Weights that are written down or come from a formula do not count, here and in task 11.8.
 
 
 # %%
@@ -183,7 +186,8 @@ def normalise(inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The inputs with mean 0 and standard deviation 1 in each column, the mean, the deviation.
 
     inputs has the shape (n, i), mean and deviation have (i,). The deviation is that of NumPy
-    (which divides by n). A column that never changes gets the deviation 1, and so becomes 0.
+    (which divides by n). A column that never changes gets the deviation 1, and so becomes 0; mind
+    that rounding may make a number such as 1e-17 of its deviation.
     """
     raise NotImplementedError("task 11.6: normalise each column")
 

@@ -1,5 +1,9 @@
 """Grader of exercise 12; run it with `make test-ex12`.
 
+A slip costs once: the first three checks of task 12.3 look at episodes in which the pole falls and
+nothing is cut; limits have checks of their own. Task 12.8 is learnt in an environment whose signs
+the grader has changed, and the gradients that it takes are counted.
+
 Stochastic checks (task 12.8; a seed of the grader's, without chance, the mean over 50 episodes that
 the submission has not seen): CartPole-v1 and botschool/PushedCartPole-v0 need at least 180 of 200
 steps. Over 20 seeds the solution reaches 198.1 to 200.0 in the first and 193.4 to 200.0 in the
@@ -60,7 +64,15 @@ def compare_softmax(student: Student, scores: np.ndarray) -> None:
     answer = student.call("softmax", scores)
     if scores.size <= 6:
         student.said = f"softmax({scores.tolist()})"
-    expect_close(student.said, answer, np.exp(logarithms_of(scores)))
+    powers = np.exp(scores - scores.max())
+    mistakes = {
+        "One sum is taken over all steps, but each row has its own (axis=-1).": powers
+        / powers.sum()
+    }
+    if scores.ndim > 1:
+        sums = np.maximum(powers.sum(axis=0), 1e-300)
+        mistakes["The sum runs over the steps, but it is to run over the actions."] = powers / sums
+    expect_close(student.said, answer, np.exp(logarithms_of(scores)), mistakes=mistakes)
 
 
 @probabilities.check(4)
@@ -99,7 +111,16 @@ def compare_choices(student: Student, index: int, shares: np.ndarray, times: int
     said = f"choose({show(shares)}, rng)"
     answer = student.run(chosen, shares, seed, times, said=said)
     expect(isinstance(answer, list) and len(answer) == times, f"{said} gave no answers.")
-    rng = np.random.default_rng(seed)
+    rng, whole = np.random.default_rng(seed), all(type(each) is int for each in answer)
+    darts = np.random.default_rng(seed).random(times)
+    mistakes = {
+        "It is always the most probable action: draw one.": np.full(times, int(shares.argmax())),
+        "All actions are equally probable: use the probabilities.": darts * len(shares) // 1,
+        "The probabilities are laid down from the last to the first.": len(shares) - 1
+        - np.searchsorted(np.cumsum(shares[::-1]), darts, side="right").clip(0, len(shares) - 1),
+    }  # fmt: skip
+    lines = [text for text, made in mistakes.items() if whole and np.array_equal(answer, made)]
+    hint = "".join(f" {text}" for text in lines[:1])
     for got in answer:
         dart, edges = float(rng.random()), np.cumsum(shares)
         wanted = min(int(np.searchsorted(edges, dart, side="right")), len(shares) - 1)
@@ -107,7 +128,7 @@ def compare_choices(student: Student, index: int, shares: np.ndarray, times: int
         expect(
             near or (type(got) is int and got == wanted),
             f"{said} returned {show(got)} when rng.random() gave {dart:.4f}, but {wanted} was "
-            "expected.",
+            f"expected.{hint}",
         )
 
 
@@ -143,13 +164,17 @@ def lived(module, environment, parameters, shift, seed, maxsteps):
         nonlocal step
         step += 1
         outputs = W2.dot(numpy.tanh(W1.dot(observation) + b1)) + b2 + shift * numpy.sin(step)
-        return int(outputs.argmax()) if discrete else outputs
+        return int(outputs.argmax()) if discrete else numpy.round(64 * outputs) / 64
 
     return module.run_episode(environment, act, seed, maxsteps)
 
 
 def replay(student: Student, environment: str, index: int, maxsteps: int, shift: float) -> dict:
-    """Follows the student's episode in a fresh environment; what should have been recorded."""
+    """Follows the student's episode in a fresh environment; what should have been recorded.
+
+    Actions that are no choices lie within the limits, and are multiples of 1/64: so it makes no
+    difference which precision the student hands them on with.
+    """
     rng, seed = generator(index), exercise.seed(index + 100) % 100_000
     with gymnasium.make(environment) as env:
         space, ninputs = env.action_space, env.observation_space.shape[0]
@@ -157,17 +182,18 @@ def replay(student: Student, environment: str, index: int, maxsteps: int, shift:
         noutputs = int(space.n) if discrete else space.shape[0]
         sizes = ((8, ninputs), (8,), (noutputs, 8), (noutputs,))
         parameters = [rng.normal(size=size) for size in sizes]
+        if not discrete:
+            parameters[2:] = [0.6 * each / np.abs(each).sum() for each in parameters[2:]]
+            parameters[3] *= 0.2
         said = f"run_episode({environment!r}, act, seed={seed}, maxsteps={maxsteps})"
         answer = student.run(lived, environment, parameters, shift, seed, maxsteps, said=said)
         wanted = {"observations": [], "actions": [], "return": 0.0}
         observation, _ = env.reset(seed=seed)
         for step in range(1, maxsteps + 1):
             outputs = outputs_of(parameters, observation) + shift * np.sin(step)
-            action = int(outputs.argmax()) if discrete else outputs
+            action = int(outputs.argmax()) if discrete else np.round(64 * outputs) / 64
             wanted["observations"].append(observation)
             wanted["actions"].append(action)
-            if not discrete:
-                action = np.clip(action, space.low, space.high).astype(np.float32)
             observation, reward, terminated, truncated, _ = env.step(action)
             wanted["return"] += float(reward)
             if terminated or truncated:
@@ -176,50 +202,103 @@ def replay(student: Student, environment: str, index: int, maxsteps: int, shift:
     return {"said": said, **dict(zip(wanted, values, strict=True)), "wanted": wanted}
 
 
-def expect_episode(found: dict, *keys: str) -> None:
-    for key in keys:
-        wanted = np.array(found["wanted"][key])
-        if wanted.ndim:
-            value = found[key]
-            steps = len(value) if isinstance(value, (list, np.ndarray)) else 0
-            expect(
-                steps == len(wanted),
-                f"{found['said']}: {key} has {steps} rows, but the episode has {len(wanted)} "
-                "steps.",
-            )
-        expect_close(f"{found['said']}: {key}", found[key], wanted, SINGLE)
+def expect_steps(found: dict, key: str) -> None:
+    wanted, value = len(found["wanted"][key]), found[key]
+    steps = len(value) if isinstance(value, (list, np.ndarray)) else 0
+    expect(
+        steps == wanted,
+        f"{found['said']}: {key} has {steps} rows, but the episode has {wanted} steps.",
+    )
 
 
-CASES = (
-    ("CartPole-v1", 200, 0.0), ("CartPole-v1", 9, 0.0), ("Acrobot-v1", 60, 2.0),
-    ("Pendulum-v1", 250, 0.1), ("botschool/PushedCartPole-v0", 200, 0.3),
-    ("MountainCarContinuous-v0", 50, 0.1),
-)  # fmt: skip
+def expect_episode(found: dict, key: str) -> None:
+    if key != "return":
+        expect_steps(found, key)
+    wanted = np.array(found["wanted"][key])
+    expect_close(f"{found['said']}: {key}", found[key], wanted, SINGLE)
 
 
-@episodes.check(5)
-def records_what_was_seen(student: Student):
-    for number, case in enumerate(CASES):
-        expect_episode(replay(student, case[0], 20 + number, *case[1:]), "observations")
+ORDINARY = (("CartPole-v1", 0.0), ("botschool/PushedCartPole-v0", 0.15), ("CartPole-v1", 0.0))
+"""Environment and shift of episodes in which the pole soon falls, and nothing is cut."""
 
 
 @episodes.check(4)
+def records_what_was_seen(student: Student):
+    for number, (environment, shift) in enumerate(ORDINARY):
+        expect_episode(replay(student, environment, 20 + number, 400, shift), "observations")
+
+
+@episodes.check(3)
 def records_what_was_done(student: Student):
-    for number, case in enumerate(CASES):
-        expect_episode(replay(student, case[0], 30 + number, *case[1:]), "actions")
+    for number, (environment, shift) in enumerate(ORDINARY):
+        expect_episode(replay(student, environment, 30 + number, 400, shift), "actions")
 
 
 @episodes.check(3)
 def adds_up_the_rewards(student: Student):
-    for number, case in enumerate(CASES):
-        expect_episode(replay(student, case[0], 40 + number, *case[1:]), "return")
+    for number, (environment, shift) in enumerate(ORDINARY):
+        expect_episode(replay(student, environment, 40 + number, 400, shift), "return")
+
+
+@episodes.check(1)
+def stops_after_maxsteps(student: Student):
+    cases = (("Acrobot-v1", 60, 2.0), ("CartPole-v1", 1, 0.0), ("Pendulum-v1", 50, 0.1))
+    for number, case in enumerate(cases):
+        expect_steps(replay(student, case[0], 50 + number, *case[1:]), "observations")
+
+
+@episodes.check(1)
+def stops_when_truncated(student: Student):
+    found = replay(student, "Pendulum-v1", 54, 250, 0.1)
+    expect_steps(found, "observations")
+
+
+def cut(module, lows, highs, chosen):
+    """The student's record of an episode with these actions, and what the environment got."""
+    import gymnasium
+    import numpy
+
+    class Motors(gymnasium.Env):
+        got = []  # noqa: RUF012
+
+        def __init__(self):
+            self.observation_space = gymnasium.spaces.Box(-9, 9, (3,))
+            self.action_space = gymnasium.spaces.Box(lows, highs)
+
+        def reset(self, *, seed=None, options=None):
+            super().reset(seed=seed)
+            return numpy.zeros(3, dtype=numpy.float32), {}
+
+        def step(self, action):
+            self.got.append(numpy.array(action, dtype=float))
+            return numpy.zeros(3, dtype=numpy.float32), 1.0, False, False, {}
+
+    gymnasium.register(id="grader/Motors-v0", entry_point=Motors)
+    waiting = iter(chosen)
+    answer = module.run_episode(
+        "grader/Motors-v0", lambda observation: next(waiting).copy(), 1, len(chosen)
+    )
+    return [answer, Motors.got]
 
 
 @episodes.check(2)
 def cuts_only_what_the_environment_gets(student: Student):
-    for number, environment in enumerate(("Pendulum-v1", "MountainCarContinuous-v0")):
-        found = replay(student, environment, 50 + number, 100, 9.0)
-        expect_episode(found, "actions", "return")
+    rng = generator(56)
+    lows, highs = np.float32([-1.0, -0.5]), np.float32([1.0, 2.5])
+    chosen = 3 * rng.normal(size=(30, 2))
+    said = "run_episode(an environment with two motors, act, seed=1, maxsteps=30)"
+    answer = student.run(cut, lows, highs, chosen, said=said)
+    expect(isinstance(answer, list) and len(answer) == 2, f"{said} gave no answer.")
+    got = expect_array(f"{said}: what the environment got", np.array(answer[1]), chosen.shape)
+    within = bool(np.all((got >= lows - 1e-6) & (got <= highs + 1e-6)))
+    expect(
+        within,
+        f"{said}: the environment got actions from {show(got.min(axis=0))} to "
+        f"{show(got.max(axis=0))}, but its limits are {show(lows)} and {show(highs)}.",
+    )
+    expect_close(f"{said}: what the environment got", got, np.clip(chosen, lows, highs), SINGLE)
+    (actions,) = fields(said, answer[0], "actions")
+    expect_close(f"{said}: actions", actions, chosen, SINGLE)
 
 
 # ------------------------------------------------------------------- 12.4
@@ -249,9 +328,19 @@ def compare_elite(student: Student, found: list[dict], percentile: float, *keys:
     best = [episode for episode in found if episode["return"] >= bound]
     wanted = {key: np.concatenate([e[key] for e in best]) for key in ("observations", "actions")}
     wanted["bound"] = bound
+    kinds = {
+        "All episodes are kept.": found,
+        "Episodes exactly at the bound are left out.": [e for e in found if e["return"] > bound],
+        "The worst are kept instead of the best.": [e for e in found if e["return"] <= bound],
+    }
     for key, value in zip(wanted, values, strict=True):
         if key in keys:
-            expect_close(f"{student.said}: {key}", value, wanted[key])
+            mistakes = {
+                text: np.concatenate([e[key] for e in kept])
+                for text, kept in kinds.items()
+                if kept and key != "bound"
+            }
+            expect_close(f"{student.said}: {key}", value, wanted[key], mistakes=mistakes)
 
 
 @selecting.check(3)
@@ -284,7 +373,13 @@ def keeps_whole_actions_whole(student: Student):
 
 
 # ------------------------------------------------------------------- 12.5
-surprise = exercise.task("12.5", "Cross-entropy")
+surprise = exercise.task(
+    "12.5",
+    "Cross-entropy",
+    refused=tuple(
+        f"torch.nn.functional:{name}" for name in ("cross_entropy", "nll_loss", "log_softmax")
+    ),
+)
 
 
 def measured(module, scores, actions):
@@ -322,7 +417,11 @@ def loss_of_a_batch(student: Student):
 def gradients_flow(student: Student):
     for index, steps, actions in ((84, 40, 2), (85, 25, 6)):
         _, gradient, _, wanted = surprised(student, index, steps, actions, 1.0)
-        expect_close(f"{student.said}: gradient of the scores", gradient, wanted, SINGLE)
+        mistakes = {
+            "No gradient arrives at the scores: torch cannot follow through NumPy, .item() or "
+            ".detach().": 0 * wanted,
+        }
+        expect_close(f"{student.said}: gradient of the scores", gradient, wanted, SINGLE, mistakes)
 
 
 @surprise.check(3)
@@ -416,7 +515,10 @@ def parameters_after_the_updates(student: Student):
     for number, case in enumerate(LEARNING_CASES):
         said, _, after, _, right = compare_updates(student, 90 + number, *case)
         for name, got, wanted in zip(("W1", "b1", "W2", "b2"), after, right, strict=True):
-            expect_close(f"{said}: {name} of the network afterwards", got, wanted, 1e-4)
+            mistakes = {
+                "Gradients of before are added: set them to zero first (zero_grad).": wanted - 0.02
+            }  # of the first case: one step of SGD, and the gradients left over are all 1
+            expect_close(f"{said}: {name} of the network afterwards", got, wanted, 1e-4, mistakes)
 
 
 @learning.check(4)
@@ -448,8 +550,16 @@ def draws_actions(student: Student):
         expect(isinstance(answer, list) and len(answer) == 4, f"{said} gave no answers.")
         noise = np.random.default_rng(seed)
         for got in answer:
-            wanted = mean + np.exp(log_deviation) * noise.standard_normal(actuators)
-            expect_close(said, got, wanted)
+            drawn = noise.standard_normal(actuators)
+            mistakes = {
+                "log_deviation is taken for the logarithm of the variance.": mean
+                + np.exp(log_deviation / 2) * drawn,
+                "log_deviation is taken for the deviation itself: np.exp is missing.": mean
+                + log_deviation * drawn,
+                "The noise is left out.": mean,
+            }
+            wanted = mean + np.exp(log_deviation) * drawn
+            expect_close(said, got, wanted, mistakes=mistakes)
 
 
 def measured_gaussian(module, means, log_deviation, actions):
@@ -473,7 +583,12 @@ def compare_gaussian(student: Student, index: int, steps: int, actuators: int, p
     distance = (actions - means) / np.exp(log_deviation)
     if part == 0:
         surprises = distance**2 / 2 + log_deviation + np.log(2 * np.pi) / 2
-        expect_close(said, answer[0], surprises.sum(axis=1).mean(), SINGLE)
+        constant = np.log(2 * np.pi) / 2
+        mistakes = {
+            "The constant ln(2 pi) / 2 is left out.": (surprises - constant).sum(axis=1).mean(),
+            "The mean is taken over the actuators, too: their surprises add up.": surprises.mean(),
+        }
+        expect_close(said, answer[0], surprises.sum(axis=1).mean(), SINGLE, mistakes)
         return
     slope = -distance / np.exp(log_deviation) / steps
     expect_close(f"{said}: gradient of the means", answer[1], slope, SINGLE)
@@ -494,7 +609,69 @@ def gradients_of_both(student: Student):
 
 
 # ------------------------------------------------------------------- 12.8
-training = exercise.task("12.8", "Training", seconds=90)
+training = exercise.task(
+    "12.8",
+    "Training",
+    seconds=90,
+    needs=("12.1", "12.2", "12.3", "12.4", "12.5", "12.6", "12.7"),
+    refused=(
+        "stable_baselines3.common.on_policy_algorithm:OnPolicyAlgorithm.learn",
+        "stable_baselines3.common.off_policy_algorithm:OffPolicyAlgorithm.learn",
+        "botschool.rl.training:train",
+        "botschool.evolution.run:Run.advance",
+    ),
+)
+UPDATES = 10
+"""Gradients that a training must have computed at least; the solution computes 10 an iteration."""
+
+
+def trained(module, environment, seed, signs, side):
+    """The answer, the gradients computed, and the returns of all episodes.
+
+    Of each episode also the return without its last reward: task 12.3 is judged elsewhere.
+
+    The environment is changed: each number observed is multiplied by its sign, and with side -1
+    left and right of the action are exchanged. Who trains in it does not notice.
+    """
+    import gymnasium
+    import torch
+
+    spec = gymnasium.spec(environment)
+    creator = gymnasium.envs.registration.load_env_creator(spec.entry_point)
+    played, gradients = [], 0
+
+    class Changed(creator):
+        def reset(self, **options):
+            observation, info = super().reset(**options)
+            played.append([0.0, 0.0])
+            self.number = len(played) - 1
+            return (observation * signs).astype(observation.dtype), info
+
+        def step(self, action):
+            discrete = isinstance(self.action_space, gymnasium.spaces.Discrete)
+            if side < 0:
+                action = 1 - action if discrete else -action
+            observation, reward, *others = super().step(action)
+            before = played[self.number][0]
+            played[self.number] = [before + float(reward), before]
+            return (observation * signs).astype(observation.dtype), reward, *others
+
+    def counting(function):
+        def counted(*arguments, **options):
+            nonlocal gradients
+            gradients += 1
+            return function(*arguments, **options)
+
+        return counted
+
+    kept = spec.entry_point, spec.vector_entry_point, torch.autograd.backward, torch.autograd.grad
+    spec.entry_point, spec.vector_entry_point = Changed, None
+    torch.autograd.backward, torch.autograd.grad = map(counting, kept[2:])
+    try:
+        return [module.train(environment, seed=seed), gradients, played]
+    finally:
+        spec.entry_point, spec.vector_entry_point = kept[:2]
+        torch.autograd.backward, torch.autograd.grad = kept[2:]
 
 
 @functools.cache
@@ -502,16 +679,16 @@ def starts(environment: str) -> list[int]:
     return [exercise.seed(1000 + i) for i in range(50)]
 
 
-def mean_return(environment: str, parameters: list[np.ndarray]) -> float:
-    """Mean over 50 episodes of at most 200 steps, without chance."""
+def mean_return(environment: str, parameters: list[np.ndarray], signs, side: int) -> float:
+    """Mean over 50 episodes of at most 200 steps, without chance, in the changed environment."""
     total = 0.0
     with gymnasium.make(environment) as env:
         discrete = isinstance(env.action_space, gymnasium.spaces.Discrete)
         for seed in starts(environment):
             observation, _ = env.reset(seed=seed)
             for _ in range(200):
-                outputs = outputs_of(parameters, observation)
-                action = int(outputs.argmax()) if discrete else outputs.clip(-1, 1)
+                outputs = outputs_of(parameters, signs * observation)[::side]
+                action = int(outputs.argmax()) if discrete else side * outputs.clip(-1, 1)
                 observation, reward, terminated, truncated, _ = env.step(
                     action if discrete else action.astype(np.float32)
                 )
@@ -524,28 +701,55 @@ def mean_return(environment: str, parameters: list[np.ndarray]) -> float:
 def expect_balanced(student: Student, environment: str, index: int) -> None:
     with gymnasium.make(environment) as env:
         discrete = isinstance(env.action_space, gymnasium.spaces.Discrete)
-    answer = student.call("train", environment, seed=exercise.seed(index) % 100_000)
-    parameters, returns = fields(student.said, answer, "parameters", "returns")
+    seed, rng = exercise.seed(index) % 100_000, generator(index + 50)
+    signs, side = rng.choice([-1.0, 1.0], 4), int(rng.choice([-1, 1]))
+    signs[2] = -side  # so that whoever knows the usual environment pushes the wrong way
+    said = f"train({environment!r}, seed={seed})"
+    report = student.run(trained, environment, seed, signs, side, said=said)
+    expect(isinstance(report, list) and len(report) == 3, f"{said} gave no answer.")
+    answer, gradients, played = report
+    parameters, returns = fields(said, answer, "parameters", "returns")
     expect(
         isinstance(parameters, list) and len(parameters) == 4,
-        f"{student.said}: parameters must be a list of W1, b1, W2 and b2.",
+        f"{said}: parameters must be a list of W1, b1, W2 and b2.",
     )
     nhiddens = np.size(parameters[1])
     noutputs = 2 if discrete else 1
     sizes = ((nhiddens, 4), (nhiddens,), (noutputs, nhiddens), (noutputs,))
     arrays = [
-        expect_array(f"{student.said}: {name}", value, size)
+        expect_array(f"{said}: {name}", value, size)
         for name, value, size in zip(("W1", "b1", "W2", "b2"), parameters, sizes, strict=True)
     ]
     expect(
-        isinstance(returns, list) and all(isinstance(each, list) and each for each in returns),
-        f"{student.said}: returns must be a list with a list of returns for each iteration.",
+        isinstance(returns, list)
+        and all(isinstance(each, (list, np.ndarray)) and len(each) for each in returns),
+        f"{said}: returns must be a list with a list of returns for each iteration.",
     )
-    mean = mean_return(environment, arrays)
+    mean = mean_return(environment, arrays, signs, side)
+    known = mean < 180 and mean_return(environment, arrays, np.ones(4), 1) >= 180
+    expect(
+        not known,
+        f"{said}: the policy balances the usual environment, but not the one that it was asked to "
+        "learn in, where the grader has changed the signs of what is observed or done. So it was "
+        "not learnt there: train anew, in what gymnasium.make gives.",
+    )
     expect(
         mean >= 180,
-        f"{student.said}: without chance, the policy keeps the pole up for {mean:.1f} steps on "
+        f"{said}: without chance, the policy keeps the pole up for {mean:.1f} steps on "
         "average over 50 new episodes, but 180 are asked for.",
+    )
+    expect(
+        isinstance(gradients, int) and gradients >= UPDATES,
+        f"{said} has computed {show(gradients)} gradients, so the policy is not one that has "
+        "learnt by the cross-entropy loss.",
+    )
+    count = sum(map(len, returns))
+    told = expect_array(f"{said}: returns", [r for each in returns for r in each], (count,))
+    had = np.array(played, dtype=float).ravel()
+    there = np.isclose(told[:, None], had, rtol=1e-4).any(axis=1)
+    expect(
+        bool(there.all()),
+        f"{said}: returns holds {show(told[~there][:3])}, but no episode had such a return.",
     )
 
 

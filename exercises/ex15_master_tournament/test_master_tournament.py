@@ -17,6 +17,11 @@ from botschool.grading import Exercise, Student, expect_close, expect_fields
 exercise = Exercise(15, "The master tournament", file="master_tournament.py")
 PARAMETERS, UNITS, INPUTS = 4977, 25, 24
 EXACT = 1e-9
+TOOL = tuple(
+    f"botschool.analysis.tournament:{name}"
+    for name in ("summarised", "interval", "historical_progress", "global_progress", "progress")
+)
+"""What the tool's own tournament has for tasks 15.3, 15.5 and 15.7."""
 
 
 def rng_of(index: int) -> np.random.Generator:
@@ -140,7 +145,7 @@ def of_different_sizes(student: Student):
 
 
 # ------------------------------------------------------------------- 15.3
-averaging = exercise.task("15.3", "The master matrix")
+averaging = exercise.task("15.3", "The master matrix", refused=TOOL)
 
 
 def random_table(rng: np.random.Generator, *shape: int) -> np.ndarray:
@@ -155,22 +160,12 @@ def means_of(table: np.ndarray) -> np.ndarray:
 TABLES = ((2, 3, 2, 3), (4, 2, 4, 5), (3, 1, 5, 2))
 
 
-def averaged(module, table):
-    """The answer to the task, unless it is the tool's own."""
-    import sys
-
-    answer = module.master(table)
-    if "botschool.analysis.tournament" in sys.modules:
-        raise ImportError("botschool.analysis.tournament does what you are to write yourself")
-    return answer
-
-
 def compare_means(student: Student, index: int, side: str, turned) -> None:
     rng = rng_of(index)
     for shape in TABLES:
         table = random_table(rng, *shape)
         said = f"master(<table {shape}>)"
-        answer = student.run(averaged, table, said=said)
+        answer = student.call("master", table)
         (value,) = expect_fields(said, answer, side)
         expect_close(f"{said}: {side}", value, turned(means_of(table)), EXACT)
 
@@ -250,7 +245,7 @@ def against_the_past_and_the_future(student: Student):
 
 
 # ------------------------------------------------------------------- 15.5
-gaining = exercise.task("15.5", "Progress, or running in circles?")
+gaining = exercise.task("15.5", "Progress, or running in circles?", refused=TOOL)
 
 
 def progress_of(matrix: np.ndarray) -> dict:
@@ -332,7 +327,7 @@ def what_is_hidden(student: Student):
 
 
 # ------------------------------------------------------------------- 15.7
-sure = exercise.task("15.7", "How sure is it?")
+sure = exercise.task("15.7", "How sure is it?", refused=TOOL)
 
 
 def measured(module, table, weights, seed, resamples):
@@ -427,21 +422,68 @@ def described(poses: np.ndarray) -> dict:
     return {**means, "distance": np.mean(told["distance"])}
 
 
-def compare_described(student: Student, index: int, names: tuple) -> None:
-    rng = rng_of(index)
-    walks = [wandering(rng, steps) for steps in (1, 30, 150)]
-    walks.append(some_chase(rng, True, 100)[2]["poses"])
+NEAR, FAR = (150.0, 299.0), (301.0, 1500.0)
+"""Distances from a wall."""
+
+
+def along_the_walls(rng: np.random.Generator) -> np.ndarray:
+    """Poses at all four walls, near them and not quite near, whatever the seed.
+
+    Both robots begin at a wall and end far from it, so a step's beginning is not its end.
+    """
+    ways = []
+    for _ in range(2):
+        places = [
+            (distance if low else 3000 - distance, 1500.0)[:: 1 if across else -1]
+            for distance in (*NEAR, *FAR)
+            for low in (True, False)
+            for across in (True, False)
+        ]
+        inner = [places[i] for i in rng.permutation(np.arange(1, len(places)))]
+        ways.append([places[0], *inner[: int(rng.integers(9, 13))], *[(1500.0, 1400.0)] * 9][:14])
+    heading = rng.uniform(0, 6.28, (14, 2, 1))
+    return np.concatenate([np.array(ways).swapaxes(0, 1), heading], axis=2)
+
+
+def at_the_limits() -> np.ndarray:
+    """Exactly 300 mm from each wall; at rest, or moved straight to the side; just about 45 degrees.
+
+    Numbers that no formula rounds: headings are 0, and angles a degree off the limit.
+    """
+    angles = np.radians([44, -44, 46, -46, 134, 0, 180])
+    predator = [(300, 1500), (1500, 300), (2700, 1500), (1500, 2700), (1500, 1500), (1500, 1600)]
+    predator = np.array([*predator, (1500, 1600)], dtype=float)
+    prey = predator + 500 * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    poses = np.zeros((8, 2, 3))
+    poses[:7, 0, :2], poses[:7, 1, :2] = predator, prey
+    poses[7] = poses[6]
+    return poses
+
+
+def compare_described(student: Student, walks: list[np.ndarray], names: tuple) -> None:
     for poses in walks:
         answer, expected = student.call("describe", poses), described(poses)
         for name, value in zip(names, expect_fields(student.said, answer, *names), strict=True):
             expect_close(f"{student.said}: {name}", value, expected[name], 1e-7)
 
 
+def walks_of(index: int) -> list[np.ndarray]:
+    rng = rng_of(index)
+    walks = [wandering(rng, steps) for steps in (1, 30, 150)]
+    return [*walks, some_chase(rng, True, 100)[2]["poses"]]
+
+
 @behaviour.check(5)
 def how_they_move(student: Student):
-    compare_described(student, 17, ("speed", "turning", "backwards"))
+    compare_described(student, walks_of(17), ("speed", "turning", "backwards"))
 
 
-@behaviour.check(5)
+@behaviour.check(4)
 def where_they_are(student: Student):
-    compare_described(student, 18, ("facing", "wall", "distance"))
+    compare_described(student, walks_of(18), ("facing", "wall", "distance"))
+    compare_described(student, [along_the_walls(rng_of(19))], ("wall",))
+
+
+@behaviour.check(1)
+def at_limits_and_at_rest(student: Student):
+    compare_described(student, [at_the_limits()], ("backwards", "facing", "wall"))

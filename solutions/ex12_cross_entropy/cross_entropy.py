@@ -178,7 +178,8 @@ def cross_entropy(scores: torch.Tensor, actions: torch.Tensor) -> torch.Tensor:
     """The loss, a tensor of shape (), through which torch can compute gradients.
 
     scores has the shape (N, actions); actions, shape (N,), holds whole numbers from 0. Write it
-    with torch's functions, but without torch.nn. As in task 12.1, scores may be large.
+    with torch's functions, but without torch.nn: its cross_entropy, nll_loss and log_softmax are
+    refused. As in task 12.1, scores may be large.
     """
     ### BEGIN SOLUTION task 12.5: measure the surprise
     chosen = scores[torch.arange(len(actions)), actions]
@@ -272,6 +273,9 @@ def gaussian_loss(
 #
 # The second environment is CartPole with a motor that pushes with any force: its action is a number
 # from -1 (10 N to the left) to 1 (10 N to the right).
+#
+# The policy must learn by your losses, from episodes in the environment that `gymnasium.make`
+# gives: when it is graded, the signs of what is observed and done there may differ from the usual.
 
 
 # %%

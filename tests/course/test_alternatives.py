@@ -23,7 +23,7 @@ def redefined(text):
     return {node.name for node in ast.parse(text).body if isinstance(node, kinds)}
 
 
-@pytest.mark.parametrize("number", building.GRADED, ids="ex{:02d}".format)
+@pytest.mark.parametrize("number", building.GRADED, ids=[f"ex{n:02d}" for n in building.GRADED])
 def test_three_that_write_everything_anew(number):
     own = [path for path in ALTERNATIVES if path.parent.name == f"ex{number:02d}"]
     texts = [path.read_text(encoding="utf-8") for path in own]
