@@ -26,6 +26,7 @@ exercise = Exercise(
     extras=("box2d",),
 )
 BODY, OBSERVATIONS = 64, 35
+TOOL = ("botschool.envs.morphology:decode",)
 TOLERANCE = 1e-5
 """Of what is computed: single precision is enough."""
 
@@ -101,7 +102,7 @@ def expect_decoded(student: Student, name: str, index: int, wanted: dict) -> Non
 
 
 # ------------------------------------------------------------------- 5.1
-size = exercise.task("5.1", "Sizes")
+size = exercise.task("5.1", "Sizes", refused=TOOL)
 
 
 @size.check(6)
@@ -120,7 +121,7 @@ def mass_of_each_segment(student: Student):
 
 
 # ------------------------------------------------------------------- 5.2
-turning = exercise.task("5.2", "Angles")
+turning = exercise.task("5.2", "Angles", refused=TOOL)
 
 
 @turning.check(6)
@@ -135,7 +136,7 @@ def limits_of_joints(student: Student):
 
 
 # ------------------------------------------------------------------- 5.3
-shape = exercise.task("5.3", "The shape at rest", needs=("5.1", "5.2"))
+shape = exercise.task("5.3", "The shape at rest", needs=("5.1", "5.2"), refused=TOOL)
 
 
 def expect_outline(student: Student, questions: np.ndarray) -> None:
@@ -164,7 +165,7 @@ def bent_bodies(student: Student):
 
 
 # ------------------------------------------------------------------- 5.4
-numbers = exercise.task("5.4", "A body in five numbers", needs=("5.1", "5.2", "5.3"))
+numbers = exercise.task("5.4", "A body in five numbers", needs=("5.1", "5.2", "5.3"), refused=TOOL)
 
 
 @numbers.check(4)
