@@ -29,13 +29,25 @@ def with_ends(rng):
 CASES = {
     "transposed": (lambda r: (w := table(r)) is not None and (w.T.copy(), w), "transpose it"),
     "transposed square": (lambda r: ((w := table(r, 4, 4)).T, w), "transpose it"),
+    "transposed maps": (
+        lambda r: ((w := r.normal(size=(3, 4, 4))).swapaxes(1, 2), w), "transpose it"
+    ),
+    "tanh for logistic": (
+        lambda r: (np.tanh(x := line(r)), 1 / (1 + np.exp(-x))), "where the logistic function"
+    ),
+    "logistic for tanh": (
+        lambda r: (1 / (1 + np.exp(-(x := r.normal()))), np.tanh(x)), "where tanh is asked for"
+    ),
+    "logistic forgotten": (
+        lambda r: (x := line(r), 1 / (1 + np.exp(-x))), "before the logistic function"
+    ),
     "reshaped": (lambda r: ((w := line(r))[:, None], w), "their shape is (6, 1)"),
     "column by column": (lambda r: ((w := table(r)).T.ravel(), w), "column by column"),
     "one too many": (lambda r: (np.append(w := line(r), 1.0), w), "last one is one too many"),
     "one before": (lambda r: (np.append(1.0, w := line(r)), w), "first one is one too many"),
     "last missing": (lambda r: ((w := table(r))[:-1], w), "last one is missing"),
     "first missing": (lambda r: ((w := line(r))[1:], w), "first one is missing"),
-    "other length": (lambda r: (line(r, 7), line(r, 6)), "one too many: an off-by-one"),
+    "other length": (lambda r: (line(r, 7), line(r, 6)), "it is one too many: an off-by-one"),
     "given back": (lambda r: (x := line(r), line(r), (3, x)), "argument as it was given"),
     "exchanged": (
         lambda r: ((a := with_ends(r))["terminated"], a["truncated"], (), a),
@@ -151,6 +163,7 @@ def test_says_little_about_small_whole_numbers(got, wanted):
     """4 for 2 may be twice, a square, or two more: only one more and one less are said."""
     text = diagnose(got, wanted)
     assert not text or (abs(got - wanted) == 1 and "off by one" in text)
+    assert diagnose(got / 10, wanted / 10 + 0.5) == "" or got / 10 == wanted / 10 + 0.5
 
 
 def test_mistakes_that_a_grader_knows():

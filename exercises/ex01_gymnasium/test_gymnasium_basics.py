@@ -13,6 +13,7 @@ import numpy as np
 
 from botschool.grading import (
     Exercise,
+    Mismatch,
     Student,
     Wrong,
     expect,
@@ -390,12 +391,31 @@ def expect_rewards(student: Student, index: int, torque) -> None:
         answers, "pendulum_reward", observations, actions, said="pendulum_reward(observation, ...)"
     )
     got = single_numbers(student.said, got, len(rewards))
+    cosine, sine, speed = np.asarray(observations, dtype=np.float64).T
+    torque = np.asarray(actions, dtype=np.float64).ravel()
+
+    def reward_of(angle, torque=torque, speed=speed):
+        return np.round(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2), 4)
+
+    mistakes = {
+        "arctan(sin / cos) knows half of the circle only: see np.arctan2.": reward_of(
+            np.arctan(sine / cosine)
+        ),
+        "The torque is not cut to -2 and 2, as the motor does.": reward_of(
+            np.arctan2(sine, cosine)
+        ),
+        "The torque is left out.": reward_of(np.arctan2(sine, cosine), 0.0),
+        "The angular speed is left out.": reward_of(
+            np.arctan2(sine, cosine), torque.clip(-2, 2), 0.0
+        ),
+    }
     for observation, action, value, wanted in zip(observations, actions, got, rewards, strict=True):
-        expect(
-            abs(value - wanted) < 1e-4 * (1 + abs(wanted)),
-            f"pendulum_reward({show(observation)}, {show(action)}) returned {value:.5f}, but "
-            f"Gymnasium gave {wanted:.5f} for a step that began so.",
-        )
+        if abs(value - wanted) >= 1e-4 * (1 + abs(wanted)):
+            raise Mismatch(
+                f"pendulum_reward({show(observation)}, {show(action)}) returned {value:.5f}, but "
+                f"Gymnasium gave {wanted:.5f} for a step that began so.",
+                np.round(got, 4), np.round(rewards, 4), mistakes,
+            )  # fmt: skip
 
 
 @pendulum.check(6)

@@ -80,16 +80,50 @@ def limits(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.minimum(one, other), np.maximum(one, other)
 
 
-def corners(p: np.ndarray) -> np.ndarray:
-    """Segment by segment, in complex numbers."""
+def corners(p: np.ndarray, wide: float = 1.0, turns: float = 1.0) -> np.ndarray:
+    """Segment by segment, in complex numbers; wide and turns: 1, but for mistakes."""
     place, heading, found = 0j, 0.0, []
-    for length, thickness, angle in zip(lengths(p), thicknesses(p), angles(p), strict=True):
-        heading += angle
+    for length, thickness, angle in zip(lengths(p), wide * thicknesses(p), angles(p), strict=True):
+        heading = turns * heading + angle
         along = length * np.exp(1j * heading)
         side = thickness / 2 * np.exp(1j * (heading + np.pi / 2))
         found.append([place - side, place + along - side, place + along + side, place + side])
         place += along
     return np.stack([np.real(found), np.imag(found)], axis=2)
+
+
+def cut(p: np.ndarray) -> np.ndarray:
+    return p.clip(-1, 1)
+
+
+TANH = "The parameters are cut off at -1 and 1, but sizes use tanh."
+TURNS = "Lengths and thicknesses take turns among the parameters."
+MISTAKES = {
+    "lengths": {TANH: lambda p: 0.8 + 0.72 * cut(p[0:22:2]), TURNS: lambda p: scaled(p[:11], 0.8)},
+    "thicknesses": {
+        TANH: lambda p: 0.2 + 0.18 * cut(p[1:22:2]), TURNS: lambda p: scaled(p[11:22], 0.2)
+    },
+    "masses": {
+        "The density is 5 and varies by 0.8, not by 80 % or 90 % of it.":
+        lambda p: lengths(p) * thicknesses(p) * (5 + 4 * np.tanh(p[53:64])),
+        "The density varies by 0.8, not like the sizes.":
+        lambda p: lengths(p) * thicknesses(p) * scaled(p[53:64], 5),
+        "The density is left out.": lambda p: lengths(p) * thicknesses(p),
+    },
+    "angles": {
+        "The parameters of angles are to be cut off at -1 and 1.":
+        lambda p: np.radians(135) * p[42:53],
+        "The parameters of angles are cut off, not put through tanh.":
+        lambda p: np.radians(135) * np.tanh(p[42:53]),
+    },
+    "lower": {
+        "The lower limit is the smaller one of the two.": lambda p: cut(p[22:42:2]) * np.pi / 2
+    },
+    "upper": {
+        "The upper limit is the larger one of the two.": lambda p: cut(p[23:42:2]) * np.pi / 2
+    },
+}  # fmt: skip
+"""What mistakes make of an answer's parts: sentences -> functions of the parameters."""
 
 
 def expect_decoded(student: Student, name: str, index: int, wanted: dict) -> None:
@@ -98,7 +132,8 @@ def expect_decoded(student: Student, name: str, index: int, wanted: dict) -> Non
     for p, answer in zip(questions, asked(student, name, questions), strict=True):
         values = expect_fields(student.said, answer, *wanted)
         for (key, own), value in zip(wanted.items(), values, strict=True):
-            expect_close(f"{student.said}: {key}", value, own(p), TOLERANCE)
+            mistakes = {text: made(p) for text, made in MISTAKES.get(key, {}).items()}
+            expect_close(f"{student.said}: {key}", value, own(p), TOLERANCE, mistakes=mistakes)
 
 
 # ------------------------------------------------------------------- 5.1
@@ -141,8 +176,12 @@ shape = exercise.task("5.3", "The shape at rest", needs=("5.1", "5.2"), refused=
 
 def expect_outline(student: Student, questions: np.ndarray) -> None:
     for p, answer in zip(questions, asked(student, "outline", questions), strict=True):
+        mistakes = {
+            "A segment reaches half of its thickness to each side.": corners(p, wide=2),
+            "An angle is that to the segment before, not that to the ground.": corners(p, turns=0),
+        }
         answer = expect_array(student.said, answer, (11, 4, 2))
-        expect_close(student.said, answer, corners(p), TOLERANCE)
+        expect_close(student.said, answer, corners(p), TOLERANCE, mistakes=mistakes)
 
 
 @shape.check(5)

@@ -13,6 +13,7 @@ import numpy as np
 from botschool.course import Robot
 from botschool.grading import (
     Exercise,
+    Mismatch,
     Student,
     Wrong,
     expect,
@@ -61,7 +62,16 @@ def one_observation(student: Student):
         observation = observed(np.array([[angle, velocity]]))[0]
         answer = student.call("to_state", observation)
         shown = ", ".join(f"{x:.3f}" for x in observation)
-        expect_close(f"to_state([{shown}])", answer, [angle, velocity], 1e-5)
+        cosine, sine = observation[:2]
+        mistakes = {
+            "Cosine and sine are exchanged: see the order in np.arctan2.": [
+                np.arctan2(cosine, sine), velocity
+            ],
+            "arctan(sine / cosine) knows half of the circle only: see np.arctan2.": [
+                np.arctan(sine / cosine), velocity
+            ],
+        }  # fmt: skip
+        expect_close(f"to_state([{shown}])", answer, [angle, velocity], 1e-5, mistakes)
 
 
 @state.check(4)
@@ -131,10 +141,16 @@ def compare_arrows(student: Student, before: np.ndarray, change: np.ndarray) -> 
     off = np.abs(answer - expected).max(axis=1) > 1e-6
     if np.any(off):
         i = int(off.argmax())
-        raise Wrong(
+        mistakes = {
+            "Where the arrows end is returned, instead of how far they go.": np.hstack(
+                [before, after]
+            ),
+            "The arrows go backwards: it is after minus before.": np.hstack([before, -change]),
+        }
+        raise Mismatch(
             f"arrows(before, after): from state {show(before[i])} to {show(after[i])} the arrow is "
-            f"{show(answer[i])}, but should be {show(expected[i])}."
-        )
+            f"{show(answer[i])}, but should be {show(expected[i])}.", answer, expected, mistakes,
+        )  # fmt: skip
 
 
 @changes.check(6)
@@ -182,7 +198,14 @@ def grid_of_states(student: Student):
         angles, velocities = np.linspace(-np.pi, np.pi, nangles), np.linspace(-8, 8, nvelocities)
         expected = [[angle, velocity] for velocity in velocities for angle in angles]
         answer = student.call("grid", nangles, nvelocities)
-        expect_close(student.said, answer, expected, 1e-6)
+        angles = np.linspace(-np.pi, np.pi, nangles, endpoint=False)
+        velocities = np.linspace(-8, 8, nvelocities, endpoint=False)
+        mistakes = {
+            "The grid leaves out its upper ends: pi and 8 belong to it.": [
+                [angle, velocity] for velocity in velocities for angle in angles
+            ]
+        }
+        expect_close(student.said, answer, expected, 1e-6, mistakes)
 
 
 def stepped(module, gains, states):
@@ -261,20 +284,28 @@ def stages_of(student: Student, index: int, generations: int, every: int):
         said=f"evolve(algorithm, evaluate, generations={generations}, every={every})",
     )  # fmt: skip
     expect_fields(student.said, answer, "generations", "parameters", "history")
-    told, best, history = 0.0, [], []
+    told, best, history, numbers = 0.0, [], [], []
     for generation in range(generations):
         candidates = prepared[generation] + told
         fitness = np.sin(3 * candidates - target).sum(axis=1) + 0.01 * generation
         best.append(candidates[fitness.argmax()])
+        numbers.append(int(fitness.argmax()))
         history.append(fitness.max())
         told = told / 2 + 0.1 * float(np.dot(fitness, np.arange(6)))
-    return answer, np.array(best), history
+    record = [int(np.argmax(history[: generation + 1])) for generation in range(generations)]
+    made = {
+        "The algorithm uses the same array again: keep a copy of a candidate (.copy()).":
+        candidates[numbers],
+        "It is the best candidate so far, but that of the generation is asked for.":
+        np.array(best)[record],
+    }  # fmt: skip
+    return answer, np.array(best), history, made
 
 
 @stages.check(7)
 def asks_evaluates_and_tells(student: Student):
     for index, generations in ((17, 1), (18, 15)):
-        answer, _, history = stages_of(student, index, generations, 5)
+        answer, _, history, _ = stages_of(student, index, generations, 5)
         expect_close(f"{student.said}: history", answer["history"], history, 1e-6)
 
 
@@ -289,9 +320,11 @@ def keeps_every_nth_and_the_last(student: Student):
 @stages.check(6)
 def keeps_the_best_as_they_were(student: Student):
     for index, generations, every in ((23, 13, 3), (24, 16, 5)):
-        answer, best, _ = stages_of(student, index, generations, every)
-        expected = best[sorted({*range(0, generations, every), generations - 1})]
-        expect_close(f"{student.said}: parameters", answer["parameters"], expected, 1e-6)
+        answer, best, _, made = stages_of(student, index, generations, every)
+        kept = sorted({*range(0, generations, every), generations - 1})
+        mistakes = {text: values[kept] for text, values in made.items()}
+        said = f"{student.said}: parameters"
+        expect_close(said, answer["parameters"], best[kept], 1e-6, mistakes)
 
 
 # ------------------------------------------------------------------- 7.6

@@ -131,7 +131,9 @@ def measures_progress(student: Student):
     for index, steps in ((1, 1), (2, 50)):
         distance = made_up("Hopper", index, steps)["distance"]
         answer = student.call("progress", distance)
-        expect_close(student.said, answer, (distance[:-1] - distance[1:]) / STEP, 1e-7)
+        mistakes = {"The duration of a step is left out.": distance[:-1] - distance[1:]}
+        wanted = (distance[:-1] - distance[1:]) / STEP
+        expect_close(student.said, answer, wanted, 1e-7, mistakes)
 
 
 @first.check(9)
@@ -140,10 +142,30 @@ def tells_the_fallen(student: Student):
         one = made_up(robot, 3 + i)
         seen = [one[key] for key in ("height", "pitch", "touching")]
         answer = student.call("alive_bonus", robot, *seen)
-        expect_close(student.said, answer, expected_v0(one)["alive"])
+        wanted = expected_v0(one)["alive"]
+        level = expected_v0(one | {"pitch": np.maximum(one["pitch"], 0.0)})["alive"]
+        mistakes = {
+            "The fallen get 0, but they pay.": np.maximum(wanted, 0.0),
+            "A robot that leans back is forgotten: the pitch may be negative.": level,
+        }
+        expect_close(student.said, answer, wanted, mistakes=mistakes)
 
 
 # ------------------------------------------------------------------- 9.2
+def mistaken_electricity(one: dict) -> dict:
+    """What mistakes make of the cost."""
+    actions, speeds, wanted = one["actions"], one["speeds"], expected_v0(one)["electricity"]
+    effort = (actions**2).mean(axis=1)
+    scale = wanted / -(2 * np.abs(actions * speeds).mean(axis=1) + 0.1 * effort)
+    return {
+        "Braking is paid for: the absolute value of the work counts, joint by joint.": -scale
+        * (2 * (actions * speeds).mean(axis=1) + 0.1 * effort),
+        "The cost of standing still with force, 0.1 times the action's square, is left out.":
+        -scale * 2 * np.abs(actions * speeds).mean(axis=1),
+        "The electricity of a Humanoid costs more than that of others.": wanted / scale,
+    }  # fmt: skip
+
+
 costs = exercise.task("9.2", "What effort costs")
 
 
@@ -152,14 +174,16 @@ def charges_for_electricity(student: Student):
     for i, robot in enumerate(("Hopper", "HalfCheetah", "Ant", "Walker2D")):
         one = made_up(robot, 10 + i)
         answer = student.call("electricity", robot, one["actions"], one["speeds"])
-        expect_close(student.said, answer, expected_v0(one)["electricity"])
+        wanted, mistakes = expected_v0(one)["electricity"], mistaken_electricity(one)
+        expect_close(student.said, answer, wanted, mistakes=mistakes)
 
 
 @costs.check(4)
 def charges_humanoids_more(student: Student):
     one = made_up("Humanoid", 14)
     answer = student.call("electricity", "Humanoid", one["actions"], one["speeds"])
-    expect_close(student.said, answer, expected_v0(one)["electricity"])
+    wanted, mistakes = expected_v0(one)["electricity"], mistaken_electricity(one)
+    expect_close(student.said, answer, wanted, mistakes=mistakes)
 
 
 @costs.check(8)
@@ -167,7 +191,12 @@ def counts_joints_at_their_limits(student: Student):
     for i, robot in enumerate(("Hopper", "Ant")):
         one = made_up(robot, 15 + i)
         answer = student.call("joints_at_limit", one["positions"])
-        expect_close(student.said, answer, expected_v0(one)["joints_at_limit"])
+        mistakes = {
+            "Joints at their lower limits count, too.": -0.1
+            * (one["positions"] > 0.99).sum(axis=1),
+        }
+        wanted = expected_v0(one)["joints_at_limit"]
+        expect_close(student.said, answer, wanted, mistakes=mistakes)
 
 
 # ------------------------------------------------------------------- 9.3
@@ -204,7 +233,13 @@ evolved = exercise.task("9.4", "Version 5", needs=("9.1", "9.2"))
 
 def compare_v5(student: Student, one: dict, wanted: np.ndarray, tolerance: float) -> None:
     answer = student.call("reward_v5", one)
-    expect_close(f"reward_v5(a trajectory of a {one['robot']})", answer, wanted, tolerance)
+    limits = expected_v0(one)["joints_at_limit"]
+    mistakes = {
+        "Joints at their limits cost this robot nothing in version 5.": wanted + limits,
+        "What joints at their limits cost is left out.": wanted - limits,
+    }
+    said = f"reward_v5(a trajectory of a {one['robot']})"
+    expect_close(said, answer, wanted, tolerance, mistakes)
 
 
 @evolved.check(4)

@@ -34,9 +34,10 @@ class Comparison:
 
     @cached_property
     def telling(self) -> bool:
-        """Whether a factor or formula cannot fit by chance: not just one or two small integers."""
-        whole = np.all(self.wanted == np.round(self.wanted)) and np.abs(self.wanted).max() < 100
-        return self.varied >= (3 if whole else 1)
+        """Whether a factor or formula cannot fit by chance: not just a number or two like 1/2."""
+        parts = 60 * self.wanted
+        simple = np.abs(parts - np.round(parts)).max() < 1e-9 and np.abs(parts).max() < 1200
+        return self.varied >= (3 if simple else 1)
 
     @cached_property
     def given(self) -> list[np.ndarray]:

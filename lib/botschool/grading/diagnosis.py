@@ -63,14 +63,14 @@ def of_shapes(got: tuple[int, ...], wanted: tuple[int, ...]) -> str:
     if len(got) == len(wanted):
         apart = [i for i in range(len(got)) if got[i] != wanted[i]]
         if len(apart) == 1 and abs(got[apart[0]] - wanted[apart[0]]) == 1:
-            which = "one too many" if got[apart[0]] > wanted[apart[0]] else "one is missing"
-            return f"Along axis {apart[0]} there is {which}: an off-by-one?"
+            which = "too many" if got[apart[0]] > wanted[apart[0]] else "too few"
+            return f"Along axis {apart[0]} it is one {which}: an off-by-one?"
     return ""
 
 
 @detector
 def transposed(c: Comparison) -> str | None:
-    if c.got.ndim == 2 and c.same(c.wanted.T) and not alike(c.wanted, c.wanted.T):
+    if c.wanted.ndim > 1 and c.same(np.swapaxes(c.wanted, -1, -2)):
         return "Rows and columns are exchanged: transpose it (.T)."
     return None
 
@@ -153,15 +153,13 @@ _SUMMARIES: dict[str, Callable[[np.ndarray], Any]] = {
     "the mean": np.mean,
     "the sum": np.sum,
     "the median": np.median,
-    "the place of the largest": np.argmax,
-    "the place of the smallest": np.argmin,
 }
 
 
 @detector
 def another_summary(c: Comparison) -> str | None:
     """One number is made of many, but another one than is asked for: the last for the best."""
-    if c.wanted.ndim or c.got.ndim:
+    if c.wanted.ndim or c.got.ndim or not c.telling:
         return None
     for values in (*arrays(c.answer), *c.given):
         if values.ndim != 1 or len(np.unique(values)) < 3:
@@ -176,6 +174,13 @@ def another_summary(c: Comparison) -> str | None:
 
 
 # --- order
+
+
+@detector
+def all_zero(c: Comparison) -> str | None:
+    if not np.any(c.got) and c.wanted.size > 1:
+        return "All of it is 0, though it should not be: was it ever filled in?"
+    return None
 
 
 @detector
@@ -332,6 +337,15 @@ _FORMULAS: tuple[tuple[Callable[[np.ndarray], np.ndarray], str], ...] = (
     (np.exp, "It is the exponential of what was expected: is np.log missing?"),
     (np.arctanh, "It is what was expected before tanh: apply np.tanh at the end."),
     (np.tanh, "It is the tanh of what was expected: one tanh too much."),
+    (
+        lambda x: np.tanh(np.log(x / (1 - x))),
+        "It is tanh where the logistic function is asked for.",
+    ),
+    (
+        lambda x: 1 / (1 + np.exp(-np.arctanh(x))),
+        "It is the logistic function where tanh is asked for.",
+    ),
+    (lambda x: np.log(x / (1 - x)), "It is what was expected before the logistic function."),
     (np.reciprocal, "It is 1 divided by what was expected: is a fraction upside down?"),
     (lambda x: 1 - x, "It is 1 minus what was expected."),
 )
@@ -370,7 +384,8 @@ def added_up(c: Comparison) -> str | None:
 
 @detector
 def in_proportion(c: Comparison) -> str | None:
-    if c.got.shape != c.wanted.shape or c.varied < 3 or not np.any(c.got):
+    few = 3 if np.all(c.wanted == np.round(c.wanted)) else 2
+    if c.got.shape != c.wanted.shape or c.varied < few or not np.any(c.got):
         return None
     largest = np.unravel_index(int(np.abs(c.wanted).argmax()), c.wanted.shape)
     factor = float(c.got[largest] / c.wanted[largest])
@@ -388,13 +403,6 @@ def a_constant_added(c: Comparison) -> str | None:
     constant = float((c.got - c.wanted).flat[0])
     if c.same(c.wanted + constant) and abs(constant) > 1e-4 * np.ptp(c.wanted):
         return f"Each number is what was expected {'+-'[constant < 0]} {abs(constant):.6g}."
-    return None
-
-
-@detector
-def all_zero(c: Comparison) -> str | None:
-    if not np.any(c.got) and c.wanted.size > 1:
-        return "All of it is 0: was it ever filled in?"
     return None
 
 

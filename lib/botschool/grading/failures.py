@@ -68,7 +68,7 @@ _ADVICE = (
         "A list is no array: np.array(...) makes one that can be computed with.",
     ),
     (
-        r"'float' object cannot be interpreted as an integer|indices must be integers",
+        r"'float' object cannot be interpreted|(indices must be|expected a sequence of) integers",
         "A whole number is needed here: use // for /, or int(...).",
     ),
     (
