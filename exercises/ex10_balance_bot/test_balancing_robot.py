@@ -7,8 +7,9 @@ up, beside a second simulation, so that a forgotten physicsClientId shows.
 Stochastic checks (tasks 10.9 and 10.10): a controller must balance for 500 steps in 20 of 20 unseen
 episodes (grading seeds 71, 73 and 81) in the grader's simulation. So that none can be written down
 by heart, it is also learnt for a robot whose wheels turn the other way; and the layers of task
-10.10 must be those that PPO has made. With each of 20 seeds (1 to 20) the solution's `evolve` balances in 20 of 20 episodes, so its margin is whole; returns are
-462 to 492. Its PPO, of which fewer runs were made (seed 1 and the grading seed), did so, too.
+10.10 must be those that PPO has made. With each of 20 seeds (1 to 20) the solution's `evolve`
+balances in 20 of 20 episodes, so its margin is whole; returns are 462 to 492. Its PPO, of which
+fewer runs were made (seed 1 and the grading seed), did so, too.
 """
 
 import tempfile
