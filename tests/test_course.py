@@ -6,9 +6,11 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import tiny_course
+from botschool.course import film_agent
 from botschool.errors import BotschoolError
 from botschool.grading import batch, extras
 from botschool.grading.exercise import exercise_numbers, load_exercise, submission_file
@@ -109,3 +111,10 @@ def test_an_exercise_without_its_packages_says_what_to_install(sixteen, monkeypa
     result = batch.Grades(sixteen[0]).of([job], 1)[job]
     assert result["points"] == 0 and "needs stable-baselines3" in result["problem"]
     load_exercise(1, sixteen[0]).require()
+
+
+@pytest.mark.parametrize("kind", [bool, float, np.bool_, np.int64])
+def test_film_of_an_agent_whose_choices_are_other_types_than_int(tmp_path, kind):
+    file = tmp_path / "agent.mp4"
+    film_agent(file, "CartPole-v1", lambda seen: kind(seen[2] + seen[3] > 0), maxsteps=3)
+    assert file.stat().st_size > 1000

@@ -51,6 +51,7 @@ def test_grade(course):
         "exercise": 3,
         "points": 100,
         "max_points": 100,
+        "banner": "",
         "tasks": [
             {"id": "3.1", "title": "Doubling", "points": 60, "max_points": 60, "message": ""},
             {"id": "3.2", "title": "Adding", "points": 40, "max_points": 40, "message": ""},

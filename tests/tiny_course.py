@@ -46,13 +46,15 @@ doubling = exercise.task("3.1", "Doubling", seconds=2, memory=2048)
 @doubling.check(40)
 def doubles(student: Student):
     numbers = np.random.default_rng(exercise.seed(1)).normal(size=4)
-    expect_close(student.said, student.call("double", numbers), numbers + numbers)
+    answer = student.call("double", numbers)
+    expect_close(student.said, answer, numbers + numbers)
 
 
 @doubling.check(20)
 def doubles_many(student: Student):
     numbers = np.random.default_rng(exercise.seed(2)).normal(size=(3, 5))
-    expect_close(student.said, student.call("double", numbers), numbers + numbers)
+    answer = student.call("double", numbers)
+    expect_close(student.said, answer, numbers + numbers)
 
 
 adding = exercise.task("3.2", "Adding", seconds=2, memory=2048)
@@ -61,7 +63,8 @@ adding = exercise.task("3.2", "Adding", seconds=2, memory=2048)
 @adding.check(40)
 def adds(student: Student):
     numbers = np.random.default_rng(exercise.seed(3)).normal(size=9)
-    expect_close(student.said, student.call("total", numbers), numbers.sum())
+    answer = student.call("total", numbers)
+    expect_close(student.said, answer, numbers.sum())
 '''
 
 HINTS = """# Hints

@@ -65,7 +65,8 @@ def parameters(ninputs: int, nhiddens: int, noutputs: int, seed: int) -> dict:
 def forward(network: dict, observation: np.ndarray) -> np.ndarray:
     """The outputs, shape (noutputs,), of a network as in task 2.1 for an observation (ninputs,).
 
-    Hidden neurons and outputs use tanh. The biases may have any values.
+    Hidden neurons and outputs use tanh. The biases may have any values. The arrays given stay as
+    they are.
     """
     raise NotImplementedError("task 2.2: compute the outputs")
 

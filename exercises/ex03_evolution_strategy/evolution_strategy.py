@@ -92,9 +92,9 @@ def next_population(
 ) -> np.ndarray:
     """The population after selection and mutation, as a new array of the same shape.
 
-    The better half stays as it is, each individual in its row. Every row of the worse half is
-    overwritten by a copy of an individual of the better half plus Gaussian noise with standard
-    deviation mutrate; each of the better half is copied once. All random numbers come from rng.
+    The better half stays as it is. Every individual of the worse half is replaced by a copy of one
+    of the better half plus Gaussian noise with standard deviation mutrate; each of the better half
+    is copied once. The rows may come in any order. All random numbers come from rng.
 
     population has shape (popsize, parameters) with an even popsize, fitness has shape (popsize,).
     `population` itself is not changed.
@@ -187,7 +187,9 @@ def train(environment: str, seed: int) -> np.ndarray:
     Choose the size of the population, the mutation rate and the number of generations yourself.
     Asked for, as means over 20 episodes that the controller has not met: on CartPole at least 195
     of the 200 steps, on Pendulum a return of at least -600 (random controllers: about -1200).
-    Another seed gives another controller. Each should take a few seconds, 15 at the very most.
+    Another seed gives another controller. Each should take a few seconds, 15 at the very most. The
+    grader has robots of its own, on which some parameters count with the other sign, so what is
+    good can be found out by robot.evaluate alone.
 
     Returns an array of shape (robot.nbiases + robot.nweights,).
     """

@@ -20,6 +20,7 @@ from botschool.course import SavedRobot
 from botschool.evolution.run import Run, evolve
 from botschool.grading import (
     Exercise,
+    Mismatch,
     Student,
     Wrong,
     expect,
@@ -86,15 +87,16 @@ def shown(observation: np.ndarray) -> list[float]:
     return np.round(observation, 3).tolist()
 
 
-def expect_near(said: list[str], values: list, wanted: np.ndarray) -> None:
+def expect_near(
+    said: list[str], values: list, wanted: np.ndarray, mistakes: dict | None = None
+) -> None:
     """Answers computed from float32 observations; the worst one is reported."""
     values = [number(*each) for each in zip(said, values, strict=True)]
     wrong = np.abs(np.subtract(values, wanted))
     worst = int(wrong.argmax())
-    expect(
-        wrong[worst] < 1e-4,
-        f"{said[worst]} should be {wanted[worst]:.4f}, but is {values[worst]:.4f}.",
-    )
+    if wrong[worst] >= 1e-4:
+        sentence = f"{said[worst]} should be {wanted[worst]:.4f}, but is {values[worst]:.4f}."
+        raise Mismatch(sentence, np.round(values, 3), np.round(wanted, 3), mistakes)
 
 
 # ------------------------------------------------------------------- 4.1
@@ -111,7 +113,10 @@ def expect_decoded(student: Student, index: int, keys: tuple[str, str], columns:
     ]
     for position, key in enumerate(keys):
         said = [f"decode({shown(observation)}): {key}" for observation in observations]
-        expect_near(said, [values[position] for values in given], states[:, columns][:, position])
+        other = f"This is {keys[1 - position]}: are the two exchanged?"
+        mistakes = {other: np.round(states[:, columns][:, 1 - position], 3)}
+        values = [values[position] for values in given]
+        expect_near(said, values, states[:, columns][:, position], mistakes)
 
 
 @observation_task.check(9)
@@ -125,7 +130,7 @@ def speeds(student: Student):
 
 
 # ------------------------------------------------------------------- 4.2
-rules = exercise.task("4.2", "What Acrobot does, and what for")
+rules = exercise.task("4.2", "What Acrobot does, and what for", needs=("4.1",))
 
 
 @rules.check(4)
@@ -143,7 +148,14 @@ def height(student: Student):
         f"height({shown(observation)}), with the angles {state[0]:.2f} and {state[1]:.2f},"
         for state, observation in zip(states, observations, strict=True)
     ]
-    expect_near(said, given, np.array([height_of(state) for state in states]))
+    wanted = np.array([height_of(state) for state in states])
+    mistakes = {
+        "The second angle is counted from the first link, not from straight down.": np.round(
+            -np.cos(states[:, 0]) - np.cos(states[:, 1]), 3
+        ),
+        "Only the first link is counted.": np.round(-np.cos(states[:, 0]), 3),
+    }
+    expect_near(said, given, wanted, mistakes)
 
 
 @rules.check(6)
@@ -316,7 +328,12 @@ def expect_columns(student: Student, generations: int, columns: tuple[str, ...])
     said = f"read_stat(file of {generations} generation{'s' * (generations > 1)})"
     stat = student.run(read_saved, table.ravel(), said=said)
     for name, values in zip(columns, expect_fields(said, stat, *columns), strict=True):
-        expect_close(f"{said}: {name}", values, table[:, COLUMNS.index(name)])
+        column = COLUMNS.index(name)
+        mistakes = {
+            "The numbers of a generation, not those of a column, lie one after another in the "
+            "file.": table.ravel().reshape(6, -1)[column],
+        }
+        expect_close(f"{said}: {name}", values, table[:, column], mistakes=mistakes)
 
 
 @reading.check(8)
@@ -365,7 +382,38 @@ def expect_curves(student: Student, stats, column: str, budgets, key: str) -> No
     said = f"curves(stats of {len(stats)} runs, '{column}', {len(budgets)} budgets)"
     (values,) = expect_fields(said, answer, key)
     wanted = dict(zip(("mean", "deviation"), wanted_curves(stats, column, budgets), strict=True))
-    expect_close(f"{said}: {key}", values, wanted[key])
+    expect_close(
+        f"{said}: {key}", values, wanted[key], mistakes=mistaken(stats, column, budgets, key)
+    )
+
+
+def mistaken(stats: list[dict], column: str, budgets: np.ndarray, key: str) -> dict:
+    """What mistakes make of the mean or deviation."""
+
+    def made(of_run) -> np.ndarray:
+        values = np.array([of_run(stat["steps"], stat[column]) for stat in stats])
+        return values.mean(axis=0) if key == "mean" else values.std(axis=0, ddof=1)
+
+    def before(steps, values):
+        return [values[max(0, np.searchsorted(steps, budget) - 1)] for budget in budgets]
+
+    def following(steps, values):
+        places = np.searchsorted(steps, budgets).clip(0, len(steps) - 1)
+        return values[places]
+
+    def equal(steps, values):
+        return [values[min(i, len(values) - 1)] for i in range(len(budgets))]
+
+    return {
+        "A generation counts as soon as its steps are done: also exactly at the budget.": made(
+            before
+        ),
+        "The runs are compared at equal generations, but equal steps are asked for.": made(equal),
+        "There are no straight lines between generations: nobody knows the next one yet.": made(
+            lambda steps, values: np.interp(budgets, steps, values)
+        ),
+        "The next generation is taken, which is not yet complete at the budget.": made(following),
+    }
 
 
 @spread.check(6)
@@ -392,7 +440,7 @@ def a_budget_met_exactly(student: Student):
 
 
 # ------------------------------------------------------------------- 4.6
-worth = exercise.task("4.6", "What the robots are worth", seconds=30)
+worth = exercise.task("4.6", "What the robots are worth", seconds=30, needs=("4.4",))
 
 
 def compare_saved(module, text, files, folder, seeds, episodes, test_seed):
@@ -440,20 +488,21 @@ def expect_worth(student: Student, text: str, index: int, keys: tuple[str, ...])
             f"{said}: a row has the seed {show(values[0])}, but {seed} was expected there.",
         )
         for key, value in zip(keys, values[1:], strict=True):
-            expect_close(
-                f"{said}: {key} of seed {seed}", value, worth_of(text, files, key, seed, episodes,
-                                                                 test_seed)
-            )  # fmt: skip
+            worth = worth_of(text, files, key, seed, episodes, test_seed)
+            mistakes = {"It is that of the best episode, but the mean is asked for.": worth.max()}
+            said_of = f"{said}: {key} of seed {seed}"
+            expect_close(said_of, value, worth.mean(), mistakes=mistakes)
 
 
-def worth_of(text, files, key: str, seed: int, episodes: int, test_seed: int) -> float:
+def worth_of(text, files, key: str, seed: int, episodes: int, test_seed: int) -> np.ndarray:
+    """Returns, whose mean is asked for."""
     if key == "promised":
-        return float(files[f"statS{seed}.npy"].reshape(-1, 6)[-1, 2])
+        return files[f"statS{seed}.npy"].reshape(-1, 6)[-1, 2:3]
     with tempfile.TemporaryDirectory() as place:
         file = Path(place) / "trial.ini"
         file.write_text(text)
         robot = SavedRobot(file, files[f"{key}S{seed}.npy"])
-    return float(robot.evaluate(test_seed, episodes).mean())
+    return robot.evaluate(test_seed, episodes)
 
 
 @worth.check(4)

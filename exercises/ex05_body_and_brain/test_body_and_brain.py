@@ -133,7 +133,7 @@ def limits_of_joints(student: Student):
 
 
 # ------------------------------------------------------------------- 5.3
-shape = exercise.task("5.3", "The shape at rest")
+shape = exercise.task("5.3", "The shape at rest", needs=("5.1", "5.2"))
 
 
 def expect_outline(student: Student, questions: np.ndarray) -> None:
@@ -161,7 +161,7 @@ def bent_bodies(student: Student):
 
 
 # ------------------------------------------------------------------- 5.4
-numbers = exercise.task("5.4", "A body in five numbers")
+numbers = exercise.task("5.4", "A body in five numbers", needs=("5.1", "5.2", "5.3"))
 
 
 @numbers.check(4)
@@ -341,7 +341,7 @@ def patients_stay_as_they_are(student: Student):
 
 # ------------------------------------------------------------------- 5.7
 WALKING = EXPERIMENT.replace("maxsteps = 12", "maxsteps = {maxsteps}")
-crossing = exercise.task("5.7", "The co-adaptation matrix", seconds=120)
+crossing = exercise.task("5.7", "The co-adaptation matrix", seconds=120, needs=("5.6",))
 
 
 def cross(module, text, walkers, seed, episodes):

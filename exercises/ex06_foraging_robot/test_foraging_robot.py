@@ -145,7 +145,7 @@ def like_the_tools_network(student: Student):
 
 
 # ------------------------------------------------------------------- 6.2
-recording = exercise.task("6.2", "An episode, recorded", seconds=60)
+recording = exercise.task("6.2", "An episode, recorded", seconds=60, needs=("6.1",))
 
 
 def recorded(module, brain, start, cylinder, seed, way, maxsteps):
@@ -354,7 +354,7 @@ def by_mean_distance(student: Student):
 
 
 # ------------------------------------------------------------------- 6.6
-without = exercise.task("6.6", "Without memory", seconds=90)
+without = exercise.task("6.6", "Without memory", seconds=90, needs=("6.2",))
 
 
 def remembering(module, since, calls):
@@ -399,7 +399,7 @@ def what_memory_is_worth(student: Student):
 
 
 # ------------------------------------------------------------------- 6.7
-same = exercise.task("6.7", "The same sight, another mind")
+same = exercise.task("6.7", "The same sight, another mind", needs=("6.1",))
 
 
 @same.check(6)

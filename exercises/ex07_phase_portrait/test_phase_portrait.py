@@ -72,7 +72,7 @@ def many_observations(student: Student):
 
 
 # ------------------------------------------------------------------- 7.2
-recording = exercise.task("7.2", "Recording an episode")
+recording = exercise.task("7.2", "Recording an episode", needs=("7.1",))
 
 
 def recorded(module, gains, seed, steps):
@@ -154,7 +154,7 @@ def short_way_around(student: Student):
 
 
 # ------------------------------------------------------------------- 7.4
-everywhere = exercise.task("7.4", "The whole state space")
+everywhere = exercise.task("7.4", "The whole state space", needs=("7.1",))
 
 
 @everywhere.check(5)
@@ -276,7 +276,7 @@ def keeps_the_best_as_they_were(student: Student):
 
 
 # ------------------------------------------------------------------- 7.6
-three = exercise.task("7.6", "Three stages", seconds=45)
+three = exercise.task("7.6", "Three stages", seconds=45, needs=("7.5",))
 
 
 @three.check(6)

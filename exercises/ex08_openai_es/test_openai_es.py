@@ -87,7 +87,15 @@ def candidates_on_both_sides(student: Student):
         centre, samples = rng.normal(size=n), rng.normal(size=(samplesize, n))
         noise = round(float(rng.uniform(0.01, 0.5)), 3)
         answer = student.call("candidates_around", centre, samples, noise)
-        expect_close(student.said, answer, around(centre, samples, noise))
+        wanted = around(centre, samples, noise)
+        mistakes = {
+            "noiseStdDev is left out.": around(centre, samples, 1.0),
+            "All plus come before all minus, but the two of a sample belong together.": np.vstack(
+                [wanted[0::2], wanted[1::2]]
+            ),
+            "Minus comes before plus.": around(centre, -samples, noise),
+        }
+        expect_close(student.said, answer, wanted, mistakes=mistakes)
 
 
 @sampling.check(2)
@@ -121,7 +129,15 @@ def equals_in_their_order(student: Student):
         answer = student.call("utilities", fitness)
         if len(fitness) < 10:
             student.said = f"utilities({fitness.tolist()})"
-        expect_close(student.said, answer, ranked(fitness))
+        order = np.sort(fitness)
+        shared = [np.flatnonzero(order == each).mean() for each in fitness]
+        mistakes = {
+            "Equals share their mean rank, but the one that comes first has the lower one.":
+            np.array(shared) / (len(fitness) - 1) - 0.5,
+            "Of equals the last has the lower rank, but the first is to have it.":
+            ranked(fitness[::-1])[::-1],
+        }  # fmt: skip
+        expect_close(student.said, answer, ranked(fitness), mistakes=mistakes)
 
 
 # ------------------------------------------------------------------- 8.3
@@ -135,7 +151,12 @@ def weighted_samples(student: Student):
         samples = rng.normal(size=(samplesize, n))
         weights = rng.permutation(np.linspace(-0.5, 0.5, 2 * samplesize))
         answer = student.call("gradient", samples, weights)
-        expect_close(student.said, answer, estimated(samples, weights))
+        both = (weights[0::2] + weights[1::2])[:, None] * samples
+        mistakes = {
+            "The two utilities of a sample are added: the one of the minus side is to be "
+            "subtracted.": both.sum(axis=0) / len(weights),
+        }
+        expect_close(student.said, answer, estimated(samples, weights), mistakes=mistakes)
 
 
 @direction.check(4)
@@ -164,7 +185,18 @@ def compare_descent(student: Student, index: int, wdecay: int) -> None:
         gradient, centre = 0.02 * rng.normal(size=n), rng.normal(size=n)
         centre[n // 2] = 0.0
         answer = student.call("descent", gradient, centre, wdecay)
-        expect_close(student.said, answer, decayed(gradient, centre, wdecay))
+        wanted = decayed(gradient, centre, wdecay)
+        mistakes = {
+            "The decay has the wrong sign: it pushes the centre away from 0.": -2 * gradient
+            - wanted,
+            "The decay is left out.": -gradient,
+            "The decay of the other kind (wdecay) is taken.": decayed(
+                gradient, centre, (0, 2, 1)[wdecay]
+            ),
+            "The gradient has the wrong sign: Adam descends, but fitness is to rise.": wanted
+            + 2 * gradient,
+        }
+        expect_close(student.said, answer, wanted, mistakes=mistakes)
 
 
 @decay.check(2)
@@ -193,9 +225,18 @@ def compare_adam(student: Student, arguments: list) -> None:
         f"{student.said} must return the centre, m and v, not {show(answer)}.",
     )
     wanted = adam_step(*arguments)
+    centre, _, _, _, t, stepsize = arguments
     for name, got, value in zip(("the new m", "the new v"), answer[1:], wanted[1:], strict=True):
-        expect_close(f"{student.said}: {name}", got, value)
-    expect_close(f"{student.said}: the new centre", answer[0], wanted[0], 1e-6)
+        kept = value / (1 - (0.9 if "m" in name else 0.999) ** t)
+        mistakes = {"The corrected value is returned: correct it for this step only.": kept}
+        expect_close(f"{student.said}: {name}", got, value, mistakes=mistakes)
+    m, v = wanted[1:]
+    mistakes = {
+        "The correction of m and v for the first steps is left out.": centre
+        - stepsize * m / (np.sqrt(v) + 1e-8),
+        "The step goes the wrong way.": 2 * centre - wanted[0],
+    }
+    expect_close(f"{student.said}: the new centre", answer[0], wanted[0], 1e-6, mistakes)
 
 
 def inputs_of_adam(index: int, n: int, t: int) -> list:
@@ -241,7 +282,7 @@ def steps_without_side_effects(student: Student):
 
 
 # ------------------------------------------------------------------- 8.6
-whole = exercise.task("8.6", "The whole algorithm")
+whole = exercise.task("8.6", "The whole algorithm", needs=("8.1", "8.2", "8.3", "8.4", "8.5"))
 
 
 def evolved(module, centre, target, generations, seed, options):
@@ -263,17 +304,29 @@ def compare_run(student: Student, index: int, n: int, generations: int, **option
     answer = student.run(evolved, start, target, generations, seed, options, said=said)
     expect_fields(said, answer, "centre", "history")
     settings = {"samplesize": 20, "noiseStdDev": 0.02, "stepsize": 0.01, "wdecay": 0, **options}
-    samplesize, noise, stepsize, wdecay = settings.values()
-    samples_rng, centre, history = np.random.default_rng(seed), start, []
-    m, v = np.zeros(n), np.zeros(n)
-    for generation in range(generations):
-        samples = samples_rng.standard_normal((samplesize, n))
-        goal = target + 0.3 * np.sin(seed + generation + np.arange(n))
-        fitness = -np.abs(around(centre, samples, noise) - goal).sum(axis=1)
-        history.append(fitness.mean())
-        d = decayed(estimated(samples, ranked(fitness)), centre, wdecay)
-        centre, m, v = adam_step(centre, d, m, v, generation + 1, stepsize)
-    expect_close(f"{said}: history", answer["history"], history, 1e-5)
+
+    def run(first=0, **others) -> tuple[list, list, np.ndarray]:
+        """Mean and best fitness of each generation, and the last centre."""
+        samplesize, noise, stepsize, wdecay = (settings | others).values()
+        samples_rng, centre, history, best = np.random.default_rng(seed), start, [], []
+        m, v = np.zeros(n), np.zeros(n)
+        for generation in range(generations):
+            samples = samples_rng.standard_normal((samplesize, n))
+            goal = target + 0.3 * np.sin(seed + first + generation + np.arange(n))
+            fitness = -np.abs(around(centre, samples, noise) - goal).sum(axis=1)
+            history.append(fitness.mean())
+            best.append(fitness.max())
+            d = decayed(estimated(samples, ranked(fitness)), centre, wdecay)
+            centre, m, v = adam_step(centre, d, m, v, generation + 1, stepsize)
+        return history, best, centre
+
+    history, best, centre = run()
+    mistakes = {
+        "It is the fitness of the best candidate, but the mean is asked for.": best,
+        "The weight decay (wdecay) is not handed on.": run(wdecay=0)[0],
+        "The seeds begin with seed + 1, but the first generation's is seed.": run(first=1)[0],
+    }
+    expect_close(f"{said}: history", answer["history"], history, 1e-5, mistakes)
     expect_close(f"{said}: centre", answer["centre"], centre, 1e-5)
 
 
@@ -342,7 +395,16 @@ def drops(student: Student):
     cases += [np.arange(5.0), np.full(6, 9.0), np.array([5.0, 1.0]), np.array([3.0])]
     for curve in cases:
         said, answer, right = judged(student, curve)
-        expect_close(f"{said}: drop", answer["drop"], right["drop"])
+        height = max(float(np.ptp(curve)), 1e-300)
+        steps = np.diff(curve, prepend=curve[0])
+        mistakes = {
+            "Only the end is compared with the highest point: falls that recover count, too.":
+            (curve.max() - curve[-1]) / height,
+            "Only falls from one value to the next are looked at: a fall may take many.":
+            max(0.0, -steps.min()) / height,
+            "The drop is to be a share of the curve's whole range.": right["drop"] * height,
+        }  # fmt: skip
+        expect_close(f"{said}: drop", answer["drop"], right["drop"], mistakes=mistakes)
 
 
 @curves.check(3)
@@ -374,7 +436,7 @@ def verdicts(student: Student):
 
 
 # ------------------------------------------------------------------- 8.8
-training = exercise.task("8.8", "CartPole and Pendulum", seconds=50)
+training = exercise.task("8.8", "CartPole and Pendulum", seconds=50, needs=("8.6",))
 
 
 def trained(module, environment, seed, signs):

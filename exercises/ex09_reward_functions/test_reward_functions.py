@@ -171,7 +171,7 @@ def counts_joints_at_their_limits(student: Student):
 
 
 # ------------------------------------------------------------------- 9.3
-standard = exercise.task("9.3", "Version 0")
+standard = exercise.task("9.3", "Version 0", needs=("9.1", "9.2"))
 
 
 def call_v0(student: Student, one: dict) -> dict:
@@ -199,7 +199,7 @@ def agrees_with_the_environment(student: Student):
 
 
 # ------------------------------------------------------------------- 9.4
-evolved = exercise.task("9.4", "Version 5")
+evolved = exercise.task("9.4", "Version 5", needs=("9.1", "9.2"))
 
 
 def compare_v5(student: Student, one: dict, wanted: np.ndarray, tolerance: float) -> None:
@@ -240,7 +240,7 @@ def is_what_the_environment_pays(student: Student):
 
 
 # ------------------------------------------------------------------- 9.5
-described = exercise.task("9.5", "A gait in four numbers")
+described = exercise.task("9.5", "A gait in four numbers", needs=("9.3",))
 
 
 def compare_gait(student: Student, one: dict) -> None:
@@ -263,7 +263,7 @@ def describes_those_who_earn_nothing(student: Student):
 
 
 # ------------------------------------------------------------------- 9.6
-both = exercise.task("9.6", "Evolve both, and compare", seconds=240)
+both = exercise.task("9.6", "Evolve both, and compare", seconds=240, needs=("9.5",))
 STEPS = 6000
 
 

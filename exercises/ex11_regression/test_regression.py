@@ -264,7 +264,7 @@ def momentum(student: Student):
 
 
 # ------------------------------------------------------------------- 11.5
-corners = exercise.task("11.5", "Exclusive or", seconds=60)
+corners = exercise.task("11.5", "Exclusive or", seconds=60, needs=("11.1", "11.4"))
 
 
 GRADIENTS = 30
@@ -466,7 +466,7 @@ def a_step_for_each_minibatch(student: Student):
 
 
 # ------------------------------------------------------------------- 11.8
-any_set = exercise.task("11.8", "Any training set", seconds=90)
+any_set = exercise.task("11.8", "Any training set", seconds=90, needs=("11.1", "11.6", "11.7"))
 
 
 def compare_fit(student: Student, index: int, n: int, units, function) -> None:

@@ -64,7 +64,15 @@ def compare_softmax(student: Student, scores: np.ndarray) -> None:
     answer = student.call("softmax", scores)
     if scores.size <= 6:
         student.said = f"softmax({scores.tolist()})"
-    expect_close(student.said, answer, np.exp(logarithms_of(scores)))
+    powers = np.exp(scores - scores.max())
+    mistakes = {
+        "One sum is taken over all steps, but each row has its own (axis=-1).": powers
+        / powers.sum()
+    }
+    if scores.ndim > 1:
+        sums = np.maximum(powers.sum(axis=0), 1e-300)
+        mistakes["The sum runs over the steps, but it is to run over the actions."] = powers / sums
+    expect_close(student.said, answer, np.exp(logarithms_of(scores)), mistakes=mistakes)
 
 
 @probabilities.check(4)
@@ -103,7 +111,16 @@ def compare_choices(student: Student, index: int, shares: np.ndarray, times: int
     said = f"choose({show(shares)}, rng)"
     answer = student.run(chosen, shares, seed, times, said=said)
     expect(isinstance(answer, list) and len(answer) == times, f"{said} gave no answers.")
-    rng = np.random.default_rng(seed)
+    rng, whole = np.random.default_rng(seed), all(type(each) is int for each in answer)
+    darts = np.random.default_rng(seed).random(times)
+    mistakes = {
+        "It is always the most probable action: draw one.": np.full(times, int(shares.argmax())),
+        "All actions are equally probable: use the probabilities.": darts * len(shares) // 1,
+        "The probabilities are laid down from the last to the first.": len(shares) - 1
+        - np.searchsorted(np.cumsum(shares[::-1]), darts, side="right").clip(0, len(shares) - 1),
+    }  # fmt: skip
+    lines = [text for text, made in mistakes.items() if whole and np.array_equal(answer, made)]
+    hint = "".join(f" {text}" for text in lines[:1])
     for got in answer:
         dart, edges = float(rng.random()), np.cumsum(shares)
         wanted = min(int(np.searchsorted(edges, dart, side="right")), len(shares) - 1)
@@ -111,7 +128,7 @@ def compare_choices(student: Student, index: int, shares: np.ndarray, times: int
         expect(
             near or (type(got) is int and got == wanted),
             f"{said} returned {show(got)} when rng.random() gave {dart:.4f}, but {wanted} was "
-            "expected.",
+            f"expected.{hint}",
         )
 
 
@@ -311,9 +328,19 @@ def compare_elite(student: Student, found: list[dict], percentile: float, *keys:
     best = [episode for episode in found if episode["return"] >= bound]
     wanted = {key: np.concatenate([e[key] for e in best]) for key in ("observations", "actions")}
     wanted["bound"] = bound
+    kinds = {
+        "All episodes are kept.": found,
+        "Episodes exactly at the bound are left out.": [e for e in found if e["return"] > bound],
+        "The worst are kept instead of the best.": [e for e in found if e["return"] <= bound],
+    }
     for key, value in zip(wanted, values, strict=True):
         if key in keys:
-            expect_close(f"{student.said}: {key}", value, wanted[key])
+            mistakes = {
+                text: np.concatenate([e[key] for e in kept])
+                for text, kept in kinds.items()
+                if kept and key != "bound"
+            }
+            expect_close(f"{student.said}: {key}", value, wanted[key], mistakes=mistakes)
 
 
 @selecting.check(3)
@@ -390,7 +417,11 @@ def loss_of_a_batch(student: Student):
 def gradients_flow(student: Student):
     for index, steps, actions in ((84, 40, 2), (85, 25, 6)):
         _, gradient, _, wanted = surprised(student, index, steps, actions, 1.0)
-        expect_close(f"{student.said}: gradient of the scores", gradient, wanted, SINGLE)
+        mistakes = {
+            "No gradient arrives at the scores: torch cannot follow through NumPy, .item() or "
+            ".detach().": 0 * wanted,
+        }
+        expect_close(f"{student.said}: gradient of the scores", gradient, wanted, SINGLE, mistakes)
 
 
 @surprise.check(3)
@@ -484,7 +515,10 @@ def parameters_after_the_updates(student: Student):
     for number, case in enumerate(LEARNING_CASES):
         said, _, after, _, right = compare_updates(student, 90 + number, *case)
         for name, got, wanted in zip(("W1", "b1", "W2", "b2"), after, right, strict=True):
-            expect_close(f"{said}: {name} of the network afterwards", got, wanted, 1e-4)
+            mistakes = {
+                "Gradients of before are added: set them to zero first (zero_grad).": wanted - 0.02
+            }  # of the first case: one step of SGD, and the gradients left over are all 1
+            expect_close(f"{said}: {name} of the network afterwards", got, wanted, 1e-4, mistakes)
 
 
 @learning.check(4)
@@ -516,8 +550,16 @@ def draws_actions(student: Student):
         expect(isinstance(answer, list) and len(answer) == 4, f"{said} gave no answers.")
         noise = np.random.default_rng(seed)
         for got in answer:
-            wanted = mean + np.exp(log_deviation) * noise.standard_normal(actuators)
-            expect_close(said, got, wanted)
+            drawn = noise.standard_normal(actuators)
+            mistakes = {
+                "log_deviation is taken for the logarithm of the variance.": mean
+                + np.exp(log_deviation / 2) * drawn,
+                "log_deviation is taken for the deviation itself: np.exp is missing.": mean
+                + log_deviation * drawn,
+                "The noise is left out.": mean,
+            }
+            wanted = mean + np.exp(log_deviation) * drawn
+            expect_close(said, got, wanted, mistakes=mistakes)
 
 
 def measured_gaussian(module, means, log_deviation, actions):
@@ -541,7 +583,12 @@ def compare_gaussian(student: Student, index: int, steps: int, actuators: int, p
     distance = (actions - means) / np.exp(log_deviation)
     if part == 0:
         surprises = distance**2 / 2 + log_deviation + np.log(2 * np.pi) / 2
-        expect_close(said, answer[0], surprises.sum(axis=1).mean(), SINGLE)
+        constant = np.log(2 * np.pi) / 2
+        mistakes = {
+            "The constant ln(2 pi) / 2 is left out.": (surprises - constant).sum(axis=1).mean(),
+            "The mean is taken over the actuators, too: their surprises add up.": surprises.mean(),
+        }
+        expect_close(said, answer[0], surprises.sum(axis=1).mean(), SINGLE, mistakes)
         return
     slope = -distance / np.exp(log_deviation) / steps
     expect_close(f"{said}: gradient of the means", answer[1], slope, SINGLE)
@@ -566,6 +613,7 @@ training = exercise.task(
     "12.8",
     "Training",
     seconds=90,
+    needs=("12.1", "12.2", "12.3", "12.4", "12.5", "12.6", "12.7"),
     refused=(
         "stable_baselines3.common.on_policy_algorithm:OnPolicyAlgorithm.learn",
         "stable_baselines3.common.off_policy_algorithm:OffPolicyAlgorithm.learn",

@@ -116,7 +116,33 @@ def compare_advantages(student: Student, index: int, steps: int, envs: int, **sp
             f"advantages({rewards.round(3).tolist()}, {values.round(3).tolist()}, ..., "
             f"gamma={gamma}, gae_lambda={gae_lambda})"
         )
-    expect_close(student.said, answer, buffer.advantages, CLOSE)
+    mistakes = mistaken(rewards, values, starts, last_values, dones, gamma, gae_lambda)
+    expect_close(student.said, answer, buffer.advantages, CLOSE, mistakes)
+
+
+def mistaken(rewards, values, starts, last_values, dones, gamma, gae_lambda) -> dict:
+    """What mistakes make of the advantages."""
+
+    def estimated(lambda_=gae_lambda, starts=starts, dones=dones, last=last_values, shift=1):
+        goes_on = 1 - np.vstack([starts[shift:], dones[None]])[: len(rewards)]
+        after, found, later = np.vstack([values[1:], last[None]]), np.zeros_like(rewards), 0.0
+        for step in reversed(range(len(rewards))):
+            surprise = rewards[step] + gamma * after[step] * goes_on[step] - values[step]
+            later = found[step] = surprise + gamma * lambda_ * goes_on[step] * later
+        return found
+
+    return {
+        "gae_lambda is left out: later surprises count less by gamma alone.": estimated(1.0),
+        "Only the first surprise counts: those of later steps are left out.": estimated(0.0),
+        "What comes after the last step (last_values) is left out.": estimated(
+            last=0 * last_values
+        ),
+        "Whether the last step ended its episode (dones) is left out.": estimated(dones=0 * dones),
+        "Ends of episodes on the way (starts) are left out.": estimated(starts=0 * starts),
+        "A step ends its episode if the next one starts one, not if it does itself.": estimated(
+            shift=0
+        ),
+    }
 
 
 @estimating.check(5)
@@ -195,25 +221,49 @@ def surrogate_of(given: dict, clip_range: float) -> tuple[float, float]:
     return loss.item(), ((ratio - 1).abs() > clip_range).double().mean().item()
 
 
+def mistaken_losses(given: dict, clip_range: float) -> dict:
+    """What mistakes make of the loss."""
+    ratio = np.exp(given["log_prob"] - given["old_log_prob"])
+    cut, raw = np.clip(ratio, 1 - clip_range, 1 + clip_range), given["advantages"]
+    spread = raw.std(ddof=1) if len(raw) > 1 else 1.0
+    normal = (raw - raw.mean()) / (spread + 1e-8) if len(raw) > 1 else raw
+    return {
+        "The advantages are not normalised.": -np.minimum(raw * ratio, raw * cut).mean(),
+        "The advantages of a single step are normalised, which leaves 0 of them.": 0.0 * len(raw),
+        "The ratio is not clipped.": -np.mean(normal * ratio),
+        "The clipped product counts always, instead of the smaller of the two.": -np.mean(
+            normal * cut
+        ),
+        "The larger of the two products counts, instead of the smaller.": -np.mean(
+            np.maximum(normal * ratio, normal * cut)
+        ),
+    }
+
+
 @surrogate.check(6)
 def nothing_to_clip(student: Student):
     references()
     for index, n in ((20, 2), (21, 50)):
         given = drawn_batch(index, n, 0.01)
         answer = judged_policy(student, given, 0.5)
-        expect_close(f"{student.said}: loss", answer["loss"], surrogate_of(given, 0.5)[0], CLOSE)
+        wanted, mistakes = surrogate_of(given, 0.5)[0], mistaken_losses(given, 0.5)
+        expect_close(f"{student.said}: loss", answer["loss"], wanted, CLOSE, mistakes)
 
 
 @surrogate.check(6)
 def losses_of_stable_baselines(student: Student):
     for _, chosen, given, logged in references().updates:
         answer = judged_policy(student, given, chosen["clip_range"])
-        wanted = logged["policy_gradient_loss"]
-        expect_close(f"{student.said}: loss", answer["loss"], wanted, CLOSE)
+        wanted, mistakes = (
+            logged["policy_gradient_loss"],
+            mistaken_losses(given, chosen["clip_range"]),
+        )
+        expect_close(f"{student.said}: loss", answer["loss"], wanted, CLOSE, mistakes)
     for index, n in ((22, 5), (23, 300)):
         given = drawn_batch(index, n, 0.6)
         answer = judged_policy(student, given, 0.2)
-        expect_close(f"{student.said}: loss", answer["loss"], surrogate_of(given, 0.2)[0], CLOSE)
+        wanted, mistakes = surrogate_of(given, 0.2)[0], mistaken_losses(given, 0.2)
+        expect_close(f"{student.said}: loss", answer["loss"], wanted, CLOSE, mistakes)
 
 
 @surrogate.check(4)
@@ -221,7 +271,12 @@ def clip_fraction(student: Student):
     for _, chosen, given, logged in references().updates:
         answer = judged_policy(student, given, chosen["clip_range"])
         said = f"{student.said}: clip_fraction"
-        expect_close(said, answer["clip_fraction"], logged["clip_fraction"], CLOSE)
+        distance = given["log_prob"] - given["old_log_prob"]
+        mistakes = {
+            "The logarithm of the ratio is compared with clip_range, instead of the ratio's "
+            "distance from 1.": np.mean(np.abs(distance) > chosen["clip_range"]),
+        }
+        expect_close(said, answer["clip_fraction"], logged["clip_fraction"], CLOSE, mistakes)
     given = drawn_batch(24, 80, 0.6)
     answer = judged_policy(student, given, 0.3)
     wanted = surrogate_of(given, 0.3)[1]
@@ -233,7 +288,8 @@ def a_batch_of_one_step(student: Student):
     for index in (25, 26):
         given = drawn_batch(index, 1, 0.6)
         answer = judged_policy(student, given, 0.2)
-        expect_close(f"{student.said}: loss", answer["loss"], surrogate_of(given, 0.2)[0], CLOSE)
+        wanted, mistakes = surrogate_of(given, 0.2)[0], mistaken_losses(given, 0.2)
+        expect_close(f"{student.said}: loss", answer["loss"], wanted, CLOSE, mistakes)
 
 
 # ------------------------------------------------------------------- 13.3
@@ -246,7 +302,12 @@ def compare_critic(student: Student, clipping: bool) -> None:
             arguments = [given["values"], given["old_values"], given["returns"]]
             arguments += [chosen["clip_range_vf"]] if clipping else []
             answer = student.call("value_loss", *arguments)
-            expect_close(student.said, answer, logged["value_loss"], CLOSE)
+            away = given["values"] - given["returns"]
+            mistakes = {"The movement of the values is not clipped.": np.mean(away**2)}
+            if clipping:
+                cut = np.clip(away, -arguments[3], arguments[3])
+                mistakes["The error is clipped, instead of the values' movement."] = np.mean(cut**2)
+            expect_close(student.said, answer, logged["value_loss"], CLOSE, mistakes)
 
 
 @critic.check(5)
@@ -325,7 +386,12 @@ moving = exercise.task(
 def estimates_the_divergence(student: Student):
     for _, _, given, logged in references().updates:
         answer = student.call("approx_kl", given["log_prob"], given["old_log_prob"])
-        expect_close(student.said, answer, logged["approx_kl"], CLOSE)
+        mistakes = {
+            "It is the mean of minus the logarithm of the ratio: right on average only.": np.mean(
+                given["old_log_prob"] - given["log_prob"]
+            )
+        }
+        expect_close(student.said, answer, logged["approx_kl"], CLOSE, mistakes)
     given = drawn_batch(40, 30, 0.8)
     ratio = np.exp(given["log_prob"] - given["old_log_prob"])
     answer = student.call("approx_kl", given["log_prob"], given["old_log_prob"])
@@ -374,7 +440,13 @@ def adds_up_the_losses(student: Student):
             "total_loss", logged["policy_gradient_loss"], logged["value_loss"], given["entropy"],
             chosen["ent_coef"], chosen["vf_coef"],
         )  # fmt: skip
-        expect_close(student.said, answer, logged["loss"], CLOSE)
+        entropy = chosen["ent_coef"] * np.mean(given["entropy"])
+        mistakes = {
+            "The entropy is added: it is to be large, so it makes the loss smaller.": logged["loss"]
+            + 2 * entropy,
+            "The entropy is left out.": logged["loss"] + entropy,
+        }
+        expect_close(student.said, answer, logged["loss"], CLOSE, mistakes)
 
 
 @together.check(4)

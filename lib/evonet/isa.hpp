@@ -22,6 +22,16 @@
 #define BOTSCHOOL_INLINE inline __attribute__((always_inline))
 #endif
 
+#define BOTSCHOOL_PRAGMA(text) _Pragma(#text)
+/// Before a loop: does n rounds of it at a time (a hint).
+#if defined(__clang__)
+#define BOTSCHOOL_UNROLL(n) BOTSCHOOL_PRAGMA(unroll n)
+#elif defined(__GNUC__)
+#define BOTSCHOOL_UNROLL(n) BOTSCHOOL_PRAGMA(GCC unroll n)
+#else
+#define BOTSCHOOL_UNROLL(n)
+#endif
+
 BOTSCHOOL_BEGIN
 
 /// Bytes of a vector register.

@@ -15,7 +15,7 @@ from botschool.grading.submission import grade
 
 pytestmark = pytest.mark.course
 
-for_each_exercise = pytest.mark.parametrize("number", building.NUMBERS)
+for_each_exercise = pytest.mark.parametrize("number", building.NUMBERS, ids="ex{:02d}".format)
 
 
 @pytest.fixture(scope="module")

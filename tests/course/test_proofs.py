@@ -21,7 +21,7 @@ pytestmark = pytest.mark.course
 
 MUTANTS = sorted((building.HERE / "mutants").glob("ex[0-9][0-9]/*.py"))
 STOCHASTIC = re.compile(r"\b(margin|20 seeds|twenty seeds)\b", re.IGNORECASE)
-for_each_exercise = pytest.mark.parametrize("number", building.NUMBERS)
+for_each_exercise = pytest.mark.parametrize("number", building.NUMBERS, ids="ex{:02d}".format)
 
 
 def text_of(number, name):

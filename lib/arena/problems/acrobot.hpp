@@ -64,6 +64,8 @@ struct Acrobot : ProblemBase {
   void step(const double* BOTSCHOOL_RESTRICT action, double* BOTSCHOOL_RESTRICT reward,
             std::int64_t* BOTSCHOOL_RESTRICT ended) {
     constexpr double dt = 0.2;
+    // two registers of lanes side by side: a polynomial by itself waits for each of its terms
+    BOTSCHOOL_UNROLL(2)
     for (int l = 0; l < L; ++l) {
       const double torque = action[l] - 1.0;
       const double t1 = state[0][l], t2 = state[1][l], w1 = state[2][l], w2 = state[3][l];

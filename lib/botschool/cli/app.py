@@ -10,6 +10,7 @@ import os
 import signal
 import sys
 from contextlib import suppress
+from types import ModuleType
 
 import typer
 
@@ -18,21 +19,38 @@ from botschool.errors import BotschoolError
 
 UsageError = typer.BadParameter.__base__
 
-app = typer.Typer(
-    help="Train robots in simulation by evolution and by reinforcement learning.",
-    no_args_is_help=True,
-    add_completion=False,
-    rich_markup_mode="markdown",
-    pretty_exceptions_enable=False,
-)
-for _group in (es, plots, tournament, course):
-    app.add_typer(_group.app)
-app.add_typer(rl.app, name="rl")
+GROUPS = {es: None, plots: None, tournament: None, course: None, rl: "rl"}
+"""Modules with commands, in the order of --help, and the name before their commands."""
+
+# numpy's BLAS starts threads that would only wait: nothing here multiplies large matrices
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
-@app.callback()
-def botschool() -> None:
-    pass
+def commands(asked: str | None = None) -> typer.Typer:
+    """The command with all its subcommands; with only the one asked for, if there is such (making
+    all of them takes longer than many a run)."""
+    app = typer.Typer(
+        help="Train robots in simulation by evolution and by reinforcement learning.",
+        no_args_is_help=True,
+        add_completion=False,
+        rich_markup_mode="markdown",
+        pretty_exceptions_enable=False,
+    )
+    app.callback()(_no_options)
+    for module in [m for m in GROUPS if asked in _names(m)] or GROUPS:
+        app.add_typer(module.app, name=GROUPS[module])
+    return app
+
+
+def _names(module: ModuleType) -> list[str]:
+    """What may stand after `botschool` for the commands of a module."""
+    if GROUPS[module]:
+        return [GROUPS[module]]
+    return [c.name or c.callback.__name__ for c in module.app.registered_commands]
+
+
+def _no_options() -> None:
+    """`botschool` itself has none."""
 
 
 def main() -> None:
@@ -40,7 +58,7 @@ def main() -> None:
     with suppress(AttributeError):  # in a notebook
         sys.stdout.reconfigure(errors="backslashreplace")  # names that the terminal cannot show
     try:
-        code = app(standalone_mode=False) or 0
+        code = commands(*sys.argv[1:2])(standalone_mode=False) or 0
         sys.stdout.flush()
     except BotschoolError as error:
         code = _refuse(str(error))

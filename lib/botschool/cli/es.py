@@ -110,11 +110,14 @@ def es(
     seeds = list(range(seed, seed + replications))
     terminal = sys.stdout.isatty()
     gc.freeze()  # modules stay to the end: nothing to collect among them
+    collecting = gc.get_threshold()
+    gc.set_threshold(100_000)  # a run's own objects are hardly ever in circles
     try:
         finished = replicate(
             experiment, seeds, output, workers, steps, resume, force, terminal, generations
         )
     finally:
+        gc.set_threshold(*collecting)
         gc.unfreeze()
     if not finished:
         raise typer.Exit(130)

@@ -48,11 +48,12 @@ def _frames(env, act, episodes: int, seed: int, maxsteps: int):
     from botschool.problems.transition import Transition
     from botschool.render.panel import with_caption
 
+    choice = hasattr(env.action_space, "n")
     for episode in range(episodes):
         observation, _ = env.reset(seed=seed + episode)
         total = 0.0
         for step in range(1, maxsteps + 1):
-            action = act(observation)
+            action = int(act(observation)) if choice else act(observation)  # True is a 1 here
             following, reward, terminated, truncated, _ = env.step(action)
             total += float(reward)
             transition = Transition(

@@ -1,6 +1,7 @@
 """Grading: exercises, the isolated runner, scores. A grader file needs only what is named here."""
 
 from botschool.grading.checks import (
+    Mismatch,
     Wrong,
     expect,
     expect_array,
@@ -13,6 +14,7 @@ from botschool.grading.student import Student
 
 __all__ = [
     "Exercise",
+    "Mismatch",
     "Student",
     "Task",
     "Wrong",

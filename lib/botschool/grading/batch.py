@@ -144,7 +144,9 @@ class Grades:
             exercise.require()
         except BotschoolError as error:
             return self.nothing(job.number, str(error))
-        limit = sum(WALL_FACTOR * (task.seconds + 5) for task in exercise.tasks) + SPARE_SECONDS
+        times = [1 + bool(task.needs) for task in exercise.tasks]  # as often as it may be run
+        seconds = [n * (task.seconds + 5) for n, task in zip(times, exercise.tasks, strict=True)]
+        limit = WALL_FACTOR * sum(seconds) + SPARE_SECONDS
         temporary = Path(tempfile.mkdtemp(prefix="botschool-"))
         lifeline, ours = os.pipe()
         arguments = str(job.number), str(job.file), str(lifeline), "alone" if alone else ""
@@ -201,6 +203,7 @@ class Grades:
         return {
             "exercise": number, "title": exercise.title, "points": 0, "max_points": maximum,
             "tasks": tasks, "pictures": [], "missing": [], "problem": problem,
+            "banner": "",
         }  # fmt: skip
 
     def _key(self, job: Job) -> str:
@@ -232,6 +235,7 @@ def to_record(result: Result) -> dict[str, Any]:
         "pictures": [[name, base64.b64encode(c).decode()] for c, name in pictures.items()],
         "missing": result.missing,
         "problem": "",
+        "banner": result.banner,
     }
 
 

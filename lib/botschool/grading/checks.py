@@ -2,14 +2,31 @@
 
 from __future__ import annotations
 
-import reprlib
 from typing import Any
 
 import numpy as np
 
+from botschool.grading import diagnosis
+from botschool.grading.values import FEW, apart, arrays_apart, kind, show
+from botschool.sandbox.exceptions import nearest
+
 
 class Wrong(Exception):
     """A check failed; the message is the sentence that the learner reads."""
+
+
+class Mismatch(Wrong):
+    """An answer that differs from what was expected; diagnosis.py looks for a likely cause."""
+
+    def __init__(
+        self,
+        sentence: str,
+        got: np.ndarray,
+        wanted: np.ndarray,
+        mistakes: dict[str, Any] | None = None,
+    ) -> None:
+        super().__init__(sentence)
+        self.got, self.wanted, self.mistakes = got, wanted, mistakes or {}
 
 
 class NotDone(Wrong):
@@ -24,42 +41,104 @@ def expect(condition: bool, sentence: str) -> None:
 
 def expect_fields(said: str, value: Any, *keys: str) -> list[Any]:
     """The values of these keys of a dict, which may have others."""
-    expect(isinstance(value, dict), f"{said} {_came(said)} {show(value)}, but a dict is needed.")
+    expect(isinstance(value, dict), f"{said} {_came(said)} {kind(value)}, but a dict is needed.")
     for key in keys:
-        expect(key in value, f"{said} {_came(said)} a dict without {key!r}.")
+        if key not in value:
+            near = nearest(key, list(value)[:100])
+            has = f" (it has {near!r}: rename that)" if near else ""
+            raise Wrong(f"{said} {_came(said)} a dict without {key!r}{has}.")
     return [value[key] for key in keys]
 
 
 def expect_array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
     """The value as a float64 array of this shape, all finite; `said` names the call."""
+    array = _array(said, value, shape)
+    if array.shape != shape:
+        hint = diagnosis.of_shapes(array.shape, shape)
+        raise Wrong(f"{_but(said, value, shape)} {hint}".rstrip())
+    bad = ~np.isfinite(array)
+    if bad.any():
+        raise Wrong(_not_finite(said, array, bad))
+    return array
+
+
+def expect_close(
+    said: str,
+    value: Any,
+    expected: Any,
+    tolerance: float = 1e-9,
+    mistakes: dict[str, Any] | None = None,
+) -> None:
+    """The value equals the expected number or array, within a relative and absolute tolerance.
+
+    mistakes: what typical mistakes make of it, each by a sentence that names the mistake ("The
+    biases are left out."). Raises Mismatch, for which a likely cause is looked for.
+    """
+    wanted = np.asarray(expected, dtype=np.float64)
+    array = _array(said, value, wanted.shape)
+    if array.shape != wanted.shape:
+        raise Mismatch(_but(said, value, wanted.shape), array, wanted, mistakes)
+    got = expect_array(said, value, wanted.shape)
+    close = np.isclose(got, wanted, rtol=tolerance, atol=tolerance)
+    if not close.all():
+        raise Mismatch(_unequal(said, got, wanted, close), got, wanted, mistakes)
+
+
+def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    """The value as an array of numbers, of any shape."""
     if value is None or isinstance(value, (str, dict)):
-        raise Wrong(f"{said} {_came(said)} {show(value)}, but an array of shape {shape} is needed.")
+        raise Wrong(_but(said, value, shape))
     try:
         array = np.asarray(value)
     except (ValueError, TypeError, OverflowError):
         array = np.asarray(None)
     if array.dtype.kind not in "biuf":
-        raise Wrong(f"{said} {_came(said)} {show(value)}, which is no array of numbers.")
-    array = array.astype(np.float64)
-    expect(array.shape == shape, f"{said} has shape {array.shape}, but {shape} was expected.")
-    expect(bool(np.all(np.isfinite(array))), f"{said} holds NaN or infinity.")
-    return array
+        raise Wrong(
+            f"{said} {_came(said)} {kind(value)}, which is no array of numbers: one of shape "
+            f"{shape} is needed."
+        )
+    return array.astype(np.float64)
 
 
-def expect_close(said: str, value: Any, expected: Any, tolerance: float = 1e-9) -> None:
-    """The value equals the expected number or array, within a relative and absolute tolerance."""
-    wanted = np.asarray(expected, dtype=np.float64)
-    got = expect_array(said, value, wanted.shape)
-    close = np.isclose(got, wanted, rtol=tolerance, atol=tolerance)
-    if close.all():
-        return
-    if got.size <= 6:
-        raise Wrong(f"{said} {_came(said)} {show(got)}, but {show(wanted)} was expected.")
+def _but(said: str, value: Any, shape: tuple[int, ...]) -> str:
+    """The sentence about a value of another kind or shape."""
+    needed = f"an array of shape {shape}" if shape else "a single number"
+    if value is None:
+        end = "" if _came(said) == "is" else ": does it end without `return`?"
+        return f"{said} {_came(said)} None, but {needed} is needed{end}"
+    was = kind(value)
+    if isinstance(value, list) and (inner := np.shape(np.asarray(value))) and len(inner) > 1:
+        was += f" (shape {inner})"
+    return f"{said} {_came(said)} {was}, but {needed} was expected."
+
+
+def _not_finite(said: str, array: np.ndarray, bad: np.ndarray) -> str:
+    where = np.unravel_index(int(np.argmax(bad)), bad.shape)
+    place = f" at [{', '.join(map(str, where))}]" if array.ndim else ""
+    what = "NaN" if np.isnan(array[where]) else "infinity"
+    causes = {
+        "NaN": "0 / 0, 0 * log(0), infinity minus infinity, or the root of a negative number",
+        "infinity": "a division by 0, the logarithm of 0, or np.exp of a large number",
+    }
+    many = f" ({int(bad.sum())} of {bad.size} numbers are NaN or infinity)" if bad.size > 1 else ""
+    return f"{said} holds NaN or infinity: {what}{place}{many}. It comes of {causes[what]}."
+
+
+def _unequal(said: str, got: np.ndarray, wanted: np.ndarray, close: np.ndarray) -> str:
+    came = f"{said} {_came(said)}"
+    if got.ndim == 0:
+        one, other = apart(float(got), float(wanted))
+        return f"{came} {one}, but {other} was expected."
+    if got.size <= FEW:
+        one, other = arrays_apart(got, wanted)
+        return f"{came} {one}, but {other} was expected."
     where = np.unravel_index(int(np.argmin(close)), close.shape)
     place = ", ".join(map(str, where))
-    raise Wrong(
-        f"{said} {_came(said)} {show(got)}; at [{place}] it is {got[where]:.6g}, but "
-        f"{wanted[where]:.6g} was expected."
+    one, other = apart(float(got[where]), float(wanted[where]))
+    wrong = int((~close).sum())
+    return (
+        f"{came} {show(got)}; at [{place}] it is {one}, but {other} was expected "
+        f"({'all' if wrong == got.size else wrong} of {got.size} numbers differ)."
     )
 
 
@@ -71,37 +150,3 @@ def _came(said: str) -> str:
 def plain(text: str) -> str:
     """A submission's text without what would steer a terminal or turn the writing around."""
     return "".join(c if c in "\n\t" or c.isprintable() or c == " " else "\ufffd" for c in text)
-
-
-class _Short(reprlib.Repr):
-    """repr() in bounded work: of a value that holds others, again and again the same perhaps."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.maxlist = self.maxtuple = self.maxset = self.maxfrozenset = self.maxdict = 400
-        self.maxstring = self.maxlong = self.maxother = 400
-        self._left = 1000
-
-    def repr1(self, value: Any, level: int) -> str:
-        self._left -= 1
-        return super().repr1(value, level) if self._left > 0 else "..."
-
-    def repr_int(self, value: int, level: int) -> str:
-        many = value.bit_length()
-        return super().repr_int(value, level) if many < 4000 else f"an integer of {many} bits"
-
-
-def show(value: Any, longest: int = 60) -> str:
-    """A value in a few words."""
-    if isinstance(value, np.ndarray):
-        if value.size > 6:
-            return f"an array of shape {value.shape} that starts {_numbers(value.ravel()[:4])}..."
-        return _numbers(value) if value.ndim else f"{value.item():.6g}"
-    if isinstance(value, float):
-        return f"{value:.6g}"
-    text = _Short().repr(value)
-    return text if len(text) <= longest else text[: longest - 3] + "..."
-
-
-def _numbers(array: np.ndarray) -> str:
-    return np.array2string(array, precision=5, separator=", ", threshold=8).replace("\n", "")

@@ -44,10 +44,13 @@ def grade_command(what: str, submission: str | None, as_json: bool, debug: bool)
             raise BotschoolError(f"--debug runs one task: say which, as botschool grade {number}.1")
         return debug_task(exercise, what, file)
     screen = Screen()
-    report = (lambda result: None) if as_json else screen.task
+    report, announce = screen.task, screen.banner
+    if as_json:
+        report = announce = lambda shown: None
     if not as_json:
         screen.start(exercise.number, exercise.title, file)
-    result = grade(exercise, file, report, [exercise.find(what)] if task else None)
+    tasks = [exercise.find(what)] if task else None
+    result = grade(exercise, file, report, tasks, announce=announce)
     if as_json:
         print(json.dumps(result.to_json(), indent=1))
     else:

@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.checks import Wrong
@@ -59,10 +60,16 @@ def fork_server(imports: Iterable[str] = ()) -> ForkServer:
         return ForkServer([*IMPORTS, *imports])
 
 
-def start_child(server: ForkServer, scratch: Scratch, file: Path, limits: Limits) -> Child:
+def start_child(
+    server: ForkServer,
+    scratch: Scratch,
+    file: Path,
+    limits: Limits,
+    references: dict[str, Any] | None = None,
+) -> Child:
     """A child for a submission's file, given where it was handed in. Raises BotschoolError."""
     with translated():
-        return Child(server, scratch, file.name, limits, readable(file))
+        return Child(server, scratch, file.name, limits, readable(file), references)
 
 
 def scratch_copy(file: Path) -> Scratch:

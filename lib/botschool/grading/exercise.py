@@ -12,6 +12,7 @@ from pathlib import Path
 
 from botschool.errors import BotschoolError
 from botschool.grading.extras import missing_packages
+from botschool.grading.references import pruned
 from botschool.grading.secret import DEFAULT, VARIABLE
 from botschool.grading.student import Student
 from botschool.paths import course_root
@@ -29,6 +30,8 @@ class Task:
     seconds: float
     memory: int
     imports: tuple[str, ...] = ()
+    needs: tuple[str, ...] = ()
+    """Tasks whose functions a submission calls in this one."""
     refused: tuple[str, ...] = ()
     checks: list[tuple[int, str, Callable[[Student], None]]] = field(default_factory=list)
 
@@ -77,6 +80,8 @@ class Exercise:
         self.imports = imports
         self.extras = extras
         self.tasks: list[Task] = []
+        self.references = ""
+        """Our own functions of the tasks that others need, as a Python file (references.py)."""
 
     def task(
         self,
@@ -84,14 +89,27 @@ class Exercise:
         title: str,
         seconds: float = 20,
         memory: int = 4096,
+        needs: tuple[str, ...] = (),
         refused: tuple[str, ...] = (),
     ) -> Task:
         """Adds a task; seconds: processor time of all its checks; memory: MB beyond the imports.
 
+        needs: ids of tasks whose functions students call in this one. If one of these does not
+        pass, this one is also graded with ours in its place.
         refused: functions of libraries that are the answer, as of refused.refuse.
         """
-        self.tasks.append(Task(id, title, seconds, memory, self.imports, refused))
+        self.tasks.append(Task(id, title, seconds, memory, self.imports, needs, refused))
         return self.tasks[-1]
+
+    def needed(self, task: Task) -> list[Task]:
+        """The tasks that a task builds on, directly or by way of others, in their order."""
+        found: set[str] = set()
+        waiting = [*task.needs]
+        while waiting:
+            if (id := waiting.pop()) not in found:
+                found.add(id)
+                waiting += self.find(id).needs
+        return [each for each in self.tasks if each.id in found]
 
     def require(self) -> None:
         """Raises BotschoolError that says what to install if a package is not installed."""
@@ -144,7 +162,12 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module  # dataclasses look their module up
     spec.loader.exec_module(module)
-    return module.exercise
+    exercise = module.exercise
+    solution = (root or course_root()) / "solutions" / folder.name / exercise.file
+    if not exercise.references and solution.is_file():
+        needed = {id for task in exercise.tasks for id in task.needs}
+        exercise.references = pruned(solution.read_text(encoding="utf-8"), needed)
+    return exercise
 
 
 def submission_file(number: int, submission: str | None, root: Path | None = None) -> Path:

@@ -86,7 +86,7 @@ $sections
 _SECTION = Template("""<section>
 <div class="head"><h2>Exercise $number. $title</h2><b>$points <small>of $maximum</small></b></div>
 <div class="bar"><i style="width: $percent%"></i></div>
-$problem$tasks$pictures
+$problem$banner$tasks$pictures
 </section>""")
 
 _TASK = Template("""<div class="task">
@@ -108,7 +108,7 @@ def page(student: str, results: list[dict[str, Any]]) -> str:
 
 
 def _section(result: dict[str, Any]) -> str:
-    problem = result["problem"]
+    problem, banner = result["problem"], result["banner"]
     return _SECTION.substitute(
         number=int(result["exercise"]),
         title=escape(result["title"]),
@@ -116,6 +116,7 @@ def _section(result: dict[str, Any]) -> str:
         maximum=int(result["max_points"]),
         percent=round(100 * result["points"] / max(1, result["max_points"])),
         problem=f'<p class="problem">{escape(problem)}</p>\n' if problem else "",
+        banner=f'<pre class="problem">{escape(banner)}</pre>\n' if banner else "",
         tasks="" if problem else "".join(map(_task, result["tasks"])),
         pictures=_pictures(result["pictures"]),
     )

@@ -32,9 +32,10 @@ def code_cells(path: Path) -> list[str]:
         ) from None
 
 
-def report(result: TaskResult) -> str:
-    """What a test cell prints."""
-    lines = [f"Task {result.id}. {result.title}: {result.points} of {result.max_points} points"]
+def report(result: TaskResult, banner: str = "") -> str:
+    """What a test cell prints; banner: why the notebook cannot be loaded."""
+    lines = [banner] if banner and result.points < result.max_points else []
+    lines += [f"Task {result.id}. {result.title}: {result.points} of {result.max_points} points"]
     if result.message:
         lines.append(result.message)
     printed = result.printed.strip()
@@ -70,10 +71,10 @@ def _grade_here(task: str) -> float:
         print("What you ran is not what is saved: save the notebook (Ctrl+S), run this cell again.")
     with (
         fork_server(exercise.imports) as server,
-        Submission(path, server, sources, exercise.file) as submission,
+        Submission(path, server, sources, exercise.file, exercise=exercise) as submission,
     ):
         result = submission.grade(asked)
-    print(report(result))
+    print(report(result, submission.banner))
     return float(result.points)
 
 

@@ -1,12 +1,14 @@
 """Graders in the students' copy: packed, so that nobody reads an answer there by accident.
 
-A grader computes again what a task asks for, and so tells how it is done. This hides it from
-readers, not from somebody who is determined to unpack it: what counts is graded elsewhere.
+A grader computes again what a task asks for, and has our functions of the tasks that others need.
+This hides them from readers, not from somebody who is determined to unpack them: what counts is
+graded elsewhere.
 """
 
 from __future__ import annotations
 
 import base64
+import json
 import linecache
 import re
 import sys
@@ -16,12 +18,14 @@ from pathlib import Path
 from typing import Any
 
 
-def pack(grader: str) -> str:
+def pack(grader: str, references: str = "") -> str:
     """The text of a Python file that declares the same exercise as this one.
 
-    Its extras stay readable, as `make test-exN` must know them before there is a Python.
+    references: of the exercise, packed with it. Its extras stay readable, as `make test-exN` must
+    know them before there is a Python.
     """
-    packed = base64.b85encode(zlib.compress(grader.encode(), 9)).decode()
+    both = json.dumps([grader, references]).encode()
+    packed = base64.b85encode(zlib.compress(both, 9)).decode()
     lines = "\n".join(f'    "{packed[at : at + 90]}"' for at in range(0, len(packed), 90))
     extras = re.search(r"extras=\([^)]*\)", grader)
     needs = f"# Needs {extras[0]}.\n" if extras else ""
@@ -34,7 +38,7 @@ def pack(grader: str) -> str:
 
 def unpack(file: str, packed: str) -> Any:
     """The exercise that a packed grader declares; `file` is where it lies."""
-    source = zlib.decompress(base64.b85decode(packed)).decode()
+    source, references = json.loads(zlib.decompress(base64.b85decode(packed)))
     name = str(Path(file).with_suffix(".unpacked"))
     # so that the source of its drivers can be sent to a child
     linecache.cache[name] = (len(source), None, source.splitlines(keepends=True), name)
@@ -42,4 +46,5 @@ def unpack(file: str, packed: str) -> Any:
     module.__file__ = file
     sys.modules[module.__name__] = module  # dataclasses look their module up
     exec(compile(source, name, "exec", dont_inherit=True), vars(module))
+    module.exercise.references = references
     return module.exercise

@@ -170,11 +170,11 @@ class Grade(NbGraderPreprocessor):
         path = Path(resources["metadata"]["path"]) / name
         with (
             fork_server(exercise.imports) as server,
-            Submission(path, server, sources, exercise.file) as submission,
+            Submission(path, server, sources, exercise.file, exercise=exercise) as submission,
         ):
             for count, cell in enumerate(tests, 1):
                 task = exercise.find(task_of(_grade_id(cell)))
-                _fill(cell, count, submission.grade(task))
+                _fill(cell, count, submission.grade(task), submission.banner)
         return nb, resources
 
 
@@ -182,7 +182,7 @@ def _grade_id(cell: NotebookNode) -> str:
     return cell.metadata.get("nbgrader", {}).get("grade_id", "")
 
 
-def _fill(cell: NotebookNode, count: int, result: TaskResult) -> None:
+def _fill(cell: NotebookNode, count: int, result: TaskResult, banner: str) -> None:
     if float(cell.metadata.nbgrader["points"]) != result.max_points:
         raise BotschoolError(
             f"Task {result.id} is now worth {result.max_points} points, but not in the assignment: "
@@ -191,6 +191,6 @@ def _fill(cell: NotebookNode, count: int, result: TaskResult) -> None:
     cell.execution_count = count
     points = repr(float(result.points))
     cell.outputs = [
-        new_output("stream", name="stdout", text=report(result) + "\n"),
+        new_output("stream", name="stdout", text=report(result, banner) + "\n"),
         new_output("execute_result", {"text/plain": points}, execution_count=count),
     ]

@@ -11,10 +11,11 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.exercise import exercise_numbers, folder_of
+from botschool.grading.exercise import exercise_numbers, folder_of, load_exercise
 from botschool.grading.leaks import find_leaks
 from botschool.grading.packed import pack
 from botschool.grading.skeleton import pairs, skeleton
@@ -153,7 +154,8 @@ def _build(root: Path, made: Path, numbers: set[int]) -> None:
             text = skeleton(solution.read_text(encoding="utf-8"))
             released.write_text(text, encoding="utf-8", newline="\n")
     for grader in made.glob("exercises/ex[0-9][0-9]_*/test_*.py"):
-        _change(grader, pack)
+        references = load_exercise(int(grader.parent.name[2:4]), root).references
+        _change(grader, partial(pack, references=references))
     start = made / START
     if start.is_file():
         _change(start, lambda text: _rows(text, start.parent))

@@ -12,7 +12,7 @@ from rich.padding import Padding
 
 from botschool.grading.submission import Result, TaskResult
 
-MAX_MESSAGE_LINES = 6
+MAX_MESSAGE_LINES = 12
 """Lines of a task's message on the screen."""
 MAX_OUTPUT_LINES = 8
 """Lines of what a task's code printed."""
@@ -31,6 +31,13 @@ class Screen:
         self._file = file.relative_to(Path.cwd()) if file.is_relative_to(Path.cwd()) else file
         self.console.print(f"[bold]Exercise {number}. {escape(title)}[/]")
         self.console.print(f"[dim]{escape(str(self._file))}[/]", soft_wrap=True)
+
+    def banner(self, text: str) -> None:
+        """What is to be mended before anything else."""
+        first, *others = text.splitlines()
+        self.console.print(f"[bold red]{escape(first)}[/]")
+        for line in others:
+            self.console.print(Padding(escape(line), (0, 0, 0, 1)))
 
     def task(self, result: TaskResult) -> None:
         """One task: its points, and why some are missing."""

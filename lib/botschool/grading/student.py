@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from botschool.grading.checks import NotDone, Wrong, plain, show
+from botschool.grading.checks import Wrong
 from botschool.grading.confined import (
     MachineFault,
     fork_server,
@@ -18,7 +18,9 @@ from botschool.grading.confined import (
     scratch_copy,
     start_child,
 )
+from botschool.grading.failures import Origin, SourceLines, explained, where_it_was
 from botschool.grading.refused import refuse
+from botschool.grading.values import argument, pasted
 from botschool.sandbox import Allowance, Child, ForkServer, Limits
 from botschool.sandbox.usage import is_full
 
@@ -38,10 +40,14 @@ class Student:
         memory: int = 4096,
         server: ForkServer | None = None,
         tried: bool = True,
+        origin: Origin | None = None,
+        references: dict[str, Any] | None = None,
         refused: tuple[str, ...] = (),
     ) -> None:
         """memory: MB of address space; server: else one of its own; refused: as of Exercise.task.
 
+        origin: where the lines of the file come from, if that is made of parts of another.
+        references: of sandbox.Child, functions to put in the place of the submission's own.
         tried: whether a fault that may be the machine's has been met before, and the submission
         is to blame if it comes again and nothing speaks against the machine.
         Raises Wrong when the submission is too large.
@@ -59,6 +65,14 @@ class Student:
         """How many requests the submission has answered."""
         self.said = "your file"
         """The last call, as the learner would write it."""
+        self.pasted = ""
+        """The same to paste into Python; "" if it is too long, or no call of a function."""
+        self.request: dict[str, Any] = {}
+        """The last one."""
+        self.answer: Any = None
+        """To the last request."""
+        self._references = references
+        self._source = SourceLines(self._file, origin or Origin(), quiet=references is not None)
         self._scratch = scratch_copy(self._file)
         self._server = server
         self._own: ForkServer | None = None
@@ -68,8 +82,9 @@ class Student:
 
         Raises Wrong with a sentence when it fails, hangs or returns something else.
         """
-        shown = [*map(_argument, arguments), *(f"{k}={_argument(v)}" for k, v in options.items())]
+        shown = [*map(argument, arguments), *(f"{k}={argument(v)}" for k, v in options.items())]
         self.said = f"{name}({', '.join(shown)})"
+        self.pasted = pasted(name, arguments, options)
         return self._request({"name": name, "arguments": arguments, "options": options})
 
     def run(self, driver: Callable[..., Any], *arguments: Any, said: str | None = None) -> Any:
@@ -78,8 +93,20 @@ class Student:
         The driver must import what it needs itself. What it reports is no more trustworthy than
         the submission: check it again.
         """
-        self.said = said or f"{driver.__name__}(...)"
+        self.said, self.pasted = said or f"{driver.__name__}(...)", ""
         return self._request(_driven(driver, *arguments))
+
+    def twice(self, request: dict[str, Any]) -> dict[str, Any] | None:
+        """The answers to a request that is made twice, and its arguments after the first time.
+
+        {"answers", "arguments"}, or None when that fails. Nothing that counts depends on it.
+        """
+        try:
+            found = self._request(request | {"twice": True})
+        except Wrong:
+            return None
+        fine = isinstance(found, dict) and isinstance(found.get("answers"), list)
+        return found if fine and len(found["answers"]) == 2 else None
 
     @property
     def printed(self) -> str:
@@ -120,6 +147,7 @@ class Student:
         self._scratch.remove()
 
     def _request(self, request: dict[str, Any]) -> Any:
+        self.request, self.answer = request, None
         if self.seconds_left <= 0:
             raise Wrong("the task's time was used up by the checks before.")
         first = self._child is None
@@ -127,18 +155,21 @@ class Student:
             if self._server is None:
                 self._server = self._own = fork_server()
             limits = Limits(self.seconds_left, self._memory)
-            self._child = start_child(self._server, self._scratch, self._file, limits)
+            self._child = start_child(
+                self._server, self._scratch, self._file, limits, self._references
+            )
             self.missing = self._child.missing
         try:
             if first and self._refused:
                 self._child.ask(_driven(refuse, list(self._refused)), self._allowance)
             answer = self._child.ask(request, self._allowance)
         except TimeoutError:
+            where = where_it_was(self._child.where(), self._source)
             self.stop()
             slept = ": it waits instead of computing" if self._allowance.slept else ""
             raise Wrong(
                 f"{self.said} did not return within the task's {self._allowance.seconds:g} "
-                f"seconds{slept}."
+                f"seconds{slept}.{where}"
             ) from None
         except ValueError:
             self.stop()
@@ -150,7 +181,12 @@ class Student:
             raise Wrong(f"The program ended while {self.said} was running: {reason}.")
         self.answers += 1
         self._blame_the_machine_for_a_full_disk(answer)
-        return _value(answer, self.said)
+        if "error" in answer:
+            raise explained(answer, self.said, self._source)
+        if "value" not in answer:
+            raise Wrong(f"{self.said} sent back something that is no plain data.")
+        self.answer = answer["value"]
+        return self.answer
 
     def _blame_the_machine_for_a_kill(self) -> None:
         """Raises MachineFault for one that the grader did not make."""
@@ -177,25 +213,3 @@ def _driven(driver: Callable[..., Any], *arguments: Any) -> dict[str, Any]:
     """The request that runs a driver."""
     source = textwrap.dedent(inspect.getsource(driver))
     return {"driver": source, "name": driver.__name__, "arguments": arguments}
-
-
-def _value(answer: dict[str, Any], said: str) -> Any:
-    if "error" not in answer:
-        if "value" not in answer:
-            raise Wrong(f"{said} sent back something that is no plain data.")
-        return answer["value"]
-    kind, text, line = (plain(str(answer.get(key))[:500]) for key in ("error", "text", "line"))
-    where = f" in line {line}" if line.isdigit() else ""
-    text = f": {text}" if text else ""
-    if kind == "NotPlain":
-        raise Wrong(f"{said} returned{text[1:]}, but numbers, lists or arrays are needed.")
-    if kind == "NotImplementedError" and not answer.get("loading"):
-        raise NotDone(f"not done yet{text}")
-    if answer.get("loading"):
-        raise Wrong(f"Your file cannot be loaded: {kind}{where}{text}")
-    raise Wrong(f"{said} raised {kind}{where}{text}")
-
-
-def _argument(value: Any) -> str:
-    shape = getattr(value, "shape", None)
-    return show(value, 30) if shape is None or value.size <= 4 else f"<array {shape}>"

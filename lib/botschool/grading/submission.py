@@ -5,54 +5,31 @@ from __future__ import annotations
 import re
 import shutil
 import tempfile
-import traceback
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TypeVar
 
-from botschool.errors import BotschoolError
 from botschool.grading.cells import Script, Unreadable, scripts
-from botschool.grading.checks import Wrong, plain
+from botschool.grading.checks import Wrong
 from botschool.grading.confined import (
-    MachineFault,
     fork_server,
-    machine_fault,
     submission_files,
 )
 from botschool.grading.exercise import Exercise, Task
+from botschool.grading.failures import Origin
+from botschool.grading.judging import TaskResult, grade_task, tried_twice
+from botschool.grading.references import functions_of, pruned
 from botschool.grading.student import Student
-from botschool.grading.timelimit import TookTooLong, processor_time_limit
 from botschool.sandbox import ForkServer
 
-T = TypeVar("T")
 LOADING_SECONDS = 10
 """Processor time for all that a file or a notebook does besides defining functions."""
-CHECK_SECONDS = 20
-"""Processor time that a check may use in the grader's own thread; our solutions need up to 3."""
 _CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
 _DEFINITION = re.compile(r"^(async def|def|class)\b", re.MULTILINE)
-_LINE = re.compile(r" in line (\d+)")
-_FILE = re.compile(r" \(\w+\.py, line \d+\)")
-
-
-@dataclass
-class TaskResult:
-    """What a submission got for a task."""
-
-    id: str
-    title: str
-    points: int
-    max_points: int
-    message: str
-    """Why points are missing, in sentences; empty for full marks."""
-    printed: str = ""
-    """The beginning of what the submission printed."""
-    missing: list[str] = field(default_factory=list)
-    """What this system could not confine, in words."""
-    pictures: list[tuple[str, bytes]] = field(default_factory=list)
-    """(name, PNG) of those beside the submission's file after the task."""
+_NAME = re.compile(r"^\s*(?:async\s+def|def|class)\s+(\w+)", re.MULTILINE)
+_DOES, _PLACE = ("does", "do"), ("its", "their")
+_NOT_GRADED = "Not graded: mend the file first, as said above."
 
 
 @dataclass
@@ -62,6 +39,8 @@ class Result:
     exercise: int
     title: str
     tasks: list[TaskResult]
+    banner: str = ""
+    """What is to be mended before anything else: why the file cannot be loaded."""
 
     @property
     def points(self) -> int:
@@ -84,12 +63,9 @@ class Result:
             "exercise": self.exercise,
             "points": self.points,
             "max_points": self.max_points,
+            "banner": self.banner,
             "tasks": tasks,
         }
-
-
-class GraderFault(BotschoolError):
-    """A check failed by a fault of its own, not by what a submission did."""
 
 
 def grade(
@@ -99,22 +75,26 @@ def grade(
     tasks: Iterable[Task] | None = None,
     server: ForkServer | None = None,
     alone: bool = True,
+    announce: Callable[[str], None] = lambda banner: None,
 ) -> Result:
     """Grades a submission's file; reports each task as soon as it is judged.
 
-    tasks: else all; server: else one is made and closed.
+    announce: is called before, with the banner if there is one. tasks: else all; server: else one
+    is made and closed.
     alone: whether no others are graded at the same time; what may be the fault of the machine is
     then tried once more. Raises BotschoolError, of which MachineFault says that it was its fault.
     """
     if server is None:
         with fork_server(exercise.imports) as own:
-            return grade(exercise, file, report, tasks, own, alone)
+            return grade(exercise, file, report, tasks, own, alone, announce)
     results = []
-    with Submission(file, server, alone=alone) as submission:
+    with Submission(file, server, alone=alone, exercise=exercise) as submission:
+        if submission.banner:
+            announce(submission.banner)
         for task in exercise.tasks if tasks is None else tasks:
             results.append(submission.grade(task))
             report(results[-1])
-    return Result(exercise.number, exercise.title, results)
+    return Result(exercise.number, exercise.title, results, submission.banner)
 
 
 class Submission:
@@ -131,27 +111,33 @@ class Submission:
         sources: list[str] | None = None,
         name: str = "",
         alone: bool = True,
+        exercise: Exercise | None = None,
     ) -> None:
         """sources: of a notebook (the file), the texts of its code cells; name: of its script.
 
-        alone: as of `grade`.
+        alone: as of `grade`. exercise: what its tasks need of each other is graded with our
+        functions, too.
         """
         self._alone = alone
         self._given = file
         self._sources = sources
         self._server = server
+        self._exercise = exercise
         self._base = Path(tempfile.mkdtemp(prefix="botschool-"))
         self._file = self._base / "submission" / (name or file.name)
         self._script: Script | None = None
         self._starts: list[int] = []
-        self._notes: list[str] = []
+        self._results: dict[str, TaskResult] = {}
+        self._lost: dict[str, str] = {}
         self._failure = ""
+        self.banner = ""
+        """Why the file, or a part of it, cannot be loaded; in some lines."""
 
     def __enter__(self) -> Submission:
         try:
             self._prepare()
         except (Wrong, Unreadable) as error:
-            self._failure = str(error)
+            self.banner, self._failure = self.banner or str(error), _NOT_GRADED
         except BaseException:
             self.__exit__()
             raise
@@ -164,39 +150,82 @@ class Submission:
         """Grades a task; lines in the message are those of the file, or of a notebook's cell."""
         if self._failure:
             return TaskResult(task.id, task.title, 0, task.max_points, self._failure)
+        if task.id not in self._results:
+            result = self._attempt(task)
+            if self._exercise is not None and result.points < result.max_points:
+                result = self._with_references(task, result)
+            self._results[task.id] = result
+        return self._results[task.id]
+
+    def _attempt(self, task: Task, references: dict | None = None) -> TaskResult:
         file = self._file if self._script else self._given
-        result = grade_task(task, file, self._server, self._alone)
-        result.message = self._placed(result.message)
-        if result.message:
-            result.message = "\n".join([result.message, *self._notes])
+        origin = Origin(self._place if self._script else None, self._lost)
+        return grade_task(task, file, self._server, self._alone, origin, references)
+
+    def _with_references(self, task: Task, result: TaskResult) -> TaskResult:
+        """The result, or a better one with our functions of tasks that do not pass."""
+        exercise, own = self._exercise, f"not done yet: task {task.id}:"
+        if not exercise.references or not task.needs or own in result.message:
+            return result
+        needed = exercise.needed(task)
+        functions = functions_of(exercise.references)
+        broken = [
+            each
+            for each in needed
+            if each.id in functions and self.grade(each).points < each.max_points
+        ]
+        if not broken:
+            return result
+        names = [name for each in broken for name in functions[each.id]]
+        source = pruned(exercise.references, [each.id for each in needed])
+        again = self._attempt(task, {"source": source, "names": names})
+        which = " and ".join(f"{each.id} ({', '.join(functions[each.id])})" for each in broken)
+        yours = f"It calls yours of task {which}, which {_DOES[len(broken) > 1]} not pass yet"
+        if again.points <= result.points:
+            lines = [f"{yours}; with ours in their place this task fails as well.", again.message]
+            result.message = "\n".join(filter(None, [lines[1] or result.message, lines[0]]))
+            return result
+        full = again.points == again.max_points
+        end = "and gets all of its points" if full else "and still loses points"
+        note = f"{yours}: graded with ours in {_PLACE[len(names) > 1]} place, {end}."
+        result.points = again.points
+        result.message = "\n".join(filter(None, [note, again.message]))
         return result
 
     def _prepare(self) -> None:
-        what = "Your file" if self._sources is None else "The notebook"
         if self._sources is not None:
             everything, defined = scripts(self._sources)
             self._write(everything)
         file = self._file if self._script else self._given
-        trouble = _twice(partial(_trouble, file, self._server), self._alone)
-        if not trouble:
+        place = self._place if self._script else None
+        trouble = tried_twice(partial(_trouble, file, self._server, Origin(place)), self._alone)
+        if trouble is None:
             return
-        trouble = self._placed(trouble).removeprefix("Your file cannot be loaded: ").rstrip(".")
+        self.banner = getattr(trouble, "banner", str(trouble))
+        if self._sources is not None:
+            self.banner = self.banner.replace("Your file", "The notebook", 1)
         if self._sources is None:
             everything, defined = scripts(self._cells())
         if not _DEFINITION.search(defined.text):
-            raise Wrong(f"{what} cannot be loaded: {trouble}.")
+            raise Wrong(_NOT_GRADED)
         self._write(defined)
-        self._notes = [
-            f"{what} as a whole cannot be loaded ({trouble}), so only functions, classes and "
-            "imports count, with the names that these use."
-        ]
+        self.banner += (
+            "\nUntil then only functions, classes and imports count, with the names that they use."
+        )
+        parts = self._sources if self._sources is not None else _CELL.split(self._text())
         for number in defined.left_out:
-            self._notes.append(f"{self._cell(number).capitalize()} is no Python: left out.")
+            part = self._cell(number)
+            names = _NAME.findall(parts[number - 1])
+            lost = f" ({', '.join(names)})" if names else ""
+            self.banner += f"\n{part[:1].upper()}{part[1:]} is no Python: left out{lost}."
+            self._lost |= dict.fromkeys(names, part)
+
+    def _text(self) -> str:
+        return self._given.read_bytes().decode("utf-8", "replace").replace("\r\n", "\n")
 
     def _cells(self) -> list[str]:
         """Of a script; notes the line before each."""
-        text = self._given.read_bytes().decode("utf-8", "replace").replace("\r\n", "\n")
-        cells = _CELL.split(text)
+        cells = _CELL.split(self._text())
         self._starts = [0]
         for cell in cells:
             self._starts.append(self._starts[-1] + cell.count("\n"))
@@ -213,17 +242,14 @@ class Submission:
         self._script = script
         self._file.write_bytes(script.text.encode("utf-8", "replace"))
 
-    def _placed(self, message: str) -> str:
-        def place(found: re.Match) -> str:
-            line = int(found[1])
-            if self._script is None or not 1 <= line <= len(self._script.places):
-                return found[0]
-            number, inside = self._script.places[line - 1]
-            if self._sources is None:
-                return f" in line {self._starts[number - 1] + inside}"
-            return f" in line {inside} of {self._cell(number)}"
-
-        return _LINE.sub(place, _FILE.sub("", message))
+    def _place(self, line: int) -> str:
+        """Where a line of the script stands in the file, or in which cell of the notebook."""
+        if not 1 <= line <= len(self._script.places):
+            return f"line {line}"
+        number, inside = self._script.places[line - 1]
+        if self._sources is None:
+            return f"{self._given.name}:{self._starts[number - 1] + inside}"
+        return f"line {inside} of {self._cell(number)}"
 
     def _cell(self, number: int) -> str:
         if self._sources is None:
@@ -234,18 +260,8 @@ class Submission:
         return f"the cell '{shown[:40]}{'...' if len(shown) > 40 else ''}'"
 
 
-def _twice(attempt: Callable[[bool], T], alone: bool) -> T:
-    """attempt(whether it was tried before), once more after a MachineFault if nobody else runs."""
-    try:
-        return attempt(False)
-    except MachineFault:
-        if not alone:
-            raise
-    return attempt(True)
-
-
-def _trouble(file: Path, server: ForkServer, tried: bool) -> str:
-    """Why a submission's file cannot be loaded, in a sentence; "" if it can.
+def _trouble(file: Path, server: ForkServer, origin: Origin, tried: bool) -> Wrong | None:
+    """Why a submission's file cannot be loaded; None if it can.
 
     Raises Wrong when it may not be.
     """
@@ -253,81 +269,11 @@ def _trouble(file: Path, server: ForkServer, tried: bool) -> str:
     def loads(module):
         return True
 
-    student = Student(file, LOADING_SECONDS, server=server, tried=tried)
+    student = Student(file, LOADING_SECONDS, server=server, tried=tried, origin=origin)
     try:
         student.run(loads, said="the code outside functions")
     except Wrong as error:
-        return str(error)
+        return error
     finally:
         student.close()
-    return ""
-
-
-def grade_task(task: Task, file: Path, server: ForkServer, alone: bool = True) -> TaskResult:
-    """Runs a task's checks on a file, in a child of its own; alone: as of `grade`.
-
-    Raises BotschoolError.
-    """
-    return _twice(partial(_grade_task, task, file, server), alone)
-
-
-def _grade_task(task: Task, file: Path, server: ForkServer, tried: bool) -> TaskResult:
-    result = TaskResult(task.id, task.title, 0, task.max_points, "")
-    problems: list[str] = []
-    student = None
-    try:
-        student = Student(file, task.seconds, task.memory, server, tried, task.refused)
-        for worth, _, check in task.checks:
-            problem = _problem(task, check, student)
-            if problem is None:
-                result.points += worth
-            else:
-                problems.append(problem)
-        student.stop()
-        result.printed, result.missing = plain(student.printed), student.missing
-        result.pictures = student.pictures()
-    except Wrong as error:
-        problems.append(str(error))
-    finally:
-        if student is not None:
-            student.close()
-    result.message = plain("\n".join(dict.fromkeys(problems)))
-    return result
-
-
-def _problem(task: Task, check: Callable[[Student], None], student: Student) -> str | None:
-    """Why a check is not passed, in a sentence; None when it is."""
-    answers = student.answers
-    try:
-        with processor_time_limit(CHECK_SECONDS):
-            check(student)
-    except TookTooLong:
-        return f"{student.said} returned something that takes too long to judge."
-    except Wrong as error:
-        return str(error)
-    except BotschoolError:
-        raise  # the grader's own trouble, not the submission's
-    except OSError as error:
-        fault = machine_fault(error)
-        if isinstance(fault, MachineFault):
-            raise fault from error
-        return _unjudged(task, student, answers, error)
-    except Exception as error:
-        return _unjudged(task, student, answers, error)
     return None
-
-
-def _unjudged(task: Task, student: Student, answers: int, error: Exception) -> str:
-    """An exception in a check: a sentence. Raises GraderFault if no answer can have caused it."""
-    said = f"{type(error).__name__}: {str(error)[:200]}"
-    # with nothing from the submission at hand, or by a name that is not there
-    if student.answers == answers or isinstance(error, (NameError, ImportError)):
-        place = traceback.extract_tb(error.__traceback__)[-1]
-        raise GraderFault(
-            f"The grader of task {task.id} has a fault, which is not the submission's "
-            f"({said}, in {Path(place.filename).name} line {place.lineno}): it must be mended."
-        ) from error
-    return (
-        f"{student.said} returned something that cannot be judged ({said}). If it is what the "
-        "task asks for, tell your instructor."
-    )

@@ -68,5 +68,5 @@ def _once(
             raise Saved
         screen.task(result)
 
-    result = grade(exercise, file, report, tasks, server)
+    result = grade(exercise, file, report, tasks, server, announce=screen.banner)
     screen.end(result, whole=len(tasks) == len(exercise.tasks))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import signal
 import threading
 from collections.abc import Iterable
@@ -24,6 +25,8 @@ MAX_OUTPUT = 16 * 2**20
 MAX_FILE = 64 * 2**20
 """Bytes of a written file."""
 MAX_THREADS = 64
+WHERE_SECONDS, MAX_TRACE = 1.0, 2**16
+"""For an answer to where it is; bytes of it."""
 POLL_SECONDS = 0.1
 """Seconds between two looks at what the child uses."""
 
@@ -48,9 +51,11 @@ class Child:
         file: str,
         limits: Limits,
         readable: Iterable[Path] = (),
+        references: dict[str, Any] | None = None,
     ) -> None:
         """file: the name of the untrusted file in the scratch folder; readable: what it may read.
 
+        references: {"source", "names"}: functions that take the place of the file's own ones.
         Raises SandboxError.
         """
         self._server = server
@@ -75,16 +80,19 @@ class Child:
             for fd in (to_child, from_child, its_output):
                 os.close(fd)
         threading.Thread(target=self._drain, daemon=True).start()
-        self.missing = self._set_up(file, limits, readable)
+        self.missing = self._set_up(file, limits, readable, references)
         """What this system cannot confine: some of "files", "processes", "network"."""
         threading.Thread(target=self._look, daemon=True).start()
 
-    def _set_up(self, file: str, limits: Limits, readable: Iterable[Path]) -> list[str]:
+    def _set_up(
+        self, file: str, limits: Limits, readable: Iterable[Path], references: dict | None
+    ) -> list[str]:
         set_up = {
             "file": str(self._scratch.folder / file),
             "seconds": limits.seconds,
             "memory": limits.memory,
             "file_size": MAX_FILE,
+            "references": references,
             "environment": homes(self._scratch.root),
             "readable": [str(path) for path in readable],
             "writable": [str(self._scratch.root), "/dev/null"],
@@ -113,6 +121,29 @@ class Child:
         if answer is not None and not isinstance(answer, dict):
             raise ValueError("not an answer")
         return answer
+
+    def where(self) -> list[tuple[str, int]]:
+        """(file, line) of the untrusted code that runs just now, the innermost call first.
+
+        File is a name in the scratch folder. The answer of a process that does not tell is []; one
+        that has been asked can answer nothing else any more. Like all it says, it may be a lie.
+        """
+        with self._ending:
+            if self._code is not None:
+                return []
+            with contextlib.suppress(OSError):
+                os.kill(self._pid, signal.SIGUSR1)
+        told = protocol.read_some(self._answers, MAX_TRACE, WHERE_SECONDS).decode(errors="replace")
+        threads = re.split(r"(?=^(?:Current thread|Thread) 0x)", told, flags=re.MULTILINE)
+        threads.sort(key=lambda thread: not thread.startswith("Current"))
+        inside = re.compile(
+            rf'^  File "{re.escape(str(self._scratch.folder))}/(.+)", line (\d+) in'
+        )
+        for thread in threads:
+            found = [inside.match(line) for line in thread.splitlines()]
+            if any(found):
+                return [(each[1], int(each[2])) for each in found if each]
+        return []
 
     def printed(self) -> str:
         """The beginning of what the child has printed."""

@@ -82,6 +82,21 @@ def receive(fd: int, seconds: float | Left) -> bytes | None:
     return None if rest is None else head + rest
 
 
+def read_some(fd: int, most: int, seconds: float) -> bytes:
+    """What arrives from a pipe within some seconds, until nothing has come for a while."""
+    parts, deadline = bytearray(), time.monotonic() + seconds
+    with selectors.DefaultSelector() as selector:
+        selector.register(fd, selectors.EVENT_READ)
+        while len(parts) < most and (left := deadline - time.monotonic()) > 0:
+            if not selector.select(min(left, 2 * POLL_SECONDS) if parts else left):
+                break
+            part = os.read(fd, most - len(parts))
+            if not part:
+                break
+            parts += part
+    return bytes(parts)
+
+
 def send(fd: int, message: bytes, seconds: float | Left) -> None:
     """Writes to a pipe that does not block. Raises TimeoutError and BrokenPipeError.
 

@@ -1,4 +1,4 @@
-# loses: 1.2, 1.6
+# loses: 1.2
 # Looks at `terminated` alone, and goes on when the time limit is over.
 def random_episode(environment_id, seed, maxsteps):
     env = gymnasium.make(environment_id)

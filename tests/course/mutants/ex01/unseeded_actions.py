@@ -1,4 +1,4 @@
-# loses: 1.2, 1.6
+# loses: 1.2
 # Seeds the reset, but not the action space: no episode can be repeated.
 def random_episode(environment_id, seed, maxsteps):
     env = gymnasium.make(environment_id)

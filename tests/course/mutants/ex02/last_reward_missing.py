@@ -1,4 +1,4 @@
-# loses: 2.5, 2.6, 2.8
+# loses: 2.5
 # The return leaves out the reward of the last step.
 def run_episode(environment_id, network, seed, maxsteps=200):
     env = gymnasium.make(environment_id)

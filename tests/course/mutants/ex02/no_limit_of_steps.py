@@ -1,4 +1,4 @@
-# loses: 2.5, 2.6, 2.8
+# loses: 2.5
 # Ignores maxsteps.
 _run_episode = run_episode
 

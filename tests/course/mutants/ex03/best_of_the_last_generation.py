@@ -1,4 +1,4 @@
-# loses: 3.4, 3.5
+# loses: 3.4
 # Reports the best of the last generation instead of the best of all.
 def evolve(evaluate, population, generations, mutrate, seed):
     rng = np.random.default_rng(seed)

@@ -1,4 +1,4 @@
-# loses: 3.3, 3.4, 3.5
+# loses: 3.3
 # The better half is mutated too, so that good solutions get lost.
 def next_population(population, fitness, mutrate, rng):
     ranking = rank(fitness)

@@ -1,4 +1,4 @@
-# loses: 4.4, 4.6
+# loses: 4.4
 # Takes the numbers of a column to lie one after another in the file.
 def read_stat(path):
     table = np.load(path).reshape(len(COLUMNS), -1)

@@ -1,4 +1,4 @@
-# loses: 5.3, 5.4
+# loses: 5.3
 # Takes the default angle of each segment for its angle against the ground.
 _joints_of_outline = joints
 

@@ -1,4 +1,4 @@
-# loses: 5.2, 5.3, 5.4
+# loses: 5.2
 # Scales the default angles without cutting them off.
 _joints = joints
 

@@ -1,4 +1,4 @@
-# loses: 5.6, 5.7
+# loses: 5.6
 # Forgets the means and deviations that follow the body.
 def body_of(genotype):
     return genotype[-BODY:]

@@ -1,4 +1,4 @@
-# loses: 5.1, 5.4
+# loses: 5.1
 # Lets the density vary by 80 %, instead of by 0.8.
 _sizes = sizes
 

@@ -1,4 +1,4 @@
-# loses: 5.2, 5.4
+# loses: 5.2
 # Takes the first limit of each joint for the lower one.
 _joints = joints
 

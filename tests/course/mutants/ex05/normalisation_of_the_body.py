@@ -1,4 +1,4 @@
-# loses: 5.6, 5.7
+# loses: 5.6
 # Lets the means and deviations move along with the body.
 def transplant(brain, body):
     chimera = brain.copy()

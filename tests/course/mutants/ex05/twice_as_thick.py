@@ -1,4 +1,4 @@
-# loses: 5.3, 5.4
+# loses: 5.3
 # Goes a whole thickness to each side.
 def outline(parameters):
     size = sizes(parameters)

@@ -1,4 +1,4 @@
-# loses: 6.2, 6.6
+# loses: 6.2
 # Tells `remember` that the first step is number 1.
 _episode = episode
 

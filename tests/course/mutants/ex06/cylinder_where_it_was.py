@@ -1,4 +1,4 @@
-# loses: 6.2, 6.6
+# loses: 6.2
 # Leaves the cylinder where the seed has put it.
 _episode = episode
 

@@ -1,4 +1,4 @@
-# loses: 6.1, 6.2, 6.6
+# loses: 6.1
 # Writes the new memory into the array of the old one.
 _think = think
 

@@ -1,4 +1,4 @@
-# loses: 6.2, 6.6
+# loses: 6.2
 # Does not ask what is to be remembered.
 _episode = episode
 

@@ -1,4 +1,4 @@
-# loses: 7.1, 7.2, 7.4
+# loses: 7.1
 # Cosine and sine are taken for each other.
 def to_state(observation):
     observation = np.asarray(observation, dtype=float)

@@ -1,4 +1,4 @@
-# loses: 8.5, 8.6, 8.8
+# loses: 8.5
 # Hands the corrected m and v on to the next generation.
 def adam(centre, d, m, v, t, stepsize):
     m = (0.9 * m + 0.1 * d) / (1 - 0.9**t)

@@ -1,4 +1,4 @@
-# loses: 8.4, 8.6, 8.8
+# loses: 8.4
 # Gives the gradient itself to the optimiser, which then reduces fitness.
 def descent(gradient, centre, wdecay):
     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]

@@ -1,4 +1,4 @@
-# loses: 8.6, 8.8
+# loses: 8.6
 # Counts from 0 in Adam, whose correction then divides by 0.
 def evolve(
     evaluate, centre, generations, seed, samplesize=20, noiseStdDev=0.02, stepsize=0.01, wdecay=0

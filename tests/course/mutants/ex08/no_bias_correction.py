@@ -1,4 +1,4 @@
-# loses: 8.5, 8.6
+# loses: 8.5
 # Leaves the bias correction out.
 def adam(centre, d, m, v, t, stepsize):
     m = 0.9 * m + 0.1 * d

@@ -1,4 +1,4 @@
-# loses: 9.2, 9.3
+# loses: 9.2
 # Adds the costs of the joints up instead of taking their mean.
 _electricity = electricity
 

@@ -1,4 +1,4 @@
-# loses: 9.1, 9.3
+# loses: 9.1
 # The fallen get 0 instead of -1.
 _alive_bonus = alive_bonus
 

@@ -1,4 +1,4 @@
-# loses: 9.2, 9.3
+# loses: 9.2
 # A Humanoid's electricity costs no more than that of others.
 _electricity = electricity
 

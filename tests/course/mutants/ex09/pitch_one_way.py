@@ -1,4 +1,4 @@
-# loses: 9.1, 9.3, 9.5, 9.6
+# loses: 9.1
 # A robot may lean back as far as it likes.
 _alive_bonus = alive_bonus
 

@@ -1,4 +1,4 @@
-# loses: 9.5, 9.6
+# loses: 9.5
 # The share of standing is taken of the whole reward, costs included.
 _gait = gait
 

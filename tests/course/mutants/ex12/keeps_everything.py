@@ -1,4 +1,4 @@
-# loses: 12.4, 12.8
+# loses: 12.4
 # Learns from all episodes, good or bad.
 _elite = elite
 

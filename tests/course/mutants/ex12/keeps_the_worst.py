@@ -1,4 +1,4 @@
-# loses: 12.4, 12.8
+# loses: 12.4
 # Learns from the worst episodes.
 def elite(episodes, percentile):
     bound = float(np.percentile([episode["return"] for episode in episodes], percentile))

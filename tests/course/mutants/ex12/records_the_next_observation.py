@@ -1,4 +1,4 @@
-# loses: 12.3, 12.8
+# loses: 12.3
 # Records what was observed after each action instead of before it.
 _run_episode = run_episode
 

@@ -1,0 +1,95 @@
+"""A wrong answer beside the right one, as diagnosis.py looks at it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+MAX_NUMBERS = 1_000_000
+"""In an answer that is looked at."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Two arrays of finite float64 that differ, and what was asked."""
+
+    got: np.ndarray
+    wanted: np.ndarray
+    arguments: tuple = ()
+    """Of the call."""
+    answer: Any = None
+    """The whole answer, of which `got` may be a part."""
+
+    def same(self, candidate: Any) -> bool:
+        """Whether the answer is this, to rounding (single precision included)."""
+        return alike(self.got, candidate)
+
+    @cached_property
+    def varied(self) -> int:
+        """How many different numbers were wanted, without 0: what little there is proves little."""
+        return len(np.unique(self.wanted[self.wanted != 0]))
+
+    @cached_property
+    def telling(self) -> bool:
+        """Whether a factor or formula cannot fit by chance: not just one or two small integers."""
+        whole = np.all(self.wanted == np.round(self.wanted)) and np.abs(self.wanted).max() < 100
+        return self.varied >= (3 if whole else 1)
+
+    @cached_property
+    def given(self) -> list[np.ndarray]:
+        """The arrays of numbers among the arguments, and in lists and dicts there."""
+        return [each for each in arrays(self.arguments, 0) if each.size <= MAX_NUMBERS]
+
+    @cached_property
+    def counts(self) -> list[int]:
+        """Numbers of things: lengths of the arguments and the answer, and small integers."""
+        found = set(self.wanted.shape)
+        found |= {len(each) for each in self.arguments if isinstance(each, (list, dict))}
+        for each in self.given:
+            found |= {*each.shape, each.size}
+            if each.ndim == 0 and each == np.round(each) and abs(float(each)) < 10_000:
+                found.add(int(each))
+        return sorted(n for n in found if n > 2)
+
+
+def alike(one: Any, other: Any) -> bool:
+    """Whether two arrays are the same, to rounding."""
+    one, other = np.asarray(one, dtype=np.float64), np.asarray(other, dtype=np.float64)
+    if one.shape != other.shape or not np.all(np.isfinite(other)):
+        return False
+    scale = float(np.abs(other).max()) if other.size else 0.0
+    return bool(np.allclose(one, other, rtol=1e-5, atol=1e-7 * scale))
+
+
+def arrays(value: Any, depth: int = 0) -> list[np.ndarray]:
+    """The arrays of numbers in a value of plain data; a list of numbers is one."""
+    if isinstance(value, np.ndarray):
+        return [value.astype(np.float64)] if value.dtype.kind in "biuf" else []
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return [np.asarray(value, dtype=np.float64)] if abs(value) < 1e300 else []
+    if isinstance(value, dict):
+        value = list(value.values())
+    if not isinstance(value, (list, tuple)) or depth > 3 or len(value) > 1000:
+        return []
+    found = [each for part in value for each in arrays(part, depth + 1)]
+    if value and all(isinstance(each, (int, float)) for each in value):
+        return [np.asarray(value, dtype=np.float64)]
+    return found
+
+
+def parts(answer: Any, depth: int = 0) -> list[tuple[str, Any]]:
+    """(its name, value) of the parts of an answer that are numbers or arrays of them; a few."""
+    found: list[tuple[str, Any]] = []
+    if depth > 2 or not isinstance(answer, (dict, list)):
+        return found
+    named = isinstance(answer, dict)
+    entries = answer.items() if named else enumerate(answer, 1)
+    for _, (key, value) in zip(range(50), entries, strict=False):
+        if isinstance(value, dict) or (isinstance(value, list) and not arrays(value)):
+            found += parts(value, depth + 1)
+        elif isinstance(value, (list, np.ndarray, int, float)) and not isinstance(value, bool):
+            found.append((repr(key) if named else f"number {key} of your values", value))
+    return found

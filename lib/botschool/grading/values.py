@@ -1,0 +1,150 @@
+"""Values in words, for sentences about answers: what they are, few numbers of many, calls to paste.
+
+All of it takes bounded work, whatever a submission returns.
+"""
+
+from __future__ import annotations
+
+import reprlib
+from typing import Any
+
+import numpy as np
+
+FEW = 6
+"""Numbers of an array that are all shown."""
+PASTED = 24
+"""Numbers in an argument of a call that can be pasted; characters of others."""
+MAX_CALL = 300
+"""Characters of a call that can be pasted."""
+DIGITS = 6
+"""At least; more where two numbers differ only in later ones."""
+
+
+class _Short(reprlib.Repr):
+    """repr() in bounded work: of a value that holds others, again and again the same perhaps."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlist = self.maxtuple = self.maxset = self.maxfrozenset = self.maxdict = 400
+        self.maxstring = self.maxlong = self.maxother = 400
+        self._left = 1000
+
+    def repr1(self, value: Any, level: int) -> str:
+        self._left -= 1
+        return super().repr1(value, level) if self._left > 0 else "..."
+
+    def repr_int(self, value: int, level: int) -> str:
+        many = value.bit_length()
+        return super().repr_int(value, level) if many < 4000 else f"an integer of {many} bits"
+
+
+def show(value: Any, longest: int = 60) -> str:
+    """A value in a few words."""
+    if isinstance(value, np.ndarray):
+        if value.size > FEW:
+            start = numbers(value.ravel()[:4], 5)
+            return f"an array of shape {value.shape} that starts {start}..."
+        return numbers(value, 5) if value.ndim else f"{value.item():.6g}"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    text = _Short().repr(value)
+    return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
+def numbers(array: np.ndarray, digits: int) -> str:
+    """A small array in one line; digits: behind the point, at most."""
+    text = np.array2string(array, precision=digits, separator=", ", threshold=8)
+    return " ".join(text.split()).replace("[ ", "[").replace(" ,", ",")
+
+
+def kind(value: Any) -> str:
+    """What a value is: "a list of 3 numbers", "an array of shape (3,) (float64)"."""
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape} ({value.dtype.name})"
+    if isinstance(value, list):
+        return _kind_of_list(value)
+    if isinstance(value, dict):
+        return f"a dict with the keys {show(list(value))}" if value else "an empty dict"
+    names = {bool: "the truth value", int: "the number", float: "the number", str: "the text"}
+    return f"{names.get(type(value), '')} {show(value)}".strip()
+
+
+def _kind_of_list(value: list) -> str:
+    if not value:
+        return "an empty list"
+    kinds = {type(each) for each in value[:1000]}
+    many = f"{len(value)} " if len(value) > 1 else "one "
+    if kinds <= {int, float}:
+        return f"a list of {many}number" + "s" * (len(value) > 1)
+    single = {list: "list", dict: "dict", np.ndarray: "array", str: "text", bool: "truth value"}
+    if len(kinds) == 1 and kinds <= single.keys():
+        name = single[kinds.pop()] + "s" * (len(value) > 1)
+        inner = f", the first of which is {kind(value[0])}" if name.startswith(("l", "a")) else ""
+        return f"a list of {many}{name}{inner}"
+    return f"a list of {len(value)} values, {show(value)}"
+
+
+def apart(one: float, other: float) -> tuple[str, str]:
+    """Two different numbers with as many digits as they differ in."""
+    for digits in range(DIGITS, 18):
+        texts = f"{one:.{digits}g}", f"{other:.{digits}g}"
+        if texts[0] != texts[1]:
+            return texts
+    return repr(float(one)), repr(float(other))
+
+
+def arrays_apart(one: np.ndarray, other: np.ndarray) -> tuple[str, str]:
+    """Two small arrays of the same shape, likewise."""
+    for digits in range(5, 18):
+        texts = numbers(one, digits), numbers(other, digits)
+        if texts[0] != texts[1]:
+            return texts
+    return texts
+
+
+def argument(value: Any) -> str:
+    """An argument in the name of a call: few numbers, or the shape."""
+    if isinstance(value, np.ndarray):
+        return numbers(value, 5) if value.size <= 4 else f"<array {value.shape}>"
+    if isinstance(value, (list, tuple)) and len(repr_of(value)) > 30:
+        return f"<list of {len(value)}>"
+    return show(value, 30)
+
+
+def pasted(name: str, arguments: tuple, options: dict) -> str:
+    """A call that can be pasted into Python after `import numpy as np`; "" if it is too long."""
+    values = [paste(value) for value in (*arguments, *options.values())]
+    if not all(values):
+        return ""
+    names = [""] * len(arguments) + [f"{key}=" for key in options]
+    parts = [key + value for key, value in zip(names, values, strict=True)]
+    text = f"{name}({', '.join(parts)})"
+    return text if len(text) <= MAX_CALL else ""
+
+
+def paste(value: Any) -> str:
+    """A value as Python; "" if it is too large."""
+    if isinstance(value, np.ndarray):
+        if value.size > PASTED:
+            return ""
+        if value.ndim == 0:
+            return repr(value.item())
+        kept = "" if value.dtype in (np.float64, np.int64, np.bool_) else f", dtype='{value.dtype}'"
+        return f"np.array({value.tolist()!r}{kept})"
+    if isinstance(value, (np.generic,)):
+        return repr(value.item())
+    if isinstance(value, dict):
+        parts = [(key, paste(each)) for key, each in value.items()]
+        if len(parts) > PASTED or not all(text for _, text in parts):
+            return ""
+        return "{" + ", ".join(f"{key!r}: {text}" for key, text in parts) + "}"
+    if isinstance(value, (list, tuple)):
+        parts = [paste(each) for each in value[: PASTED + 1]]
+        return "" if len(parts) > PASTED or not all(parts) else f"[{', '.join(parts)}]"
+    text = repr_of(value)
+    return text if len(text) <= 120 else ""
+
+
+def repr_of(value: Any) -> str:
+    """repr() in bounded work."""
+    return _Short().repr(value)

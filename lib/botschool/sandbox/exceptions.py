@@ -1,0 +1,116 @@
+"""What a child tells of an exception: plain data, with the place in the untrusted files."""
+
+from __future__ import annotations
+
+import builtins
+import difflib
+import inspect
+import pkgutil
+import re
+import sys
+import traceback
+from collections.abc import Iterable
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+MAX_TEXT = 500
+MAX_NAMES, MAX_NAME = 5000, 60
+"""Among which the nearest is looked for; characters of each."""
+ALIKE = 0.7
+"""Ratio of difflib."""
+_WRONG_CALL = re.compile(r"(?:\w+\.)*(\w+)\(\) (?:missing|takes|got an unexpected|got multiple)")
+
+
+class Missing(Exception):
+    """There is no function of this name in the module."""
+
+    def __init__(self, name: str, module: Any) -> None:
+        super().__init__(name)
+        self.name, self.module = name, module
+
+
+def explain(error: BaseException, file: Path, module: Any = None) -> dict[str, Any]:
+    """An exception as plain data.
+
+    error, text: its type and what it says; file, line: the innermost place in the untrusted files
+    (the file's name in its folder), or None; column: of an error of syntax; near: a name that is
+    there and resembles one that is not; call: of what a call with other arguments than the grader's
+    should have looked like. A function that is not there is an error "Missing", and a call that
+    does not fit its parameters one "Signature"; the text of these is the function's name.
+    """
+    folder = file.parent
+    frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
+    lines = [line for _, line in traceback.walk_tb(error.__traceback__)]
+    places = [
+        (name, line)
+        for frame, line in zip(frames, lines, strict=True)
+        if (name := _inside(frame.f_code.co_filename, folder))
+    ]
+    name, line = places[-1] if places else (None, None)
+    told = {"error": type(error).__name__, "text": str(error)[:MAX_TEXT], "file": name,
+            "line": line, "column": None, "near": None, "call": None}  # fmt: skip
+    if isinstance(error, SyntaxError) and (own := _inside(str(error.filename), folder)):
+        text = str(error.msg)[:MAX_TEXT]
+        return told | {"text": text, "file": own, "line": error.lineno, "column": error.offset}
+    if missing := _missing(error, module if not places else None):
+        near = nearest(missing, _public(module))
+        return told | {"error": "Missing", "text": missing, "near": near}
+    if not places and isinstance(error, TypeError) and (found := _WRONG_CALL.match(str(error))):
+        function = getattr(module, found[1], None)
+        if function is not None:
+            call = f"{found[1]}{inspect.signature(function)}"[:MAX_TEXT]
+            return told | {"error": "Signature", "call": call}
+    return told | {"near": _near(error, frames[-1] if frames else None)}
+
+
+def _inside(filename: str, folder: Path) -> str | None:
+    """The name of a file in the folder, or below it."""
+    top = f"{folder}/"
+    return filename[len(top) :] if filename.startswith(top) else None
+
+
+def _missing(error: BaseException, module: Any) -> str | None:
+    """The name of what should be in the module: of a function called, or looked up by a driver."""
+    if isinstance(error, Missing):
+        return error.name
+    if isinstance(error, AttributeError) and module is not None and error.obj is module:
+        return error.name
+    return None
+
+
+def _public(module: Any) -> list[str]:
+    return [name for name, value in vars(module).items() if callable(value)] if module else []
+
+
+def _near(error: BaseException, frame: FrameType | None) -> str | None:
+    if isinstance(error, NameError) and error.name and frame is not None:
+        return nearest(error.name, [*frame.f_locals, *frame.f_globals, *vars(builtins)])
+    if isinstance(error, AttributeError) and error.name:
+        return nearest(error.name, dir(error.obj))
+    if isinstance(error, ModuleNotFoundError) and error.name:
+        loaded = {name.partition(".")[0] for name in sys.modules} - sys.stdlib_module_names
+        others = {each.name for each in pkgutil.iter_modules()} | sys.stdlib_module_names
+        return nearest(error.name, sorted(loaded)) or nearest(error.name, sorted(others))
+    if isinstance(error, ImportError) and error.name in sys.modules and error.args:
+        found = re.match(r"cannot import name '(\w+)'", str(error))
+        return nearest(found[1], dir(sys.modules[error.name])) if found else None
+    return None
+
+
+def nearest(name: str, names: Iterable[str]) -> str | None:
+    """The one of the names that resembles another one most, or None."""
+    known = [each for each in names if len(each) <= MAX_NAME and each != name][:MAX_NAMES]
+    if len(name) > MAX_NAME:
+        return None
+    if alike := [each for each in known if _plain(each) == _plain(name)]:
+        return alike[0]
+    found = difflib.get_close_matches(name, known, 1, ALIKE)
+    if not found:  # rank for rank_individuals, and the other way round
+        found = [each for each in known if min(len(each), len(name)) > 3 and (
+            each.startswith(name) or name.startswith(each))]  # fmt: skip
+    return found[0] if found else None
+
+
+def _plain(name: str) -> str:
+    return name.replace("_", "").lower()

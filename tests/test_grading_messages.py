@@ -1,0 +1,264 @@
+"""What the grader says to learners: where their mistake is, and what it looks like."""
+
+import re
+
+import numpy as np
+import pytest
+
+from botschool.grading import Exercise, Wrong, expect_array, expect_close, expect_fields
+from botschool.grading.confined import fork_server
+from botschool.grading.exercise import Exercise as Declared
+from botschool.grading.exercise import load_exercise
+from botschool.grading.looking import same
+from botschool.grading.submission import grade
+from botschool.grading.values import apart, kind, pasted, show
+from tiny_course import FILE, SOLUTION, make_course, submit
+
+
+@pytest.fixture(scope="module")
+def server():
+    with fork_server() as one:
+        yield one
+
+
+@pytest.fixture(scope="module")
+def course(tmp_path_factory):
+    return make_course(tmp_path_factory.mktemp("course") / "course")
+
+
+@pytest.fixture
+def graded(course, server, tmp_path, monkeypatch):
+    """Grades a submission with this text in the tiny exercise, or another one."""
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(course))
+
+    def grade_text(text, exercise=None):
+        file = submit(tmp_path / str(len(list(tmp_path.iterdir()))), text)
+        return grade(exercise or load_exercise(3, course), file, server=server)
+
+    return grade_text
+
+
+def asking(check, **options):
+    """An exercise of one task with this check."""
+    exercise = Exercise(3, "One", FILE)
+    exercise.task("3.1", "One", **options).check(10)(check)
+    return exercise
+
+
+def said(graded, text, check, **options):
+    return graded(text, asking(check, **options)).tasks[0].message
+
+
+# --- the file
+
+
+def test_no_python_is_said_once_with_line_and_caret(graded):
+    result = graded("import numpy as np\n\n\ndef double(x)\n    return 2 * x\n")
+    assert result.banner == (
+        "Your file is no Python yet. Mend this first:\n  tiny.py:4\n    def double(x)\n"
+        "                 ^\n  SyntaxError: expected ':'"
+    )
+    assert [task.message for task in result.tasks] == [
+        "Not graded: mend the file first, as said above."
+    ] * 2
+    assert result.to_json()["banner"] == result.banner
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("import nunpy as np", "ModuleNotFoundError: No module named 'nunpy'. Did you mean numpy?"),
+        ("from math import sqr", "Did you mean sqrt?"),
+        ("valeu = 1\nprint(value)", "NameError: name 'value' is not defined"),
+        ("class A:\nx = 1", "IndentationError: expected an indented block"),
+        ("import time\nwhile True: time.perf_counter()", "It was at tiny.py:2: while True"),
+    ],
+)
+def test_what_keeps_a_file_from_loading(graded, line, words, monkeypatch):
+    monkeypatch.setattr("botschool.grading.submission.LOADING_SECONDS", 1)
+    assert words in graded(line).banner
+
+
+def test_a_part_that_is_no_python_costs_what_stands_there(graded):
+    result = graded(
+        SOLUTION.replace("def total", "# %%\ndef total").replace("float(np", "float((np")
+    )
+    assert [task.points for task in result.tasks] == [60, 0]
+    assert re.search(r"part from line \d+ to \d+ is no Python: left out \(total\)", result.banner)
+    assert result.tasks[1].message.startswith("total cannot be read: the part from line")
+
+
+# --- functions
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("def doubled(x): pass", "there is no function double in your file; there is doubled"),
+        ("def Double(x): pass", "there is Double: give it the name double again"),
+        ("def f(x):\n    def double(y): pass", "one stands at tiny.py:2, but it is indented"),
+        ("", "there is no function double in your file: its name must be"),
+        ("def double(): pass", "cannot be called like this: double() takes 0 positional"),
+        ("def double(x, y): pass", "Yours is double(x, y): take the parameters"),
+    ],
+)
+def test_functions_that_are_not_there_or_take_something_else(graded, text, words):
+    message = graded(text + "\n").tasks[0].message
+    assert words in message
+    assert len(message.splitlines()) <= 2, "said once, though two checks fail"
+
+
+def test_a_driver_misses_a_function_too(graded):
+    def driver(module):
+        return module.double(1)
+
+    assert "there is duoble: give it" in said(
+        graded, "def duoble(x): return x\n", lambda student: student.run(driver)
+    )
+
+
+def test_exceptions_come_with_the_own_line(graded):
+    text = "import numpy as np\ndef double(x):\n    y = np.zeros(3)\n    return y.dott(x)\n"
+    message = graded(text).tasks[0].message
+    assert (
+        "raised AttributeError: 'numpy.ndarray' object has no attribute 'dott'. Did you mean dot?"
+        in message
+    )
+    assert "\n  tiny.py:4: return y.dott(x)" in message
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ("np.ones((2, 3)) @ np.ones((2, 3))", "transpose one"),
+        ("np.ones(2) + np.ones(3)", "print .shape of both"),
+        ("print() + 1", "Something is None"),
+        ("[a for a, b, c, d in [range(5)]]", "step returns"),
+        ("[1, 2] * 0.5", "A list is no array"),
+        ("np.zeros(3 / 1)", "whole number"),
+        ("np.array([[1], [1, 2]])", "the same length"),
+    ],
+)
+def test_what_an_exception_mostly_means(graded, body, words):
+    text = f"import numpy as np\ndef double(x): return {body}\n"
+    message = said(graded, text, lambda student: student.call("double", 1))
+    assert words in message.splitlines()[-1]
+
+
+def test_exceptions_in_a_file_beside_it(course, server, tmp_path):
+    file = submit(tmp_path, "import helper\ndef double(x): return helper.twice(x)\n")
+    (file.parent / "helper.py").write_text("def twice(x):\n    return x / []\n")
+    result = grade(load_exercise(3, course), file, server=server)
+    assert "\n  helper.py:2: return x / []" in result.tasks[0].message
+
+
+@pytest.mark.parametrize(
+    "body", ["while True: pass", "time.sleep(99)", "np.ones(9**8).sum() + g(x)"]
+)
+def test_where_an_endless_loop_was(graded, body):
+    text = f"import time\nimport numpy as np\ndef g(x):\n    {body}\ndef double(x):\n    g(x)\n"
+    message = said(graded, text, lambda student: student.call("double", 1), seconds=0.5)
+    if "g(x)" in body:
+        assert "RecursionError" in message or "It was at tiny.py:4" in message
+    else:
+        assert f"It was at tiny.py:4: {body}\n  called from tiny.py:6: g(x)" in message
+
+
+def test_what_cannot_be_sent_is_explained(graded):
+    for body, words in (("zip(x)", "list(...) makes a list"), ("print", "parentheses call it"),
+                        ("...", "write your own code"), ("{1}", "no order")):  # fmt: skip
+        text = f"def double(x): return {body}\n"
+        assert words in said(graded, text, lambda student: student.call("double", [1]))
+
+
+# --- comparisons
+
+
+def wrong(value, wanted, **options):
+    with pytest.raises(Wrong) as caught:
+        expect_close("f(1)", value, wanted, **options)
+    return str(caught.value)
+
+
+def test_types_and_shapes_are_said():
+    assert wrong([1, 2], np.zeros(3)) == (
+        "f(1) returned a list of 2 numbers, but an array of shape (3,) was expected."
+    )
+    assert "an array of shape (1, 3) (int64), but a" in wrong(np.ones((1, 3), int), np.zeros(3))
+    assert "returned None, but a single number is needed: does it end without" in wrong(None, 3)
+    assert "the text '3'" in wrong("3", 3) and "a dict with the keys ['a']" in wrong({"a": 1}, 3)
+    assert "list of 2 lists, the first of which is a list of 2 numbers (shape (2, 2))" in wrong(
+        [[1, 2], [3, 4]], [1.0, 2.0]
+    )
+    assert "a list of 2 texts, which is no array" in wrong(["a", "b"], [1.0, 2.0])
+    with pytest.raises(Wrong, match=r"NaN at \[1\] \(1 of 2 .*0 / 0"):
+        expect_array("f(1)", [1.0, float("nan")], (2,))
+    with pytest.raises(Wrong, match=r"infinity\. It comes of a division by 0"):
+        expect_array("f(1)", float("inf"), ())
+    with pytest.raises(Wrong, match=r"without 'best' \(it has 'Best': rename that\)"):
+        expect_fields("f(1)", {"Best": 1}, "best")
+
+
+def test_numbers_have_the_digits_in_which_they_differ():
+    assert wrong(1 / 3, 1 / 3 + 1e-8) == "f(1) returned 0.33333333, but 0.33333334 was expected."
+    assert wrong(0.5, 0.25) == "f(1) returned 0.5, but 0.25 was expected."
+    assert "[1., 2.0000001], but [1., 2." in wrong([1, 2.0000001], [1.0, 2.0])
+    many = np.arange(20.0)
+    assert "at [7] it is 7.000001, but 7 was expected (1 of 20 numbers differ)" in wrong(
+        many + 1e-6 * (many == 7), many
+    )
+    for one, other in ((1.0, 1.0 + 2**-52), (1e300, 1.1e300), (0.0, 1e-300)):
+        first, second = apart(one, other)
+        assert first != second and (float(first), float(second)) == (one, other)
+
+
+def test_values_are_described():
+    assert kind([]) == "an empty list" and kind([1]) == "a list of one number"
+    assert (
+        kind([np.zeros(2)])
+        == "a list of one array, the first of which is an array of shape (2,) (float64)"
+    )
+    assert kind(True) == "the truth value True" and kind(0.5) == "the number 0.5"
+    assert show(np.zeros((3, 4))) == "an array of shape (3, 4) that starts [0., 0., 0., 0.]..."
+
+
+def test_a_call_can_be_pasted():
+    arguments = ([1.5, "a"], {"x": np.arange(3)}, np.array([[0.1, 2]], dtype=np.float32), None)
+    text = pasted("f", arguments, {"seed": 3})
+    taken = eval(text, {"np": np, "f": lambda *a, seed: (a, seed)})
+    assert taken[1] == 3 and same(list(taken[0]), list(arguments))
+    assert taken[0][2].dtype == np.float32
+    assert pasted("f", (np.zeros(100),), {}) == "" and pasted("f", ("x" * 500,), {}) == ""
+
+
+def test_the_call_and_the_cause_stand_below(graded):
+    message = graded("def double(x): return -2 * x\n").tasks[0].message
+    first, cause, call, *_ = message.splitlines()
+    assert first.startswith("double([")
+    assert cause == "  Right but for the sign: it is turned around."
+    assert call.startswith("  To try it: double(np.array([")
+    assert eval(call.partition(": ")[2], {"np": np, "double": len}) == 4
+
+
+def test_what_two_calls_tell(graded):
+    random = "import random\ndef double(x): return x + random.random()\n"
+    assert "it gives different answers" in graded(random).tasks[0].message
+    kept = "def double(x):\n    x += 1\n    return x * x\n"
+    message = graded(kept).tasks[0].message
+    assert "It changes its argument number 1 in place" in message
+    assert "different answers" not in message
+    plain = graded("def double(x): return x * x * x\n").tasks[0].message
+    assert "in place" not in plain and "different answers" not in plain
+
+
+def test_two_calls_are_bounded_and_cost_no_time(graded):
+    """The second look happens in another child; what it does changes nothing of the points."""
+    text = (
+        "n = 0\ndef double(x):\n    global n\n    n += 1\n    while n % 2 == 0: pass\n"
+        "    return x * x * x\n"
+    )
+    exercise = asking(
+        lambda student: expect_close("d", student.call("double", 3.0), 6.0), seconds=9
+    )
+    assert graded(text, exercise).tasks[0].points == 0
+    assert isinstance(exercise, Declared)
