@@ -33,8 +33,11 @@ export SUBMISSION
 test-ex%: .venv/.module $$(call extras,$$*) FORCE ## grade exercise N; SUBMISSION=FOLDER grades another folder
 	@$(BIN)/botschool grade $* $(if $(SUBMISSION),--submission "$$SUBMISSION")
 
+notebook-ex%: .venv/.module $$(call extras,$$*) .venv/.extra-notebook FORCE ## open your file of exercise N as a notebook, in JupyterLab
+	@$(BIN)/botschool start $* --notebook
+
 # BEGIN NOT RELEASED
-.PHONY: test test-long check-course nbgrader skeletons bench results lint format sanitize
+.PHONY: test test-long check-course nbgrader figures skeletons bench results lint format sanitize
 test: .venv/.tests ## the tests that take seconds
 	@$(BIN)/python -m pytest -q
 
@@ -55,6 +58,9 @@ check-course: .venv/.tests ## prove that exercises and grading work (some minute
 
 bench: .venv/.module ## the speed of evaluation beside gymnax, EnvPool and Gymnasium
 	@$(BIN)/python tests/bench/run.py
+
+figures: .venv/.tests ## draw the pictures of the exercises' texts anew (docs/images/course)
+	@$(BIN)/python tools/figures $(ONLY)
 
 results: .venv/.bench ## measure all of docs/results.md anew and write it (about 40 minutes)
 	@$(BIN)/python tests/bench/results.py

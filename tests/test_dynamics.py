@@ -161,6 +161,6 @@ def test_state_can_be_set_and_read(name):
         with pytest.raises(ValueError, match="the state has"):
             stepper.state = bad
     with pytest.raises(ValueError, match="the action has"):
-        stepper.step(np.zeros(3))
+        stepper.step(np.zeros(5))
     with pytest.raises(TypeError):
         stepper.state = "left"

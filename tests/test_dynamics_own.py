@@ -246,6 +246,11 @@ LIMITS = {
     "ErDpole": 1000,
     "ErDiscrim": 500,
     "ErPredprey": 2000,
+    **{
+        f"Planar{body}-v{version}": 1000
+        for body in ("Hopper", "Walker2D", "HalfCheetah")
+        for version in (0, 5)
+    },
 }
 
 

@@ -16,7 +16,7 @@ import psutil
 import pytest
 
 from botschool.errors import BotschoolError
-from botschool.grading import batch
+from botschool.grading import batch, starting
 from botschool.grading.collect import grade_all, page_names
 from botschool.grading.exercise import load_exercise
 from botschool.grading.leaks import find_leaks
@@ -27,7 +27,7 @@ from botschool.grading.showing import show
 from botschool.grading.submission import grade
 from botschool.grading.watching import watch
 from botschool.sandbox import seccomp
-from running import call, environment_of_command, finish, start
+from running import call, environment_of_command, finish, one_sentence, start
 from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
 
 PNG = base64.b64decode(
@@ -99,16 +99,62 @@ def test_hint(course):
     assert "no more hints" in call("hint", "3.1")[1]
 
 
-def test_progress(course):
-    (course / "exercises" / FOLDER / FILE).write_text(
-        SOLUTION.replace("float(np.sum", "str(np.sum")
+def rows_of_progress(*arguments):
+    """The table's rows by exercise, and the whole."""
+    code, out, errors = call("progress", *arguments, env=environment_of_command(COLUMNS="80"))
+    assert (code, errors) == (0, "") and all(len(line) <= 80 for line in out.splitlines())
+    return {line.split()[0]: line for line in out.splitlines()}, out
+
+
+HALF = SOLUTION.replace("float(np.sum", "str(np.sum")
+
+
+def test_progress_grades_when_asked(course):
+    (course / "exercises" / FOLDER / FILE).write_text(HALF)
+    rows, out = rows_of_progress()
+    assert "? " in rows["3"] and "not graded yet" in rows["3"] and "progress --grade" in out
+    rows, out = rows_of_progress("--grade")
+    assert "1/2" in rows["3"] and " 60 " in rows["3"] and "3.2 Adding" in rows["3"]
+    assert "60 of 100 points" in out and "botschool grade 3.2" in out and "--grade" not in out
+    assert rows_of_progress() == (rows, out)
+
+
+def test_progress_shows_what_was_graded(course, monkeypatch):
+    """Without grading: the points of the last time, and whether the file is still the same."""
+    file = course / "exercises" / FOLDER / FILE
+    file.write_text(HALF)
+    call("grade", "3")
+    file.with_name("test_tiny.py").write_text(
+        file.with_name("test_tiny.py").read_text().replace("numbers + numbers", "1 / 0")
     )
-    code, out, _ = call("progress")
-    assert code == 0 and len(out.splitlines()) <= 22
-    lines = {line.split()[0]: line for line in out.splitlines()}
-    assert "1/2" in lines["3"] and " 60 " in lines["3"] and "3.2 Adding" in lines["3"]
-    assert "60 of 100 points" in out
-    assert all(len(line) <= 80 for line in out.splitlines())
+    rows, _ = rows_of_progress()
+    assert " 60 " in rows["3"] and "3.2 Adding" in rows["3"]
+    file.write_text(SOLUTION)
+    rows, out = rows_of_progress()
+    assert " 60 " in rows["3"] and "changed since" in rows["3"] and "progress --grade" in out
+    call("grade", "3.2")
+    rows, out = rows_of_progress()
+    assert " 100 " in rows["3"] and "changed since" in rows["3"]  # 3.1 was graded in another file
+    call("reset", "3")
+    assert " 0 " in rows_of_progress()[0]["3"]
+
+
+def test_progress_without_a_file_or_with_a_damaged_store(course):
+    file = course / "exercises" / FOLDER / FILE
+    file.write_text(SOLUTION)
+    call("grade", "3")
+    (stored,) = (course / ".botschool" / "last").iterdir()
+    for text in ("", "[]", '{"3.1": {"points": "x"}}'):
+        stored.write_text(text)
+        assert "not graded yet" in rows_of_progress()[0]["3"]
+    file.unlink()
+    assert "missing: botschool start 3" in rows_of_progress()[0]["3"]
+    assert "botschool start 3" in rows_of_progress("--grade")[0]["3"]
+
+
+def test_other_submissions_are_not_remembered(course):
+    call("grade", "3", "--submission", "solutions", cwd=course)
+    assert " 0 " in rows_of_progress()[0]["3"]
 
 
 def test_results_are_kept_by_content(course, tmp_path, monkeypatch):
@@ -252,6 +298,95 @@ def test_a_finished_file_is_run_in_results(course):
         show(3, str(course / "solutions"), course)
 
 
+DRAWING = (
+    SOLUTION.split("if __name__")[0]
+    + """
+import os
+
+if __name__ == "__main__":
+    os.makedirs("runs", exist_ok=True)
+    open("runs/a", "w").close()
+    open("runs/b", "w").close()
+    for name in ("a curve.png", "film.mp4", "replay.html", "table.csv"):
+        open(name, "w").close()
+"""
+)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="displays of Linux")
+def test_show_opens_what_was_made(course, tmp_path):
+    (course / "exercises" / FOLDER / FILE).write_text(DRAWING)
+    browser, opened = tmp_path / "browser", tmp_path / "opened"
+    browser.write_text(f'#!/bin/sh\necho "$1" >>{opened}\n')
+    browser.chmod(0o755)
+    there = environment_of_command(BROWSER=str(browser), DISPLAY=":0", MPLBACKEND="Agg")
+    nowhere = {k: v for k, v in there.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    page = course.resolve() / "results" / "ex03" / "all.html"
+    for arguments, env in ((["--no-open"], there), ([], nowhere)):
+        code, out, errors = call("show", "3", *arguments, cwd=course, env=env)
+        assert (code, errors) == (0, "") and not opened.exists()
+        assert "made: results/ex03/table.csv" in out and "made: results/ex03/runs  (2 files)" in out
+        assert "all on one page: results/ex03/all.html" in out
+    code, out, _ = call("show", "3", cwd=course, env=there)
+    assert code == 0 and "opened: results/ex03/all.html" in out
+    assert opened.read_text() == f"{page.as_uri()}\n"
+    text = page.read_text()
+    assert '<img src="a%20curve.png"' in text and '<video src="film.mp4"' in text
+    assert '<iframe src="replay.html"' in text and "all.html" not in text and "csv" not in text
+
+
+def test_answers_after_full_marks(course, tmp_path, monkeypatch):
+    copy = tmp_path / "copy"
+    release(course, copy)
+    file = copy / "exercises" / FOLDER / FILE
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(copy))
+
+    def refused(words):
+        code, out, errors = call("show", "3", "--answers")
+        one_sentence(code, errors, words)
+        assert out == ""
+
+    refused("not in this copy")
+    assert release(course, copy, with_answers=True).written == 1
+    packed = file.with_name("ANSWERS.packed")
+    assert "measured" not in packed.read_text()
+    refused("0 of 100")
+    file.write_text(HALF)
+    call("grade", "3")
+    refused("60 of 100")
+    file.write_text(SOLUTION)
+    refused("60 of 100")
+    call("grade", "3")
+    code, out, errors = call("show", "3", "--answers")
+    assert (code, errors) == (0, "") and "Twice two is four, as was measured." in out
+    assert "show 3 --answers" in call("show", "3", "--no-open")[1]
+    release(course, copy)  # what was given stays
+    assert call("show", "3", "--answers")[1] == out
+    packed.write_text("nothing")
+    refused("damaged")
+
+
+def test_notebook(course, monkeypatch):
+    """start --notebook runs JupyterLab with the file open; without it says what installs it."""
+    called = []
+
+    def run(command, env):
+        called.append((command, env))
+        return subprocess.CompletedProcess(command, 0)
+
+    monkeypatch.setattr(starting.subprocess, "run", run)
+    file = course / "exercises" / FOLDER / FILE
+    monkeypatch.setattr(starting, "find_spec", lambda name: name != "jupytext")
+    with pytest.raises(BotschoolError, match="make notebook-ex3"):
+        starting.open_notebook(3, file, course)
+    assert not called
+    monkeypatch.setattr(starting, "find_spec", lambda name: True)
+    starting.open_notebook(3, file, course)
+    ((command, env),) = called
+    assert command[-1].endswith(f"=/lab/workspaces/tiny/tree/exercises/{FOLDER}/{FILE}")
+    assert env["JUPYTER_CONFIG_PATH"].startswith(str(course.resolve() / ".botschool"))
+
+
 @pytest.mark.parametrize("released", [False, True])
 def test_start_and_reset(course, tmp_path, monkeypatch, released):
     root = course
@@ -263,6 +398,7 @@ def test_start_and_reset(course, tmp_path, monkeypatch, released):
     skeleton = file.read_text()
     code, out, _ = call("start", "3", cwd=root)
     assert code == 0 and "Exercise 3. Tiny" in out and f"exercises/{FOLDER}/README.md" in out
+    assert "make notebook-ex3" in out
     assert "as it began.\n" in call("reset", "3", cwd=root)[1]
     for number in (1, 2):
         file.write_text(f"{SOLUTION}# {number}\n")

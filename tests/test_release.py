@@ -10,8 +10,11 @@ import subprocess
 from pathlib import Path
 
 import pytest
+import typer
 
+from botschool.cli.app import commands
 from botschool.errors import BotschoolError
+from botschool.grading.answers import unpack_answers
 from botschool.grading.exercise import exercise_numbers, load_exercise
 from botschool.grading.release import MANIFEST, release
 from running import call, environment_of_command
@@ -34,17 +37,18 @@ def copy(tmp_path_factory):
     return folder
 
 
-def test_progress_grades_every_skeleton_to_nothing(copy):
-    code, out, errors = call(
-        "progress", env=environment_of_command() | {"BOTSCHOOL_COURSE": str(copy)}
-    )
+@pytest.mark.parametrize("arguments", [(), ("--grade",)])
+def test_progress_of_every_skeleton_is_nothing(copy, arguments):
+    environment = environment_of_command(BOTSCHOOL_COURSE=str(copy), COLUMNS="80")
+    code, out, errors = call("progress", *arguments, env=environment)
     rows = [line.split() for line in out.splitlines() if re.match(r" *\d+ +\w", line)]
     assert (code, errors) == (0, "")
     assert [int(row[0]) for row in rows[: len(NUMBERS)]] == NUMBERS
     assert f"0 of {100 * len(NUMBERS)} points" in out
+    assert max(map(len, out.splitlines())) <= 80
     for number in NUMBERS:
         tasks = len(load_exercise(number, ROOT).tasks)
-        assert re.search(rf"^ *{number} .* 0/{tasks}  {number}\.1 ", out, re.MULTILINE), out
+        assert re.search(rf"^ *{number} .* 0 +0/{tasks}  {number}\.1 ", out, re.MULTILINE), out
 
 
 @pytest.mark.parametrize("number", NUMBERS)
@@ -89,6 +93,30 @@ def absent(copy, name, text):
             if not (copy / name).parent.joinpath(link).exists():
                 yield link
     yield from re.findall(r"solution-ex\S*|SUBMISSION=solutions|CONTRIBUTING\S*", text)
+    yield from unknown_commands(text)
+
+
+COMMAND = re.compile(r"(?:`|^[ #]*|'|; |or )botschool ((?:[\w./,:=+-]+|[ ](?=\S))+)", re.MULTILINE)
+COMMANDS = typer.main.get_command(commands()).commands
+FOR_INSTRUCTORS = {"release", "grade-all", "nbgrader", "skeletons"}
+
+
+def unknown_commands(text):
+    """Commands of botschool, in code and at the beginnings of lines, that it does not have."""
+    for found in COMMAND.findall(text):
+        name, *words = found.split()
+        command = COMMANDS.get(name)
+        if command and hasattr(command, "commands") and words:
+            name, *words = words
+            command = command.commands.get(name)
+        if command is None or name in FOR_INSTRUCTORS:
+            yield f"botschool {name}"
+            continue
+        options = {each for parameter in command.params for each in parameter.opts}
+        options |= {each for parameter in command.params for each in parameter.secondary_opts}
+        for word in words:
+            if re.match(r"--?[a-z]", word) and word.partition("=")[0] not in {*options, "--help"}:
+                yield f"botschool {name} {word}"
 
 
 def test_no_text_names_what_the_copy_does_not_have(copy):
@@ -96,9 +124,51 @@ def test_no_text_names_what_the_copy_does_not_have(copy):
     assert len(found) > 60 and "exercises/README.md" in found
     assert not {name: what for name, what in found.items() if what}
     bad = "`make bench`, `make solution-ex3`, solutions/ex01_gymnasium, [x](y.md), make it\n"
+    bad += "botschool walk 3\n`botschool es -f x.ini --quick`, `botschool rl fly`, a botschool of\n"
     assert list(absent(copy, "docs/x.md", bad)) == [
         "make bench", "make solution-ex3", "solutions/ex01_gymnasium", "y.md", "solution-ex3`,",
+        "botschool walk", "botschool es --quick", "botschool fly",
     ]  # fmt: skip
+
+
+FIGURE = re.compile(r"^!\[([^\]]+)\]\(([^)]+)\)\n\n\*([^*]+)\*$", re.MULTILINE)
+
+
+def test_every_figure_of_the_texts_is_in_the_copy(copy):
+    """At least two in each, with a caption, the expected result on top; and no other pictures."""
+    named = set()
+    for number in NUMBERS:
+        (readme,) = copy.glob(f"exercises/ex{number:02d}_*/README.md")
+        text = readme.read_text(encoding="utf-8")
+        found = FIGURE.findall(text)
+        assert len(found) == text.count("![") >= 2, readme
+        assert found[0][2].startswith("What you will have made"), readme
+        assert text.index("![") < text.index("**Aim:**"), readme
+        named |= {(readme.parent / place).resolve() for _, place, _ in found}
+    pictures = {path.resolve() for path in (copy / "docs/images/course").iterdir()}
+    assert named == pictures
+    assert max(path.stat().st_size for path in pictures) <= 60_000
+
+
+def test_figures_come_with_their_exercises(tmp_path):
+    release(ROOT, tmp_path / "copy", {3, 7})
+    names = {path.name[:4] for path in (tmp_path / "copy/docs/images/course").iterdir()}
+    assert names == {"ex03", "ex07"}
+
+
+def test_answers_are_packed(tmp_path):
+    """The real ones, for some exercises; they are kept when others come."""
+    copy = tmp_path / "copy"
+    release(ROOT, copy, {1, 2}, with_answers=True)
+    release(ROOT, copy, {3})
+    release(ROOT, copy, {4}, with_answers=True)
+    found = sorted(copy.glob("exercises/*/ANSWERS.packed"))
+    assert [path.parent.name[:4] for path in found] == ["ex01", "ex02", "ex04"]
+    for path in found:
+        text = (ROOT / "solutions" / path.parent.name / "README.md").read_text(encoding="utf-8")
+        assert unpack_answers(path.read_text(encoding="ascii")) == text
+        assert not list(absent(copy, "docs/answers.md", text))
+        assert not [line for line in text.splitlines() if line and line in path.read_text()]
 
 
 def test_no_marks_of_what_was_left_out_remain(copy):

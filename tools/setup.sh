@@ -173,6 +173,7 @@ exercises_with() {
 package_of() {
     case $1 in
         rl) say torch ;;
+        notebook) say jupyterlab ;;
         *) say "$1" ;;
     esac
 }
@@ -181,6 +182,7 @@ title() {
         box2d) say "Box2D" ;;
         pybullet) say "PyBullet" ;;
         rl) say "PyTorch and Stable-Baselines3" ;;
+        notebook) say "JupyterLab and jupytext" ;;
         *) say "$1" ;;
     esac
 }

@@ -24,6 +24,7 @@ from botschool.grading import (
 )
 
 exercise = Exercise(1, "Gymnasium", file="gymnasium_basics.py")
+CLASSIC = "gymnasium.envs.classic_control"
 
 
 # ------------------------------------------------------------------- 1.1
@@ -264,7 +265,9 @@ def tells_the_two_ends_apart(student: Student):
 
 
 # ------------------------------------------------------------------- 1.3
-cartpole = exercise.task("1.3", "The reward of CartPole")
+cartpole = exercise.task(
+    "1.3", "The reward of CartPole", refused=(f"{CLASSIC}.cartpole:CartPoleEnv.step",)
+)
 
 
 def answers(module, name, observations, actions):
@@ -363,7 +366,9 @@ def gives_the_rewards_of_gymnasium(student: Student):
 
 
 # ------------------------------------------------------------------- 1.4
-pendulum = exercise.task("1.4", "The reward of Pendulum")
+pendulum = exercise.task(
+    "1.4", "The reward of Pendulum", refused=(f"{CLASSIC}.pendulum:PendulumEnv.step",)
+)
 
 
 def expect_rewards(student: Student, index: int, torque) -> None:

@@ -27,6 +27,7 @@ from botschool.grading import (
 )
 
 exercise = Exercise(3, "Evolution strategy", file="evolution_strategy.py")
+TOOL = ("botschool.evolution.algorithms.sss:SSS.tell",)
 
 # ------------------------------------------------------------------- 3.1
 initial = exercise.task("3.1", "The initial population")
@@ -114,7 +115,7 @@ def equals_keep_their_order(student: Student):
 
 
 # ------------------------------------------------------------------- 3.3
-following = exercise.task("3.3", "The next population", needs=("3.2",))
+following = exercise.task("3.3", "The next population", needs=("3.2",), refused=TOOL)
 
 
 def steps(module, population, fitness, mutrate, seed):
@@ -250,7 +251,7 @@ def argument_is_not_changed(student: Student):
 
 
 # ------------------------------------------------------------------- 3.4
-loop = exercise.task("3.4", "The loop", needs=("3.2", "3.3"))
+loop = exercise.task("3.4", "The loop", needs=("3.2", "3.3"), refused=TOOL)
 
 
 def evolved(module, name, population, target, generations, mutrate, seed):
@@ -387,7 +388,7 @@ def fitness_rises(student: Student):
 
 
 # ------------------------------------------------------------------- 3.5
-climber = exercise.task("3.5", "A hill climber", needs=("3.4",))
+climber = exercise.task("3.5", "A hill climber", needs=("3.4",), refused=TOOL)
 
 
 @climber.check(5)

@@ -72,7 +72,8 @@ def moves(index: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     while len(states) < 200:
         env.state = rng.uniform(-1, 1, 4) * (np.pi, np.pi, 4, 8)
         observation, reward, _, _, _ = env.step(int(rng.integers(3)))
-        if abs(height_of(env.state) - 1) > 1e-3:
+        inexact = np.abs(np.sin(env.state[:2])).min() < 3e-3  # for the arc cosine of a float32
+        if abs(height_of(env.state) - 1) > 1e-3 and not inexact:
             states.append(np.array(env.state))
             observations.append(observation.astype(np.float64))
             rewards.append(reward)
@@ -207,7 +208,7 @@ def replicate(module, text, seeds, folder, steps):
 
     pathlib.Path("trial.ini").write_text(text)
     fitness = module.run_replications("trial.ini", seeds, folder, steps)
-    return [list(fitness.keys()), list(fitness.values())] if type(fitness) is dict else fitness
+    return list(map(list, fitness.items())) if isinstance(fitness, dict) else fitness
 
 
 @lru_cache
@@ -297,18 +298,19 @@ def any_experiment_in_any_folder(student: Student):
 @replications.check(4)
 def tells_the_fitness_of_each_run(student: Student):
     trial = Trial(student, ACROBOT, "fitness", 40_000)
-    answer = trial.answer
+    pairs = trial.answer
     expect(
-        isinstance(answer, list) and len(answer) == 2 and all(isinstance(a, list) for a in answer),
-        f"{trial.said} returned {show(answer)}, but a dict is needed.",
+        isinstance(pairs, list) and all(isinstance(p, list) and len(p) == 2 for p in pairs),
+        f"{trial.said} returned {show(pairs)}, but a dict is needed.",
     )
+    keys = [key for key, _ in pairs]
     expect(
-        answer[0] == trial.seeds,
-        f"{trial.said} returned a dict with the keys {show(answer[0])}, but the seeds were "
-        "expected.",
+        all(type(key) is int for key in keys) and sorted(keys) == sorted(trial.seeds),
+        f"{trial.said} returned a dict with the keys {show(keys)}, but the seeds were expected.",
     )
-    wanted = [files_of(ACROBOT, seed, 40_000)["fitness"] for seed in trial.seeds]
-    expect_close(f"{trial.said}: the fitness of the runs", answer[1], wanted)
+    for seed, value in pairs:
+        wanted = files_of(ACROBOT, seed, 40_000)["fitness"]
+        expect_close(f"{trial.said}: the fitness of run {seed}", value, wanted)
 
 
 # ------------------------------------------------------------------- 4.4

@@ -157,8 +157,8 @@ def evolve_walkers(
 ) -> np.ndarray:
     """Runs the experiment once with each seed; the files of all runs are left in the folder.
 
-    Makes the folder if it does not exist. Returns the genotype with the best post-evaluated fitness
-    of each run, one row for each seed.
+    Makes the folder, and those above it, if they do not exist. Returns the genotype with the best
+    post-evaluated fitness of each run, one row for each seed.
     """
     raise NotImplementedError("task 5.5: run the replications")
 

@@ -121,9 +121,9 @@ def one_step(student: Student):
         )
         action, after = answer_of(brain, observation, kept)
         new = expect_array(f"{said}: new memory", answer[1], (2, UNITS))
-        expect_close(f"{said}: new memory, cells", new[0], after[0], 1e-7)
-        expect_close(f"{said}: new memory, outputs", new[1], after[1], 1e-7)
-        expect_close(f"{said}: action", answer[0], action, 1e-7)
+        expect_close(f"{said}: new memory, cells", new[0], after[0], 1e-5)
+        expect_close(f"{said}: new memory, outputs", new[1], after[1], 1e-5)
+        expect_close(f"{said}: action", answer[0], action, 1e-5)
 
 
 @network.check(8)
@@ -140,8 +140,8 @@ def like_the_tools_network(student: Student):
         net.observation = observation
         expected.append(net.step().copy())
         memories.append(answer_of(brain, observation, memories[-1])[1])
-    expect_close(f"{said}: actions", answer[0], expected, 1e-6)
-    expect_close(f"{said}: memories (the given ones stay as they are)", answer[1], memories, 1e-6)
+    expect_close(f"{said}: actions", answer[0], expected, 1e-4)
+    expect_close(f"{said}: memories (the given ones stay as they are)", answer[1], memories, 1e-4)
 
 
 # ------------------------------------------------------------------- 6.2
@@ -169,7 +169,7 @@ def compare(student: Student, genotype: np.ndarray, where: tuple, seed: int, way
     answer = student.run(recorded, brain, start, cylinder, seed, way, maxsteps, said=said)
     expected = lived(brain, start, cylinder, seed, way, maxsteps)
     for name, value in zip(expected, expect_fields(said, answer, *expected), strict=True):
-        expect_close(f"{said}: {name}", value, expected[name], 1e-5)
+        expect_close(f"{said}: {name}", value, expected[name], 1e-3)
 
 
 @recording.check(7)
@@ -210,7 +210,7 @@ def starts_of_a_grid(student: Student):
     rng = rng_of(9)
     for places, headings in ((2, 1), (3, 4), (int(rng.integers(4, 7)), int(rng.integers(5, 9)))):
         answer = student.call("grid", places, headings)
-        expect_close(student.said, answer, grid_of(places, headings), 1e-9)
+        expect_close(student.said, answer, grid_of(places, headings), 1e-6)
 
 
 # ------------------------------------------------------------------- 6.4
@@ -257,7 +257,7 @@ def compare_described(student: Student, walk: tuple, names: tuple) -> None:
     answer = student.call("describe", *walk)
     expected = described(*walk)
     for name, value in zip(names, expect_fields(student.said, answer, *names), strict=True):
-        expect_close(f"describe(...): {name}", value, expected[name], 1e-6)
+        expect_close(f"describe(...): {name}", value, expected[name], 1e-4)
 
 
 @behaviour.check(10)
@@ -287,7 +287,7 @@ def of_nothing(student: Student):
 groups = exercise.task("6.5", "Families")
 
 
-@groups.check(5)
+@groups.check(4)
 def one_scale(student: Student):
     rng = rng_of(13)
     for robots, columns in ((3, 2), (7, 6)):
@@ -295,10 +295,24 @@ def one_scale(student: Student):
             rng.uniform(-50, 50, columns), rng.uniform(0.1, 90, columns), (robots, columns)
         )
         expected = (table - table.mean(axis=0)) / table.std(axis=0)
-        expect_close("standardise(table)", student.call("standardise", table), expected, 1e-8)
-    table[:, 2], expected[:, 2] = 3.7, 0.0
+        expect_close("standardise(table)", student.call("standardise", table), expected, 1e-5)
+    table[:, 2], expected[:, 2] = 3.5, 0.0
     said = "standardise(table), one column all alike"
-    expect_close(said, student.call("standardise", table), expected, 1e-8)
+    expect_close(said, student.call("standardise", table), expected, 1e-5)
+
+
+@groups.check(1)
+def equal_but_for_rounding(student: Student):
+    table = rng_of(20).normal(size=(7, 3))
+    table[:, 1] = 3.7
+    answer = student.call("standardise", table)
+    expected = table - table.mean(axis=0)
+    expected[:, [0, 2]] /= table.std(axis=0)[[0, 2]]
+    said = (
+        "standardise(table), one column all 3.7 (of which NumPy's standard deviation is "
+        f"{table.std(axis=0)[1]:.1g}, by rounding)"
+    )
+    expect_close(said, answer, expected, 1e-5)
 
 
 def grouped(table: np.ndarray, threshold: float) -> list[int]:
@@ -357,23 +371,32 @@ def by_mean_distance(student: Student):
 without = exercise.task("6.6", "Without memory", seconds=90, needs=("6.2",))
 
 
-def remembering(module, since, calls):
-    way = module.freeze(since)
-    frozen = [way(step, before, after) for step, before, after in calls]
-    return frozen, [module.forget(step, before, after) for step, before, after in calls]
+def remembering(module, since, first, afters):
+    """The memory step by step, each the one before of the next."""
+    import numpy
+
+    def memories(way):
+        memory, kept = first, []
+        for step, after in enumerate(afters):
+            memory = way(step, memory, after.copy())
+            kept.append(numpy.array(memory))
+        return kept
+
+    return memories(module.freeze(since)), memories(module.forget)
 
 
 @without.check(5)
 def ways_to_remember(student: Student):
     rng = rng_of(16)
     for since in (0, int(rng.integers(2, 7))):
-        calls = [(step, random_memory(rng), random_memory(rng)) for step in range(9)]
+        before, afters = random_memory(rng), [random_memory(rng) for _ in range(9)]
         said = f"freeze({since}) and forget"
-        answer = student.run(remembering, since, calls, said=said)
+        answer = student.run(remembering, since, before, afters, said=said)
         expect(isinstance(answer, (list, tuple)) and len(answer) == 2, f"{said} gave no answers.")
-        for (step, before, after), frozen, gone in zip(calls, *answer, strict=True):
+        for step, (after, frozen, gone) in enumerate(zip(afters, *answer, strict=True)):
             shown = f"(step={step}, before, after)"
-            expect_close(f"freeze({since}){shown}", frozen, after if step < since else before)
+            before = after if step < since else before
+            expect_close(f"freeze({since}){shown}", frozen, before, 1e-6)
             expect_close(f"forget{shown}", gone, np.zeros((2, UNITS)))
 
 
@@ -410,4 +433,4 @@ def reactions_to_one_sight(student: Student):
         memories = np.array([random_memory(rng) for _ in range(n)])
         answer = student.call("reactions", brain, seen, memories)
         expected = [answer_of(brain, seen, memory)[0] for memory in memories]
-        expect_close(student.said, answer, expected, 1e-7)
+        expect_close(student.said, answer, expected, 1e-5)

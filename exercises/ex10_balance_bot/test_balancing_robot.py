@@ -6,9 +6,10 @@ up, beside a second simulation, so that a forgotten physicsClientId shows.
 
 Stochastic checks (tasks 10.9 and 10.10): a controller must balance for 500 steps in 20 of 20 unseen
 episodes (grading seeds 71, 73 and 81) in the grader's simulation. So that none can be written down
-by heart, it is also learnt for a robot whose wheels turn the other way. With each of 20 seeds
-(1 to 20) the solution's `evolve` balances in 20 of 20 episodes, so its margin is whole; returns are
-462 to 492. Its PPO, of which fewer runs were made (seed 1 and the grading seed), did so, too.
+by heart, it is also learnt for a robot whose wheels turn the other way; and the layers of task
+10.10 must be those that PPO has made. With each of 20 seeds (1 to 20) the solution's `evolve`
+balances in 20 of 20 episodes, so its margin is whole; returns are 462 to 492. Its PPO, of which
+fewer runs were made (seed 1 and the grading seed), did so, too.
 """
 
 import tempfile
@@ -711,7 +712,11 @@ evolving = exercise.task("10.9", "Evolve a controller", seconds=240)
 
 
 def learnt(module, urdf, name, seed):
-    """Calls evolve or train on the grader's own environment, for a robot of the grader's."""
+    """Calls evolve or train on the grader's own environment, for a robot of the grader's.
+
+    Returns the answer; for train also how often PPO has updated a policy, and whether the largest
+    layer of the answer is one that a policy had after such an update.
+    """
     import gymnasium
     import numpy
     import pybullet
@@ -770,7 +775,30 @@ def learnt(module, urdf, name, seed):
 
     gymnasium.registry.pop("BalanceBotBulletEnv-v0", None)
     gymnasium.register(id="BalanceBotBulletEnv-v0", entry_point=GradersEnv, max_episode_steps=500)
-    return getattr(module, name)(seed)
+    if name == "evolve":
+        return module.evolve(seed)
+
+    from stable_baselines3 import PPO
+
+    updates, learnt = PPO.train, []
+
+    def train(self):
+        updates(self)
+        tables = [each.detach().numpy() for each in self.policy.parameters() if each.ndim == 2]
+        learnt.append([table.copy() for table in tables])
+
+    PPO.train = train
+    try:
+        answer = module.train(seed)
+    finally:
+        PPO.train = updates
+    largest = max((numpy.array(layer[0]) for layer in answer), key=numpy.size)
+    same = any(
+        table.shape == largest.shape and numpy.allclose(table, largest, atol=1e-5)
+        for tables in learnt
+        for table in tables
+    )
+    return [answer, len(learnt), same]
 
 
 def balanced(layers: list[tuple[np.ndarray, np.ndarray]], turned: bool, index: int) -> list[int]:
@@ -822,7 +850,9 @@ training = exercise.task("10.10", "Train a controller", seconds=300)
 def balances_after_training(student: Student):
     seed = exercise.seed(80) % 100_000
     said = f"train(seed={seed})"
-    answer = student.run(learnt, robot_text(True), "train", seed, said=said)
+    report = student.run(learnt, robot_text(True), "train", seed, said=said)
+    expect(isinstance(report, list) and len(report) == 3, f"{said}: no answer came back.")
+    answer, updates, same = report
     expect(
         isinstance(answer, list) and 0 < len(answer) < 10,
         f"{said} returned {show(answer)}, but a list of layers is needed.",
@@ -838,3 +868,8 @@ def balances_after_training(student: Student):
         layers.append((weights, expect_array(f"{said}: biases of layer {i}", layer[1], (neurons,))))
         inputs = neurons
     expect_balance(said, layers, True, 81)
+    expect(
+        same is True,
+        f"{said}: the layers are not those of a policy after one of PPO's updates, of which there "
+        f"were {show(updates)}. What is asked for here is a network that PPO has trained.",
+    )

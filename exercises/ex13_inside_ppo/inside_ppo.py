@@ -233,10 +233,13 @@ def responses(activations: np.ndarray, observations: np.ndarray) -> np.ndarray:
 #
 # `botschool show 13` (or running this file once all tasks are done) trains PPO on CartPole,
 # compares your functions with what Stable-Baselines3 computes on a rollout of it, and draws what
-# the hidden neurons respond to, before and after training.
+# the hidden neurons respond to, before and after training. Then three networks are trained without
+# Stable-Baselines3: by your functions alone.
 
 # %%
 if __name__ == "__main__":
+    from botschool.course import film_agent
+    from botschool.course.ppo import act_greedily, draw_own_training, train_own
     from botschool.course.rl import draw_hidden_layer
     from botschool.rl.reference import Rollout, make_ppo, policy_layers
 
@@ -277,3 +280,11 @@ if __name__ == "__main__":
     for name, (yours, theirs) in table.items():
         print(f"{name:20}{yours:14.8f}{theirs:14.8f}{yours - theirs:12.1e}")
     draw_hidden_layer("hidden_layer.png", stages, names, axes=(2, 3), hidden=hidden_activations)
+
+    own = [advantages, policy_loss, value_loss, entropy_of_choices, approx_kl, updates_made]
+    functions = {function.__name__: function for function in [*own, total_loss]}
+    runs = {seed: train_own(functions, seed) for seed in (1, 2, 3)}
+    for seed, run in runs.items():
+        print(f"trained by your losses, seed {seed}: {np.mean(run['returns'][-20:]):.0f} of 500")
+    draw_own_training("own_training.png", runs)
+    film_agent("cartpole.mp4", "CartPole-v1", act_greedily(runs[1]["layers"]), maxsteps=500)

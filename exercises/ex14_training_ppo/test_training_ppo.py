@@ -362,13 +362,22 @@ def expect_solved(student: Student, index: int, means: list[float], position: in
         expect_close(said, solved, wanted, CLOSE)
 
 
-@success.check(5)
+@success.check(4)
 def solved_for_good(student: Student):
     expect_solved(student, 37, [5.0, 50.0, 110.0, 120.0, 180.0], 2)
     expect_solved(student, 38, [5.0, 130.0, 60.0, 101.0, 150.0], 3)
     expect_solved(student, 39, [120.0, 110.0, 150.0], 0)
     expect_solved(student, 40, [5.0, 130.0, 140.0, 99.0], None)
     expect_solved(student, 41, [5.0, 50.0, 60.0, 100.5], 3)
+
+
+@success.check(1)
+def the_goal_itself_is_enough(student: Student):
+    steps = np.array([100, 250, 300, 700])
+    returns = np.array([[90.0, 80.0], [100.0, 100.0], [75.0, 125.0], [110.0, 100.0]])
+    (solved,) = measured(student, steps, returns, 100.0, "solved")
+    expect(solved is not None, f"{student.said}: solved is None, but 250 was expected.")
+    expect_close(f"{student.said}: solved", solved, 250, CLOSE)
 
 
 # ------------------------------------------------------------------- 14.4
@@ -541,6 +550,8 @@ def borders_gaps_and_nan(student: Student):
     values = rng.normal(size=12)
     values[[0, 5]] = np.nan
     compare_phases(student, np.arange(50, 650, 50), values, 600, 4)
+    values[3:6] = np.nan
+    compare_phases(student, np.arange(50, 650, 50), values, 600, 4)
 
 
 def expect_signs(student: Student, index: int, names: tuple[str, ...], missing: int = 0) -> None:
@@ -569,7 +580,40 @@ def expect_signs(student: Student, index: int, names: tuple[str, ...], missing: 
     expect(answer == wanted, f"{student.said} returned {show(answer, 200)} instead of {wanted}.")
 
 
-@signs.check(4)
+@signs.check(1)
+def limits_give_no_sign(student: Student):
+    """Means that equal the limit, and entries at the very border of the last third."""
+    rng = generator(79)
+    level = int(rng.integers(-8, 9)) / 4
+    steps = np.arange(100, 3001, 100)
+    flat = {"steps": steps, "values": np.full(30, level)}
+    early = {"steps": steps[:20], "values": np.full(20, level)}
+    moving = {"steps": steps, "values": level + np.where(np.arange(30) % 2, 0.25, -0.25)}
+    indicators = {"train/flat": flat, "train/early": early, "train/moving": moving}
+    chosen = {
+        f"{name} {side} {limit}": (f"train/{name}", side, limit)
+        for name in ("flat", "early", "moving")
+        for side in ("above", "below")
+        for limit in (level - 0.5, level, level + 0.5)
+    }
+    wanted = [
+        name
+        for name, (indicator, side, limit) in chosen.items()
+        if indicator != "train/early" and (limit < level if side == "above" else limit > level)
+    ]
+    answer = student.call("warning_signs", indicators, 3000, chosen)
+    student.said = f"warning_signs(<indicators that are {level} on average>, 3000, <18 signs>)"
+    expect(isinstance(answer, list), f"{student.said} must return a list, not {show(answer)}.")
+    for name, (_, side, limit) in chosen.items():
+        expect(
+            (name in answer) == (name in wanted),
+            f"{student.said} {'names' if name in answer else 'leaves out'} a sign {side} {limit}"
+            + (", but the last third holds nothing." if name.startswith("early") else "."),
+        )
+    expect(answer == wanted, f"{student.said} is not in the order of the signs.")
+
+
+@signs.check(3)
 def signs_of_the_last_third(student: Student):
     for index in (75, 76):
         expect_signs(student, index, NAMES)

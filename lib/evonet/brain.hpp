@@ -3,11 +3,12 @@
 // own layout. T is the scalar.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <cstring>
 
 #include "layout.hpp"
 #include "philox.hpp"
+#include "rows.hpp"
 
 BOTSCHOOL_BEGIN
 
@@ -15,7 +16,6 @@ BOTSCHOOL_BEGIN
 template <class T, int L>
 struct BrainMemory {
   T* parameters;
-  T* shared;       ///< parameters of one network that all lanes have, if `sharing`
   T* mean;         ///< inputs
   T* deviation;    ///< inputs
   T* inputs;       ///< raw observation
@@ -25,7 +25,12 @@ struct BrainMemory {
   T* state;        ///< cells
   T* noise;        ///< outputs: standard deviation of the action noise
   T* actions;      ///< outputs: what the actuators get
-  bool sharing = false;
+  /// Of what is summed by rows: the weights of L networks, a network's size, and room for the sums
+  /// of one layer.
+  T* networks;
+  std::size_t network_size;
+  T* scratch;
+  const Groups<L>* groups = nullptr;  ///< which lanes have which of the networks
 
   /// Number of T that the buffer must hold.
   static std::size_t size(const Layout& l) {
@@ -40,7 +45,6 @@ struct BrainMemory {
       return place;
     };
     parameters = take(l.parameters);
-    shared = L > 1 ? take((l.parameters + L - 1) / L) : parameters;
     mean = take(l.spec.inputs);
     deviation = take(l.spec.inputs);
     inputs = take(l.spec.inputs);
@@ -50,35 +54,55 @@ struct BrainMemory {
     state = take(l.cells);
     noise = take(l.spec.outputs);
     actions = take(l.spec.outputs);
+    network_size = 0;
+    int largest = 0;
+    const auto count = [&](const Layer& layer) {
+      network_size += Rows<T, L>::size(layer);
+      largest = std::max(largest, Rows<T, L>::of(layer));
+    };
+    if (l.cells > 0) count(l.gates);
+    for (int i = 0; i < l.layers; ++i) count(l.layer[i]);
+    networks = take(static_cast<int>(network_size));
+    scratch = take(largest);
     return used;
   }
 };
 
 template <class T, int L>
 class Brain {
+  template <class, int>
+  friend class Brain;
+
  public:
   Brain(const Layout& layout, const BrainMemory<T, L>& memory) : l_(layout), m_(memory) {}
 
   /// Puts a genotype into a lane; `normalisation` is all means, then all deviations, or null.
+  /// What is summed by rows gets its weights from load_network().
   void load(int lane, const double* genotype, const double* normalisation) {
-    place(genotype, m_.parameters + lane, L);
+    if (l_.cells > 0) place(l_.gates, genotype, m_.parameters + lane);
+    for (int i = 0; i < l_.layers; ++i) place(l_.layer[i], genotype, m_.parameters + lane);
     for (int i = 0; i < l_.spec.inputs; ++i) {
       m_.mean[i * L + lane] = normalisation ? static_cast<T>(normalisation[i]) : T(0);
       m_.deviation[i * L + lane] =
           normalisation ? static_cast<T>(normalisation[l_.spec.inputs + i]) : T(1);
     }
-    set_noise(lane);
-  }
-
-  /// Lets all lanes share the parameters of this genotype, which each has been given.
-  void share(const double* genotype) { place(genotype, m_.shared, 1); }
-
-  /// Standard deviations of the action noise, from the parameters of the lane.
-  void set_noise(int lane) {
     for (int o = 0; o < l_.spec.outputs; ++o)
       m_.noise[o * L + lane] = l_.deviations >= 0
-                                   ? exponential(m_.parameters[(l_.deviations + o) * L + lane])
+                                   ? exponential(static_cast<T>(genotype[l_.deviations + o]))
                                    : static_cast<T>(l_.spec.action_noise_range);
+  }
+
+  /// Puts a genotype where the lanes of a group find it; returns whether its weights are finite.
+  bool load_network(int network, const double* genotype) {
+    T* to = m_.networks + network * m_.network_size;
+    bool finite = true;
+    const auto pack = [&](const Layer& layer) {
+      finite &= Rows<T, L>::pack(layer, genotype, to);
+      to += Rows<T, L>::size(layer);
+    };
+    if (l_.cells > 0) pack(l_.gates);
+    for (int i = 0; i < l_.layers; ++i) pack(l_.layer[i]);
+    return finite;
   }
 
   /// Start of an episode: all activations and states are 0.
@@ -87,15 +111,27 @@ class Brain {
     for (int i = 0; i < l_.cells; ++i) m_.state[i * L + lane] = T(0);
   }
 
+  /// Goes on in a lane where another's lane, with the same parameters, is.
+  template <int W>
+  void copy(int lane, const Brain<T, W>& other, int from) {
+    for (int i = 0; i < l_.neurons; ++i)
+      m_.activations[i * L + lane] = other.m_.activations[i * W + from];
+    for (int i = 0; i < l_.cells; ++i) m_.state[i * L + lane] = other.m_.state[i * W + from];
+  }
+
   /// From `inputs` to `activations` and `actions`. steps[lane]: steps done in the episode.
   void step(const NoiseKey* keys, const int* steps) {
     if (l_.recurrent)
       for (int i = l_.spec.inputs * L; i < l_.neurons * L; ++i) m_.previous[i] = m_.activations[i];
     read_inputs();
-    if (l_.cells > 0) update_cells();
+    const T* networks = m_.networks;
+    if (l_.cells > 0) {
+      net_inputs(l_.gates, m_.gates, networks);
+      update_cells();
+    }
     for (int i = 0; i < l_.layers; ++i) {
       const Layer& layer = l_.layer[i];
-      net_inputs(layer, m_.activations + layer.first * L);
+      net_inputs(layer, m_.activations + layer.first * L, networks);
       activate(layer.activation, m_.activations + layer.first * L, layer.neurons * L);
     }
     act();
@@ -110,24 +146,23 @@ class Brain {
   /// Lanes in a register.
   static constexpr int kWidth = L * sizeof(T) < kRegister ? L : kRegister / sizeof(T);
 
-  /// Writes a genotype to `parameters`, every `stride`-th place.
-  void place(const double* genotype, T* parameters, int stride) const {
-    for (int i = 0; i < l_.parameters; ++i) parameters[i * stride] = static_cast<T>(genotype[i]);
-    if (l_.cells > 0) pack(l_.gates, genotype, parameters, stride);
-    for (int i = 0; i < l_.layers; ++i) pack(l_.layer[i], genotype, parameters, stride);
-  }
-
-  /// Lays the rows of a whole group of receivers beside each other, sender by sender, so that
-  /// sum() reads the weights as one stream. Those of the last receivers stay as they are.
-  static void pack(const Layer& layer, const double* genotype, T* parameters, int stride) {
+  /// Writes a layer's part of a genotype to the parameters of a lane. The rows of a whole group of
+  /// receivers lie beside each other, sender by sender, so that sum() reads the weights as one
+  /// stream; those of the last receivers stay as they are.
+  static void place(const Layer& layer, const double* genotype, T* parameters) {
+    const int rows = Rows<T, L>::of(layer);
+    if (layer.bias >= 0)
+      for (int i = layer.bias + rows; i < layer.bias + layer.neurons; ++i)
+        parameters[i * L] = static_cast<T>(genotype[i]);
     for (int b = 0; b < layer.blocks; ++b) {
       const Connections& c = layer.block[b];
-      for (int r = 0; r < layer.neurons / kGroup * kGroup; ++r) {
+      for (int r = rows; r < layer.neurons; ++r) {
+        const bool grouped = r < layer.neurons / kGroup * kGroup;
+        const int group = r / kGroup * kGroup * c.stride + r % kGroup + c.offset * kGroup;
         const int row = c.weights + r * c.stride + c.offset;
-        const int first = c.weights + r / kGroup * kGroup * c.stride + r % kGroup;
+        const int first = grouped ? c.weights + group : row, step = grouped ? kGroup : 1;
         for (int s = 0; s < c.senders; ++s)
-          parameters[(first + (c.offset + s) * kGroup) * stride] =
-              static_cast<T>(genotype[row + s]);
+          parameters[(first + s * step) * L] = static_cast<T>(genotype[row + s]);
       }
     }
   }
@@ -145,18 +180,13 @@ class Brain {
   }
 
   /// Sums over the senders of G groups of R receivers at a time; each sum runs over the blocks and
-  /// their senders in order, whatever G and R are. W is the number of weights side by side: one for
-  /// each lane, or a single one that all share.
-  template <int G, int R, int W>
+  /// their senders in order, whatever G and R are.
+  template <int G, int R>
   void sum(const Layer& layer, int receiver, T* out) const {
     using Lanes = LanesOf<T, kWidth>;
-    const T* parameters = W == 1 ? m_.shared : m_.parameters;
     for (int l = 0; l < L; l += kWidth) {
       const auto parameter = [&](std::ptrdiff_t i) {
-        if constexpr (W == 1)
-          return parameters[i];
-        else
-          return *reinterpret_cast<const Lanes*>(parameters + i * W + l);
+        return *reinterpret_cast<const Lanes*>(m_.parameters + i * L + l);
       };
       Lanes total[G * R] = {};
       if (layer.bias >= 0)
@@ -177,20 +207,18 @@ class Brain {
     }
   }
 
-  template <int W>
-  void sum_all(const Layer& layer, T* out) const {
-    int r = 0;
+  /// The first rows network by network, the others lane by lane. `networks`: where the layer's
+  /// weights in the first network begin; moves on to those of the next layer.
+  void net_inputs(const Layer& layer, T* out, const T*& networks) const {
+    int r = Rows<T, L>::of(layer);
+    if (r > 0)
+      Rows<T, L>(layer, m_.activations, m_.previous, m_.scratch)
+          .sums(*m_.groups, networks, m_.network_size, out);
+    networks += Rows<T, L>::size(layer);
     for (; r + kGroups * kGroup <= layer.neurons; r += kGroups * kGroup)
-      sum<kGroups, kGroup, W>(layer, r, out + r * L);
-    for (; r + kGroup <= layer.neurons; r += kGroup) sum<1, kGroup, W>(layer, r, out + r * L);
-    for (; r < layer.neurons; ++r) sum<1, 1, W>(layer, r, out + r * L);
-  }
-
-  void net_inputs(const Layer& layer, T* out) const {
-    if (L > 1 && m_.sharing)
-      sum_all<1>(layer, out);
-    else
-      sum_all<L>(layer, out);
+      sum<kGroups, kGroup>(layer, r, out + r * L);
+    for (; r + kGroup <= layer.neurons; r += kGroup) sum<1, kGroup>(layer, r, out + r * L);
+    for (; r < layer.neurons; ++r) sum<1, 1>(layer, r, out + r * L);
   }
 
   static void activate(int activation, T* BOTSCHOOL_RESTRICT x, int n) {
@@ -209,29 +237,50 @@ class Brain {
     }
   }
 
+  using Vector = VectorOf<T, kWidth>;
+  static constexpr int kVector = sizeof(Vector) / sizeof(T);
+
+  static Vector& vector(T* at) { return *reinterpret_cast<Vector*>(at); }
+  static Vector for_exponential(Vector x) {
+    return clamp(x, Vector{} + kExpLow<T>, Vector{} + kExpHigh<T>);
+  }
+  static Vector for_tanh(Vector x) {
+    return clamp(x + x, Vector{} - kTwiceHigh<T>, Vector{} + kTwiceHigh<T>);
+  }
+
+  /// logistic(x) = 1 / (1 + exp(-x)) and tanh(x) = e / (e + 2), e = exp(2x) - 1; each product of the
+  /// two takes one division. `hidden` keeps the output gates' 1 + exp(-x) until the new states are
+  /// known, as states of several units at a time are faster.
   void update_cells() {
-    net_inputs(l_.gates, m_.gates);
-    T* BOTSCHOOL_RESTRICT hidden = m_.activations + l_.spec.inputs * L;
-    T* BOTSCHOOL_RESTRICT state = m_.state;
-    // logistic(x) = 1 / (1 + exp(-x)) and tanh(x) = e / (e + 2), e = exp(2x) - 1; each product of the
-    // two takes one division. Two passes, as each by itself is short enough for several units at once
-    for (int u = 0; u < l_.cells; ++u, state += L) {
-      T* BOTSCHOOL_RESTRICT gate = m_.gates + 4 * u * L;
-      for (int l = 0; l < L; ++l) {
-        const T forget = logistic(gate[l] + T(1));
-        const T input = T(1) + exponential(-gate[L + l]);
-        const T candidate = expm1_twice(gate[3 * L + l]);
-        state[l] = state[l] * forget + candidate / ((candidate + T(2)) * input);
-      }
+    T* hidden = m_.activations + l_.spec.inputs * L;
+    for (int i = 0; i < l_.cells * L; i += kVector) {
+      T* gate = m_.gates + i / L * 4 * L + i % L;
+      Vector scale[4];
+      Vector x[4] = {for_exponential(-(vector(gate) + T(1))), for_exponential(-vector(gate + L)),
+                     for_exponential(-vector(gate + 2 * L)), for_tanh(vector(gate + 3 * L))};
+      exponentials<4>(x, scale);
+      const Vector forget = T(1) / (T(1) + (x[0] + scale[0]));
+      const Vector input = T(1) + (x[1] + scale[1]);
+      const Vector candidate = x[3] + (scale[3] - T(1));
+      Vector& state = vector(m_.state + i);
+      state = state * forget + candidate / ((candidate + T(2)) * input);
+      vector(hidden + i) = T(1) + (x[2] + scale[2]);
     }
-    state = m_.state;
-    for (int u = 0; u < l_.cells; ++u, state += L, hidden += L) {
-      const T* BOTSCHOOL_RESTRICT gate = m_.gates + 4 * u * L;
-      for (int l = 0; l < L; ++l) {
-        const T output = T(1) + exponential(-gate[2 * L + l]);
-        const T squashed = expm1_twice(state[l]);
-        hidden[l] = squashed / ((squashed + T(2)) * output);
-      }
+    int i = 0;
+    for (; i + 4 * kVector <= l_.cells * L; i += 4 * kVector) put_out<4>(i, hidden);
+    for (; i < l_.cells * L; i += kVector) put_out<1>(i, hidden);
+  }
+
+  /// The outputs of n vectors of LSTM units.
+  template <int n>
+  void put_out(int first, T* hidden) {
+    Vector x[n], scale[n];
+    for (int i = 0; i < n; ++i) x[i] = for_tanh(vector(m_.state + first + i * kVector));
+    exponentials<n>(x, scale);
+    for (int i = 0; i < n; ++i) {
+      const Vector squashed = x[i] + (scale[i] - T(1));
+      Vector& output = vector(hidden + first + i * kVector);
+      output = squashed / ((squashed + T(2)) * output);
     }
   }
 

@@ -17,9 +17,13 @@
 #if defined(_MSC_VER)
 #define BOTSCHOOL_RESTRICT __restrict
 #define BOTSCHOOL_INLINE __forceinline
+#define BOTSCHOOL_INLINE_LAMBDA [[msvc::forceinline]]
+#define BOTSCHOOL_OUTLINE __declspec(noinline)
 #else
 #define BOTSCHOOL_RESTRICT __restrict__
 #define BOTSCHOOL_INLINE inline __attribute__((always_inline))
+#define BOTSCHOOL_INLINE_LAMBDA __attribute__((always_inline))
+#define BOTSCHOOL_OUTLINE __attribute__((noinline))
 #endif
 
 #define BOTSCHOOL_PRAGMA(text) _Pragma(#text)

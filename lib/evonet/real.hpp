@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "isa.hpp"
 
@@ -36,6 +37,35 @@ struct LanesOf {
 };
 #endif
 
+#if defined(__clang__) || __GNUC__ >= 12
+/// Swaps the right half of `a` with the left half of `b`, in each block of 2 * size values.
+template <class T, int L, int size, int... i>
+BOTSCHOOL_INLINE void swap_halves(LanesOf<T, L>& a, LanesOf<T, L>& b,
+                                  std::integer_sequence<int, i...>) {
+  const LanesOf<T, L> left = __builtin_shufflevector(a, b, (i & size ? L + i - size : i)...);
+  b = __builtin_shufflevector(a, b, (i & size ? L + i : i + size)...);
+  a = left;
+}
+
+/// Turns a square of numbers: row i gets the i-th of each row.
+template <class T, int L, int size = L / 2>
+BOTSCHOOL_INLINE void transpose(LanesOf<T, L>* rows) {
+  if constexpr (size > 0) {
+    for (int i = 0; i < L; ++i)
+      if (!(i & size))
+        swap_halves<T, L, size>(rows[i], rows[i + size], std::make_integer_sequence<int, L>());
+    transpose<T, L, size / 2>(rows);
+  }
+}
+#else
+template <class T, int L>
+void transpose(LanesOf<T, L>* rows) {
+  T* value = reinterpret_cast<T*>(rows);
+  for (int i = 1; i < L; ++i)
+    for (int j = 0; j < i; ++j) std::swap(value[i * L + j], value[j * L + i]);
+}
+#endif
+
 template <class To, class From>
 BOTSCHOOL_INLINE To bits_of(From from) {
   static_assert(sizeof(To) == sizeof(From));
@@ -43,6 +73,35 @@ BOTSCHOOL_INLINE To bits_of(From from) {
   std::memcpy(&to, &from, sizeof to);
   return to;
 }
+
+/// What elementary functions take at a time: L values that begin at a multiple of their size, or a
+/// single one where the compiler leaves no choice.
+template <class T, int L>
+struct Vectors {
+#if defined(__GNUC__)
+  using type [[gnu::vector_size(sizeof(T) * L)]] = T;
+#else
+  using type = T;
+#endif
+};
+template <class T>
+struct Vectors<T, 1> {
+  using type = T;
+};
+template <class T, int L>
+using VectorOf = typename Vectors<T, L>::type;
+
+/// Integers of a float's size, as many as F has values.
+template <class F>
+struct BitsOf {
+  using type = decltype(F{} < F{});
+};
+template <>
+struct BitsOf<float> {
+  using type = std::uint32_t;
+};
+template <class F>
+using Bits = typename BitsOf<F>::type;
 
 template <class T>
 BOTSCHOOL_INLINE T clamp(T x, T low, T high) {
@@ -61,12 +120,14 @@ BOTSCHOOL_INLINE void split_by_ln2(double x, double& rest, double& scale) {
   rest = (x - k * 6.93147180369123816490e-01) - k * 1.90821492927058770002e-10;
   scale = bits_of<double>((bits_of<std::uint64_t>(shifted) + 1023) << 52);
 }
-BOTSCHOOL_INLINE void split_by_ln2(float x, float& rest, float& scale) {
+/// F: float, or a vector of it.
+template <class F>
+BOTSCHOOL_INLINE void split_by_ln2(F x, F& rest, F& scale) {
   const float magic = 12582912.0f;
-  const float shifted = x * 1.44269504f + magic;
-  const float k = shifted - magic;
+  const F shifted = x * 1.44269504f + magic;
+  const F k = shifted - magic;
   rest = (x - k * 0.693145751953125f) - k * 1.42860677e-06f;
-  scale = bits_of<float>((bits_of<std::uint32_t>(shifted) + 127) << 23);
+  scale = bits_of<F>((bits_of<Bits<F>>(shifted) + 127) << 23);
 }
 
 /// exp(r) - 1 for |r| <= ln 2 / 2.
@@ -85,9 +146,9 @@ BOTSCHOOL_INLINE double expm1_series(double r) {
   p = p * r + 0.5;
   return (p * r) * r + r;
 }
-BOTSCHOOL_INLINE float expm1_series(float r) {
-  float p = 1.0f / 5040.0f;
-  p = p * r + 1.0f / 720.0f;
+template <class F>
+BOTSCHOOL_INLINE F expm1_series(F r) {
+  F p = r * (1.0f / 5040.0f) + 1.0f / 720.0f;
   p = p * r + 1.0f / 120.0f;
   p = p * r + 1.0f / 24.0f;
   p = p * r + 1.0f / 6.0f;
@@ -101,6 +162,10 @@ constexpr T kExpLow = sizeof(T) == 8 ? T(-708) : T(-87);
 template <class T>
 constexpr T kExpHigh = sizeof(T) == 8 ? T(709) : T(88);
 
+/// exp(2x) - 1 is taken of 2x within these, where tanh(x) is not yet 1.
+template <class T>
+constexpr T kTwiceHigh = sizeof(T) == 8 ? T(40) : T(20);
+
 template <class T>
 BOTSCHOOL_INLINE T exponential(T x) {
   T rest, scale;
@@ -108,13 +173,21 @@ BOTSCHOOL_INLINE T exponential(T x) {
   return scale * expm1_series(rest) + scale;
 }
 
-/// exp(2x) - 1, with x limited to where tanh(x) is not yet 1.
+/// exp(2x) - 1
 template <class T>
 BOTSCHOOL_INLINE T expm1_twice(T x) {
-  const T limit = sizeof(T) == 8 ? T(40) : T(20);
   T rest, scale;
-  split_by_ln2(clamp(x + x, -limit, limit), rest, scale);
+  split_by_ln2(clamp(x + x, -kTwiceHigh<T>, kTwiceHigh<T>), rest, scale);
   return scale * expm1_series(rest) + (scale - T(1));
+}
+
+/// The same for several limited arguments at a time, whose operations then run side by side: turns
+/// x into exp(x) - scale, so that the sum of both is exp(x).
+template <int n, class F>
+BOTSCHOOL_INLINE void exponentials(F* x, F* scale) {
+  F rest[n];
+  for (int i = 0; i < n; ++i) split_by_ln2(x[i], rest[i], scale[i]);
+  for (int i = 0; i < n; ++i) x[i] = scale[i] * expm1_series(rest[i]);
 }
 
 template <class T>

@@ -90,7 +90,7 @@ def arrows(before: np.ndarray, after: np.ndarray) -> np.ndarray:
 
     before and after hold n states each, shape (n, 2). A row of the result is the angle and the
     velocity before, the change of the angle, and the change of the velocity. The change of an
-    angle is the short way around, in [-pi, pi].
+    angle is the short way around, in [-pi, pi]. The arrays given stay as they are.
     """
     ### BEGIN SOLUTION task 7.3: compute arrows, the short way around
     change = after - before
@@ -204,7 +204,8 @@ def three_stages(seed: int) -> np.ndarray:
     least 100 higher than the first one's, and at least 100 lower than the last one's.
 
     The return of one evaluation depends on luck: measure those that you have kept once more, with
-    robot.evaluate(parameters, seed, episodes=100), before you choose.
+    robot.evaluate(parameters, seed, episodes=100), before you choose. The grader has robots of its
+    own, on which some parameters count with the other sign.
 
     Returns an array of shape (3, parameters).
     """
@@ -239,7 +240,8 @@ def draw_portraits(
     """Draws phase portraits side by side, in one row, into a PNG file.
 
     Panel i has titles[i], the arrows fields[i] of the grid, and above them the arrows paths[i] of
-    episodes; both have the shape (n, 4), as `arrows` gives them. Whatever is drawn, each panel
+    episodes; both have the shape (n, 4), as `arrows` gives them, and each arrow is drawn from its
+    state to the next one, with its head there. Whatever is drawn, each panel
     shows exactly the angles from -pi to pi, from left to right, and the velocities from -8 to 8,
     upwards. The picture is at least 300 pixels high, and at least 300 wide for each panel.
     """

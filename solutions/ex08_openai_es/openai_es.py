@@ -278,11 +278,12 @@ def train(environment: str, seed: int) -> np.ndarray:
 # ## Curves with their verdicts
 #
 # `botschool show 8` (or running this file once all tasks are done) evolves three problems with
-# careful and with rash hyperparameters, judges the curves and marks the largest fall of each.
+# careful and with rash hyperparameters, judges the curves and marks the largest fall of each. Then
+# it films the pendulum that `train` has evolved.
 
 # %%
 if __name__ == "__main__":
-    from botschool.course import draw_verdicts
+    from botschool.course import draw_verdicts, film
 
     settings = {
         "careful: stepsize 0.03, noise 0.2": {"stepsize": 0.03, "noiseStdDev": 0.2},
@@ -303,3 +304,4 @@ if __name__ == "__main__":
                 curves.append((curve, stability(curve)))
             panels[f"{environment}, {name}"] = curves
     draw_verdicts("stability.png", panels, columns=len(settings))
+    film("pendulum.mp4", "Pendulum-v1", train("Pendulum-v1", seed=1))

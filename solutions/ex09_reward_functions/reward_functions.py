@@ -220,6 +220,8 @@ def compare(robot: str, genotypes: dict, seed: int, episodes: int) -> dict:
 
 # %%
 if __name__ == "__main__":
+    from botschool.course import SavedRobot, experiment_file, genotype_file
+
     STEPS, SEED = 60_000, 1
     genotypes = evolve_both("Hopper", STEPS, SEED)
     for version, means in compare("Hopper", genotypes, 1000, 20).items():
@@ -237,3 +239,7 @@ if __name__ == "__main__":
         {labels[v]: one["distance"][0] - one["distance"][1:] for v, one in recorded.items()},
         {labels[v]: strip("HopperBulletEnv-v5", genotypes[v], 1000) for v in recorded},
     )
+    for version, genotype in genotypes.items():
+        runner.film(f"hopper_{version}.mp4", genotype, 1000)
+    evolved = SavedRobot(experiment_file("hopper.ini"), np.load(genotype_file("hopper.npy")))
+    evolved.film("evolved_longer.mp4", seed=1000)

@@ -471,7 +471,7 @@ INDICATORS = (
 if __name__ == "__main__":
     from botschool import config
     from botschool.course import experiment_file
-    from botschool.course.rl import draw_indicators, draw_trainings
+    from botschool.course.rl import draw_indicators, draw_trainings, film_training
     from botschool.evolution.run import Run, evolve
 
     experiment = config.load(experiment_file("cartpole_openaies.ini"))
@@ -502,3 +502,7 @@ if __name__ == "__main__":
     print(f"  by luck    {chance_of(*(together[name][:, -1].tolist() for name in curves)):.3f}")
     draw_indicators("indicators.png", trainings, INDICATORS)
     draw_trainings("success.png", trainings, together, curves)
+    for title, (runs, _) in trainings.items():
+        best = max(runs, key=lambda run: run["return"])
+        print(f"{title}: the best is {best['variant']}, seed {best['seed']}")
+        film_training(f"{title}.mp4", best["folder"])

@@ -349,6 +349,7 @@ if __name__ == "__main__":
         draw_red_queen,
         draw_tournament,
         load_run,
+        replay_chases,
     )
 
     run = load_run("results/ex15/run")
@@ -402,3 +403,4 @@ if __name__ == "__main__":
         "chases.png",
         {(a, b): chase(run[a][0][0], run[b][1][0]) for a in stages for b in stages},
     )
+    replay_chases("chases.html", {stage: (run[stage][0][0], run[stage][1][0]) for stage in stages})

@@ -22,6 +22,7 @@ from comparison import comparison, notice
 from processes import Neighbours, help_seconds, peak_memory
 from report import Table, machine, rate, verdict
 from roofline import roofline
+from runners import runners, two_workers_on_runners
 from speed import (
     CASES,
     DATA,
@@ -253,6 +254,8 @@ PARTS = {
     "bodies": (locomotors, (5,), (50,)),
     "bodyworkers": (two_workers_on_bodies, (1,), (4,)),
     "bodybrain": (bodybrain, (5,), (30,)),
+    "runners": (runners, (0.2, 2), (1.0, 5)),
+    "runnerworkers": (two_workers_on_runners, (3,), (20,)),
     "memory": (memory_and_start, (2, 3), (8, 10)),
 }
 """What is measured: a function that gives tables, its arguments with --quick and without."""

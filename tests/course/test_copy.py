@@ -2,16 +2,21 @@
 
 import os
 import shutil
+import socket
 import subprocess
 import sys
+import time
 
+import psutil
 import pytest
 
 import building
+from botschool.grading import starting
 from botschool.grading.exercise import load_exercise
 from botschool.grading.release import release
 from botschool.grading.showing import show
 from botschool.grading.submission import grade
+from browser import Browser, find_browser
 
 pytestmark = pytest.mark.course
 
@@ -58,8 +63,42 @@ def test_finished_file_run_by_itself_makes_its_pictures(copy, number, capfd):
     assert made and all(path.is_relative_to(copy / "results" / f"ex{number:02d}") for path in made)
     images = [path for path in made if path.suffix in (".png", ".mp4", ".html")]
     assert images and all(path.stat().st_size > 1000 for path in images)
+    moving = [path for path in images if path.suffix != ".png"]
+    assert moving or number == 11  # the only one without a robot
     outside = set(os.listdir(copy)) - set(os.listdir(building.ROOT)) - {".release.json", "results"}
     assert not outside
+
+
+@pytest.mark.skipif(not find_browser(), reason="needs a Chromium")
+def test_a_file_opens_as_a_notebook(copy, tmp_path):
+    """In a real JupyterLab, in a browser: as cells; nothing is written beside the file."""
+    pytest.importorskip("jupyterlab")
+    pytest.importorskip("jupytext")
+    file = put(copy, 1, building.source(1).skeleton)
+    before = sorted(file.parent.iterdir())
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    command = starting.notebook_command(file, copy)
+    options = ["--no-browser", "--IdentityProvider.token=", f"--port={port}"]
+    env = starting.notebook_variables(copy) | {"HOME": str(tmp_path)}
+    with open(tmp_path / "log", "w") as log:
+        process = subprocess.Popen([*command, *options], env=env, stdout=log, stderr=log)
+    browser = Browser(tmp_path / "profile")
+    try:
+        address = f"http://127.0.0.1:{port}" + command[-1].partition("=")[2]
+        deadline = time.monotonic() + 300
+        while not browser.run("document.querySelectorAll('.jp-Notebook .jp-CodeCell').length"):
+            assert time.monotonic() < deadline, (tmp_path / "log").read_text()
+            if not browser.run("!!document.querySelector('#jupyter-config-data')"):
+                browser.call("Page.navigate", url=address)
+            time.sleep(1)
+    finally:
+        browser.close()
+        for one in [*psutil.Process(process.pid).children(recursive=True), process]:
+            one.kill()
+        process.wait()
+    assert sorted(path for path in file.parent.iterdir() if path.name[0] != ".") == before
 
 
 @pytest.mark.skipif(not shutil.which("make"), reason="needs make")

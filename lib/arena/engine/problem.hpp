@@ -57,6 +57,9 @@ BOTSCHOOL_BEGIN
 
 /// What problems inherit: defaults that a problem may hide by members of its own.
 struct ProblemBase {
+  /// Whether `state` is all that an episode is, or refresh() recomputes the rest: then an episode can
+  /// go on in another lane.
+  static constexpr bool movable = false;
   /// Once, before anything else.
   void set(const Setting&) {}
   /// Recomputes what is derived from a state that was changed from outside.

@@ -1,5 +1,6 @@
 // Whole episodes of one problem, L at a time in lockstep. A lane whose episode has ended is refilled
-// with the next job; what happens in a lane depends on its own job alone.
+// with the next job; what happens in a lane depends on its own job alone. When no job is left and half
+// of the lanes are idle, the other half goes on by itself, if the problem's episodes can move.
 #pragma once
 
 #include <cstddef>
@@ -73,7 +74,8 @@ class Rollout {
 
   static std::size_t workspace(const Layout& layout) {
     return kHeader + robots() * brain_bytes(layout) + observation_bytes(layout) +
-           moments_bytes(layout) + action_bytes() + record_bytes();
+           moments_bytes(layout) + action_bytes() + (record_bytes() + 63) / 64 * 64 +
+           half_bytes(layout);
   }
 
   static void run(const Layout& layout, const Jobs& jobs, Queue& queue, Recorder* recorder,
@@ -83,10 +85,23 @@ class Rollout {
     auto* bytes = static_cast<unsigned char*>(workspace);
     auto& problem = *new (bytes) Problem<L>();
     problem.set(jobs.setting);
-    Rollout(layout, jobs, queue, recorder, problem, bytes + kHeader).run();
+    Rollout rollout(layout, jobs, queue, recorder, problem, bytes + kHeader);
+    for (int l = 0; l < L; ++l) rollout.fill(l);
+    rollout.group();
+    rollout.run();
   }
 
  private:
+  template <template <int> class, int>
+  friend class Rollout;
+  using Half = Rollout<Problem, L / 2>;
+  /// Fewer lanes than 8 leave registers half empty.
+  static constexpr bool kHalves = Problem<L>::movable && L >= 16;
+
+  static std::size_t half_bytes(const Layout& layout) {
+    if constexpr (kHalves) return Half::workspace(layout);
+    return 0;
+  }
   static constexpr std::size_t kHeader = (sizeof(Problem<L>) + 63) / 64 * 64;
   static int robots() { return Problem<L>::info().robots; }
   static std::size_t brain_bytes(const Layout& layout) {
@@ -119,18 +134,18 @@ class Rollout {
       memory_[r].carve(layout, reinterpret_cast<Real*>(bytes));
       memory_[r].inputs = observations_ + std::ptrdiff_t(r) * layout.spec.inputs * L;
       bytes += brain_bytes(layout);
-      for (int l = 0; l < L; ++l) candidate_[r][l] = -1;
-      shared_[r] = -1;
+      memory_[r].groups = &groups_[r];
+      for (int l = 0; l < L; ++l) candidate_[r][l] = in_network_[r][l] = -1;
     }
     moments_ = reinterpret_cast<double*>(bytes);
     action_ = moments_ + 2 * layout.spec.inputs * L;
     record_ = action_ + robots_ * actions_ * L;
+    half_ = reinterpret_cast<unsigned char*>(record_) + (record_bytes() + 63) / 64 * 64;
   }
 
   void run() {
-    for (int l = 0; l < L; ++l) fill(l);
-    share();
     while (active_ > 0) {
+      if (kHalves && !waiting_ && active_ <= L / 2 && !recorder_) return go_on_by_half();
       problem_.observe(observations_);
       if (collecting_ > 0) collect();
       for (int r = 0; r < robots_; ++r) {
@@ -150,11 +165,48 @@ class Rollout {
     }
   }
 
-  Brain<Real, L> brain(int robot) { return {layout_, memory_[robot]}; }
+  /// Moves all episodes to half as many lanes and finishes them there.
+  void go_on_by_half() {
+    if constexpr (kHalves) {
+      auto& problem = *new (half_) Problem<L / 2>();
+      problem.set(jobs_.setting);
+      Half half(layout_, jobs_, queue_, nullptr, problem, half_ + Half::kHeader);
+      int lane = 0;
+      for (int l = 0; l < L; ++l)
+        if (job_[l] >= 0) half.take(*this, l, lane++);
+      while (lane < L / 2) half.fill(lane++);
+      half.group();
+      half.run();
+    }
+  }
+
+  /// Goes on with the episode of another's lane.
+  template <int W>
+  void take(const Rollout<Problem, W>& other, int from, int lane) {
+    job_[lane] = other.job_[from];
+    total_[lane] = other.total_[from];
+    steps_[lane] = other.steps_[from];
+    for (int i = 0; i < Problem<L>::info().states; ++i)
+      problem_.state[i][lane] = other.problem_.state[i][from];
+    problem_.refresh(lane);
+    for (int r = 0; r < robots_; ++r) {
+      keys_[r][lane] = other.keys_[r][from];
+      load(lane, r, other.candidate_[r][from]);
+      brain(r).copy(lane, other.brain(r), from);
+    }
+    ++active_;
+    if (!wants_moments(job_[lane])) return;
+    ++collecting_;
+    for (int i = 0; i < 2 * layout_.spec.inputs; ++i)
+      moments_[i * L + lane] = other.moments_[i * W + from];
+  }
+
+  Brain<Real, L> brain(int robot) const { return {layout_, memory_[robot]}; }
 
   /// Takes the next job into a lane, or leaves the lane idle.
   void fill(int lane) {
     const std::ptrdiff_t job = queue_.next();
+    waiting_ = job >= 0;
     const bool unused = candidate_[0][lane] < 0;
     job_[lane] = job;
     total_[lane] = 0;
@@ -199,25 +251,51 @@ class Rollout {
       --active_;
       fill(l);
     }
-    share();
+    group();
   }
 
-  /// Notes which robots have the same candidate in all lanes that work, so that its parameters are
-  /// read once for all (a block of candidates meets one competitor after another).
-  void share() {
+  /// Groups the lanes that work by candidate, so that weights of large layers are read once for all
+  /// lanes that have them: in co-evolution a candidate meets several competitors, and a competitor
+  /// several candidates.
+  void group() {
+    if (memory_[0].network_size == 0) return;
     for (int r = 0; r < robots_; ++r) {
-      std::int32_t one = -1;
-      bool same = true;
+      Groups<L>& groups = groups_[r];
+      groups.count = 0;
+      int used = 0;
       for (int l = 0; l < L; ++l) {
-        if (job_[l] < 0) continue;
-        if (one < 0) one = candidate_[r][l];
-        same &= candidate_[r][l] == one;
+        if (job_[l] < 0 || grouped_before(r, l)) continue;
+        const int network = network_of(r, candidate_[r][l]);
+        groups.network[groups.count] = network;
+        groups.finite[groups.count] = finite_[r][network];
+        groups.first[groups.count++] = used;
+        for (int other = l; other < L; ++other)
+          if (job_[other] >= 0 && candidate_[r][other] == candidate_[r][l])
+            groups.lane[used++] = other;
       }
-      memory_[r].sharing = same && one >= 0;
-      if (!memory_[r].sharing || shared_[r] == one) continue;
-      shared_[r] = one;
-      brain(r).share(genotype(r, one));
+      groups.first[groups.count] = used;
     }
+  }
+
+  bool grouped_before(int robot, int lane) const {
+    for (int l = 0; l < lane; ++l)
+      if (job_[l] >= 0 && candidate_[robot][l] == candidate_[robot][lane]) return true;
+    return false;
+  }
+
+  /// Which of the brain's L networks is a candidate's: those that no lane needs give way.
+  int network_of(int robot, std::int32_t candidate) {
+    std::int32_t* in_network = in_network_[robot];
+    int free = -1;
+    for (int n = 0; n < L; ++n) {
+      if (in_network[n] == candidate) return n;
+      bool needed = false;
+      for (int l = 0; l < L; ++l) needed |= job_[l] >= 0 && candidate_[robot][l] == in_network[n];
+      if (!needed) free = n;
+    }
+    in_network[free] = candidate;
+    finite_[robot][free] = brain(robot).load_network(free, genotype(robot, candidate));
+    return free;
   }
 
   const double* genotype(int robot, std::int32_t candidate) const {
@@ -272,9 +350,10 @@ class Rollout {
   Problem<L>& problem_;
   Memory memory_[kMaxRobots];
   Real* observations_;
-  double* moments_;  ///< [2 * inputs * L]
-  double* action_;   ///< [robots * actuators * L]
-  double* record_;   ///< for the recorder
+  double* moments_;      ///< [2 * inputs * L]
+  double* action_;       ///< [robots * actuators * L]
+  double* record_;       ///< for the recorder
+  unsigned char* half_;  ///< workspace of half as many lanes
 
   alignas(64) double reward_[L], total_[L];
   alignas(64) std::int64_t ended_[L];
@@ -282,8 +361,11 @@ class Rollout {
   NoiseKey keys_[kMaxRobots][L];
   std::ptrdiff_t job_[L];
   std::int32_t candidate_[kMaxRobots][L];
-  std::int32_t shared_[kMaxRobots];  ///< whose parameters all lanes can share
+  std::int32_t in_network_[kMaxRobots][L];  ///< whose weights the brain's networks are
+  bool finite_[kMaxRobots][L];              ///< whether they are
+  Groups<L> groups_[kMaxRobots];
   int active_ = 0, collecting_ = 0;
+  bool waiting_ = true;  ///< whether the queue may have another job
 };
 
 BOTSCHOOL_END

@@ -22,6 +22,7 @@ struct Acrobot : ProblemBase {
     return info;
   }
 
+  static constexpr bool movable = true;
   double state[4][L];  // theta1 (0 hangs), theta2 (against link 1), theta1', theta2'
   double sine1[L], cosine1[L], sine2[L], cosine2[L];
 
@@ -73,7 +74,7 @@ struct Acrobot : ProblemBase {
       accelerations(sine1[l], cosine1[l], sine2[l], cosine2[l], w1, w2, torque, a1, a2);
       double angle1 = w1, angle2 = w2, speed1 = a1, speed2 = a2;  // weighted sums of the slopes
       double v1 = w1, v2 = w2;
-      const auto stage = [&](double h, double weight) {
+      const auto stage = [&](double h, double weight) BOTSCHOOL_INLINE_LAMBDA {
         double s1, c1, s2, c2;
         sine_cosine(t1 + h * v1, s1, c1);
         sine_cosine(t2 + h * v2, s2, c2);

@@ -21,6 +21,7 @@ struct CartPole : ProblemBase {
     return info;
   }
 
+  static constexpr bool movable = true;
   double state[4][L];  // x, x', theta, theta' (0 is upright)
 
   void start(int lane, Random& random) {

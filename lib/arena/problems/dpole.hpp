@@ -21,6 +21,7 @@ struct DoublePole : ProblemBase {
     return info;
   }
 
+  static constexpr bool movable = true;
   double state[6][L];  // x, x', theta1, theta1', theta2, theta2' (0 is upright)
 
   void start(int lane, Random& random) {

@@ -19,6 +19,7 @@ struct MountainCarContinuous : ProblemBase {
     return info;
   }
 
+  static constexpr bool movable = true;
   double state[2][L];  // position, velocity
 
   void start(int lane, Random& random) {

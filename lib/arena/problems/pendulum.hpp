@@ -22,6 +22,7 @@ struct Pendulum : ProblemBase {
     return info;
   }
 
+  static constexpr bool movable = true;
   double state[2][L];  // theta (0 is upright, unbounded), theta'
   double sine[L], cosine[L];
 

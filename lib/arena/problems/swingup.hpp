@@ -24,6 +24,7 @@ struct Swingup : ProblemBase {
     high[2] = high[3] = 1;
   }
 
+  static constexpr bool movable = true;
   double state[4][L];  // x, x', theta (0 is upright), theta'
   double sine[L], cosine[L];
 

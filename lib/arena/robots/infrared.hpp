@@ -187,22 +187,26 @@ struct Infrared : Shares<kInfrared> {
       fade[l] = body.n == 1 ? ratio : ratio * std::sqrt(ratio);
       seen[l] = gap[l] <= range ? T(1) : T(0);
     }
+    // pass by pass over all sensors: many short chains of operations side by side, not a long one
     const T width = static_cast<T>(response.w), power = static_cast<T>(response.m);
+    alignas(64) T off[size * L];
     for (int s = 0; s < size; ++s) {
       const T direction = static_cast<T>(radians(body.direction[s]));
+      for (int l = 0; l < L; ++l) off[s * L + l] = wrapped(angle[l] - direction) / width;
+    }
+    if (response.m == 2) {
+      for (int i = 0; i < size * L; ++i) off[i] *= off[i];
+    } else {
+      for (int i = 0; i < size * L; ++i) {
+        const T size = std::fabs(off[i]);
+        off[i] = power * logarithm(size > T(1e-6) ? size : T(1e-6));
+      }
+      for (int i = 0; i < size * L; ++i) off[i] = exponential(off[i]);
+    }
+    for (int s = 0; s < size; ++s) {
       const T gain = static_cast<T>(body.gain[s]);
-      T* BOTSCHOOL_RESTRICT reading = out + s * L;
-      if (response.m == 2)
-        for (int l = 0; l < L; ++l) {
-          const T off = wrapped(angle[l] - direction) / width;
-          reading[l] = seen[l] * gain * exponential(-(fade[l] + off * off));
-        }
-      else
-        for (int l = 0; l < L; ++l) {
-          const T off = std::fabs(wrapped(angle[l] - direction)) / width;
-          const T raised = exponential(power * logarithm(off > T(1e-6) ? off : T(1e-6)));
-          reading[l] = seen[l] * gain * exponential(-(fade[l] + raised));
-        }
+      for (int l = 0; l < L; ++l)
+        out[s * L + l] = seen[l] * gain * exponential(-(fade[l] + off[s * L + l]));
     }
   }
 

@@ -27,11 +27,16 @@ Number = Annotated[str, typer.Argument(help="Exercise N.", metavar="N")]
 
 
 @app.command(epilog="Example: botschool start 3")
-def start(exercise: Number) -> None:
+def start(
+    exercise: Number,
+    notebook: Annotated[
+        bool, typer.Option("--notebook", help="Open your file as a notebook, too.")
+    ] = False,
+) -> None:
     """Say what to read, where to write and how to go on."""
     from botschool.grading.commands import start_command
 
-    start_command(exercise)
+    start_command(exercise, notebook)
 
 
 @app.command(epilog="Example: botschool reset 3")
@@ -69,11 +74,16 @@ def hint(
 
 
 @app.command(epilog="Example: botschool progress")
-def progress(workers: GradingWorkers = None) -> None:
-    """Show your points in all exercises, and what comes next."""
+def progress(
+    grade: Annotated[
+        bool, typer.Option("--grade", help="Grade them all first (takes minutes).")
+    ] = False,
+    workers: GradingWorkers = None,
+) -> None:
+    """Show your points in all exercises, as last graded, and what comes next."""
     from botschool.grading.commands import progress_command
 
-    progress_command(workers)
+    progress_command(grade, workers)
 
 
 @app.command(epilog="Example: botschool watch 3, or botschool watch 3.2 for one task")
@@ -91,11 +101,20 @@ def watch(
 def show(
     exercise: Number,
     submission: Submission = None,
+    opens: Annotated[
+        bool, typer.Option("--open/--no-open", help="In your browser, if there is a display.")
+    ] = True,
+    answers: Annotated[
+        bool, typer.Option("--answers", help="Show the answers instead, after full marks.")
+    ] = False,
 ) -> None:
-    """Run your finished file in results/exNN, and say what it has made."""
-    from botschool.grading.commands import show_command
+    """Run your finished file in results/exNN, and open what it has made."""
+    from botschool.grading.commands import answers_command, show_command
 
-    show_command(exercise, submission)
+    if answers:
+        answers_command(exercise)
+    else:
+        show_command(exercise, submission, opens)
 
 
 @app.command(epilog="Example: botschool release ../course-for-students --exercises 1-3")
@@ -109,14 +128,19 @@ def release(
             "-e", "--exercises", help="Those to add, as 1-3,7; earlier ones stay.", metavar="N,N-N"
         ),
     ] = "all",
+    answers: Annotated[
+        bool,
+        typer.Option("--answers", help="Let `show N --answers` tell what full marks have earned."),
+    ] = False,
 ) -> None:
     """For instructors: make a copy of the repository for students, without solutions.
 
-    In a copy that is there already, files that were edited since are left alone.
+    In a copy that is there already, files that were edited since are left alone, and exercises
+    that have their answers keep them.
     """
     from botschool.grading.commands import release_command
 
-    release_command(folder, exercises)
+    release_command(folder, exercises, answers)
 
 
 @app.command("grade-all", epilog="Example: botschool grade-all submissions --exercise 3 -o grades")

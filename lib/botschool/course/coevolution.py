@@ -208,6 +208,27 @@ def draw_chases(file: str | Path, chases: dict[tuple[int, int], dict]) -> None:
     print(f"picture: {file}")
 
 
+def replay_chases(file: str | Path, pairs: dict[int, tuple[np.ndarray, np.ndarray]]) -> None:
+    """A page that plays the chase of each pair: generation -> (predator, prey)."""
+    from botschool.render.canvas import draw_offscreen
+    from botschool.render.replay import write_replay
+    from botschool.render.scenes import scene_of
+
+    draw_offscreen()
+    problem, policy = _contest()
+    write_replay(
+        file,
+        problem.name,
+        "the best predator and the best prey of a generation",
+        (problem.play(policy, np.stack(pair), None, 0, 0, 2000) for pair in pairs.values()),
+        problem.fps,
+        (policy.spec.inputs, policy.spec.outputs * policy.spec.nbins),
+        scene_of(problem),
+        [f"generation {generation}" for generation in pairs],
+    )
+    print(f"replay: {file}")
+
+
 def _draw_chase(axes, chase: dict) -> None:
     from matplotlib.collections import LineCollection
     from matplotlib.colors import LinearSegmentedColormap

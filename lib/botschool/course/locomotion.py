@@ -74,6 +74,16 @@ class Runner:
         trajectory["robot"] = self.environment.partition("BulletEnv")[0]
         return trajectory
 
+    def film(self, file: str | Path, genotype: np.ndarray, seed: int, maxsteps: int = 1000) -> None:
+        """A film of one episode."""
+        from botschool.render.panel import with_caption
+        from botschool.render.video import write_video
+
+        robot = self.policy.split(genotype)
+        play = self._problem.play(self.policy, *robot, seed, 0, maxsteps, render=True)
+        write_video(Path(file), (with_caption(t.frame, 1, t) for t in play), self._problem.fps)
+        print(f"film: {file}")
+
 
 def draw_gaits(
     file: str | Path,

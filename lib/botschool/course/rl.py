@@ -203,6 +203,18 @@ def draw_trainings(
     print(f"picture: {file}")
 
 
+def film_training(file: str | Path, folder: str | Path) -> None:
+    """A film of an episode of the best model in a training's folder."""
+    from botschool.course.films import film_agent
+    from botschool.rl.agent import Agent
+    from botschool.rl.folder import RunFolder
+
+    found = RunFolder(folder)
+    agent = Agent.load(found.best)
+    act = lambda observation: agent.act(np.asarray(observation)[None])[0][0]  # noqa: E731
+    film_agent(file, found.settings().env, act, seed=1, maxsteps=500)
+
+
 def _colours(trainings: dict[str, tuple[list[dict], list[dict]]]) -> dict[str, str]:
     """Variant -> colour, the same in all problems."""
     variants = dict.fromkeys(run["variant"] for runs, _ in trainings.values() for run in runs)

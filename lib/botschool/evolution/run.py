@@ -30,7 +30,7 @@ WAITING_STEPS = 1_000_000
 """A post-evaluation that may take more steps never waits: to stop, a run has to finish it."""
 
 
-@dataclass(frozen=True)
+@dataclass
 class Open:
     """A generation that is done but for the post-evaluation of its best candidate."""
 
@@ -149,10 +149,10 @@ class Run:
 
     def line(self) -> str:
         """A line about the last generation."""
-        last = self.record.last
+        record, last = self.record, self.record.last
         return (
-            f"seed {self.seed}  generation {self.record.generation}  steps {self.record.steps} "
-            f"({100 * self.record.steps / self.max_steps:.1f}%)  {self.numbers()}  "
+            f"seed {self.seed}  generation {record.generation}  steps {record.steps} "
+            f"({100 * record.steps / self.max_steps:.1f}%)  {self.numbers()}  "
             f"of this generation {last['best of generation']:.1f}  "
             f"parameter {last['average parameter']:.3f}"
         )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import re
 import signal
 import time
 import traceback
+from collections import Counter
 from pathlib import Path
 
 from rich.console import Console
@@ -26,7 +28,8 @@ from botschool.grading.exercise import (
 )
 from botschool.grading.report import Screen, counting, notice
 from botschool.grading.secret import grading_secret
-from botschool.grading.submission import grade
+from botschool.grading.stored import digest, remember
+from botschool.grading.submission import Result, grade
 from botschool.terminal import exits_on_signals
 
 
@@ -39,6 +42,7 @@ def grade_command(what: str, submission: str | None, as_json: bool, debug: bool)
         exercise.find(what)
     file = submission_file(number, submission)
     exercise.require()
+    graded = digest(file)
     if debug:
         if not task:
             raise BotschoolError(f"--debug runs one task: say which, as botschool grade {number}.1")
@@ -51,6 +55,8 @@ def grade_command(what: str, submission: str | None, as_json: bool, debug: bool)
         screen.start(exercise.number, exercise.title, file)
     tasks = [exercise.find(what)] if task else None
     result = grade(exercise, file, report, tasks, announce=announce)
+    if submission is None:
+        remember(course_root(), number, _points(result), graded)
     if as_json:
         print(json.dumps(result.to_json(), indent=1))
     else:
@@ -108,26 +114,41 @@ def hint_command(what: str) -> None:
 
 
 @exits_on_signals()
-def progress_command(workers: int | None) -> None:
-    """Prints the table of all exercises."""
-    from botschool.grading.progress import summary, table
+def progress_command(again: bool, workers: int | None) -> None:
+    """Prints the table of all exercises, as they were last graded; again: grades them now."""
+    from botschool.grading.progress import stored_result, summary, table
 
     root = course_root()
-    jobs, missing = {}, {}
-    grades = Grades(root)
-    for number in exercise_numbers(root):
-        try:
-            jobs[Job(number, submission_file(number, None, root))] = number
-        except BotschoolError as error:
-            missing[number] = grades.nothing(number, str(error))
     console = Console(highlight=False)
+    graded = _grade_own(root, workers, console) if again else {}
+    results = {number: stored_result(number, root) for number in exercise_numbers(root)}
+    for number, result in graded.items():
+        if result["problem"]:
+            results[number]["problem"] = result["problem"]
+    console.print(table(results))
+    console.print(summary(results), soft_wrap=True)
+    _notice(console, list(graded.values()))
+
+
+def _grade_own(root: Path, workers: int | None, console: Console) -> dict[int, dict]:
+    """Grades and remembers the student's own files: exercise number -> result."""
+    jobs = {}
+    for number in exercise_numbers(root):
+        with contextlib.suppress(BotschoolError):
+            file = submission_file(number, None, root)
+            jobs[Job(number, file)] = digest(file)
     with counting("Grading", console) as (start, step):
         start(len(jobs))
-        found = grades.of(jobs, _workers(workers), lambda job, result: step())
-    results = {job.number: result for job, result in found.items()} | missing
-    console.print(table(results))
-    console.print(summary(results))
-    _notice(console, list(results.values()))
+        found = Grades(root).of(jobs, _workers(workers), lambda job, result: step())
+    for job, result in found.items():
+        if not result["problem"]:
+            points = [(t["id"], t["points"], t["max_points"]) for t in result["tasks"]]
+            remember(root, job.number, points, jobs[job])
+    return {job.number: result for job, result in found.items()}
+
+
+def _points(result: Result) -> list[tuple[str, int, int]]:
+    return [(task.id, task.points, task.max_points) for task in result.tasks]
 
 
 @exits_on_signals()
@@ -142,6 +163,12 @@ def watch_command(what: str, submission: str | None) -> None:
     exercise.require()
     asked = False
 
+    class Remembering(Screen):
+        def end(self, result: Result, whole: bool = True) -> None:
+            if submission is None:
+                remember(course_root(), number, _points(result), digest(file))
+            super().end(result, whole)
+
     def stop(number: int, frame: object) -> None:
         nonlocal asked
         asked = True
@@ -154,16 +181,19 @@ def watch_command(what: str, submission: str | None) -> None:
 
     before = signal.signal(signal.SIGINT, stop)
     try:
-        watch(exercise, file, tasks, Screen(), wait)
+        watch(exercise, file, tasks, Remembering(), wait)
     except KeyboardInterrupt:
         print()
     finally:
         signal.signal(signal.SIGINT, before)
 
 
-def start_command(what: str) -> None:
-    """Says what an exercise is, where its files are and what to do; makes a missing file."""
-    from botschool.grading.starting import start
+def start_command(what: str, notebook: bool) -> None:
+    """Says what an exercise is, where its files are and what to do; makes a missing file.
+
+    notebook: then opens it as a notebook, until Ctrl-C.
+    """
+    from botschool.grading.starting import open_notebook, start
 
     number, root = _named(what)[0], course_root()
     exercise = load_exercise(number, root)
@@ -176,7 +206,10 @@ def start_command(what: str) -> None:
         console.print("  (it was missing and has been made)")
     console.print(f"  {'Grade':<11}botschool grade {number}, or botschool watch {number}")
     console.print(f"  {'A hint':<11}botschool hint {number}.1")
+    console.print(f"  {'A notebook':<11}make notebook-ex{number} opens your file as one")
     exercise.require()
+    if notebook:
+        open_notebook(number, file, root)
 
 
 def reset_command(what: str) -> None:
@@ -191,20 +224,47 @@ def reset_command(what: str) -> None:
         print(f"{name} is as it began; yours is kept as {os.path.relpath(kept)}.")
 
 
-def show_command(what: str, submission: str | None) -> None:
-    """Runs a finished exercise and names what it has made."""
-    from botschool.grading.showing import show
+def show_command(what: str, submission: str | None, opens: bool) -> None:
+    """Runs a finished exercise, names what it has made, and opens it."""
+    from botschool.grading.answers import answers
+    from botschool.grading.showing import make_page, open_page, show
 
-    for path in show(_named(what)[0], submission):
-        print(f"made: {os.path.relpath(path)}  ({path.stat().st_size / 1000:.0f} kB)")
+    number = _named(what)[0]
+    made = show(number, submission)
+    folder = course_root().resolve() / "results" / f"ex{number:02d}"
+    tops = Counter(path.relative_to(folder).parts[0] for path in made)
+    for name, files in tops.items():
+        what = f"{files} files" if (folder / name).is_dir() else _size(folder / name)
+        print(f"made: {os.path.relpath(folder / name)}  ({what})")
+    page = make_page(number, made)
+    if page:
+        opened = opens and open_page(page)
+        print(f"{'opened' if opened else 'all on one page'}: {os.path.relpath(page)}")
+    with contextlib.suppress(BotschoolError):
+        if answers(number, course_root()):
+            print(f"what our solution measured: botschool show {number} --answers")
 
 
-def release_command(folder: Path, exercises: str) -> None:
+def _size(path: Path) -> str:
+    return f"{path.stat().st_size / 1000:.0f} kB"
+
+
+def answers_command(what: str) -> None:
+    """Prints what the solution measured, after full marks."""
+    from rich.markdown import Markdown
+
+    from botschool.grading.answers import answers
+
+    text = answers(_named(what)[0], course_root())
+    Console(highlight=False).print(Markdown(text))
+
+
+def release_command(folder: Path, exercises: str, answers: bool) -> None:
     """Makes the students' copy, or brings it up to date."""
     from botschool.grading.release import release
 
     numbers = None if exercises == "all" else _numbers(exercises)
-    done = release(course_root(), folder, numbers)
+    done = release(course_root(), folder, numbers, answers)
     for path in done.edited:
         print(f"left alone, because it was edited: {path}")
     print(f"{folder}: {done.files} files for students, {done.written} of them new or changed.")

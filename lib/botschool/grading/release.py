@@ -15,6 +15,7 @@ from functools import partial
 from pathlib import Path
 
 from botschool.errors import BotschoolError
+from botschool.grading.answers import PACKED, pack_answers
 from botschool.grading.exercise import exercise_numbers, folder_of, load_exercise
 from botschool.grading.leaks import find_leaks
 from botschool.grading.packed import pack
@@ -32,7 +33,7 @@ MANIFEST = ".release.json"
 START = "exercises/README.md"
 """Where students start: this is the copy's own README.md too."""
 _WITHHELD = re.compile(
-    r"docs/(instructor|answer|solution|architecture|results\.)|^lib/.*\.md$"
+    r"docs/(instructor|answer|solution|architecture|results\.)|^lib/.*\.md$|^tools/figures/"
     r"|(^|/)(__pycache__|\..*_cache|results)/"
     r"|\.(pyc|so|pyd|dylib|dll|ipynb|egg-info)$|(^|/)(?!\.gitignore$)\.[^/]*$",
     re.IGNORECASE,
@@ -55,8 +56,12 @@ class Released:
     """Those that were left alone, because they are not as they were released."""
 
 
-def release(root: Path, target: Path, numbers: set[int] | None = None) -> Released:
+def release(
+    root: Path, target: Path, numbers: set[int] | None = None, with_answers: bool = False
+) -> Released:
     """Makes the copy, or brings it up to date. numbers: exercises; None is all of them.
+
+    with_answers: their solutions' texts come packed, to be shown after full marks.
 
     A new copy is made whole or not at all. In one that is there already, exercises that it has
     stay, and files that were edited since are left alone; .git is never touched. Raises
@@ -66,11 +71,15 @@ def release(root: Path, target: Path, numbers: set[int] | None = None) -> Releas
     manifest = _check(root, target)
     for number in sorted(numbers or ()):
         folder_of(number, root)
-    numbers = set(exercise_numbers(root) if numbers is None else numbers) | {
-        int(found[1]) for name in manifest if (found := re.match(r"exercises/ex(\d\d)_", name))
-    }
+    numbers = set(exercise_numbers(root) if numbers is None else numbers)
+    answered = numbers if with_answers else set()
+    for name in manifest:
+        if found := re.match(r"exercises/ex(\d\d)_", name):
+            numbers = numbers | {int(found[1])}
+            answered = answered | ({int(found[1])} if name.endswith(f"/{PACKED}") else set())
     with _temporary(target) as made:
         _build(root, made, numbers)
+        _add_answers(root, made, answered)
         leaks = find_leaks(root, (path for path in made.rglob("*") if path.is_file()))
         if leaks:
             path, line = leaks[0]
@@ -163,6 +172,14 @@ def _build(root: Path, made: Path, numbers: set[int]) -> None:
         (made / "README.md").write_text(text, encoding="utf-8", newline="\n")
 
 
+def _add_answers(root: Path, made: Path, numbers: set[int]) -> None:
+    for text in root.glob("solutions/ex[0-9][0-9]_*/README.md"):
+        folder = made / "exercises" / text.parent.name
+        if folder.is_dir() and int(text.parent.name[2:4]) in numbers:
+            packed = pack_answers(text.read_text(encoding="utf-8"))
+            (folder / PACKED).write_text(packed, encoding="ascii", newline="\n")
+
+
 def _change(path: Path, change) -> None:
     """Rewrites a text file, if it is one."""
     try:
@@ -244,7 +261,9 @@ def released_files(root: Path, numbers: set[int] | None = None) -> list[Path]:
 
 def _number(path: Path, root: Path) -> int | None:
     """The exercise that a file belongs to, if it does to one."""
-    found = re.match(r"exercises/ex(\d\d)_", path.relative_to(root).as_posix())
+    found = re.match(
+        r"(?:exercises|docs/images/course)/ex(\d\d)_", path.relative_to(root).as_posix()
+    )
     return int(found[1]) if found else None
 
 

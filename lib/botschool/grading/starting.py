@@ -1,12 +1,19 @@
-"""A student's file at its beginning: `botschool start` and `botschool reset`."""
+"""A student's file at its beginning, and as a notebook: `botschool start` and `botschool reset`."""
 
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
+from importlib.util import find_spec
 from itertools import count
 from pathlib import Path
+from urllib.parse import quote
 
 from botschool.errors import BotschoolError
+from botschool.grading.batch import make_state
 from botschool.grading.exercise import folder_of, load_exercise
 from botschool.grading.release import MANIFEST
 from botschool.grading.skeleton import skeleton
@@ -55,3 +62,55 @@ def reset(number: int, root: Path) -> tuple[Path, Path | None]:
     save_bytes(kept, file.read_bytes())
     save_bytes(file, text.encode())
     return file, kept
+
+
+VIEWER = {
+    "@jupyterlab/docmanager-extension:plugin": {"defaultViewers": {"python": "Jupytext Notebook"}}
+}
+"""JupyterLab's setting that opens Python files as notebooks."""
+
+
+def notebook_command(file: Path, root: Path) -> list[str]:
+    """Opens a file of the course as a notebook in JupyterLab; what is saved stays Python."""
+    place = quote(file.resolve().relative_to(root.resolve()).as_posix())
+    root_user = hasattr(os, "geteuid") and os.geteuid() == 0  # as in many containers
+    return [
+        sys.executable,
+        "-m",
+        "jupyterlab",
+        *(["--allow-root"] if root_user else []),
+        f"--ServerApp.root_dir={root.resolve()}",
+        # a workspace of its own: another may have the file open as text
+        f"--LabApp.default_url=/lab/workspaces/{file.stem}/tree/{place}",
+    ]
+
+
+def notebook_variables(root: Path) -> dict[str, str]:
+    """What JupyterLab finds in the environment: VIEWER, for this course, in a folder of ours.
+
+    Raises BotschoolError.
+    """
+    try:
+        folder = make_state(root.resolve()) / "jupyter"
+        (folder / "labconfig").mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BotschoolError(f"{root} cannot be written to ({error.strerror}).") from None
+    save_bytes(folder / "labconfig" / "default_setting_overrides.json", json.dumps(VIEWER).encode())
+    others = filter(None, [os.environ.get("JUPYTER_CONFIG_PATH")])
+    return os.environ | {"JUPYTER_CONFIG_PATH": os.pathsep.join([str(folder), *others])}
+
+
+def open_notebook(number: int, file: Path, root: Path) -> None:
+    """Runs JupyterLab with the file open, until Ctrl-C. Raises BotschoolError."""
+    if not all(map(find_spec, ("jupyterlab", "jupytext"))):
+        raise BotschoolError(
+            "A notebook needs JupyterLab and jupytext: install them and open it with 'make "
+            f"notebook-ex{number}'."
+        )
+    before = signal.signal(signal.SIGINT, lambda *_: None)  # Ctrl-C is JupyterLab's
+    try:
+        done = subprocess.run(notebook_command(file, root), env=notebook_variables(root))
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if done.returncode != 0:
+        raise BotschoolError("JupyterLab ended with an error, see above.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
@@ -95,7 +96,7 @@ class NativeProblem(Problem):
                 )
             )
         fitness, steps, moments = parts[0] if len(parts) == 1 else _concatenated(parts)
-        if not np.isfinite(fitness).all():
+        if not (math.isfinite(fitness.sum()) or np.isfinite(fitness).all()):
             first = int(np.argmin(np.isfinite(fitness)))
             raise self.broken(
                 f"a return of {fitness[first]}", episodes.seed[first], episodes.episode[first]

@@ -135,13 +135,19 @@ class Painter:
                 _paint_trail(surface, shape, past, self._origin, pixels)
             elif shape.kind != "text" and (opacity := shape.visible(past[-1])):
                 points = _to_pixels(shape.placed(past[-1]), self._origin, pixels)
-                _paint_shape(surface, shape, points, pixels, opacity)
+                if _within(surface, points, shape.radius * pixels):
+                    _paint_shape(surface, shape, points, pixels, opacity)
 
 
 def _to_pixels(points: np.ndarray, origin: tuple[float, float], pixels: float) -> np.ndarray:
     left, top = origin
     placed = np.column_stack([points[:, 0] - left, top - points[:, 1]]) * pixels
     return np.clip(placed, -_FAR, _FAR)
+
+
+def _within(surface: pygame.Surface, points: np.ndarray, margin: float) -> bool:
+    """Whether any of a shape can lie between the left and the right edge."""
+    return points[:, 0].max() >= -margin and points[:, 0].min() <= surface.get_width() + margin
 
 
 def _paint_shape(

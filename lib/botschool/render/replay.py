@@ -63,7 +63,10 @@ def write_replay(
     for number, episode in enumerate(played):
         if scene is None:
             episode["frames"] = frames.of(number)
+    charted = scene.charted if scene else ()
+    count -= sum(len(lines) for _, lines in charted)
     groups = neuron_groups(count, *neurons, scene.robots if scene else ("",)) if count else []
+    groups += [(label, len(lines)) for label, lines in charted]
     data = {
         "title": title,
         "about": about,
@@ -97,19 +100,22 @@ def _description(scene: Scene) -> dict:
 class _Step(NamedTuple):
     total: float
     activations: np.ndarray
+    """Of the neurons, then what the scene charts."""
     numbers: np.ndarray
 
     @classmethod
     def of(cls, transition: Transition, scene: Scene | None, frames: Frames, episode: int) -> _Step:
         """What is kept of a transition; its picture goes to `frames` where there is no scene."""
-        numbers = np.zeros(0)
+        numbers, activations = np.zeros(0), np.array(transition.activations)
         if scene is None:
             frames.add(episode, transition.step - 1, transition.frame)
         else:
             numbers = scene.numbers(
                 transition.state, transition.action, transition.observation, transition.reward
             )
-        return cls(transition.total, np.array(transition.activations), numbers)
+            lines = [numbers[i] for _, chart in scene.charted for i in chart]
+            activations = np.concatenate([activations, lines])
+        return cls(transition.total, activations, numbers)
 
 
 def _episode(steps: list[_Step]) -> dict:

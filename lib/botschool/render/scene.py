@@ -31,6 +31,8 @@ class Scene(ABC):
     """Names of the robots whose networks are seen, where there is more than one."""
     closeups: tuple[tuple[str, int, float], ...] = ()
     """What a replay can follow: name, pose, width of what is seen around it."""
+    charted: tuple[tuple[str, tuple[int, ...]], ...] = ()
+    """What a replay charts below the neurons: name, and which numbers are its lines (-1 to 1)."""
 
     def __init__(self) -> None:
         self.shapes: list[Shape] = []

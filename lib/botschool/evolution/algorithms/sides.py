@@ -20,15 +20,21 @@ def seen_by(side: int, fitness: np.ndarray) -> np.ndarray:
     return fitness if side == PREDATORS else 1 - fitness.T
 
 
+BAND = 4
+"""Side by side an evaluation has 16 episodes: those of four predators against four prey, where each
+network's weights are read once for four of them (lib/evonet/rows.hpp)."""
+
+
 def everyone(play: Play, predators: np.ndarray, prey: np.ndarray) -> np.ndarray:
     """Fitness of every predator (rows) against every prey (columns).
 
-    The fewer ones are the outer loop, so that long rows of meetings share a network.
+    They meet in bands of a few predators: all of a band the first prey, then the next.
     """
-    shape = (len(predators), len(prey))
-    order = "C" if len(predators) <= len(prey) else "F"
-    pairs = np.stack([index.ravel(order) for index in np.indices(shape, dtype=np.int32)])
-    return np.ascontiguousarray(play(predators, prey, pairs).reshape(shape, order=order))
+    fitness = np.empty((len(predators), len(prey)))
+    row, column = np.indices(fitness.shape, dtype=np.int32).reshape(2, -1)
+    pairs = np.stack([row, column])[:, np.lexsort((row, column, row // BAND))]
+    fitness[tuple(pairs)] = play(predators, prey, pairs)
+    return fitness
 
 
 def mean(fitness: np.ndarray) -> float:

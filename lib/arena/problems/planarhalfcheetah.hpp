@@ -1,0 +1,37 @@
+// Half a cheetah that is to run ahead. Version 0 is paid as in Gymnasium; version 5 for progress, with
+// a price on hinges at their limits, and it ends when the body falls. docs/specification.md, "Planar
+// runners".
+#pragma once
+
+#include "../robots/jointed/runner.hpp"
+
+BOTSCHOOL_BEGIN
+
+constexpr Race cheetah_race(bool standard) {
+  Race race{0.05, 25, 0.1};
+  if (standard) {
+    race.effort = 0.1;
+  } else {
+    race.at_limit = 0.1;
+    race.lean = 1;
+    race.feet = 4;
+  }
+  return race;
+}
+inline constexpr Race kHalfCheetahRace0 = cheetah_race(true),
+                      kHalfCheetahRace5 = cheetah_race(false);
+
+template <int L>
+struct PlanarHalfCheetah0 : Runner<HalfCheetah, kHalfCheetahRace0, L> {
+  static Info info() { return PlanarHalfCheetah0::describe("PlanarHalfCheetah-v0"); }
+};
+
+template <int L>
+struct PlanarHalfCheetah5 : Runner<HalfCheetah, kHalfCheetahRace5, L> {
+  static Info info() { return PlanarHalfCheetah5::describe("PlanarHalfCheetah-v5"); }
+};
+
+BOTSCHOOL_END
+
+BOTSCHOOL_PROBLEM(PlanarHalfCheetah0)
+BOTSCHOOL_PROBLEM(PlanarHalfCheetah5)

@@ -1,0 +1,32 @@
+// A hopper that is to run ahead on one leg. Version 0 is paid as in Gymnasium, version 5 for progress
+// alone. docs/specification.md, "Planar runners".
+#pragma once
+
+#include "../robots/jointed/runner.hpp"
+
+BOTSCHOOL_BEGIN
+
+constexpr Race hopper_race(bool standard) {
+  Race race{0.008, 8, 0.005};
+  race.alive = standard ? 1 : 0;
+  race.effort = standard ? 0.001 : 0;
+  race.lowest = 0.7;
+  race.lean = 0.2;
+  return race;
+}
+inline constexpr Race kHopperRace0 = hopper_race(true), kHopperRace5 = hopper_race(false);
+
+template <int L>
+struct PlanarHopper0 : Runner<Hopper, kHopperRace0, L> {
+  static Info info() { return PlanarHopper0::describe("PlanarHopper-v0"); }
+};
+
+template <int L>
+struct PlanarHopper5 : Runner<Hopper, kHopperRace5, L> {
+  static Info info() { return PlanarHopper5::describe("PlanarHopper-v5"); }
+};
+
+BOTSCHOOL_END
+
+BOTSCHOOL_PROBLEM(PlanarHopper0)
+BOTSCHOOL_PROBLEM(PlanarHopper5)

@@ -1,0 +1,331 @@
+// Motion of a planar jointed body, in lanes. docs/specification.md, "Planar runners", has the rules.
+//
+// Coordinates are the root's x and z and the angle of every segment against the world. In a plane
+// that makes the equations short (Featherstone 2008, "Rigid Body Dynamics Algorithms", chapters 5
+// and 6, written out for these coordinates). With r turned by the angle of its segment, a point at r
+// moves by turn(r) = (-r_z, r_x) when the angle grows by 1. With h_c the vector from the origin of a
+// segment i to that of its child c, and j on or below c:
+//   M_ij = turn(h_c) . m turn(s_j)    s_j: first moment of mass of j and of all that hangs on it
+//   M_xj, M_zj = m turn(s_j)          M_jj: constant        M_xx = M_zz = whole mass
+// Accelerations that speeds cause are centripetal only: -speed^2 h along the tree.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include "ground.hpp"
+#include "table.hpp"
+
+#if defined(__GNUC__)
+#define BOTSCHOOL_EACH(i) [&](auto i) __attribute__((always_inline))
+#else
+#define BOTSCHOOL_EACH(i) [&](auto i)
+#endif
+
+BOTSCHOOL_BEGIN
+
+template <class F, std::size_t... I>
+BOTSCHOOL_INLINE void unrolled([[maybe_unused]] F f, std::index_sequence<I...>) {
+  (f(std::integral_constant<int, int(I)>()), ...);
+}
+
+/// f(0), f(1), ..., f(N - 1), each with its number as a constant.
+template <int N, class F>
+BOTSCHOOL_INLINE void upwards(F f) {
+  unrolled(f, std::make_index_sequence<N>());
+}
+
+/// f(N - 1), ..., f(0).
+template <int N, class F>
+BOTSCHOOL_INLINE void downwards(F f) {
+  upwards<N>(BOTSCHOOL_EACH(i) { f(std::integral_constant<int, N - 1 - i>()); });
+}
+
+/// A vector in the plane, in lanes.
+template <class V>
+struct Vector2 {
+  V x, z;
+  friend BOTSCHOOL_INLINE Vector2 operator+(Vector2 a, Vector2 b) { return {a.x + b.x, a.z + b.z}; }
+  friend BOTSCHOOL_INLINE Vector2 operator-(Vector2 a, Vector2 b) { return {a.x - b.x, a.z - b.z}; }
+  friend BOTSCHOOL_INLINE Vector2 operator*(V s, Vector2 a) { return {s * a.x, s * a.z}; }
+};
+
+template <class V>
+BOTSCHOOL_INLINE V dot(Vector2<V> a, Vector2<V> b) {
+  return a.x * b.x + a.z * b.z;
+}
+
+/// A quarter turn counter-clockwise: how a point at `a` moves when its angle grows.
+template <class V>
+BOTSCHOOL_INLINE Vector2<V> turn(Vector2<V> a) {
+  return {-a.z, a.x};
+}
+
+/// A symmetric 2 x 2 matrix: resistance to motion in the plane.
+template <class V>
+struct Resistance {
+  V xx = V(0), xz = V(0), zz = V(0);
+};
+
+template <class Body, class T, int W>
+struct Dynamics {
+  using V = Lanes<T, W>;
+  using Vec = Vector2<V>;
+  static constexpr Numbers<Body> numbers{};
+  static constexpr int n = Numbers<Body>::n;
+  static constexpr int contacts = sizeof(Body::contacts) / sizeof(Contact);
+  /// Coordinates: x, z, then the angle of each segment.
+  static constexpr int size = n + 2;
+
+  // the state; velocities are those of half a substep before the positions
+  V position[size], speed[size];
+  V change[size];    ///< of the speeds in the last substep, halved
+  V load[contacts];  ///< force of each contact point across the ground, N
+
+  /// The parent of a coordinate in the tree z -> x, root -> z, segment -> its parent.
+  static constexpr int up(int k) { return k <= 2 ? k - 1 : Body::segments[k - 2].parent + 2; }
+
+  /// f(i) for all ancestors i of coordinate K.
+  template <int K, class F>
+  static BOTSCHOOL_INLINE void ancestors(F f) {
+    if constexpr (up(K) >= 0) {
+      f(std::integral_constant<int, up(K)>());
+      ancestors<up(K)>(f);
+    }
+  }
+
+  static BOTSCHOOL_INLINE V number(double x) { return V(T(x)); }
+
+  V mass[size][size];      ///< lower triangle, entries of ancestors only; after solve() its factors
+  V force[size];           ///< generalised forces; after solve() accelerations
+  Vec along[n];            ///< from the parent's origin to the segment's
+  Vec moment[n];           ///< first moments of mass, s_j
+  Vec origin[n], pull[n];  ///< place; acceleration that speeds and gravity cause, reversed
+  V sine[n], cosine[n];
+
+  template <int I>
+  BOTSCHOOL_INLINE Vec turned(double x, double z) const {
+    return {number(x) * cosine[I] - number(z) * sine[I],
+            number(x) * sine[I] + number(z) * cosine[I]};
+  }
+
+  /// Where the segments are, for given positions.
+  BOTSCHOOL_INLINE void place() {
+    upwards<n>(BOTSCHOOL_EACH(i) {
+      constexpr Segment s = Body::segments[i];
+      sine_cosine(position[2 + i], sine[i], cosine[i]);
+      moment[i] = turned<i>(numbers.first_x[i], numbers.first_z[i]);
+      if constexpr (i == 0) {
+        origin[0] = {position[0], position[1]};
+      } else {
+        along[i] = turned<s.parent>(s.x, s.z);
+        origin[i] = origin[s.parent] + along[i];
+      }
+    });
+  }
+
+  /// The mass matrix, and the forces that gravity and the speeds cause.
+  BOTSCHOOL_INLINE void inertia(double gravity) {
+    upwards<n>(BOTSCHOOL_EACH(i) {
+      constexpr int p = Body::segments[i].parent;
+      if constexpr (i == 0) {
+        pull[0] = {V(0), number(-gravity)};
+      } else {
+        const V w = speed[2 + p] + change[2 + p];
+        pull[i] = pull[p] + (w * w) * along[i];
+      }
+    });
+    mass[0][0] = mass[1][1] = number(numbers.all[0]);
+    mass[1][0] = force[0] = force[1] = V(0);
+    upwards<n>(BOTSCHOOL_EACH(j) {
+      constexpr int k = j + 2;
+      const Vec effect = turn(moment[j]);
+      mass[k][0] = effect.x;
+      mass[k][1] = effect.z;
+      mass[k][k] = number(numbers.second[j]);
+      descend<j>(BOTSCHOOL_EACH(c) {  // c: j and its ancestors but the root
+        constexpr int i = Body::segments[c].parent + 2;
+        mass[k][i] = dot(turn(along[c]), effect);
+      });
+      // own mass only: what hangs on it has its own acceleration
+      const Vec centre = turned<j>(numbers.x[j], numbers.z[j]);
+      const V w = speed[k] + change[k];
+      const Vec push = number(numbers.mass[j]) * (pull[j] + (w * w) * centre);
+      force[k] = dot(turn(centre), push);
+      apply<j>(push);
+    });
+  }
+
+  /// f(c) for segment J and all its ancestors but the root.
+  template <int J, class F>
+  static BOTSCHOOL_INLINE void descend(F f) {
+    if constexpr (J > 0) {
+      f(std::integral_constant<int, J>());
+      descend<Body::segments[J].parent>(f);
+    }
+  }
+
+  /// A force at the origin of segment J, on all coordinates that move it but its own angle.
+  template <int J>
+  BOTSCHOOL_INLINE void apply(Vec push) {
+    force[0] += push.x;
+    force[1] += push.z;
+    descend<J>(
+        BOTSCHOOL_EACH(c) { force[Body::segments[c].parent + 2] += dot(turn(along[c]), push); });
+  }
+
+  /// Torques of the hinges. With a substep h, springs and dampers answer to the speed after it
+  /// (implicit Euler, linearised), which lets them be stiff: damping h + stiffness h^2 joins the
+  /// mass matrix. With h = 0 they answer to the state as it is.
+  BOTSCHOOL_INLINE void hinges(const V* action, T h) {
+    upwards<n - 1>(BOTSCHOOL_EACH(index) {
+      constexpr int i = index + 1, k = i + 2, p = up(k);
+      constexpr Hinge hinge = Body::segments[i].hinge;
+      const V angle = position[k] - position[p], rate = speed[k] - speed[p];
+      const V above = angle - number(hinge.high), below = angle - number(hinge.low);
+      const V beyond = larger(above, V(T(0))) + smaller(below, V(T(0)));
+      const V out = beyond * beyond;
+      const V spring = if_positive(out, number(Body::limit.stiffness), V(T(0)));
+      const V damper = if_positive(out, number(Body::limit.damping), V(T(0)));
+      const V resistance =
+          (number(hinge.damping) + damper) + V(h) * (number(hinge.stiffness) + spring);
+      const V torque = number(hinge.torque) * action[index] -
+                       ((number(hinge.stiffness) * angle + spring * beyond) + resistance * rate);
+      force[k] += torque;
+      force[p] -= torque;
+      const V both = V(h) * resistance;
+      mass[k][k] += both;
+      mass[p][p] += both;
+      mass[k][p] -= both + number(hinge.armature);
+    });
+  }
+
+  /// Forces of the ground. A contact point at depth d that moves at v across the ground and at u
+  /// along it is pushed by N = stiffness d - damping min(1, d / ramp) v and dragged by
+  /// -friction N u / max(|u|, slip), both after the substep (see hinges).
+  template <class Ground>
+  BOTSCHOOL_INLINE void touch(const Ground& ground, T h) {
+    Vec velocity[n];
+    upwards<n>(BOTSCHOOL_EACH(i) {
+      if constexpr (i == 0) {
+        velocity[0] = {speed[0], speed[1]};
+      } else {
+        constexpr int p = Body::segments[i].parent;
+        velocity[i] = velocity[p] + speed[2 + p] * turn(along[i]);
+      }
+    });
+    upwards<contacts>(BOTSCHOOL_EACH(c) {
+      constexpr Contact point = Body::contacts[c];
+      constexpr int s = point.segment;
+      Vec arm = turned<s>(point.x, point.z);
+      Vec normal{V(T(0)), V(T(1))};
+      if constexpr (!Ground::flat) {
+        const V slope = ground.slope(origin[s].x + arm.x);
+        normal.z = V(T(1)) / square_root(V(T(1)) + slope * slope);
+        normal.x = -(slope * normal.z);
+      }
+      arm = arm - number(point.radius) * normal;
+      const Vec place = origin[s] + arm, moving = velocity[s] + speed[2 + s] * turn(arm);
+      const V depth = (ground.height(place.x) - place.z) * normal.z;
+      const Vec tangent{normal.z, -normal.x};
+      const V across = dot(normal, moving), sliding = dot(tangent, moving);
+      const V share = smaller(depth * number(1 / Body::touch.ramp), V(T(1)));
+      V damping = number(Body::touch.damping) * share + V(h * T(Body::touch.stiffness));
+      V push = number(Body::touch.stiffness) * depth - damping * across;
+      push = if_positive(depth, larger(push, V(T(0))), V(T(0)));
+      damping = if_positive(push, damping, V(T(0)));
+      const V pace = larger(larger(sliding, -sliding), number(Body::touch.slip));
+      const V drag = number(Body::touch.friction) * push / pace;
+      load[c] += push;
+      const Vec pushed = push * normal - (drag * sliding) * tangent;
+      force[2 + s] += dot(turn(arm), pushed);
+      apply<s>(pushed);
+      resist<s>(arm, V(h) * damping, V(h) * drag, normal, Ground::flat);
+    });
+  }
+
+  /// Adds to the mass matrix what resists a point's motion across and along the ground.
+  template <int S>
+  BOTSCHOOL_INLINE void resist(Vec arm, V across, V along_it, Vec normal, bool flat) {
+    Resistance<V> r{along_it, V(T(0)), across};
+    if (!flat) {
+      const V difference = across - along_it;
+      r.xx = along_it + difference * (normal.x * normal.x);
+      r.xz = difference * (normal.x * normal.z);
+      r.zz = along_it + difference * (normal.z * normal.z);
+    }
+    const auto resisted = [&](Vec a) -> Vec {
+      if (flat) return {r.xx * a.x, r.zz * a.z};
+      return {r.xx * a.x + r.xz * a.z, r.xz * a.x + r.zz * a.z};
+    };
+    mass[0][0] += r.xx;
+    if (!flat) mass[1][0] += r.xz;
+    mass[1][1] += r.zz;
+    add_resistance<S>(turn(arm), resisted);
+    descend<S>(
+        BOTSCHOOL_EACH(c) { add_resistance<Body::segments[c].parent>(turn(along[c]), resisted); });
+  }
+
+  /// Of coordinate J, whose growth moves the point by `effect`, with itself and its ancestors.
+  template <int J, class F>
+  BOTSCHOOL_INLINE void add_resistance(Vec effect, const F& resisted) {
+    constexpr int k = J + 2;
+    const Vec answer = resisted(effect);
+    mass[k][0] += answer.x;
+    mass[k][1] += answer.z;
+    mass[k][k] += dot(effect, answer);
+    descend<J>(BOTSCHOOL_EACH(c) {
+      mass[k][Body::segments[c].parent + 2] += dot(turn(along[c]), answer);
+    });
+  }
+
+  /// mass * acceleration = force, by M = L^T D L from the leaves to the root, which keeps the
+  /// zeros of a tree (Featherstone 2008, section 6.5). The acceleration is left in `force`.
+  BOTSCHOOL_INLINE void solve() {
+    if constexpr (Body::pinned) {
+      force[0] = force[1] = V(T(0));
+      upwards<n>(BOTSCHOOL_EACH(i) { mass[2 + i][0] = mass[2 + i][1] = V(T(0)); });
+    }
+    V inverse[size];
+    downwards<size>(BOTSCHOOL_EACH(k) {
+      inverse[k] = V(T(1)) / mass[k][k];
+      ancestors<k>(BOTSCHOOL_EACH(i) {
+        const V factor = mass[k][i] * inverse[k];
+        mass[i][i] -= factor * mass[k][i];
+        ancestors<i>(BOTSCHOOL_EACH(j) { mass[i][j] -= factor * mass[k][j]; });
+        force[i] -= factor * force[k];
+        mass[k][i] = factor;
+      });
+    });
+    upwards<size>(BOTSCHOOL_EACH(k) {
+      V value = force[k] * inverse[k];
+      ancestors<k>(BOTSCHOOL_EACH(i) { value -= mass[k][i] * force[i]; });
+      force[k] = value;
+    });
+  }
+
+  /// One substep of h seconds.
+  template <class Ground>
+  BOTSCHOOL_INLINE void step(const V* action, const Ground& ground, T h,
+                             double gravity = kGravity) {
+    place();
+    inertia(gravity);
+    hinges(action, h);
+    touch(ground, h);
+    solve();
+    upwards<size>(BOTSCHOOL_EACH(k) {
+      const V gain = V(h) * force[k];
+      change[k] = V(T(0.5)) * gain;
+      speed[k] += gain;
+      position[k] += V(h) * speed[k];
+    });
+  }
+
+  /// `steps` substeps on even ground. Out of line, so that the problems of a body share it.
+  BOTSCHOOL_OUTLINE void run(const V* action, int steps, T h) {
+    for (int s = 0; s < steps; ++s) step(action, Flat{}, h);
+  }
+};
+
+BOTSCHOOL_END

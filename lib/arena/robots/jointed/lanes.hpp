@@ -1,0 +1,113 @@
+// Arithmetic on numbers side by side, one a lane: what formulas of jointed bodies are written in.
+#pragma once
+
+#include <cmath>
+#include <cstring>
+
+#include "../../../evonet/real.hpp"
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"  // all of it is inlined, so no vector is ever passed
+#endif
+
+BOTSCHOOL_BEGIN
+
+/// W numbers; a single number stands for W equal ones.
+template <class T, int W>
+struct Lanes {
+#if defined(__GNUC__)
+  using Data [[gnu::vector_size(sizeof(T) * W)]] = T;
+  Data data;
+#else
+  T data[W];
+#endif
+
+  Lanes() = default;
+  BOTSCHOOL_INLINE Lanes(T x) {
+    for (int l = 0; l < W; ++l) data[l] = x;
+  }
+  /// From W numbers in memory, and back.
+  template <class From>
+  static BOTSCHOOL_INLINE Lanes from(const From* values) {
+    alignas(64) T rounded[W];
+    for (int l = 0; l < W; ++l) rounded[l] = static_cast<T>(values[l]);
+    Lanes lanes;
+    std::memcpy(&lanes.data, rounded, sizeof rounded);
+    return lanes;
+  }
+  template <class To>
+  BOTSCHOOL_INLINE void to(To* values) const {
+    alignas(64) T own[W];
+    std::memcpy(own, &data, sizeof own);
+    for (int l = 0; l < W; ++l) values[l] = static_cast<To>(own[l]);
+  }
+
+  BOTSCHOOL_INLINE T operator[](int lane) const { return data[lane]; }
+
+#if defined(__GNUC__)
+#define BOTSCHOOL_LANES(op)                                     \
+  friend BOTSCHOOL_INLINE Lanes operator op(Lanes a, Lanes b) { \
+    Lanes result;                                               \
+    result.data = a.data op b.data;                             \
+    return result;                                              \
+  }
+#else
+#define BOTSCHOOL_LANES(op)                                         \
+  friend BOTSCHOOL_INLINE Lanes operator op(Lanes a, Lanes b) {     \
+    for (int l = 0; l < W; ++l) a.data[l] = a.data[l] op b.data[l]; \
+    return a;                                                       \
+  }
+#endif
+  BOTSCHOOL_LANES(+)
+  BOTSCHOOL_LANES(-)
+  BOTSCHOOL_LANES(*)
+  BOTSCHOOL_LANES(/)
+#undef BOTSCHOOL_LANES
+  friend BOTSCHOOL_INLINE Lanes operator-(Lanes a) { return Lanes(T(0)) - a; }
+  BOTSCHOOL_INLINE void operator+=(Lanes b) { *this = *this + b; }
+  BOTSCHOOL_INLINE void operator-=(Lanes b) { *this = *this - b; }
+};
+
+/// Where x > 0 yes, elsewhere (NaN too) no.
+template <class T, int W>
+BOTSCHOOL_INLINE Lanes<T, W> if_positive(Lanes<T, W> x, Lanes<T, W> yes, Lanes<T, W> no) {
+#if defined(__GNUC__)
+  Lanes<T, W> result;
+  result.data = x.data > Lanes<T, W>(T(0)).data ? yes.data : no.data;
+  return result;
+#else
+  for (int l = 0; l < W; ++l)
+    if (!(x.data[l] > T(0))) yes.data[l] = no.data[l];
+  return yes;
+#endif
+}
+
+template <class T, int W>
+BOTSCHOOL_INLINE Lanes<T, W> larger(Lanes<T, W> a, Lanes<T, W> b) {
+  return if_positive(a - b, a, b);
+}
+
+template <class T, int W>
+BOTSCHOOL_INLINE Lanes<T, W> smaller(Lanes<T, W> a, Lanes<T, W> b) {
+  return if_positive(a - b, b, a);
+}
+
+template <class T, int W>
+BOTSCHOOL_INLINE Lanes<T, W> square_root(Lanes<T, W> x) {
+  alignas(64) T values[W];
+  x.to(values);
+  for (int l = 0; l < W; ++l) values[l] = std::sqrt(values[l]);
+  return Lanes<T, W>::from(values);
+}
+
+/// Sine and cosine, lane by lane.
+template <class T, int W>
+BOTSCHOOL_INLINE void sine_cosine(Lanes<T, W> x, Lanes<T, W>& sine, Lanes<T, W>& cosine) {
+  alignas(64) T angle[W], s[W], c[W];
+  x.to(angle);
+  for (int l = 0; l < W; ++l) sine_cosine(angle[l], s[l], c[l]);
+  sine = Lanes<T, W>::from(s);
+  cosine = Lanes<T, W>::from(c);
+}
+
+BOTSCHOOL_END

@@ -1,0 +1,178 @@
+// A planar body that is to run ahead, as a native problem. docs/specification.md, "Planar runners".
+#pragma once
+
+#include "bodies.hpp"
+#include "dynamics.hpp"
+
+BOTSCHOOL_BEGIN
+
+/// Speeds together past this (m/s, rad/s) end an episode: the simulation has broken down.
+constexpr double kWildest = 300;
+
+/// What a runner is paid for and what ends its episode.
+struct Race {
+  double seconds;       ///< of a step
+  int substeps;         ///< in a step
+  double noise;         ///< start: coordinates and speeds are uniform within +-noise of the rest
+  double alive = 0;     ///< paid for each step without a fall
+  double effort = 0;    ///< price of the sum of squared actions
+  double at_limit = 0;  ///< price of each hinge at its limit
+  // a fall, which ends the episode
+  double lowest = -1e9, highest = 1e9;  ///< height of the root
+  double lean = 1e9;                    ///< its pitch
+  int feet = -1;  ///< if not -1: contact points but the first `feet` must not touch the ground
+};
+
+template <class Body, const Race& race, int L>
+struct Runner : ProblemBase {
+  static constexpr int kWidth = kRegister / 4 < L ? kRegister / 4 : L;
+  using Moving = Dynamics<Body, float, kWidth>;
+  using V = Lanes<float, kWidth>;
+  static constexpr int n = Moving::n, size = Moving::size, contacts = Moving::contacts;
+  static constexpr int kStates = 2 * size + n + contacts;
+
+  static Info describe(const char* name) {
+    Info info;
+    info.name = name;
+    info.observations = 2 * size - 1;
+    info.outputs = n - 1;
+    info.states = kStates;
+    info.limit = 1000;
+    info.seconds = race.seconds;
+    return info;
+  }
+
+  /// Positions and speeds of x, z and each segment's angle; half the last changes of the angles'
+  /// speeds; mean force of each contact point in the last step.
+  double state[kStates][L];
+
+  void bounds(double* low, double* high) const {
+    for (int i = size - 1; i < 2 * size - 1; ++i) {
+      low[i] = -10;
+      high[i] = 10;
+    }
+  }
+
+  /// Height and pitch of the root, angle of each hinge, and the speeds of all, within +-10; the
+  /// speed ahead comes first among them.
+  template <class T>
+  void observe(T* BOTSCHOOL_RESTRICT out) const {
+    for (int k = 1; k < size; ++k)
+      for (int l = 0; l < L; ++l) out[(k - 1) * L + l] = static_cast<T>(relative(k, 0, l));
+    for (int k = 0; k < size; ++k)
+      for (int l = 0; l < L; ++l)
+        out[(size - 1 + k) * L + l] = static_cast<T>(clamp(relative(k, size, l), -10.0, 10.0));
+  }
+
+  void start(int lane, Random& random) {
+    for (auto& row : state) row[lane] = 0;
+    for (int k = 0; k < size; ++k) {
+      const int p = k < 3 ? -1 : Moving::up(k);
+      const double angle = random.uniform(-race.noise, race.noise);
+      const double speed = random.uniform(-race.noise, race.noise);
+      state[k][lane] = angle + (p < 0 ? 0 : state[p][lane]);
+      state[size + k][lane] = speed + (p < 0 ? 0 : state[size + p][lane]);
+    }
+    state[1][lane] += Body::start_height;
+  }
+
+  void step(const double* action, double* reward, std::int64_t* ended) {
+    for (int first = 0; first < L; first += kWidth) {
+      Moving body;
+      load(body, first);
+      V motor[n], effort = V(0.0f);
+      for (int i = 0; i < n - 1; ++i) {
+        double within[kWidth];
+        for (int l = 0; l < kWidth; ++l) within[l] = limited(action[i * L + first + l], -1.0, 1.0);
+        motor[i] = V::from(within);
+        effort += motor[i] * motor[i];
+      }
+      body.run(motor, race.substeps, float(race.seconds / race.substeps));
+      const V standing = upright(body);
+      const V earned = number(1 / race.seconds) * body.position[0] +
+                       if_positive(standing, number(race.alive), V(0.0f)) -
+                       number(race.effort) * effort - number(race.at_limit) * at_limit(body);
+      const V real = real_numbers(body);
+      const V pay = if_positive(real, earned, V(0.0f));
+      const V going = if_positive(real, if_positive(standing, V(1.0f), V(0.0f)), V(0.0f));
+      pay.to(reward + first);
+      double goes[kWidth];
+      going.to(goes);
+      for (int l = 0; l < kWidth; ++l) ended[first + l] = !(goes[l] > 0);
+      store(body, first, real, 1.0f / float(race.substeps));
+    }
+  }
+
+ private:
+  /// A coordinate, or its speed with first = size, of a hinge against its segment's parent.
+  double relative(int k, int first, int lane) const {
+    return k < 3 ? state[first + k][lane]
+                 : state[first + k][lane] - state[first + Moving::up(k)][lane];
+  }
+
+  static V number(double x) { return V(float(x)); }
+
+  void load(Moving& body, int first) const {
+    for (int k = 0; k < size; ++k) {
+      body.position[k] = V::from(&state[k][first]);
+      body.speed[k] = V::from(&state[size + k][first]);
+      body.change[k] = V(0.0f);
+    }
+    for (int i = 0; i < n; ++i) body.change[2 + i] = V::from(&state[2 * size + i][first]);
+    for (auto& force : body.load) force = V(0.0f);
+    body.position[0] = V(0.0f);  // the way in this step; the whole way needs double precision
+  }
+
+  /// Writes what has changed, except in lanes whose numbers are not `real`.
+  void store(const Moving& body, int first, V real, float share) {
+    double kept[kWidth], after[kWidth];
+    real.to(kept);
+    const auto write = [&](int row, V values, bool adds) {
+      values.to(after);
+      for (int l = 0; l < kWidth; ++l) {
+        double& old = state[row][first + l];
+        const double next = after[l] + (adds ? old : 0.0);
+        old = kept[l] > 0 ? next : old;
+      }
+    };
+    for (int k = 0; k < size; ++k) {
+      write(k, body.position[k], k == 0);
+      write(size + k, body.speed[k], false);
+    }
+    for (int i = 0; i < n; ++i) write(2 * size + i, body.change[2 + i], false);
+    for (int c = 0; c < contacts; ++c) write(2 * size + n + c, V(share) * body.load[c], false);
+  }
+
+  /// Positive where the body has not fallen.
+  static V upright(const Moving& body) {
+    const V height = body.position[1], pitch = body.position[2];
+    V margin = smaller(height - number(race.lowest), number(race.highest) - height);
+    margin = smaller(margin, number(race.lean) - larger(pitch, -pitch));
+    if (race.feet >= 0)
+      for (int c = race.feet; c < contacts; ++c)
+        margin = if_positive(body.load[c], V(-1.0f), margin);
+    return margin;
+  }
+
+  /// How many hinges are in the outer hundredth of their range.
+  static V at_limit(const Moving& body) {
+    V count = V(0.0f);
+    for (int i = 1; i < n; ++i) {
+      const Hinge& hinge = Body::segments[i].hinge;
+      const double middle = (hinge.low + hinge.high) / 2, half = (hinge.high - hinge.low) / 2;
+      const V off = body.position[2 + i] - body.position[Moving::up(2 + i)] - number(middle);
+      count += if_positive(larger(off, -off) - number(0.99 * half), V(1.0f), V(0.0f));
+    }
+    return count;
+  }
+
+  /// Positive where no speed, and no number at all, is beyond sense.
+  static V real_numbers(const Moving& body) {
+    V sum = V(0.0f);
+    for (int k = 0; k < size; ++k)
+      sum += body.speed[k] * body.speed[k] + number(0.01) * body.position[k] * body.position[k];
+    return number(kWildest * kWildest) - sum;
+  }
+};
+
+BOTSCHOOL_END

@@ -1,0 +1,150 @@
+"""Planar runners beside the same bodies in Gymnasium's MuJoCo, EnvPool's MuJoCo and PyBullet."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from importlib.util import find_spec
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+from report import Table, rate, verdict
+from speed import best_call, rates
+
+from botschool import config, problems
+from botschool.policy import Interface, Policy
+from botschool.problems import Episodes
+
+DATA = Path(__file__).parents[2] / "data"
+BODIES = {
+    # experiment file: target (steps/s), Gymnasium's id, EnvPool's id, ours in PyBullet
+    "planarhopper": (300e3, "Hopper-v5", "Hopper-v4", "HopperBulletEnv-v5"),
+    "planarwalker2d": (150e3, "Walker2d-v5", "Walker2d-v4", "Walker2DBulletEnv-v5"),
+    "planarhalfcheetah": (150e3, "HalfCheetah-v5", "HalfCheetah-v4", "HalfCheetahBulletEnv-v5"),
+}
+CANDIDATES = 320
+STEPS = 100
+"""Of a turn of those who play in Python."""
+SCALED = 0.02
+
+
+class Around:
+    """Candidates around an evolved runner, so that most episodes are whole ones."""
+
+    def __init__(self, name: str) -> None:
+        experiment = config.load(DATA / "experiments" / f"{name}.ini")
+        self.problem = problems.of(experiment)
+        self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
+        saved = np.load(DATA / "genotypes" / f"{name}.npy")
+        self.genotype, self.normalisation = self.policy.split(saved)
+        noise = np.random.default_rng(1).normal(0, SCALED, (CANDIDATES, self.genotype.size))
+        self.genotypes = self.genotype + noise
+        self.episodes = Episodes.of(np.arange(CANDIDATES), 1)
+
+    def evaluate(self, workers: int = 1) -> int:
+        """An episode of each; returns the steps done."""
+        outcome = self.problem.evaluate(
+            self.policy, self.genotypes, self.normalisation, self.episodes, 1000, workers
+        )
+        return int(outcome.steps.sum())
+
+
+class InPython:
+    """The loop that everybody writes, with a network of the same size."""
+
+    def __init__(self, env: gymnasium.Env, hiddens: int) -> None:
+        self.env = env
+        spaces = env.observation_space.shape[0], env.action_space.shape[0]
+        interface = Interface(*spaces, discrete=False)
+        self.policy = Policy("runner", interface, config.PolicyConfig(nhiddens=hiddens, bias=1))
+        self.policy.load(self.policy.initial(1), None)
+        self.observation, self.done = None, True
+
+    def play(self) -> int:
+        """STEPS steps."""
+        for _ in range(STEPS):
+            if self.done:
+                self.observation, _ = self.env.reset(seed=1)
+                self.policy.reset(1, 0)
+            action = np.clip(self.policy.act(self.observation), -1, 1).astype(np.float32)
+            self.observation, _, terminated, truncated, _ = self.env.step(action)
+            self.done = terminated or truncated
+        return STEPS
+
+
+class InEnvPool:
+    """EnvPool's C++ environments, stepped together by one thread, with random actions."""
+
+    def __init__(self, name: str) -> None:
+        import envpool
+
+        self.envs = envpool.make(name, env_type="gymnasium", num_envs=64, num_threads=1, seed=1)
+        shape = (STEPS, 64, *self.envs.action_space.shape)
+        self.actions = np.random.default_rng(1).uniform(-1, 1, shape)
+        self.envs.reset()
+
+    def play(self) -> int:
+        """STEPS steps of all environments."""
+        for actions in self.actions:
+            self.envs.step(actions)
+        return STEPS * 64
+
+
+def _others(body: str, hiddens: int) -> list[Callable[[], int] | None]:
+    """MuJoCo in Gymnasium and in EnvPool, and PyBullet; None for what is not installed."""
+    _, mujoco, pool, bullet = BODIES[body]
+    players: list[Callable[[], int] | None] = [None] * 3
+    if find_spec("mujoco"):
+        players[0] = InPython(gymnasium.make(mujoco, disable_env_checker=True), hiddens).play
+    if find_spec("envpool"):
+        players[1] = InEnvPool(pool).play
+    if find_spec("pybullet"):
+        players[2] = InPython(gymnasium.make(bullet, disable_env_checker=True), hiddens).play
+    return players
+
+
+def runners(seconds: float, repetitions: int) -> Table:
+    """Steps per second, one core."""
+    table = Table(
+        "Planar runners: steps/s of policy and problem, one core",
+        f"{CANDIDATES} candidates around the robots of data/genotypes (noise {SCALED}), an episode "
+        f"each; best of {repetitions} interleaved repetitions, in processor time. MuJoCo and "
+        "PyBullet: a Python loop over gymnasium.make(id) with a random network of the same size "
+        "in double precision. EnvPool: 64 environments stepped by one thread, random actions, "
+        "no network. A step is 0.008 s (half cheetah 0.05 s) in all but PyBullet (0.0165 s).",
+        [
+            "experiment", "steps / episode", "planar", "target", "",
+            "Gymnasium's MuJoCo", "EnvPool's MuJoCo", "PyBullet",
+        ],
+    )  # fmt: skip
+    for body, (target, *_) in BODIES.items():
+        around = Around(body)
+        others = _others(body, around.policy.config.nhiddens)
+        present = [player for player in others if player]
+        best = iter([max(r) for r in rates([around.evaluate, *present], seconds, repetitions)])
+        own = next(best)
+        table.add(
+            body,
+            f"{around.evaluate() / CANDIDATES:.0f}",
+            rate(own),
+            rate(target),
+            verdict(own >= target),
+            *(rate(next(best)) if player else "-" for player in others),
+        )
+    return table
+
+
+def two_workers_on_runners(repetitions: int) -> Table:
+    """Evaluation of whole episodes on one worker and on two."""
+    table = Table(
+        "Planar runners: two workers against one",
+        f"Steps/s as above, by the clock; the fastest of {repetitions} calls each, taking turns.",
+        ["experiment", "1 worker", "2 workers", "2 / 1", "target", ""],
+    )
+    for body in BODIES:
+        around = Around(body)
+        one, two = best_call([partial(around.evaluate, w) for w in (1, 2)], repetitions)
+        ratio = two / one
+        table.add(body, rate(one), rate(two), f"{ratio:.2f}", "1.9", verdict(ratio >= 1.9))
+    return table

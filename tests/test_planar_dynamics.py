@@ -1,0 +1,305 @@
+"""Planar jointed bodies (docs/specification.md, "Planar runners") against MuJoCo and mechanics."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+import pytest
+
+from botschool import _core
+
+RUNNERS = ["hopper", "walker2d", "halfcheetah"]
+G = 9.81
+
+
+def hinge_form(table):
+    """The matrix T with (x, z, absolute angles) = T (x, z, pitch, hinge angles)."""
+    parents = [segment["parent"] for segment in table["segments"]]
+    matrix = np.eye(len(parents) + 2)
+    for i, parent in enumerate(parents[1:], start=1):
+        matrix[2 + i] += matrix[2 + parent]
+    return matrix
+
+
+def random_states(table, rng):
+    """Positions in hinge form within the hinges' limits, and speeds."""
+    q = rng.uniform(-1, 1, len(table["segments"]) + 2)
+    q[2] = rng.uniform(-math.pi, math.pi)
+    for i, segment in enumerate(table["segments"][1:], start=3):
+        q[i] = rng.uniform(*np.clip(segment["range"], -math.pi, math.pi))
+    return q, rng.normal(0, 4, len(q))
+
+
+def mjcf(table, total_mass=None):
+    """The same body for MuJoCo, its masses computed there from the capsules, without contacts."""
+    segments = table["segments"]
+
+    def body(i):
+        segment = segments[i]
+        text = f'<body pos="{segment["x"]!r} 0 {segment["z"]!r}">'
+        if i == 0:
+            text += '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'
+        options = "".join(f'{k}="{segment[k]!r}" ' for k in ("damping", "stiffness", "armature"))
+        text += f'<joint name="j{i}" type="hinge" axis="0 -1 0" limited="false" {options}/>'
+        for x, z, angle, half, radius in segment["capsules"]:
+            dx, dz = half * math.cos(angle), half * math.sin(angle)
+            ends = f"{x - dx!r} 0 {z - dz!r} {x + dx!r} 0 {z + dz!r}"
+            text += f'<geom type="capsule" fromto="{ends}" size="{radius!r}"/>'
+        for child, other in enumerate(segments):
+            if other["parent"] == i:
+                text += body(child)
+        return text + "</body>"
+
+    motors = "".join(
+        f'<motor joint="j{i}" gear="{segment["torque"]!r}"/>'
+        for i, segment in enumerate(segments)
+        if i > 0
+    )
+    mass = f'settotalmass="{total_mass}"' if total_mass else ""
+    return f"""<mujoco><compiler angle="radian" inertiafromgeom="true" {mass}/>
+    <option gravity="0 0 -{G}"><flag contact="disable"/></option>
+    <default><geom density="1000"/></default>
+    <worldbody>{body(0)}</worldbody><actuator>{motors}</actuator></mujoco>"""
+
+
+def full_mass_matrix(mujoco, model, data):
+    matrix = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, matrix, data.qM)
+    return matrix
+
+
+@pytest.mark.parametrize("name", RUNNERS)
+def test_accelerations_and_mass_matrix_are_those_of_mujoco(name):
+    """At 10,000 random states, with motors, dampers and springs, without contacts."""
+    mujoco = pytest.importorskip("mujoco")
+    body = _core.PlanarBody(name)
+    total = 14 if name == "halfcheetah" else None
+    model = mujoco.MjModel.from_xml_string(mjcf(body.table, total))
+    data = mujoco.MjData(model)
+    form = hinge_form(body.table)
+    rng = np.random.default_rng(1)
+    for _ in range(10_000):
+        q, v = random_states(body.table, rng)
+        action = rng.uniform(-1, 1, body.size - 3)
+        data.qpos, data.qvel, data.ctrl = q, v, action
+        mujoco.mj_forward(model, data)
+        theirs = full_mass_matrix(mujoco, model, data)
+        ours = form.T @ body.mass_matrix(form @ q) @ form
+        assert np.abs(ours - theirs).max() <= 1e-9 * np.abs(theirs).max()
+        acceleration = np.linalg.inv(form) @ body.accelerations(form @ q, form @ v, action)
+        error = np.abs(acceleration - data.qacc).max()
+        assert error <= 1e-9 * np.abs(data.qacc).max()
+
+
+@pytest.mark.parametrize(
+    ("name", "model", "flipped"),
+    [
+        ("hopper", "hopper", False),
+        ("walker2d", "walker2d", False),
+        ("halfcheetah", "half_cheetah", True),
+    ],
+)
+def test_bodies_are_those_of_gymnasium(name, model, flipped):
+    """Mass matrix and hinges of the models that come with Gymnasium."""
+    mujoco = pytest.importorskip("mujoco")
+    assets = Path(gymnasium.__file__).parent / "envs" / "mujoco" / "assets"
+    model = mujoco.MjModel.from_xml_path(str(assets / f"{model}.xml"))
+    data = mujoco.MjData(model)
+    body = _core.PlanarBody(name)
+    form = hinge_form(body.table)
+    # there the pitch, and a cheetah's hinges, count clockwise
+    signs = np.ones(body.size)
+    signs[2] = -1
+    signs[3:] = -1 if flipped else 1
+    rng = np.random.default_rng(2)
+    for _ in range(100):
+        q, v = random_states(body.table, rng)
+        data.qpos, data.qvel = signs * q, signs * v
+        mujoco.mj_forward(model, data)
+        theirs = full_mass_matrix(mujoco, model, data) * np.outer(signs, signs)
+        ours = form.T @ body.mass_matrix(form @ q) @ form
+        assert np.abs(ours - theirs).max() <= 1e-9 * np.abs(theirs).max()
+    for i, segment in enumerate(body.table["segments"][1:], start=3):
+        ends = np.sort(signs[i] * model.jnt_range[i])
+        assert ends == pytest.approx(segment["range"])
+        assert model.dof_damping[i] == segment["damping"]
+        assert model.jnt_stiffness[i] == segment["stiffness"]
+        assert model.actuator_gear[i - 3, 0] == segment["torque"]
+
+
+class Moving:
+    """A body that is simulated, with its state at hand."""
+
+    def __init__(self, name, angles=(), height=5.0, single=False):
+        self.body = _core.PlanarBody(name)
+        self.masses = self.body.table["masses"]
+        self.single = single
+        self.q, self.v, self.change = np.zeros((3, self.body.size))
+        self.q[1] = height
+        self.q[2 : 2 + len(angles)] = angles
+        self.load = np.zeros(0)
+
+    def advance(self, h, steps, action=None, **around):
+        action = np.zeros(self.body.size - 3) if action is None else action
+        state = np.concatenate([self.q, self.v, self.change])
+        state, self.load = self.body.advance(state, action, h, steps, single=self.single, **around)
+        self.q, self.v, self.change = state.reshape(3, -1)
+
+    @property
+    def speed(self):
+        """At the time of the positions: `v` is that of half a substep before."""
+        return self.v + self.change
+
+    def centres(self):
+        """Centres of mass of the segments, (segments, 2)."""
+        origins, centres = [], []
+        for i, segment in enumerate(self.body.table["segments"]):
+            origin = self.q[:2]
+            if i:
+                parent = segment["parent"]
+                origin = origins[parent] + turned(segment["x"], segment["z"], self.q[2 + parent])
+            origins.append(origin)
+            centres.append(origin + turned(*self.masses[i, 1:3], self.q[2 + i]))
+        return np.array(centres)
+
+    def energy(self, gravity=G):
+        kinetic = self.speed @ self.body.mass_matrix(self.q) @ self.speed / 2
+        return kinetic + gravity * self.masses[:, 0] @ self.centres()[:, 1]
+
+    def momentum(self):
+        """Along x and z, and the angular momentum about the centre of mass."""
+        generalised = self.body.mass_matrix(self.q) @ self.speed
+        arm = self.masses[:, 0] @ self.centres() / self.masses[:, 0].sum() - self.q[:2]
+        turning = generalised[2:].sum() - (arm[0] * generalised[1] - arm[1] * generalised[0])
+        return np.array([*generalised[:2], turning])
+
+
+def turned(x, z, angle):
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([x * c - z * s, x * s + z * c])
+
+
+@pytest.mark.parametrize("single", [False, True])
+def test_a_free_swing_keeps_its_energy(single):
+    """Four segments hung up, let go from a slant, for 10 s at the substep of hopper and walker."""
+    swing = Moving("swing", [0.8, 0.6, 0.9, 0.8], single=single)
+    start = swing.energy()
+    rest = Moving("swing").energy()
+    turns = 0
+    for _ in range(1250):
+        before = swing.speed[2]
+        swing.advance(0.001, 8)
+        turns += before * swing.speed[2] < 0
+        assert abs(swing.energy() - start) < 1e-3 * (start - rest)
+    assert turns >= 5
+
+
+def test_the_error_of_the_energy_is_of_second_order():
+    errors = []
+    for h in (0.002, 0.001, 0.0005):
+        swing = Moving("swing", [0.8, 0.6, 0.9, 0.8])
+        start, worst = swing.energy(), 0.0
+        for _ in range(500):
+            swing.advance(h, round(0.004 / h))
+            worst = max(worst, abs(swing.energy() - start))
+        errors.append(worst)
+    assert 3 < errors[0] / errors[1] < 5 and 3 < errors[1] / errors[2] < 5
+
+
+@pytest.mark.parametrize("name", RUNNERS)
+def test_momentum_is_kept_in_flight(name):
+    """While motors and springs work."""
+    flying = Moving(name, height=100.0)
+    rng = np.random.default_rng(3)
+    flying.q[3:] -= 0.3  # away from the limits
+    flying.v[:] = rng.normal(0, 1, flying.body.size)
+    flying.advance(0.001, 8)
+    start = flying.momentum()
+    weight = flying.masses[:, 0].sum() * G
+    for k in range(1, 101):
+        flying.advance(0.001, 8, rng.uniform(-0.3, 0.3, flying.body.size - 3))
+        fallen = np.array([0, -weight * 0.008 * k, 0])
+        assert np.abs(flying.momentum() - start - fallen).max() < 0.005 * np.abs(start).max()
+
+
+def test_a_box_rests():
+    box = Moving("box", height=0.06)
+    box.advance(0.001, 2000)
+    lying = box.q.copy()
+    assert np.abs(box.v).max() < 1e-6
+    box.advance(0.001, 2000)
+    assert box.q == pytest.approx(lying, abs=1e-6)
+    weight = box.masses[0, 0] * G
+    assert box.load.sum() == pytest.approx(weight, rel=1e-3)
+    assert box.load[:2] == pytest.approx(weight / 2, rel=1e-3)
+    # its corners sink in as far as their springs say
+    assert 0.05 - box.q[1] == pytest.approx(weight / 2 / 30000, rel=1e-3)
+
+
+@pytest.mark.parametrize("share", [0.5, 0.9, 1.1, 2.0])
+def test_a_box_slides_from_its_friction_angle_on(share):
+    """On a plane whose slope is `share` of the friction coefficient, 0.5."""
+    slope = 0.5 * share
+    angle = math.atan(slope)
+    box = Moving("box", [angle], height=0.05 / math.cos(angle))
+    box.advance(0.001, 500, slope=slope)
+    before = np.hypot(*box.v[:2])
+    box.advance(0.001, 500, slope=slope)
+    speed = np.hypot(*box.v[:2])
+    if share < 1:
+        assert speed < 0.01  # it creeps: friction grows with the speed up to there
+        assert speed == pytest.approx(before, rel=0.01)
+        assert box.q[2] == pytest.approx(angle, abs=0.02)
+    else:
+        down = G * (math.sin(angle) - 0.5 * math.cos(angle))
+        assert (speed - before) / 0.5 == pytest.approx(down, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("slope", "falls"), [(0.2, False), (0.15, False), (0.27, True), (0.3, True)]
+)
+def test_a_standing_box_rolls_over_where_its_centre_is_past_its_edge(slope, falls):
+    """It is four times as high as wide, so that happens at a slope of 1/4, half its friction's."""
+    angle = math.atan(slope)
+    box = Moving("box", [angle + math.pi / 2])
+    box.q[:2] = turned(0, 0.2, angle)
+    box.advance(0.0005, 6000, slope=slope)
+    turned_by = box.q[2] - angle - math.pi / 2
+    assert abs(turned_by) < 0.02 if not falls else turned_by > 1.4
+
+
+def test_a_box_comes_to_rest_at_the_bottom_of_a_valley():
+    box = Moving("box", height=0.4)
+    box.q[0] = 0.7
+    for _ in range(100):
+        box.advance(0.001, 100, curvature=2.0)
+    assert np.abs(box.v).max() < 0.01
+    assert abs(box.q[0]) < 0.25  # friction holds it where the slope is less than 0.5
+    assert box.q[1] == pytest.approx(0.05 + box.q[0] ** 2, abs=0.06)
+
+
+def test_a_fall_loses_energy():
+    for name in (*RUNNERS, "box"):
+        body = Moving(name, height=2.0)
+        body.q[2:] = 0.4
+        start = last = body.energy()
+        for _ in range(300):
+            body.advance(0.001, 10)
+            assert body.energy() < start * 1.01
+            last = min(last, body.energy())
+        assert last < 0.7 * start
+
+
+@pytest.mark.parametrize(("name", "h", "tolerance"), [("hopper", 0.001, 0.02)])
+def test_half_the_substep_stays_near(name, h, tolerance):
+    """Positions after a landing and a push, against substeps of a sixteenth."""
+    ends = []
+    for part in (1, 2, 16):
+        body = Moving(name, height=1.4)
+        action = np.array([0.1, -0.1, 0.2])
+        body.advance(h / part, 400 * part, action)
+        ends.append(body.q)
+    assert np.abs(ends[1] - ends[2]).max() < np.abs(ends[0] - ends[2]).max() < tolerance
