@@ -72,10 +72,7 @@ class Rows {
       const int* lane = groups.lane + groups.first[g];
       const int lanes = groups.first[g + 1] - groups.first[g];
       const T* weights = networks + groups.network[g] * stride;
-      if (lanes == 1)
-        panels<kAlone, 1>(weights, lane, 1, groups.finite[g]);
-      else
-        panels<kPanel, kTogether>(weights, lane, lanes, groups.finite[g]);
+      panels<kPanel, kTogether>(weights, lane, lanes, groups.finite[g]);
     }
     for (int row = 0; row < rows_; row += kWidth) turn(row, out);
   }
@@ -85,11 +82,8 @@ class Rows {
   static constexpr std::size_t kNear = 64 * 1024;
   /// Registers of rows, and lanes, whose sums run side by side: a weight is loaded once for several
   /// lanes and an activation for several rows, as far as there are registers.
-  static constexpr int kPanel = 6;
-  static constexpr int kTogether = kRegister == 64 ? 4 : 3;
-  /// Registers of rows of a lane that is alone.
-  static constexpr int kAlone = 6;
-
+  static constexpr int kPanel = kRegister == 64 ? 6 : 4;
+  static constexpr int kTogether = kRegister == 64 ? 4 : 2;
   /// Senders looked at before any is added.
   static constexpr int kChunk = 64;
 

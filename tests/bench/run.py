@@ -28,6 +28,7 @@ from speed import (
     DATA,
     Batch,
     GymnasiumLoop,
+    Meetings,
     best_call,
     generations_in,
     rates,
@@ -182,6 +183,27 @@ def fill(population: Population, run: Coevolution) -> None:
         run.algorithm.parameters[side] = np.resize(networks, run.algorithm.parameters[0].shape)
 
 
+def meetings(seconds: float, repetitions: int) -> Table:
+    """ErPredprey with networks of one's own, and as in co-evolution."""
+    table = Table(
+        "ErPredprey: who has which network, one core",
+        f"Steps/s of the evaluation; best of {repetitions} interleaved repetitions. Of their own: "
+        "random networks, another two in each episode. Otherwise the ten best of each side in "
+        "data/genotypes/predprey, with noise of 0.02: 80 of one side against ten of the other.",
+        ["networks", "steps/s", "ns a step"],
+    )
+    case = next(case for case in CASES if case.file == "predprey")
+    contestants = {
+        "of their own": Batch(case.load(), case.episodes),
+        "80 predators x 10 prey": Meetings(EVOLVED, EVOLVED_SEED, 80, 10),
+        "10 predators x 80 prey": Meetings(EVOLVED, EVOLVED_SEED, 10, 80),
+    }
+    measured = rates([each.evaluate for each in contestants.values()], seconds, repetitions)
+    for name, results in zip(contestants, measured, strict=True):
+        table.add(name, rate(max(results)), f"{1e9 / max(results):.0f}")
+    return table
+
+
 def coevolution(popsize: int, generations: int) -> Table:
     """Generations of co-evolution, one core."""
     table = Table(
@@ -250,6 +272,7 @@ PARTS = {
     "workers": (two_workers_evaluating, (20,), (200,)),
     "runs": (two_workers_running, (0.15, 2), (0.5, 7)),
     "together": (together_or_apart, (0.15, 2), (0.5, 7)),
+    "meetings": (meetings, (0.05, 2), (0.5, 5)),
     "coevolution": (coevolution, (20, 0), (80, 2)),
     "bodies": (locomotors, (5,), (50,)),
     "bodyworkers": (two_workers_on_bodies, (1,), (4,)),

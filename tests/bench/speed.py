@@ -11,7 +11,9 @@ import gymnasium
 import numpy as np
 
 from botschool import config
+from botschool.analysis.populations import Populations
 from botschool.config import Experiment
+from botschool.evolution.algorithms.sides import everyone
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.run import Run
 from botschool.policy import Policy
@@ -75,6 +77,35 @@ class Batch:
             workers,
         )
         return int(outcome.steps.sum())
+
+
+class Meetings:
+    """The best `predators` and `prey` of saved populations, all against all, as in co-evolution.
+
+    Each is varied by a little noise, so that all are different, as offspring are.
+    """
+
+    def __init__(self, folder: Path, seed: int, predators: int, prey: int) -> None:
+        self.run = Coevolution(config.load(DATA / "predprey.ini"), SEED)
+        kept = Populations(folder, seed, self.run.policy)
+        population = kept.load(kept.generations[-1])
+        numbers = np.random.default_rng(SEED)
+        self.sides = []
+        for networks, count in ((population.predators, predators), (population.prey, prey)):
+            chosen = np.resize(networks, (count, networks.shape[1]))
+            self.sides.append(chosen + 0.02 * numbers.standard_normal(chosen.shape))
+
+    def evaluate(self) -> int:
+        """All meetings; returns the steps done."""
+        steps = 0
+
+        def play(*meeting: np.ndarray) -> np.ndarray:
+            nonlocal steps
+            fitness, steps = self.run._meet(*meeting, lambda: False)
+            return fitness
+
+        everyone(play, *self.sides)
+        return steps
 
 
 class GymnasiumLoop:
