@@ -229,8 +229,14 @@ def test_workers_do_not_show(workers, whole, own, tmp_path):
     assert same(whole, tmp_path / "run")
 
 
-def test_consecutive_episodes_share_a_network(own):
-    """All candidates against the first competitor, then all against the second, ..."""
+def in_bands(predators, prey):
+    """Four predators at a time: all of a band meet the first prey, then the second, ..."""
+    bands = [predators[i : i + 4] for i in range(0, len(predators), 4)]
+    pairs = [(p, q) for band in bands for q in prey for p in band]
+    return [list(side) for side in zip(*pairs, strict=True)]
+
+
+def test_consecutive_episodes_share_networks(own):
     coevolution = Coevolution(own, 3)
     asked = []
     evaluate = coevolution.problem.evaluate
@@ -243,13 +249,14 @@ def test_consecutive_episodes_share_a_network(own):
     for _ in range(3):
         coevolution.advance()
     first, predators_evolve, prey_evolve = asked[0], asked[1:22], asked[22:]
-    assert first[0] == [i for i in range(POPSIZE) for _ in range(POPSIZE)]
-    for predators, prey in predators_evolve[:20]:
-        assert predators == 2 * list(range(8)) and prey == [8] * 8 + [9] * 8
-    assert predators_evolve[20][0] == [0] * POPSIZE + [1] * POPSIZE
-    for predators, prey in prey_evolve[:20]:
-        assert predators == [0] * 8 + [1] * 8 and prey == 2 * list(range(2, 10))
-    assert prey_evolve[20][1] == [POPSIZE] * POPSIZE + [POPSIZE + 1] * POPSIZE
+    everybody = range(POPSIZE)
+    assert first == in_bands(everybody, range(POPSIZE, 2 * POPSIZE))
+    for pairs in predators_evolve[:20]:
+        assert pairs == in_bands(range(8), [8, 9])
+    for pairs in prey_evolve[:20]:
+        assert pairs == in_bands([0, 1], range(2, 10))
+    assert predators_evolve[20] == in_bands([0, 1], range(2, 2 + POPSIZE))
+    assert prey_evolve[20] == in_bands(everybody, [POPSIZE, POPSIZE + 1])
 
 
 def test_early_ends_do_not_show(whole, own, tmp_path):

@@ -90,7 +90,7 @@ CASES = {
     ),
     "wrong sign": (lambda r: (-(w := line(r)), w), "turned around"),
     "wrong sign of a number": (lambda r: (-(w := r.normal()), w), "turned around"),
-    "sign lost": (lambda r: (np.abs(w := line(r) - [9, 0, 0, 0, 0, 0]), w), "is lost"),
+    "sign lost": (lambda r: (np.abs(w := np.array([*line(r), -9, 9])), w), "is lost"),
     "some signs": (lambda r: (-(w := np.abs(line(r))) * [1, -1, 1, 1, 1, 1], w), "sign of 5 of 6"),
     "one more": (lambda r: ((w := r.integers(0, 9, 5)) + 1, w), "one more than expected"),
     "one less": (lambda r: ((w := int(r.integers(9))) - 1, w), "one less than expected"),
