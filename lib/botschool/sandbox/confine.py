@@ -67,6 +67,14 @@ def _set(name: str, value: int, most: int | None = None) -> None:
         pass
 
 
+def end_with(parent: int) -> None:
+    """Lets this process end with its parent, whose process id is given, on Linux."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+        if os.getppid() != parent:  # it has ended before this could be asked for
+            os._exit(1)
+
+
 def confine(readable: list[Path], writable: list[Path]) -> list[str]:
     """Returns what this system cannot confine: some of "files", "processes", "network"."""
     everything = ["files", "processes", "network"]
@@ -75,7 +83,6 @@ def confine(readable: list[Path], writable: list[Path]) -> list[str]:
         return everything
     libc = ctypes.CDLL(None, use_errno=True)
     libc.syscall.restype = ctypes.c_long
-    libc.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
     if libc.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0:
         return everything
     missing = [] if _landlock(libc, readable, writable) else ["files"]

@@ -21,6 +21,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from botschool.sandbox import child
+from botschool.sandbox.confine import end_with
 from botschool.sandbox.errors import SandboxError
 from botschool.sandbox.paths import IMPORT_ROOT, is_packages
 
@@ -168,8 +169,9 @@ def main() -> None:
         if "ended" in request:
             answer = _ended(request["ended"], request["seconds"])
         else:
-            answer = os.fork()
+            server, answer = os.getpid(), os.fork()
             if answer == 0:
+                end_with(server)
                 _become_child(modules, descriptors, request["folder"])
             for fd in descriptors:
                 os.close(fd)
