@@ -499,8 +499,11 @@ def test_grade_all_overwrites_only_its_own(course, class_, tmp_path):
 
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="needs its signals")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
-def test_grade_all_leaves_nothing_running(course, tmp_path, number):
+def test_grade_all_leaves_nothing_running(course, tmp_path, number, request):
     """However it ends: its graders, their fork servers and the submissions end, too."""
+    # where the tests run under nohup, the command would ignore a closed terminal as they do
+    before = signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    request.addfinalizer(lambda: signal.signal(signal.SIGHUP, before))
     grader = course / "exercises" / FOLDER / "test_tiny.py"
     grader.write_text(grader.read_text().replace("seconds=2", "seconds=300"))
     for name in ("ada", "bob"):
