@@ -449,9 +449,10 @@ def trained(module, environment, seed, signs):
     import numpy
 
     from botschool.course import evaluation
+    from botschool.course.rewiring import rewired
 
     robot, seen, pairs, calls = evaluation.Robot, [], 0, 0
-    kept = robot.evaluate, robot.play, getattr(module, "evolve", None)
+    kept = robot.evaluate, getattr(module, "evolve", None)
 
     def evaluate(self, population, *arguments, **options):
         nonlocal pairs
@@ -461,21 +462,19 @@ def trained(module, environment, seed, signs):
             middles = (population[:half] + population[half:]) / 2
             pairs += half * bool(numpy.allclose(middles, middles[0], atol=1e-9))
         seen.extend(population)
-        return kept[0](self, population * signs, *arguments, **options)
-
-    def play(self, parameters, *arguments, **options):
-        return kept[1](self, numpy.asarray(parameters) * signs, *arguments, **options)
+        return kept[0](self, population, *arguments, **options)
 
     def evolve(*arguments, **options):
         nonlocal calls
         calls += 1
-        return kept[2](*arguments, **options)
+        return kept[1](*arguments, **options)
 
-    robot.evaluate, robot.play, module.evolve = evaluate, play, evolve
+    robot.evaluate, module.evolve = evaluate, evolve
     try:
-        centre = module.train(environment, seed=seed)
+        with rewired(signs):
+            centre = module.train(environment, seed=seed)
     finally:
-        robot.evaluate, robot.play, module.evolve = kept
+        robot.evaluate, module.evolve = kept
     rows = numpy.array(seen).reshape(len(seen), -1)
     middles = (rows[:-1] + rows[1:]) / 2
     same = numpy.isclose(middles[:-2], middles[2:], atol=1e-9).all(axis=1)
