@@ -7,8 +7,10 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from contextlib import suppress
 from copy import deepcopy
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -19,7 +21,6 @@ from botschool.grading.cells import Unreadable, definitions, plain_python, scrip
 from botschool.grading.leaks import find_leaks
 from botschool.grading.nbgrader import make_course
 from botschool.grading.notebook import grade_cell
-from botschool.grading.submission import grade
 
 REGION = re.compile(
     r"^( *)### BEGIN SOLUTION (task (\d+\.\d+): [^\n]+)\n(.*?)^ *### END SOLUTION\n?",
@@ -153,9 +154,15 @@ def course(tmp_path_factory) -> Course:
     return Course(tmp_path_factory.mktemp("nbgrader"))
 
 
-def script_points(number: int, text: str, folder: Path) -> dict[str, float]:
-    result = grade(building.exercise(number), building.write(folder, number, text))
-    return {task.id: float(task.points) for task in result.tasks}
+@pytest.fixture
+def script_points(grade, tmp_path) -> Callable[[int, str], dict[str, float]]:
+    """Gives the points of each task that a text gets as a file."""
+
+    def call(number, text):
+        result = grade(building.exercise(number), building.write(tmp_path, number, text))
+        return {task.id: float(task.points) for task in result.tasks}
+
+    return call
 
 
 # ------------------------------------------------------------------- notebooks
@@ -250,7 +257,7 @@ def test_grade_cell_says_what_is_missing(tmp_path, monkeypatch, capsys):
 
 
 # ------------------------------------------------------------------- nbgrader
-def test_a_hostile_notebook_gets_the_points_of_its_other_tasks(course, tmp_path):
+def test_a_hostile_notebook_gets_the_points_of_its_other_tasks(course, script_points):
     course.nbgrader("generate_assignment", "ex03", "--force")
     released = course.notebook("release", 3)
     assert "BEGIN SOLUTION" not in json.dumps(released)
@@ -260,33 +267,35 @@ def test_a_hostile_notebook_gets_the_points_of_its_other_tasks(course, tmp_path)
     for name, nb in (("mallory", tampered(course.solved(3, every_second))), ("oscar", "{")):
         course.submit(name, 3, nb)
     course.nbgrader("autograde", "ex03")
-    expected = script_points(3, partly(building.source(3).solution, every_second), tmp_path)
+    expected = script_points(3, partly(building.source(3).solution, every_second))
     assert sum(expected.values()) > 0
     assert course.points("mallory", 3) == expected
     assert set(course.points("oscar", 3).values()) == {0.0}
 
 
-@pytest.fixture(scope="module")
-def graded(tmp_path_factory) -> Course:
-    """A course in which four students have handed in every exercise."""
-    course = Course(tmp_path_factory.mktemp("course"))
-    for number in building.GRADED:
-        name = f"ex{number:02d}"
-        course.nbgrader("generate_assignment", name)
-        for student in ("skeleton", "solution", "half", "hostile"):
-            nb = course.solved(number, DONE[student])
-            if student == "hostile":
-                nb = tampered(nb)
-                nb["cells"].insert(-1, code(EXIT.format(name=own_function(number))))
-            folder = course.submit(student, number, nb).parent
-            (folder / building.source(number).file).write_text("# mine\n")
-            (folder / "more").mkdir()
-            (folder / "more" / "notes.txt").write_text("mine")
-            (folder / "link.txt").symlink_to(course.path("source", number))
-        course.nbgrader("autograde", name)
-        course.nbgrader("generate_feedback", name)
-    course.nbgrader("export")
+def handed_in(folder: Path, number: int) -> Course:
+    """A course in which four students have handed in an exercise, graded."""
+    course, name = Course(folder), f"ex{number:02d}"
+    course.nbgrader("generate_assignment", name)
+    for student in DONE:
+        nb = course.solved(number, DONE[student])
+        if student == "hostile":
+            nb = tampered(nb)
+            nb["cells"].insert(-1, code(EXIT.format(name=own_function(number))))
+        place = course.submit(student, number, nb).parent
+        (place / building.source(number).file).write_text("# mine\n")
+        (place / "more").mkdir()
+        (place / "more" / "notes.txt").write_text("mine")
+        (place / "link.txt").symlink_to(course.path("source", number))
+    course.nbgrader("autograde", name)
+    course.nbgrader("generate_feedback", name)
     return course
+
+
+@pytest.fixture(scope="module")
+def graded(tmp_path_factory) -> Callable[[int], Course]:
+    """Gives the course of an exercise, made when it is first asked for."""
+    return cache(lambda number: handed_in(tmp_path_factory.mktemp("course"), number))
 
 
 DONE = {
@@ -297,64 +306,79 @@ DONE = {
 }
 
 
+for_each_exercise = pytest.mark.parametrize(
+    "number",
+    [pytest.param(n, marks=pytest.mark.xdist_group(f"nbgrader{n}")) for n in building.GRADED],
+    ids="ex{:02d}".format,
+)
+
+
 @pytest.mark.course
 @pytest.mark.parametrize("student", DONE)
-@pytest.mark.parametrize("number", building.GRADED)
-def test_points_are_those_of_the_script(graded, number, student, tmp_path):
+@for_each_exercise
+def test_points_are_those_of_the_script(graded, script_points, number, student):
     text = partly(building.source(number).solution, DONE[student])
     if student == "hostile":
         text = building.inserted(text, EXIT.format(name=own_function(number)))
-    expected = script_points(number, text, tmp_path)
-    assert graded.points(student, number) == expected
+    expected = script_points(number, text)
+    assert graded(number).points(student, number) == expected
     total = {"skeleton": (0, 0), "solution": (100, 100)}.get(student, (1, 99))
     assert total[0] <= sum(expected.values()) <= total[1]
-    with open(graded.folder / "grades.csv") as file:
-        row = next(
-            row
-            for row in csv.DictReader(file)
-            if (row["student_id"], row["assignment"]) == (student, f"ex{number:02d}")
-        )
-    assert (float(row["score"]), float(row["max_score"])) == (sum(expected.values()), 100)
 
 
 @pytest.mark.course
-@pytest.mark.parametrize("number", building.GRADED)
+@pytest.mark.xdist_group("nbgrader3")
+def test_points_are_exported(graded):
+    course = graded(3)
+    course.nbgrader("export")
+    with open(course.folder / "grades.csv") as file:
+        rows = {row["student_id"]: row for row in csv.DictReader(file)}
+    assert rows.keys() == DONE.keys()
+    for student, row in rows.items():
+        points = float(sum(course.points(student, 3).values()))
+        assert (row["assignment"], float(row["max_score"])) == ("ex03", 100)
+        assert float(row["score"]) == points
+
+
+@pytest.mark.course
+@for_each_exercise
 def test_files_stay_and_nothing_hidden_is_shown(graded, number, tmp_path):
+    course = graded(number)
     for student in DONE:
-        folder = graded.folder / "autograded" / student / f"ex{number:02d}"
+        folder = course.folder / "autograded" / student / f"ex{number:02d}"
         assert (folder / building.source(number).file).read_text() == "# mine\n"
         assert (folder / "more" / "notes.txt").read_text() == "mine"
         assert not (folder / "link.txt").exists()
-    page = graded.path("feedback/skeleton", number).with_suffix(".html").read_text()
+    page = course.path("feedback/skeleton", number).with_suffix(".html").read_text()
     feedback = html.unescape(re.sub(r"<[^>]*>", "", page))
     assert "not done yet" in feedback
-    released = "\n".join(source(cell) for cell in graded.notebook("release", number)["cells"])
+    released = "\n".join(source(cell) for cell in course.notebook("release", number)["cells"])
     for text in (feedback, released):
         (tmp_path / "shown.txt").write_text(text)
         assert find_leaks(building.ROOT, [tmp_path / "shown.txt"]) == []
 
 
 @pytest.mark.course
-def test_released_notebooks_are_the_skeletons(graded):
-    for number in building.GRADED:
-        cells = graded.notebook("release", number)["cells"]
-        given = [source(cell) for cell in cells if not cell["id"].startswith("test-")]
-        answers = [text for text in given if "NotImplementedError(" in text]
-        assert answers and all(text in building.source(number).skeleton for text in answers)
+@for_each_exercise
+def test_released_notebooks_are_the_skeletons(graded, number):
+    cells = graded(number).notebook("release", number)["cells"]
+    given = [source(cell) for cell in cells if not cell["id"].startswith("test-")]
+    answers = [text for text in given if "NotImplementedError(" in text]
+    assert answers and all(text in building.source(number).skeleton for text in answers)
 
 
 @pytest.mark.course
-def test_test_cells_work_in_a_kernel(graded, tmp_path, monkeypatch):
+@pytest.mark.xdist_group("nbgrader3")
+def test_test_cells_work_in_a_kernel(graded, script_points, tmp_path, monkeypatch):
     import nbformat
     from nbclient import NotebookClient
 
     monkeypatch.setenv("BOTSCHOOL_COURSE", str(building.ROOT))
     number = 3
-    expected = script_points(
-        number, partly(building.source(number).solution, every_second), tmp_path
-    )
-    nb = graded.solved(number, every_second)
-    place = tmp_path / graded.path("release", number).name
+    expected = script_points(number, partly(building.source(number).solution, every_second))
+    course = graded(number)
+    nb = course.solved(number, every_second)
+    place = tmp_path / course.path("release", number).name
     place.write_text(json.dumps(nb))
     for cell in nb["cells"]:
         if cell["id"] == "task-3-2":  # not saved
