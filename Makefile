@@ -41,7 +41,7 @@ notebook-ex%: .venv/.module $$(call extras,$$*) .venv/.extra-notebook FORCE ## o
 # BEGIN NOT RELEASED
 # Tests run in a process for each core, eight at most: WORKERS=3 make test takes three, WORKERS=0 this one alone.
 WORKERS ?= auto
-PYTEST := $(BIN)/python -m pytest -q -n $(WORKERS) --dist loadgroup
+PYTEST := $(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal
 
 .PHONY: test test-long check-course nbgrader figures skeletons bench results lint format sanitize
 test: .venv/.tests ## the tests that take seconds

@@ -157,9 +157,6 @@ assert abs(env.robots[0][0] - 33) < 1e-9  # 100 mm/s for 0.1 s
 )
 
 
-uses_compiled = pytest.mark.xdist_group("compiled")
-
-
 @pytest.fixture(scope="module")
 def compiled(tmp_path_factory):
     """A copy with a native problem, a robot and a hyperparameter more."""
@@ -181,7 +178,6 @@ def compiled(tmp_path_factory):
     return scratch
 
 
-@uses_compiled
 def test_a_native_problem(compiled):
     out = compiled.command("es", "-f", "slider.ini", "-s", 1, "-o", "run")
     assert "seed 1: best" in out
@@ -194,12 +190,10 @@ def test_a_native_problem(compiled):
     assert "Slider-v3" in (compiled.work / "slider.html").read_text()
 
 
-@uses_compiled
 def test_its_gymnasium_face(compiled):
     compiled.run(FACE)
 
 
-@uses_compiled
 def test_a_wheeled_robot(compiled):
     policy = "architecture = 3\n" + POLICY + "maxsteps = 30\n"
     ini = compiled.work / "beetle.ini"
@@ -213,7 +207,6 @@ def test_a_wheeled_robot(compiled):
     compiled.run(DRIVEN)
 
 
-@uses_compiled
 def test_a_hyperparameter_of_the_policy(compiled):
     assert "how long it waits" in " ".join(compiled.command("es").split())
     ini = compiled.work / "patient.ini"

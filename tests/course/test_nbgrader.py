@@ -10,7 +10,6 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 from copy import deepcopy
-from functools import cache
 from pathlib import Path
 
 import pytest
@@ -62,8 +61,9 @@ def own_function(number: int) -> str:
 class Course:
     """A course folder, and what is done in it."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    def __init__(self, folder: Path, number: int = 0) -> None:
+        """number: of the exercise that is graded in it, if it is only one."""
+        self.folder, self.number = folder, number
         self.edited = make_course(building.ROOT, folder)
 
     def nbgrader(self, *arguments: str) -> str:
@@ -179,9 +179,10 @@ def test_source_notebooks_are_whole_and_stay_the_same(course):
         assert sum(mark.points for mark in marks if mark.grade) == 100
         tasks = [task.id.replace(".", "-") for task in building.exercise(number).tasks]
         assert [mark.grade_id for mark in marks if mark.grade] == [f"test-{task}" for task in tasks]
-        before = course.path("source", number).read_bytes()
-        assert make_course(building.ROOT, course.folder) == []
-        assert course.path("source", number).read_bytes() == before
+    before = {number: course.path("source", number).read_bytes() for number in building.GRADED}
+    assert make_course(building.ROOT, course.folder) == []
+    for number, notebook in before.items():
+        assert course.path("source", number).read_bytes() == notebook
 
 
 def test_edited_notebooks_and_configuration_are_left_alone(tmp_path):
@@ -275,7 +276,7 @@ def test_a_hostile_notebook_gets_the_points_of_its_other_tasks(course, script_po
 
 def handed_in(folder: Path, number: int) -> Course:
     """A course in which four students have handed in an exercise, graded."""
-    course, name = Course(folder), f"ex{number:02d}"
+    course, name = Course(folder, number), f"ex{number:02d}"
     course.nbgrader("generate_assignment", name)
     for student in DONE:
         nb = course.solved(number, DONE[student])
@@ -292,10 +293,16 @@ def handed_in(folder: Path, number: int) -> Course:
     return course
 
 
+@pytest.fixture(scope="module", params=building.GRADED, ids="ex{:02d}".format)
+def graded(request, tmp_path_factory) -> Course:
+    """The graded course of each exercise: the tests of one come one after another."""
+    return handed_in(tmp_path_factory.mktemp("course"), request.param)
+
+
 @pytest.fixture(scope="module")
-def graded(tmp_path_factory) -> Callable[[int], Course]:
-    """Gives the course of an exercise, made when it is first asked for."""
-    return cache(lambda number: handed_in(tmp_path_factory.mktemp("course"), number))
+def third(tmp_path_factory) -> Course:
+    """That of exercise 3."""
+    return handed_in(tmp_path_factory.mktemp("third"), 3)
 
 
 DONE = {
@@ -306,79 +313,67 @@ DONE = {
 }
 
 
-for_each_exercise = pytest.mark.parametrize(
-    "number",
-    [pytest.param(n, marks=pytest.mark.xdist_group(f"nbgrader{n}")) for n in building.GRADED],
-    ids="ex{:02d}".format,
-)
-
-
 @pytest.mark.course
 @pytest.mark.parametrize("student", DONE)
-@for_each_exercise
-def test_points_are_those_of_the_script(graded, script_points, number, student):
+def test_points_are_those_of_the_script(graded, script_points, student):
+    number = graded.number
     text = partly(building.source(number).solution, DONE[student])
     if student == "hostile":
         text = building.inserted(text, EXIT.format(name=own_function(number)))
     expected = script_points(number, text)
-    assert graded(number).points(student, number) == expected
+    assert graded.points(student, number) == expected
     total = {"skeleton": (0, 0), "solution": (100, 100)}.get(student, (1, 99))
     assert total[0] <= sum(expected.values()) <= total[1]
 
 
 @pytest.mark.course
-@pytest.mark.xdist_group("nbgrader3")
-def test_points_are_exported(graded):
-    course = graded(3)
-    course.nbgrader("export")
-    with open(course.folder / "grades.csv") as file:
+def test_points_are_exported(third):
+    third.nbgrader("export")
+    with open(third.folder / "grades.csv") as file:
         rows = {row["student_id"]: row for row in csv.DictReader(file)}
     assert rows.keys() == DONE.keys()
     for student, row in rows.items():
-        points = float(sum(course.points(student, 3).values()))
+        points = float(sum(third.points(student, 3).values()))
         assert (row["assignment"], float(row["max_score"])) == ("ex03", 100)
         assert float(row["score"]) == points
 
 
 @pytest.mark.course
-@for_each_exercise
-def test_files_stay_and_nothing_hidden_is_shown(graded, number, tmp_path):
-    course = graded(number)
+def test_files_stay_and_nothing_hidden_is_shown(graded, tmp_path):
+    number = graded.number
     for student in DONE:
-        folder = course.folder / "autograded" / student / f"ex{number:02d}"
+        folder = graded.folder / "autograded" / student / f"ex{number:02d}"
         assert (folder / building.source(number).file).read_text() == "# mine\n"
         assert (folder / "more" / "notes.txt").read_text() == "mine"
         assert not (folder / "link.txt").exists()
-    page = course.path("feedback/skeleton", number).with_suffix(".html").read_text()
+    page = graded.path("feedback/skeleton", number).with_suffix(".html").read_text()
     feedback = html.unescape(re.sub(r"<[^>]*>", "", page))
     assert "not done yet" in feedback
-    released = "\n".join(source(cell) for cell in course.notebook("release", number)["cells"])
+    released = "\n".join(source(cell) for cell in graded.notebook("release", number)["cells"])
     for text in (feedback, released):
         (tmp_path / "shown.txt").write_text(text)
         assert find_leaks(building.ROOT, [tmp_path / "shown.txt"]) == []
 
 
 @pytest.mark.course
-@for_each_exercise
-def test_released_notebooks_are_the_skeletons(graded, number):
-    cells = graded(number).notebook("release", number)["cells"]
+def test_released_notebooks_are_the_skeletons(graded):
+    number = graded.number
+    cells = graded.notebook("release", number)["cells"]
     given = [source(cell) for cell in cells if not cell["id"].startswith("test-")]
     answers = [text for text in given if "NotImplementedError(" in text]
     assert answers and all(text in building.source(number).skeleton for text in answers)
 
 
 @pytest.mark.course
-@pytest.mark.xdist_group("nbgrader3")
-def test_test_cells_work_in_a_kernel(graded, script_points, tmp_path, monkeypatch):
+def test_test_cells_work_in_a_kernel(third, script_points, tmp_path, monkeypatch):
     import nbformat
     from nbclient import NotebookClient
 
     monkeypatch.setenv("BOTSCHOOL_COURSE", str(building.ROOT))
     number = 3
     expected = script_points(number, partly(building.source(number).solution, every_second))
-    course = graded(number)
-    nb = course.solved(number, every_second)
-    place = tmp_path / course.path("release", number).name
+    nb = third.solved(number, every_second)
+    place = tmp_path / third.path("release", number).name
     place.write_text(json.dumps(nb))
     for cell in nb["cells"]:
         if cell["id"] == "task-3-2":  # not saved
