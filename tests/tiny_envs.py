@@ -110,6 +110,17 @@ class Blind(Tiny):
 gymnasium.register("Blind-v0", Blind, max_episode_steps=12)
 
 
+class Small(Tiny):
+    """Pays little."""
+
+    def step(self, action):
+        observation, reward, *ends = super().step(action)
+        return observation, 1e-4 * reward, *ends
+
+
+gymnasium.register("Small-v0", Small, max_episode_steps=12)
+
+
 class Picture(Tiny):
     """Shows the point as a white column in a picture."""
 
