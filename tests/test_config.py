@@ -120,11 +120,16 @@ def test_defaults(tmp_path):
     ):
         path = write(tmp_path, text(exp=f"environment = X-v0\nalgo = {algo}"))
         assert to_dict(load(path)) == {
-            "exp": {"environment": "X-v0", "algo": algo, "robots": ""},
+            "exp": {"environment": "X-v0", "algo": algo, "robots": "", "wrappers": ""},
             "policy": POLICY_DEFAULTS,
             "algo": defaults,
         }
-    assert asdict(Exp("X-v0")) == {"environment": "X-v0", "algo": "OpenAI-ES", "robots": ""}
+    assert asdict(Exp("X-v0")) == {
+        "environment": "X-v0",
+        "algo": "OpenAI-ES",
+        "robots": "",
+        "wrappers": "",
+    }
 
 
 def test_every_value_is_read_with_its_type(tmp_path):
@@ -373,9 +378,9 @@ def test_refused_dict(data, part):
 def test_describe_lists_every_hyperparameter_with_default_and_help():
     rows = describe()
     listed = {(section, name): default for section, name, default, _ in rows}
-    assert len(listed) == len(rows) == 3 + 19 + 7 + 4 + 9 + 11 + 13 + 12
+    assert len(listed) == len(rows) == 4 + 19 + 7 + 4 + 9 + 11 + 13 + 12
     for section, defaults in (
-        ("EXP", {"environment": None, "algo": "OpenAI-ES", "robots": ""}),
+        ("EXP", {"environment": None, "algo": "OpenAI-ES", "robots": "", "wrappers": ""}),
         ("POLICY", POLICY_DEFAULTS),
         ("ALGO OpenAI-ES", OPENAI_ES_DEFAULTS),
         ("ALGO SSS", SSS_DEFAULTS),
