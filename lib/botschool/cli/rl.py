@@ -112,6 +112,10 @@ def rl_train(
             metavar="FOLDER",
         ),
     ] = None,
+    settings: Annotated[
+        Path | None,
+        typer.Option(help="A file of hyperparameters, as `rl tune` writes.", metavar="FILE"),
+    ] = None,
 ) -> None:
     """Train an agent in a new folder; defaults depend on algorithm and environment."""
     from botschool.rl.training import train_command
@@ -120,7 +124,44 @@ def rl_train(
     options = {"policy": policy, "envs": envs, "steps": steps, "seed": seed}
     options |= {"evaluations": evaluations, "episodes": episodes}
     options |= {"wrappers": ", ".join(wrapper or []), "vec_env": vec_env}
-    if not train_command(algo, env, items, output, sys.stdout.isatty(), events, **options):
+    terminal = sys.stdout.isatty()
+    if not train_command(algo, env, items, output, terminal, events, settings, **options):
+        raise typer.Exit(130)
+
+
+@app.command(
+    "tune", epilog="Example: botschool rl tune --algo ppo --env CartPole-v1 --trials 30 -n 20000"
+)
+def rl_tune(
+    algo: Annotated[str, typer.Option(help="As in `rl train`.", metavar="NAME")],
+    env: Annotated[str, typer.Option(help="A Gymnasium id.", metavar="ID")],
+    trials: Annotated[int, typer.Option(min=1, max=100_000, help="Trainings to try.")] = 20,
+    steps: Annotated[
+        int | None,
+        typer.Option("--steps", "-n", "--n-timesteps", min=1, help="Length of each training."),
+    ] = None,
+    envs: Annotated[
+        int | None, typer.Option(min=1, max=1024, help="Environments side by side.")
+    ] = None,
+    wrapper: Annotated[
+        list[str] | None, typer.Option(help="As in `rl train`.", metavar="NAME")
+    ] = None,
+    seed: RlSeed = 1,
+    evaluations: Annotated[
+        int, typer.Option(min=1, max=1000, help="Post-evaluations of each training.")
+    ] = 8,
+    episodes: Annotated[
+        int, typer.Option(min=1, max=10_000, help="Episodes of a post-evaluation.")
+    ] = 20,
+    output: RlFolderF = Path("results/rl"),
+) -> None:
+    """Look for better hyperparameters by many trainings (Optuna); the same command goes on."""
+    from botschool.rl.settings import check_algorithm
+    from botschool.rl.tuning import Plan, tune_command
+
+    options = {"steps": steps, "envs": envs, "seed": seed, "wrappers": ", ".join(wrapper or [])}
+    options |= {"evaluations": evaluations, "episodes": episodes}
+    if not tune_command(Plan(check_algorithm(algo), env, output, trials, options)):
         raise typer.Exit(130)
 
 

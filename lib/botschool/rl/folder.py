@@ -150,14 +150,14 @@ def _number(text: object) -> float:
         return float("nan")
 
 
-def _name_of(env: str) -> str:
+def name_of(env: str) -> str:
     """An id as a part of a folder's name."""
     return re.sub(r"[^\w.-]+", "-", env)
 
 
 def next_folder(base: Path, algo: str, env: str) -> RunFolder:
     """Makes base/algo/env_N with the next free number N. Raises BotschoolError."""
-    name = _name_of(env)
+    name = name_of(env)
     parent = base / algo
     try:
         parent.mkdir(parents=True, exist_ok=True)
@@ -179,7 +179,7 @@ def run_of(folder: Path | str, algo: str, env: str, number: int = 0) -> RunFolde
 
     Raises BotschoolError.
     """
-    parent, name = Path(folder) / algo, _name_of(env)
+    parent, name = Path(folder) / algo, name_of(env)
     numbered = {
         run.number: run
         for run in find_runs(parent)

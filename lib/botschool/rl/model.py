@@ -49,8 +49,8 @@ def require(*packages: str) -> None:
             missing = (error.name or package).partition(".")[0]
             raise BotschoolError(
                 f"botschool rl needs the package {missing}: install it with `pip install torch "
-                "stable-baselines3 sb3-contrib`, or all that botschool can use with `pip install "
-                "'botschool[rl]'`."
+                "stable-baselines3 sb3-contrib optuna`, or all that botschool can use with `pip "
+                "install 'botschool[rl]'`."
             ) from None
 
 

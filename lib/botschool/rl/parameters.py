@@ -8,6 +8,7 @@ import math
 import re
 import typing
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
 import yaml
@@ -93,6 +94,20 @@ def parse(items: Iterable[str]) -> dict[str, Any]:
             ) from None
         values[name.strip()] = _number_if_possible(value)
     return values
+
+
+def read_settings(path: Path) -> dict[str, Any]:
+    """The hyperparameters in a YAML file of `name: value`. Raises BotschoolError."""
+    try:
+        found = yaml.safe_load(path.read_text(encoding="utf-8")) or {}
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        reason = getattr(error, "strerror", None) or "it is no YAML"
+        raise BotschoolError(
+            f"{path} cannot be read ({reason}): give a file of name: value."
+        ) from (None)
+    if not isinstance(found, dict) or not all(isinstance(name, str) for name in found):
+        raise BotschoolError(f"{path} holds no hyperparameters: give a file of name: value.")
+    return {name: _number_if_possible(value) for name, value in found.items()}
 
 
 def _number_if_possible(value: Any) -> Any:

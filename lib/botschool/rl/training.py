@@ -12,7 +12,7 @@ from botschool.errors import BotschoolError
 from botschool.output import cannot_write
 from botschool.rl.folder import Evaluations, RunFolder, next_folder
 from botschool.rl.model import build, choose
-from botschool.rl.parameters import parse
+from botschool.rl.parameters import parse, read_settings
 from botschool.rl.progress import reporting
 from botschool.rl.settings import Settings
 from botschool.terminal import readable, stoppable
@@ -164,10 +164,12 @@ def train_command(
     folder: Path,
     terminal: bool,
     events: Path | None = None,
+    file: Path | None = None,
     **options: Any,
 ) -> bool:
     """`botschool rl train`: prints progress and result; False when the user stopped it."""
-    settings = choose(algo, env, params=parse(params), **options)
+    chosen = (read_settings(file) if file else {}) | parse(params)
+    settings = choose(algo, env, params=chosen, **options)
 
     def started(run: RunFolder) -> None:
         print(f"training {settings.algo} on {settings.env} in {run.path}", flush=True)
