@@ -56,6 +56,25 @@ def test_the_newer_algorithms_train(algo, env, params, tmp_path):
     assert any("loss" in name or name.startswith("train/") for name in run.log())
 
 
+def test_images_with_memory(tmp_path):
+    params = {"n_steps": 8, "batch_size": 8, "n_epochs": 1, "lstm_hidden_size": 4}
+    options = {
+        "steps": 8,
+        "envs": 1,
+        "evaluations": 1,
+        "episodes": 1,
+        "policy": "cnnlstm",
+        "params": params,
+    }
+    run = tiny(tmp_path, "ppo", "tiny_envs:Picture-v0", **options)
+    assert run.settings().policy == "cnnlstm"
+    np.testing.assert_allclose(again(run), run.evaluations().returns[-1], rtol=1e-4)
+    with pytest.raises(BotschoolError, match=r"shows no images.*a cnnlstm policy"):
+        tiny(tmp_path, "ppo", "CartPole-v1", policy="cnnlstm")
+    with pytest.raises(BotschoolError, match="sac has no cnnlstm policy: use --algo ppo with"):
+        tiny(tmp_path, "sac", "tiny_envs:Tiny-v0", policy="cnnlstm")
+
+
 def test_learning_moves_the_policy_of_ars(tmp_path):
     run = tiny(tmp_path, "ars", "tiny_envs:Tiny-v0", params={"n_delta": 4, "learning_rate": 0.5})
     assert len(set(run.evaluations().returns.mean(axis=1))) > 1

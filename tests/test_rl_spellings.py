@@ -75,6 +75,7 @@ def test_the_chapters_policy_kwargs(tmp_path, command):
         (["policy:'CustomMlpPolicy'", "n_envs:1e1"], {"net_arch": [16]},
          {"policy": "mlp", "envs": 10}),
         (["policy:CnnPolicy", "target_kl:None"], {"target_kl": None}, {"policy": "cnn"}),
+        (["policy:CnnLstmPolicy"], {}, {"policy": "cnnlstm"}),
         (["learning_rate:lin_0.00025", "normalize:True"],
          {"learning_rate": "linear 0.00025", "normalize": True}, {}),
         (["net_arch={pi: [8]}"], {"net_arch": {"pi": [8]}}, {}),

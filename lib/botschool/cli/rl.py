@@ -71,7 +71,9 @@ def rl_train(
     more: Annotated[list[str] | None, typer.Argument(hidden=True, metavar="")] = None,
     policy: Annotated[
         str | None,
-        typer.Option(help="mlp, lstm or cnn.", metavar="NAME", show_default="cnn for images"),
+        typer.Option(
+            help="mlp, lstm, cnn or cnnlstm.", metavar="NAME", show_default="cnn for images"
+        ),
     ] = None,
     envs: Annotated[
         int | None, typer.Option(min=1, max=1024, help="Environments side by side.")

@@ -19,7 +19,14 @@ from botschool.inifile import shown
 from botschool.rl import spellings
 from botschool.rl.environments import described, make
 from botschool.rl.parameters import ACTIVATIONS, OF_GOALS, OF_POLICY, complete, linear
-from botschool.rl.settings import VEC_ENVS, Settings, check_algorithm, check_policy, defaults
+from botschool.rl.settings import (
+    VEC_ENVS,
+    WITH_MEMORY,
+    Settings,
+    check_algorithm,
+    check_policy,
+    defaults,
+)
 
 if TYPE_CHECKING:
     from stable_baselines3.common.base_class import BaseAlgorithm
@@ -79,10 +86,10 @@ def choose(
     _check_spaces(algo, env, env_made)
     require("torch", "stable_baselines3")
     policy = policy or ("cnn" if _sees_images(env_made) else "mlp")
-    if policy == "cnn" and not _sees_images(env_made):
+    if "cnn" in policy and not _sees_images(env_made):
         raise BotschoolError(
-            f"{env} shows no images, so it cannot be trained with a cnn policy (its observations "
-            f"are {described(env_made.observation_space)}): leave out --policy."
+            f"{env} shows no images, so it cannot be trained with a {policy} policy (its "
+            f"observations are {described(env_made.observation_space)}): leave out --policy."
         )
     entry = defaults(algo, env)
     length, width = entry.pop("steps"), entry.pop("envs")
@@ -129,7 +136,7 @@ def _share_batches(entry: dict[str, Any], model_class: type[BaseAlgorithm], envs
 
 
 def _normalize(given: dict[str, Any], usual: bool, env: gymnasium.Env, policy: str) -> bool:
-    possible = isinstance(env.observation_space, spaces.Box) and policy != "cnn"
+    possible = isinstance(env.observation_space, spaces.Box) and "cnn" not in policy
     wanted = given.get("normalize", usual and possible)
     if not isinstance(wanted, bool):
         raise BotschoolError(f"normalize is {wanted}, but must be true or false.")
@@ -186,7 +193,7 @@ def algorithm_class(algo: str, policy: str, discrete: bool = False) -> type[Base
 
     Hindsight experience replay is SAC with goals, or DQN where actions are discrete.
     """
-    if policy == "lstm" or algo in CONTRIB:
+    if policy in WITH_MEMORY or algo in CONTRIB:
         require("torch", "stable_baselines3", "sb3_contrib")
         return getattr(importlib.import_module("sb3_contrib"), CONTRIB.get(algo, "RecurrentPPO"))
     require("torch", "stable_baselines3")
@@ -197,8 +204,8 @@ def algorithm_class(algo: str, policy: str, discrete: bool = False) -> type[Base
 
 def _policy_name(policy: str, env: gymnasium.Env | VecEnv) -> str:
     several = isinstance(env.observation_space, spaces.Dict)
-    kind = "MultiInput" if several else "Cnn" if policy == "cnn" else "Mlp"
-    return f"{kind}{'Lstm' if policy == 'lstm' else ''}Policy"
+    kind = "MultiInput" if several else "Cnn" if "cnn" in policy else "Mlp"
+    return f"{kind}{'Lstm' if policy in WITH_MEMORY else ''}Policy"
 
 
 def build(settings: Settings, env: VecEnv | gymnasium.Env, small: bool = False) -> BaseAlgorithm:
@@ -217,7 +224,7 @@ def build(settings: Settings, env: VecEnv | gymnasium.Env, small: bool = False) 
         chosen |= {"replay_buffer_class": HerReplayBuffer, "replay_buffer_kwargs": goals}
     if small and "buffer_size" in chosen:
         chosen["buffer_size"] = 1
-    chosen.setdefault("device", "auto" if settings.policy == "cnn" else "cpu")
+    chosen.setdefault("device", "auto" if "cnn" in settings.policy else "cpu")
     if small:
         chosen["device"] = "cpu"
     discrete = isinstance(env.action_space, spaces.Discrete)

@@ -17,7 +17,8 @@ from botschool.output import save_bytes
 from botschool.rl import spellings
 
 ALGORITHMS = ("ppo", "a2c", "trpo", "ars", "sac", "td3", "ddpg", "tqc", "her", "dqn", "qrdqn")
-POLICIES = ("mlp", "lstm", "cnn")
+POLICIES = ("mlp", "lstm", "cnn", "cnnlstm")
+WITH_MEMORY = ("lstm", "cnnlstm")
 VEC_ENVS = ("dummy", "subproc")
 """Where environments side by side run: all in this process, or each in one of its own."""
 
@@ -61,7 +62,7 @@ class Settings:
     @property
     def variant(self) -> str:
         """What sets it apart from a training with defaults, as `lstm learning_rate=0.001`."""
-        policy = [self.policy] if self.policy == "lstm" else []
+        policy = [self.policy] if self.policy in WITH_MEMORY else []
         given = [f"{name}={value}" for name, value in self.given.items()]
         return " ".join([*policy, *given, *filter(None, [self.wrappers])])
 
@@ -117,11 +118,14 @@ def check_policy(policy: str, algo: str) -> str:
     if policy.lower() not in POLICIES:
         hint = nearest(policy, POLICIES)
         raise BotschoolError(f"There is no policy '{shown(policy)}'; {_ended(hint)}")
-    if policy.lower() == "lstm" and algo != "ppo":
-        raise BotschoolError(f"{algo} has no lstm policy: use --algo ppo with --policy lstm.")
-    if policy.lower() == "cnn" and algo == "ars":
+    policy = policy.lower()
+    if policy in WITH_MEMORY and algo != "ppo":
+        raise BotschoolError(
+            f"{algo} has no {policy} policy: use --algo ppo with --policy {policy}."
+        )
+    if policy == "cnn" and algo == "ars":
         raise BotschoolError("ars has no cnn policy: use --algo ppo, or a wrapper that flattens.")
-    return policy.lower()
+    return policy
 
 
 def defaults(algo: str, env: str) -> dict[str, Any]:

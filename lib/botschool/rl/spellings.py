@@ -17,6 +17,7 @@ POLICIES = {
     "mlppolicy": "mlp",
     "cnnpolicy": "cnn",
     "mlplstmpolicy": "lstm",
+    "cnnlstmpolicy": "cnnlstm",
     "multiinputpolicy": "mlp",
     "custommlppolicy": "mlp",
 }

@@ -149,7 +149,7 @@ def _one_thread(settings: Settings) -> Iterator[None]:
     import torch
 
     before = torch.get_num_threads()
-    if settings.policy != "cnn":
+    if "cnn" not in settings.policy:
         torch.set_num_threads(1)
     try:
         yield
