@@ -139,6 +139,17 @@ def test_mujoco_is_filmed_without_a_display(tmp_path):
     assert imageio.v3.imread(film).std() > 5
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere there is a display")
+def test_mujoco_that_cannot_draw_says_what_to_install(monkeypatch):
+    from botschool.problems import making
+
+    monkeypatch.delenv("MUJOCO_GL", raising=False)
+    monkeypatch.setattr(making, "DRAWING", (("egl", "libnothing.so"),))
+    with pytest.raises(BotschoolError, match=r"Hopper-v5 is drawn by MuJoCo.*libegl1"):
+        making.make_env("Hopper-v5", render_mode="rgb_array")
+    making.make_env("CartPole-v1", render_mode="rgb_array").close()
+
+
 @pytest.mark.parametrize(
     ("name", "package"),
     [

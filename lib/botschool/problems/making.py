@@ -54,7 +54,7 @@ def _make(name: str, **options) -> gymnasium.Env:
     elif name not in gymnasium.registry:
         _import_package(name)
     if options.get("render_mode") == "rgb_array":
-        _choose_drawing()
+        _choose_drawing(name)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # errors say it in a sentence
@@ -85,8 +85,11 @@ def _registered(name: str) -> str:
     return name
 
 
-def _choose_drawing() -> None:
-    """Tells MuJoCo to draw in memory where there is no display, unless the user has told it how."""
+def _choose_drawing(name: str) -> None:
+    """Tells MuJoCo to draw in memory where there is no display, unless the user has told it how.
+
+    Raises BotschoolError for an environment of MuJoCo's where it cannot.
+    """
     if sys.platform != "linux" or has_display() or "MUJOCO_GL" in os.environ:
         return
     for value, library in DRAWING:
@@ -94,6 +97,12 @@ def _choose_drawing() -> None:
             ctypes.CDLL(library)
             os.environ["MUJOCO_GL"] = value
             return
+    spec = gymnasium.registry.get(name.rpartition(":")[2])
+    if spec is not None and "mujoco" in str(spec.entry_point):
+        raise BotschoolError(
+            f"{name} is drawn by MuJoCo, which needs EGL or OSMesa where there is no display: "
+            "install it (on Debian and Ubuntu libegl1 and libgl1-mesa-dri), or draw no pictures."
+        )
 
 
 def _import_package(name: str) -> None:
