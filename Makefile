@@ -62,7 +62,7 @@ bench: .venv/.module ## the speed of evaluation beside gymnax, EnvPool and Gymna
 figures: .venv/.tests ## draw the pictures of the exercises' texts anew (docs/images/course)
 	@$(BIN)/python tools/figures $(ONLY)
 
-results: .venv/.bench ## measure all of docs/results.md anew and write it (about 40 minutes)
+results: .venv/.bench ## measure all of docs/results.md anew and write it (half an hour)
 	@$(BIN)/python tests/bench/results.py
 
 lint: .venv/.tests ## check style: ruff and clang-format
