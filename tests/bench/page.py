@@ -91,12 +91,13 @@ def planar(parts: dict) -> str:
             [each[key] for each in runs] for key in ("best", "new", "metres", "seconds")
         )
         sure, whole = (sum(each[key] >= SURE for each in runs) for key in ("lengths", "upright"))
-        within = sum(min(metres) <= each["finer"][1] <= max(metres) for each in runs)
+        finer = [100 * each["finer"][1] / each["finer"][0] for each in runs]
         rows.append([
             f"{file}.ini", f"{of['steps']:g} M", str(len(runs)), spread(best, 0),
             f"{min(best):.0f} to {max(best):.0f}", spread(new, 0), spread(metres),
             f"{min(metres):.1f} to {max(metres):.1f}", f"{sure} of {len(runs)}",
-            f"{whole} of {len(runs)}", f"{within} of {len(runs)}", f"{np.mean(seconds):.0f} s",
+            f"{whole} of {len(runs)}", f"{min(finer):.0f} to {max(finer):.0f} %",
+            f"{np.mean(seconds):.0f} s",
         ])  # fmt: skip
     columns = [
         "experiment", "steps", "seeds", "best post-evaluated", "range", "in new episodes",
