@@ -113,7 +113,7 @@ def tables(part: str, measured: str = "speed"):
 
     def shown(parts: dict) -> str:
         if part not in parts[measured]["data"]:
-            return "Not measured yet: `make results` does."
+            return "Not measured yet."
         texts = []
         for table in parts[measured]["data"][part]:
             kept = [i for i, name in enumerate(table["columns"]) if name not in ("", "target")]
