@@ -9,6 +9,13 @@ os.environ["SDL_VIDEODRIVER"] = "dummy"
 os.environ["MPLBACKEND"] = "Agg"
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers():
+    """Of `-n auto`: one for each core that is ours, eight at most (each takes 1 to 2 GB)."""
+    known = hasattr(os, "sched_getaffinity")
+    return min(8, len(os.sched_getaffinity(0)) if known else os.cpu_count() or 1)
+
+
 @pytest.fixture
 def command(capfd, monkeypatch):
     """Calls the command in this process: (exit code, standard output, standard error)."""

@@ -2,7 +2,8 @@
 
 `PYTHON tests/golden.py` prints the hashes of the botschool that this Python has installed; those in
 tests/golden.json were printed at commit 7a16f59, before runs evaluated two generations' episodes
-together. They must never change: see tests/test_golden.py.
+together; those of CMA-ES, xNES and sNES when these algorithms came. They must never change: see
+tests/test_golden.py.
 """
 
 from __future__ import annotations
@@ -98,6 +99,34 @@ RUNS = {
         "episodes=2 pepisodes=5 maxsteps=200 nhiddens=5 bias=1 architecture=1 out_type=2",
         "maxmsteps=0.1 samplesize=5",
         "--generations 11",
+    ),
+    "pendulum, CMA-ES, normalised": (
+        "Pendulum-v1",
+        "CMA-ES",
+        "episodes=1 pepisodes=5 maxsteps=100 nhiddens=8 bias=1 afunction=2 out_type=3 normalize=1",
+        "maxmsteps=0.1 sigma=0.5",
+        "-w 2",
+    ),
+    "cartpole, CMA-ES, diagonal": (
+        "CartPole-v1",
+        "CMA-ES",
+        "episodes=2 pepisodes=5 maxsteps=200 nhiddens=5 bias=1",
+        "maxmsteps=0.1 popsize=12 diagonal=1 active=0",
+        "-s 2",
+    ),
+    "acrobot, xNES": (
+        "Acrobot-v1",
+        "xNES",
+        "episodes=1 pepisodes=5 maxsteps=200 nhiddens=6 bias=1 winit=1",
+        "maxmsteps=0.1 sigma=0.1",
+        "",
+    ),
+    "double pole, sNES": (
+        "ErDpole",
+        "sNES",
+        "episodes=2 pepisodes=5 maxsteps=300 nhiddens=5 bias=1 architecture=1 out_type=3",
+        "maxmsteps=0.05 popsize=20 etasigma=0.2",
+        "",
     ),
     "in Gymnasium": (
         "MountainCar-v0",

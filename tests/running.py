@@ -20,7 +20,7 @@ POPULATION = {"SSS": {"popsize": 6, "mutrate": 0.2}, "OpenAI-ES": {"samplesize":
 def write_experiment(folder, environment="CartPole-v1", algo="SSS", policy=None, **algorithm):
     """Writes FOLDER/own.ini: a very small experiment, changed by the arguments. Gives its path."""
     policy = {"episodes": 2, "pepisodes": 3, "maxsteps": 60, "nhiddens": 3} | (policy or {})
-    algorithm = {"maxmsteps": 0.005, "saveeach": 60} | POPULATION[algo] | algorithm
+    algorithm = {"maxmsteps": 0.005, "saveeach": 60} | POPULATION.get(algo, {}) | algorithm
     lines = ["[EXP]", f"environment = {environment}", f"algo = {algo}", "[POLICY]"]
     lines += [f"{key} = {value}" for key, value in policy.items()]
     lines += ["[ALGO]", *(f"{key} = {value}" for key, value in algorithm.items())]

@@ -35,7 +35,7 @@ class Scratch:
         done = subprocess.run(
             [sys.executable, "-S", "-c", code, path, *map(str, arguments)],
             cwd=self.work,
-            env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1", "COLUMNS": "200"},
+            env=os.environ | {"COLUMNS": "200"},
             capture_output=True,
             text=True,
         )
@@ -54,6 +54,8 @@ class Scratch:
         for header in (self.lib / "arena" / "problems").iterdir():
             if header.stem not in problems:
                 header.unlink()
+        build_file = self.lib / "CMakeLists.txt"
+        build_file.write_text(build_file.read_text().replace("-O3", "-O1"))  # is quicker
         build = self.lib.parent / "build"
         scripts = sysconfig.get_path("scripts") + os.pathsep + os.environ["PATH"]
         tools = os.environ | {"PATH": scripts}

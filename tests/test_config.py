@@ -59,6 +59,8 @@ OPENAI_ES_DEFAULTS = {
     "saveeach": 60,
 }
 SSS_DEFAULTS = {"maxmsteps": 1, "popsize": 20, "mutrate": 0.02, "saveeach": 60}
+GAUSSIAN_DEFAULTS = {"maxmsteps": 1, "popsize": 0, "sigma": 0.3, "saveeach": 60}
+NATURAL_DEFAULTS = GAUSSIAN_DEFAULTS | {"etamu": 1, "etasigma": 0}
 COEVO2_DEFAULTS = {
     "ngenerations": 1000,
     "popsize": 80,
@@ -116,15 +118,23 @@ def test_defaults(tmp_path):
     for algo, defaults in (
         ("OpenAI-ES", OPENAI_ES_DEFAULTS),
         ("SSS", SSS_DEFAULTS),
+        ("CMA-ES", GAUSSIAN_DEFAULTS | {"diagonal": 0, "active": 1}),
+        ("xNES", NATURAL_DEFAULTS),
+        ("sNES", NATURAL_DEFAULTS),
         *COMPETITIVE_DEFAULTS.items(),
     ):
         path = write(tmp_path, text(exp=f"environment = X-v0\nalgo = {algo}"))
         assert to_dict(load(path)) == {
-            "exp": {"environment": "X-v0", "algo": algo, "robots": ""},
+            "exp": {"environment": "X-v0", "algo": algo, "robots": "", "wrappers": ""},
             "policy": POLICY_DEFAULTS,
             "algo": defaults,
         }
-    assert asdict(Exp("X-v0")) == {"environment": "X-v0", "algo": "OpenAI-ES", "robots": ""}
+    assert asdict(Exp("X-v0")) == {
+        "environment": "X-v0",
+        "algo": "OpenAI-ES",
+        "robots": "",
+        "wrappers": "",
+    }
 
 
 def test_every_value_is_read_with_its_type(tmp_path):
@@ -210,8 +220,9 @@ REFUSED = {
     "other algorithm": (
         text(algo="popsize = 5"),
         "line 6",
-        "popsize is a hyperparameter of SSS, archive, archivestar, coevo2 and maxsolvestar, but",
-        "remove the line, or set algo = SSS",
+        "popsize is a hyperparameter of CMA-ES, SSS, archive, archivestar, coevo2, maxsolvestar, "
+        "sNES and xNES, but",
+        "remove the line, or set algo = CMA-ES",
     ),
     "key twice": (text("bias = 1\nBIAS = 0"), "line 5", "BIAS is given a second time", "line 4"),
     "mutation and mutrate": (
@@ -373,12 +384,15 @@ def test_refused_dict(data, part):
 def test_describe_lists_every_hyperparameter_with_default_and_help():
     rows = describe()
     listed = {(section, name): default for section, name, default, _ in rows}
-    assert len(listed) == len(rows) == 3 + 19 + 7 + 4 + 9 + 11 + 13 + 12
+    assert len(listed) == len(rows) == 4 + 19 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12
     for section, defaults in (
-        ("EXP", {"environment": None, "algo": "OpenAI-ES", "robots": ""}),
+        ("EXP", {"environment": None, "algo": "OpenAI-ES", "robots": "", "wrappers": ""}),
         ("POLICY", POLICY_DEFAULTS),
         ("ALGO OpenAI-ES", OPENAI_ES_DEFAULTS),
         ("ALGO SSS", SSS_DEFAULTS),
+        ("ALGO CMA-ES", GAUSSIAN_DEFAULTS | {"diagonal": 0, "active": 1}),
+        ("ALGO xNES", NATURAL_DEFAULTS),
+        ("ALGO sNES", NATURAL_DEFAULTS),
         *[(f"ALGO {algo}", defaults) for algo, defaults in COMPETITIVE_DEFAULTS.items()],
     ):
         assert {

@@ -130,6 +130,16 @@ def test_every_cited_section_of_the_specification_exists():
     assert not unknown
 
 
+def test_every_test_that_a_document_names_exists():
+    missing = []
+    for document in (name for name in texts() if name.endswith(".md")):
+        for path, name in re.findall(r"`(tests/[\w/]+\.py)(?:::(\w+))?`", texts()[document]):
+            if path not in texts() or (name and f"def {name}(" not in texts()[path]):
+                missing.append(f"{document}: {path}::{name}")
+    assert not missing
+    assert "::test_" in texts()["docs/chapter.md"]
+
+
 def test_the_specification_refers_to_sections_of_its_own():
     text, _, _ = without_code(texts()[SPECIFICATION]).partition("\n## Sources")
     quoted = re.findall(r'"([A-Z][^"]*)"', WRAPPED.sub(" ", text))

@@ -112,10 +112,9 @@ def test_missing_experiment(refused, tmp_path):
         ("LunarLander-v2", "LunarLander-v3"),
         ("tiny_envs:Tinypackage-v0", "a_package_that_is_not_there"),
         ("tiny_envs:Tinymakes-v0", "no licence"),
-        ("tiny_envs:Tinyimages-v0", ["images of shape (8, 8, 3)", "Box of one dimension"]),
-        ("tiny_envs:Tinynested-v0", ["nested Dict", "Box of one dimension"]),
-        ("tiny_envs:Tinysequence-v0", ["MultiBinary(3)", "Discrete actions"]),
-        ("Blackjack-v1", "nested Tuple"),
+        ("tiny_envs:Tinywords-v0", ["observations are a Text space", "policies read numbers"]),
+        ("tiny_envs:Tinylarge-v0", ["30603 values", "at most 30000", "ResizeObservation"]),
+        ("tiny_envs:Tinysequence-v0", ["actions are a Sequence space", "MultiBinary"]),
     ],
 )
 @pytest.mark.filterwarnings("ignore")

@@ -5,7 +5,15 @@ import re
 import numpy as np
 import pytest
 
-from botschool.grading import Exercise, Wrong, expect_array, expect_close, expect_fields
+from botschool.grading import (
+    Exercise,
+    Wrong,
+    expect_array,
+    expect_close,
+    expect_ends,
+    expect_fields,
+    went_on,
+)
 from botschool.grading.confined import fork_server
 from botschool.grading.exercise import Exercise as Declared
 from botschool.grading.exercise import load_exercise
@@ -263,3 +271,38 @@ def test_two_calls_are_bounded_and_cost_no_time(graded):
     )
     assert graded(text, exercise).tasks[0].points == 0
     assert isinstance(exercise, Declared)
+
+
+# --- the two ends of an episode
+
+
+@pytest.mark.parametrize(
+    ("got", "wanted", "words"),
+    [
+        ((True, False), (False, True), "The two are exchanged"),
+        ((False, True), (True, False), "The two are exchanged"),
+        ((True, True), (False, True), "when only the time is over, terminated stays False"),
+        ((True, True), (True, False), "what ended by itself is not truncated"),
+        ((True, True), (False, False), "as the old `done` was."),
+        ((False, True), (False, False), "who stops earlier"),
+        ((True, False), (False, False), ""),
+        ((False, False), (True, False), ""),
+        ((1, False), (True, False), ""),
+    ],
+)
+def test_terminated_and_truncated_mixed_up(got, wanted, words):
+    with pytest.raises(Wrong, match=r"f\(1\): t\w+ is \w+, but it should be \w+\.") as caught:
+        expect_ends("f(1)", got, wanted, "it should be")
+    cause = str(caught.value).partition("\n  ")[2]
+    assert words in cause and bool(cause) == bool(words)
+
+
+def test_ends_that_are_right():
+    for ends in ((True, False), (False, True), (False, False)):
+        expect_ends("f(1)", ends, ends, "it should be")
+
+
+def test_an_episode_that_went_on():
+    assert went_on(False, True).startswith("It was truncated there, not terminated")
+    assert went_on(True, False).startswith("It was terminated there, not truncated")
+    assert went_on(False, False) == went_on(True, True) == ""

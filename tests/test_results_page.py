@@ -30,6 +30,17 @@ def test_the_page_is_made_from_its_data():
     assert sorted(page.BLOCKS) == sorted(found)
 
 
+def test_the_page_of_algorithms_is_made_from_its_data():
+    import algorithms
+    import algorithms_page as page
+
+    names = ("tried", "runs", "longer")
+    tried, done, longer = (algorithms.Results(page.DATA / f"{name}.jsonl") for name in names)
+    text = page.PAGE.read_text(encoding="utf-8")
+    assert page.filled(text, tried, done, longer) == text, "run tests/bench/algorithms.py page"
+    assert page.seeds(done) == len(algorithms.SEEDS)
+
+
 def test_a_block_without_data_stays():
     import page
 

@@ -63,6 +63,34 @@ def test_sheet_and_film(arm, tmp_path, capsys, monkeypatch):
     assert np.abs(frames[0].astype(int) - frames[3]).max() > 50
 
 
+@pytest.mark.parametrize("name, joints", [("minitaur", 16), ("KUKA", 7), ("r2d2", 8)])
+def test_models_of_pybullet_by_name(name, joints):
+    model = Model(name)
+    assert len(model.joints) == joints
+    model.close()
+
+
+def test_other_models_of_pybullet_by_the_name_of_their_file():
+    assert find_model("minitaur_derpy")[0].name == "minitaur_derpy.urdf"
+    missing = [name for name in showrobot.PYBULLETS if not find_model(name)[0].is_file()]
+    assert not missing
+
+
+@pytest.mark.parametrize("name", ["hopper", "humanoid", "r2d2"])
+def test_nothing_is_cut_off(name):
+    """The outermost pixels show no robot, wherever its joints are."""
+    model = Model(name)
+    for joint in model.joints:
+        for position in (joint.low, joint.high):
+            model.pose(joint, position)
+            picture = model.picture((75, 60))
+            empty = picture[0, 0]
+            edges = np.concatenate([picture[0], picture[-1], picture[:, 0], picture[:, -1]])
+            assert (edges == empty).all(), joint.name
+            assert (picture != empty).any(axis=2).mean() > 0.01
+    model.close()
+
+
 @pytest.mark.parametrize(
     "name, words",
     [

@@ -161,7 +161,7 @@ def test_the_wrong_seed_folder_experiment_or_option_is_refused(results, refused,
 def test_a_saved_pair_is_still_shown(es, results):
     np.save(results / "pair.npy", np.concatenate([STRAIGHT, STILL]))
     code, said, _ = es(results / "pair.npy", "--render", "none")
-    assert code == 0 and f"fitness {1 - 21 / 60:.2f}  steps 21" in said
+    assert code == 0 and f"fitness {1 - 21 / 60:.4f}  steps 21" in said
 
 
 def test_a_replay_says_who_meets_whom(es, results):

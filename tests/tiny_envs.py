@@ -29,12 +29,12 @@ class Tiny(gymnasium.Env):
         self.render_mode = render_mode
         if fault == "discrete":
             self.action_space = spaces.Discrete(3, start=-1)
-        if fault == "images":
-            self.observation_space = spaces.Box(0, 255, (8, 8, 3), np.uint8)
-        if fault == "nested":
-            self.observation_space = spaces.Dict({"x": spaces.Discrete(2)})
+        if fault == "large":
+            self.observation_space = spaces.Box(0, 255, (101, 101, 3), np.uint8)
+        if fault == "words":
+            self.observation_space = spaces.Text(5)
         if fault == "sequence":
-            self.action_space = spaces.MultiBinary(3)
+            self.action_space = spaces.Sequence(spaces.Discrete(2))
         if fault == "makes":
             raise RuntimeError("no licence")
         if fault == "package":
@@ -94,7 +94,7 @@ class Tiny(gymnasium.Env):
 
 FAULTS = [
     *("nan", "inf", "none", "vector", "shape", "text", "old", "raises", "exits", "dies"),
-    *("resets", "makes", "package", "images", "nested", "sequence", "discrete"),
+    *("resets", "makes", "package", "large", "words", "sequence", "discrete"),
 ]
 
 for fault in [None, *FAULTS]:
@@ -108,6 +108,116 @@ class Blind(Tiny):
 
 
 gymnasium.register("Blind-v0", Blind, max_episode_steps=12)
+
+
+class Small(Tiny):
+    """Pays little."""
+
+    def step(self, action):
+        observation, reward, *ends = super().step(action)
+        return observation, 1e-4 * reward, *ends
+
+
+gymnasium.register("Small-v0", Small, max_episode_steps=12)
+
+
+class Nested(Tiny):
+    """Observes in parts, of all kinds, and is moved by several choices at once."""
+
+    observation_space = spaces.Dict(
+        {
+            "x": spaces.Box(-2, 2, (2,), np.float32),
+            "view": spaces.Box(0, 255, (2, 3, 1), np.uint8),
+            "pair": spaces.Tuple((spaces.Discrete(3, start=-1), spaces.MultiBinary(2))),
+            "hint": spaces.Text(8),
+        }
+    )
+    action_space = spaces.MultiDiscrete([3, 2], start=[-1, 0])
+
+    def step(self, action):
+        assert self.action_space.contains(action), action
+        push, strong = action
+        return super().step([0.2 * push * (1 + strong)])
+
+    def _observation(self):
+        side = np.int64(np.sign(self.x))
+        return {
+            "hint": "left",
+            "pair": (side, np.array([self.x > 0, self.speed > 0], dtype=np.int8)),
+            "view": np.arange(6, dtype=np.uint8).reshape(2, 3, 1),
+            "x": super()._observation(),
+        }
+
+
+class Buttons(Tiny):
+    """Two rows of two buttons, of which the lower ones push."""
+
+    action_space = spaces.MultiBinary([2, 2])
+
+    def step(self, action):
+        assert self.action_space.contains(action), action
+        return super().step([0.4 * (int(action[1, 1]) - int(action[1, 0]))])
+
+
+class Plate(Tiny):
+    """A square of actuators."""
+
+    action_space = spaces.Box(-0.4, 0.4, (2, 2), np.float32)
+
+    def step(self, action):
+        assert self.action_space.contains(action), action
+        return super().step([action.mean()])
+
+
+for kind in (Nested, Buttons, Plate):
+    gymnasium.register(f"{kind.__name__}-v0", kind, max_episode_steps=12)
+
+
+class Goal(gymnasium.Env):
+    """A point on a line is moved to a place; reward 0 there, else -1."""
+
+    place = spaces.Box(-2, 2, (1,), np.float32)
+    observation_space = spaces.Dict(observation=place, achieved_goal=place, desired_goal=place)
+
+    def __init__(self, discrete=False):
+        self.action_space = spaces.Discrete(2) if discrete else spaces.Box(-1, 1, (1,), np.float32)
+
+    def reset(self, seed=None, options=None):
+        super().reset(seed=seed)
+        self.x, self.goal = self.np_random.uniform(-1, 1, (2, 1)).astype(np.float32)
+        return self._observation(), {}
+
+    def step(self, action):
+        push = 2.0 * action - 1 if isinstance(self.action_space, spaces.Discrete) else action
+        self.x = np.clip(self.x + np.float32(0.2) * np.float32(push), -2, 2).reshape(1)
+        reward = float(self.compute_reward(self.x, self.goal, {}))
+        return self._observation(), reward, False, False, {}
+
+    def compute_reward(self, achieved, desired, info):
+        return -(np.abs(achieved - desired).max(axis=-1) > 0.2).astype(np.float32)
+
+    def _observation(self):
+        return {"observation": self.x, "achieved_goal": self.x, "desired_goal": self.goal}
+
+
+for kind in (False, True):
+    gymnasium.register(
+        f"Goal{'discrete' if kind else ''}-v0",
+        Goal,
+        kwargs={"discrete": kind},
+        max_episode_steps=12,
+    )
+
+
+class Doubled(gymnasium.RewardWrapper):
+    """Pays `times` as much; 2 if not told otherwise."""
+
+    def __init__(self, env, times=2):
+        super().__init__(env)
+        self.times = times
+
+    def reward(self, reward):
+        return self.times * reward
 
 
 class Picture(Tiny):

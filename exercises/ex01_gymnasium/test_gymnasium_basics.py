@@ -19,8 +19,10 @@ from botschool.grading import (
     expect,
     expect_array,
     expect_close,
+    expect_ends,
     expect_fields,
     show,
+    went_on,
 )
 
 exercise = Exercise(1, "Gymnasium", file="gymnasium_basics.py")
@@ -193,7 +195,7 @@ def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
             expect(
                 not any(ends),
                 f"{student.said}: the episode was over after {step} steps, but {len(actions)} "
-                "actions are reported.",
+                f"actions are reported.\n  {went_on(*ends)}".rstrip(),
             )
             expect(
                 belongs(action, env.action_space),
@@ -256,12 +258,9 @@ def tells_the_two_ends_apart(student: Student):
             replay["terminated"] or replay["truncated"] or len(actions) == maxsteps,
             f"{student.said} stopped after {len(actions)} steps, but {name} was not over.",
         )
-        for end in ("terminated", "truncated"):
-            expect(
-                isinstance(report[end], bool) and report[end] == replay[end],
-                f"{student.said}: {end} is {show(report[end])}, but in the last of its "
-                f"{len(actions)} steps {name} said {replay[end]}.",
-            )
+        told_ends, ends = ((each["terminated"], each["truncated"]) for each in (report, replay))
+        why = f"in the last of its {len(actions)} steps {name} said"
+        expect_ends(student.said, told_ends, ends, why)
 
 
 # ------------------------------------------------------------------- 1.3

@@ -27,6 +27,7 @@ from botschool.grading import (
     expect,
     expect_array,
     expect_close,
+    expect_ends,
     expect_fields,
     show,
 )
@@ -485,14 +486,10 @@ def rewards(student: Student):
 @stepping.check(5)
 def ends_when_fallen(student: Student):
     for said, ((_, _, terminated, truncated), *_), world in steps_of(student, 42):
-        expect(truncated is False, f"{said}: truncated is {show(truncated)}, but should be False.")
         height = world.height()
-        if abs(height - 0.15) > 1e-3:
-            expect(
-                terminated is (height < 0.15),
-                f"{said}: the centre of the body is {height:.3f} m high, and terminated is "
-                f"{show(terminated)}.",
-            )
+        fell = terminated if abs(height - 0.15) <= 1e-3 else height < 0.15
+        why = f"with the centre of the body {height:.3f} m high it should be"
+        expect_ends(said, (terminated, truncated), (fell, False), why)
 
 
 # ------------------------------------------------------------------ 10.7
@@ -562,11 +559,7 @@ def compare_episode(student: Student, index: int, gains: np.ndarray) -> None:
         f"{said}: no observations of three numbers came back.",
     )
     expect(len(seen) == steps + 1, f"{said} had {len(seen) - 1} steps, but should have {steps}.")
-    expect(
-        (terminated, truncated) == (fell, not fell),
-        f"{said} ended after {steps} steps with terminated {terminated} and truncated "
-        f"{truncated}, but should with {fell} and {not fell}.",
-    )
+    expect_ends(said, (terminated, truncated), (fell, not fell), f"after {steps} steps should be")
     off = np.abs(seen - np.array(observations)).max(axis=1) > 0.02
     if off.any():
         i = int(off.argmax())

@@ -2,7 +2,7 @@
 
 A slip costs once: the first three checks of task 12.3 look at episodes in which the pole falls and
 nothing is cut; limits have checks of their own. Task 12.8 is learnt in an environment whose signs
-the grader has changed, and the gradients that it takes are counted.
+the grader has changed, and the gradients that it takes and the calls of its losses are counted.
 
 Stochastic checks (task 12.8; a seed of the grader's, without chance, the mean over 50 episodes that
 the submission has not seen): CartPole-v1 and botschool/PushedCartPole-v0 need at least 180 of 200
@@ -16,7 +16,15 @@ import gymnasium
 import numpy as np
 
 import botschool.envs
-from botschool.grading import Exercise, Student, expect, expect_array, expect_close, show
+from botschool.grading import (
+    Exercise,
+    Student,
+    expect,
+    expect_array,
+    expect_close,
+    show,
+    went_on,
+)
 
 gymnasium.register_envs(botschool.envs)
 exercise = Exercise(
@@ -188,18 +196,20 @@ def replay(student: Student, environment: str, index: int, maxsteps: int, shift:
         said = f"run_episode({environment!r}, act, seed={seed}, maxsteps={maxsteps})"
         answer = student.run(lived, environment, parameters, shift, seed, maxsteps, said=said)
         wanted = {"observations": [], "actions": [], "return": 0.0}
+        ends = (False, False)
         observation, _ = env.reset(seed=seed)
         for step in range(1, maxsteps + 1):
             outputs = outputs_of(parameters, observation) + shift * np.sin(step)
             action = int(outputs.argmax()) if discrete else np.round(64 * outputs) / 64
             wanted["observations"].append(observation)
             wanted["actions"].append(action)
-            observation, reward, terminated, truncated, _ = env.step(action)
+            observation, reward, *ends, _ = env.step(action)
             wanted["return"] += float(reward)
-            if terminated or truncated:
+            if any(ends):
                 break
     values = fields(said, answer, *wanted)
-    return {"said": said, **dict(zip(wanted, values, strict=True)), "wanted": wanted}
+    answers = dict(zip(wanted, values, strict=True))
+    return {"said": said, **answers, "wanted": wanted, "ends": ends}
 
 
 def expect_steps(found: dict, key: str) -> None:
@@ -207,7 +217,8 @@ def expect_steps(found: dict, key: str) -> None:
     steps = len(value) if isinstance(value, (list, np.ndarray)) else 0
     expect(
         steps == wanted,
-        f"{found['said']}: {key} has {steps} rows, but the episode has {wanted} steps.",
+        f"{found['said']}: {key} has {steps} rows, but the episode has {wanted} steps."
+        f"\n  {went_on(*found['ends']) if steps > wanted else ''}".rstrip(),
     )
 
 
@@ -623,11 +634,12 @@ training = exercise.task(
     ),
 )
 UPDATES = 10
-"""Gradients that a training must have computed at least; the solution computes 10 an iteration."""
+"""Gradients that a training must have computed at least, and calls of its losses; the solution
+makes 10 of each an iteration."""
 
 
 def trained(module, environment, seed, signs, side):
-    """The answer, the gradients computed, and the returns of all episodes.
+    """The answer, the gradients computed, the calls of the losses, and the returns of all episodes.
 
     Of each episode also the return without its last reward: task 12.3 is judged elsewhere.
 
@@ -639,7 +651,7 @@ def trained(module, environment, seed, signs, side):
 
     spec = gymnasium.spec(environment)
     creator = gymnasium.envs.registration.load_env_creator(spec.entry_point)
-    played, gradients = [], 0
+    played, counts = [], {"gradients": 0, "losses": 0}
 
     class Changed(creator):
         def reset(self, **options):
@@ -657,19 +669,22 @@ def trained(module, environment, seed, signs, side):
             played[self.number] = [before + float(reward), before]
             return (observation * signs).astype(observation.dtype), reward, *others
 
-    def counting(function):
+    def counting(function, what):
         def counted(*arguments, **options):
-            nonlocal gradients
-            gradients += 1
+            counts[what] += 1
             return function(*arguments, **options)
 
         return counted
 
     kept = spec.entry_point, spec.vector_entry_point, torch.autograd.backward, torch.autograd.grad
     spec.entry_point, spec.vector_entry_point = Changed, None
-    torch.autograd.backward, torch.autograd.grad = map(counting, kept[2:])
+    torch.autograd.backward = counting(kept[2], "gradients")
+    torch.autograd.grad = counting(kept[3], "gradients")
+    for name in ("cross_entropy", "gaussian_loss"):
+        if callable(loss := getattr(module, name, None)):
+            setattr(module, name, counting(loss, "losses"))
     try:
-        return [module.train(environment, seed=seed), gradients, played]
+        return [module.train(environment, seed=seed), counts, played]
     finally:
         spec.entry_point, spec.vector_entry_point = kept[:2]
         torch.autograd.backward, torch.autograd.grad = kept[2:]
@@ -708,7 +723,7 @@ def expect_balanced(student: Student, environment: str, index: int) -> None:
     said = f"train({environment!r}, seed={seed})"
     report = student.run(trained, environment, seed, signs, side, said=said)
     expect(isinstance(report, list) and len(report) == 3, f"{said} gave no answer.")
-    answer, gradients, played = report
+    answer, counts, played = report
     parameters, returns = fields(said, answer, "parameters", "returns")
     expect(
         isinstance(parameters, list) and len(parameters) == 4,
@@ -739,10 +754,16 @@ def expect_balanced(student: Student, environment: str, index: int) -> None:
         f"{said}: without chance, the policy keeps the pole up for {mean:.1f} steps on "
         "average over 50 new episodes, but 180 are asked for.",
     )
+    gradients, losses = fields("the grader's driver", counts, "gradients", "losses")
     expect(
         isinstance(gradients, int) and gradients >= UPDATES,
         f"{said} has computed {show(gradients)} gradients, so the policy is not one that has "
         "learnt by the cross-entropy loss.",
+    )
+    expect(
+        isinstance(losses, int) and losses >= UPDATES,
+        f"{said} has called your losses {show(losses)} times, so the policy is not one that has "
+        "learnt by them: hand cross_entropy, or gaussian_loss, to improve.",
     )
     count = sum(map(len, returns))
     told = expect_array(f"{said}: returns", [r for each in returns for r in each], (count,))

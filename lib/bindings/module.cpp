@@ -5,4 +5,5 @@ NB_MODULE(_core, module) {
   botschool::bind_evonet(module);
   botschool::bind_engine(module);
   botschool::bind_planar(module);
+  botschool::bind_linear(module);
 }

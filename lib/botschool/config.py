@@ -23,6 +23,7 @@ from botschool.evolution.algorithms.sss import SSSConfig
 from botschool.hyperparameters import NO_YES, PolicyConfig, hyper
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
 from botschool.robots import MODELS, find
+from botschool.wrappers import parse
 
 __all__ = [
     "NO_YES",
@@ -54,6 +55,12 @@ class Exp:
         "",
         "other wheeled robots than the problem's own, one kind for all or one each",
         each=MODELS,
+    )
+    wrappers: str = hyper(
+        "",
+        "wrappers around the environment, which then is played in Python",
+        check=parse,
+        form="names of Gymnasium's wrappers or module:Class, separated by commas",
     )
 
 
@@ -219,6 +226,9 @@ def _value(f: Field, entry: Entry) -> Any:
 
 def _text(f: Field, raw: Any, said: str) -> str:
     """The value of a hyperparameter that is a text: one of its choices, or a name."""
+    if "check" in f.metadata:
+        f.metadata["check"](str(raw))
+        return str(raw)
     if "each" in f.metadata:
         return ", ".join(find(name.strip()).name for name in str(raw).split(","))
     choices = {choice.lower(): choice for choice in f.metadata.get("choices", [])}
@@ -251,6 +261,8 @@ def _allowed(f: Field) -> str:
         return f"{', '.join(most)} or {last}"
     if f.default is MISSING:
         return "a name such as CartPole-v1"
+    if "form" in limits:
+        return limits["form"]
     if "each" in limits:
         return f"names separated by commas, of {', '.join(limits['each'])}"
     kind = "a whole number" if isinstance(f.default, int) else "a number"

@@ -21,7 +21,8 @@ def hyper(default: Any, help: str, **limits: Any) -> Any:
 
     Further arguments: `alias`, another name of the key; `free`, whether it may change when a run
     is resumed. Limits are `low` and `high` (both allowed), `above` (itself not allowed), `choices`,
-    a dict from each allowed value to its meaning, or `each`, names of which several may be given.
+    a dict from each allowed value to its meaning, `each`, names of which several may be given, or
+    `check`, a function that raises for a text that cannot be, with `form`, words for what can.
     The value has the type of the default;
     `default=MISSING` stands for a text that must be given.
     """

@@ -1,8 +1,12 @@
-"""Where the course is."""
+"""Where the course is, and modules in the present folder."""
 
 from __future__ import annotations
 
+import importlib.util
+import multiprocessing
 import os
+import sys
+from functools import cache
 from pathlib import Path
 
 from botschool.errors import BotschoolError
@@ -19,3 +23,26 @@ def course_root() -> Path:
         "There is no course here: go to the folder that holds exercises/, or name it in "
         "BOTSCHOOL_COURSE."
     )
+
+
+def look_here(module: str) -> None:
+    """Lets a module be imported from the present folder, and says so if it is there."""
+    if os.getcwd() not in sys.path:
+        sys.path.insert(0, os.getcwd())
+    _say_if_here(module)
+
+
+@cache
+def _say_if_here(module: str) -> None:
+    """A line on stderr, once, when a module is taken from the present folder."""
+    if multiprocessing.parent_process() is not None:
+        return
+    try:
+        spec = importlib.util.find_spec(module.partition(".")[0])
+    except (ImportError, ValueError):
+        return
+    places = [] if spec is None else [spec.origin, *(spec.submodule_search_locations or ())]
+    for place in filter(None, places):
+        if Path(place).parent.resolve() == Path.cwd().resolve():
+            print(f"{module} is taken from the present folder: {place}", file=sys.stderr)
+            return

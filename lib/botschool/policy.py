@@ -28,6 +28,9 @@ class Interface:
     """Parameters of the body, at the end of the genotype."""
     robots: int = 1
     """Robots in the environment, one network each."""
+    groups: tuple[int, ...] = ()
+    """Sizes of the groups of outputs of which each chooses an index, where a discrete action has
+    several; () where it is one index."""
 
 
 class Policy:
@@ -126,9 +129,13 @@ class Policy:
         self.network.reset()
 
     def act(self, observation: np.ndarray) -> np.ndarray | int:
-        """The action: an index for a discrete problem, else float32 of shape (outputs,)."""
+        """The action: an index for a discrete problem (int64 of shape (groups,) where it has
+        several), else float32 of shape (outputs,)."""
         self.network.observation[:] = observation
         action = self.network.step()
+        if self.interface.groups:
+            edges = np.cumsum(self.interface.groups)[:-1]
+            return np.array([np.argmax(group) for group in np.split(action, edges)])
         if self.interface.discrete:
             return int(np.argmax(action))
         return action.astype(np.float32)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import sys
@@ -139,6 +140,19 @@ def progress_bars() -> Iterator[Bars]:
     )
     with Progress(*columns, refresh_per_second=5) as progress:
         yield Bars(progress)
+
+
+def readable(value: float) -> str:
+    """A fitness, with the digits that its size asks for: 2261.4, -66.31, 0.6500, 0.0001234.
+
+    Four digits that count and at least one decimal; powers of ten past 10^7 and below 10^-6.
+    """
+    size = abs(value)
+    if not math.isfinite(value) or size >= 1e7 or 0 < size < 1e-6:
+        return f"{value:.3e}" if math.isfinite(value) else str(value)
+    if size >= 1 or size == 0:
+        return f"{value:.{1 if size >= 100 else 2}f}"
+    return f"{value:.{3 - math.floor(math.log10(size))}f}"
 
 
 def has_display() -> bool:

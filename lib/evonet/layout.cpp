@@ -43,9 +43,9 @@ void check_spec(const Spec& s) {
   if (s.architecture != feedforward && s.nhiddens > 0 && s.nlayers > 1)
     throw std::invalid_argument(
         "recurrent and LSTM networks have one hidden layer: set nlayers = 1.");
-  const double neurons = s.inputs + double(s.nhiddens) * s.nlayers + double(s.outputs) * s.nbins;
-  const double senders = s.architecture == lstm ? 4 * neurons : neurons;
-  if (neurons * senders > 1e8)
+  const double computed = double(s.nhiddens) * s.nlayers + double(s.outputs) * s.nbins;
+  const double receivers = s.architecture == lstm ? 4 * computed : computed;
+  if ((s.inputs + computed) * receivers > 1e8)
     throw std::invalid_argument("the network is too large: more than 100 million connections.");
 }
 

@@ -10,7 +10,6 @@ import re
 import pytest
 
 import building
-from botschool.grading.submission import grade
 
 pytestmark = pytest.mark.course
 
@@ -23,7 +22,7 @@ def redefined(text):
     return {node.name for node in ast.parse(text).body if isinstance(node, kinds)}
 
 
-@pytest.mark.parametrize("number", building.GRADED, ids=[f"ex{n:02d}" for n in building.GRADED])
+@pytest.mark.parametrize("number", building.GRADED, ids="ex{:02d}".format)
 def test_three_that_write_everything_anew(number):
     own = [path for path in ALTERNATIVES if path.parent.name == f"ex{number:02d}"]
     texts = [path.read_text(encoding="utf-8") for path in own]
@@ -36,7 +35,7 @@ def test_three_that_write_everything_anew(number):
 @pytest.mark.parametrize(
     "alternative", ALTERNATIVES, ids=[f"{path.parent.name}-{path.stem}" for path in ALTERNATIVES]
 )
-def test_alternative_gets_everything(alternative, tmp_path):
+def test_alternative_gets_everything(grade, alternative, tmp_path):
     number, text = int(alternative.parent.name[2:]), alternative.read_text(encoding="utf-8")
     assert re.match(r"# \w", text), "the first line says what is different"
     file = building.write(

@@ -15,7 +15,6 @@ from botschool.grading import starting
 from botschool.grading.exercise import load_exercise
 from botschool.grading.release import release
 from botschool.grading.showing import show
-from botschool.grading.submission import grade
 from browser import Browser, find_browser
 
 pytestmark = pytest.mark.course
@@ -38,14 +37,14 @@ def put(copy, number, text):
 
 
 @for_each_exercise
-def test_packed_grader_gives_the_solution_everything(copy, number):
+def test_packed_grader_gives_the_solution_everything(grade, copy, number):
     exercise = load_exercise(number, copy)
     result = grade(exercise, put(copy, number, building.source(number).solution))
     assert result.points == 100, [task for task in result.tasks if task.message]
 
 
 @for_each_exercise
-def test_packed_grader_finds_a_mutant(copy, number):
+def test_packed_grader_finds_a_mutant(grade, copy, number):
     mutant = sorted((building.HERE / "mutants" / f"ex{number:02d}").glob("*.py"))[0]
     text = mutant.read_text(encoding="utf-8")
     named = text.splitlines()[0].removeprefix("# loses: ").split(", ")

@@ -33,7 +33,8 @@ pytestmark = pytest.mark.course
 
 KINDS = sorted(path.stem for path in (building.HERE / "hostile").glob("*.py"))
 EXERCISES = [int(n) for n in os.environ.get("HOSTILE_EXERCISES", "3 1 8").split()]
-"""As many as CI has time for; HOSTILE_EXERCISES names others."""
+"""As many as `make check-course` has time for; HOSTILE_EXERCISES names others."""
+for_each_exercise = pytest.mark.parametrize("number", EXERCISES, ids="ex{:02d}".format)
 SECONDS = 1.5
 """A task's limit here, of processor time; what does nothing may take 2 * SECONDS + 2."""
 PROCESSOR_SECONDS = 5
@@ -205,7 +206,7 @@ def judged(task, file, server):
     return result
 
 
-@pytest.mark.parametrize("number", EXERCISES)
+@for_each_exercise
 @pytest.mark.parametrize("kind", KINDS)
 def test_earns_nothing(trap, graders, servers, tmp_path, kind, number):
     """In the place of every function that students write."""
@@ -224,7 +225,7 @@ def test_earns_nothing(trap, graders, servers, tmp_path, kind, number):
             break
 
 
-@pytest.mark.parametrize("number", EXERCISES)
+@for_each_exercise
 @pytest.mark.parametrize("kind", KINDS)
 def test_next_task_is_graded(trap, graders, servers, tmp_path, kind, number):
     """In a solution, in the place of one task's functions: another task keeps its points."""

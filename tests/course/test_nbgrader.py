@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from contextlib import suppress
 from copy import deepcopy
 from pathlib import Path
@@ -19,7 +20,6 @@ from botschool.grading.cells import Unreadable, definitions, plain_python, scrip
 from botschool.grading.leaks import find_leaks
 from botschool.grading.nbgrader import make_course
 from botschool.grading.notebook import grade_cell
-from botschool.grading.submission import grade
 
 REGION = re.compile(
     r"^( *)### BEGIN SOLUTION (task (\d+\.\d+): [^\n]+)\n(.*?)^ *### END SOLUTION\n?",
@@ -61,8 +61,9 @@ def own_function(number: int) -> str:
 class Course:
     """A course folder, and what is done in it."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    def __init__(self, folder: Path, number: int = 0) -> None:
+        """number: of the exercise that is graded in it, if it is only one."""
+        self.folder, self.number = folder, number
         self.edited = make_course(building.ROOT, folder)
 
     def nbgrader(self, *arguments: str) -> str:
@@ -153,9 +154,15 @@ def course(tmp_path_factory) -> Course:
     return Course(tmp_path_factory.mktemp("nbgrader"))
 
 
-def script_points(number: int, text: str, folder: Path) -> dict[str, float]:
-    result = grade(building.exercise(number), building.write(folder, number, text))
-    return {task.id: float(task.points) for task in result.tasks}
+@pytest.fixture
+def script_points(grade, tmp_path) -> Callable[[int, str], dict[str, float]]:
+    """Gives the points of each task that a text gets as a file."""
+
+    def call(number, text):
+        result = grade(building.exercise(number), building.write(tmp_path, number, text))
+        return {task.id: float(task.points) for task in result.tasks}
+
+    return call
 
 
 # ------------------------------------------------------------------- notebooks
@@ -172,9 +179,10 @@ def test_source_notebooks_are_whole_and_stay_the_same(course):
         assert sum(mark.points for mark in marks if mark.grade) == 100
         tasks = [task.id.replace(".", "-") for task in building.exercise(number).tasks]
         assert [mark.grade_id for mark in marks if mark.grade] == [f"test-{task}" for task in tasks]
-        before = course.path("source", number).read_bytes()
-        assert make_course(building.ROOT, course.folder) == []
-        assert course.path("source", number).read_bytes() == before
+    before = {number: course.path("source", number).read_bytes() for number in building.GRADED}
+    assert make_course(building.ROOT, course.folder) == []
+    for number, notebook in before.items():
+        assert course.path("source", number).read_bytes() == notebook
 
 
 def test_edited_notebooks_and_configuration_are_left_alone(tmp_path):
@@ -250,7 +258,7 @@ def test_grade_cell_says_what_is_missing(tmp_path, monkeypatch, capsys):
 
 
 # ------------------------------------------------------------------- nbgrader
-def test_a_hostile_notebook_gets_the_points_of_its_other_tasks(course, tmp_path):
+def test_a_hostile_notebook_gets_the_points_of_its_other_tasks(course, script_points):
     course.nbgrader("generate_assignment", "ex03", "--force")
     released = course.notebook("release", 3)
     assert "BEGIN SOLUTION" not in json.dumps(released)
@@ -260,33 +268,41 @@ def test_a_hostile_notebook_gets_the_points_of_its_other_tasks(course, tmp_path)
     for name, nb in (("mallory", tampered(course.solved(3, every_second))), ("oscar", "{")):
         course.submit(name, 3, nb)
     course.nbgrader("autograde", "ex03")
-    expected = script_points(3, partly(building.source(3).solution, every_second), tmp_path)
+    expected = script_points(3, partly(building.source(3).solution, every_second))
     assert sum(expected.values()) > 0
     assert course.points("mallory", 3) == expected
     assert set(course.points("oscar", 3).values()) == {0.0}
 
 
-@pytest.fixture(scope="module")
-def graded(tmp_path_factory) -> Course:
-    """A course in which four students have handed in every exercise."""
-    course = Course(tmp_path_factory.mktemp("course"))
-    for number in building.GRADED:
-        name = f"ex{number:02d}"
-        course.nbgrader("generate_assignment", name)
-        for student in ("skeleton", "solution", "half", "hostile"):
-            nb = course.solved(number, DONE[student])
-            if student == "hostile":
-                nb = tampered(nb)
-                nb["cells"].insert(-1, code(EXIT.format(name=own_function(number))))
-            folder = course.submit(student, number, nb).parent
-            (folder / building.source(number).file).write_text("# mine\n")
-            (folder / "more").mkdir()
-            (folder / "more" / "notes.txt").write_text("mine")
-            (folder / "link.txt").symlink_to(course.path("source", number))
-        course.nbgrader("autograde", name)
-        course.nbgrader("generate_feedback", name)
-    course.nbgrader("export")
+def handed_in(folder: Path, number: int) -> Course:
+    """A course in which four students have handed in an exercise, graded."""
+    course, name = Course(folder, number), f"ex{number:02d}"
+    course.nbgrader("generate_assignment", name)
+    for student in DONE:
+        nb = course.solved(number, DONE[student])
+        if student == "hostile":
+            nb = tampered(nb)
+            nb["cells"].insert(-1, code(EXIT.format(name=own_function(number))))
+        place = course.submit(student, number, nb).parent
+        (place / building.source(number).file).write_text("# mine\n")
+        (place / "more").mkdir()
+        (place / "more" / "notes.txt").write_text("mine")
+        (place / "link.txt").symlink_to(course.path("source", number))
+    course.nbgrader("autograde", name)
+    course.nbgrader("generate_feedback", name)
     return course
+
+
+@pytest.fixture(scope="module", params=building.GRADED, ids="ex{:02d}".format)
+def graded(request, tmp_path_factory) -> Course:
+    """The graded course of each exercise: the tests of one come one after another."""
+    return handed_in(tmp_path_factory.mktemp("course"), request.param)
+
+
+@pytest.fixture(scope="module")
+def third(tmp_path_factory) -> Course:
+    """That of exercise 3."""
+    return handed_in(tmp_path_factory.mktemp("third"), 3)
 
 
 DONE = {
@@ -299,27 +315,32 @@ DONE = {
 
 @pytest.mark.course
 @pytest.mark.parametrize("student", DONE)
-@pytest.mark.parametrize("number", building.GRADED)
-def test_points_are_those_of_the_script(graded, number, student, tmp_path):
+def test_points_are_those_of_the_script(graded, script_points, student):
+    number = graded.number
     text = partly(building.source(number).solution, DONE[student])
     if student == "hostile":
         text = building.inserted(text, EXIT.format(name=own_function(number)))
-    expected = script_points(number, text, tmp_path)
+    expected = script_points(number, text)
     assert graded.points(student, number) == expected
     total = {"skeleton": (0, 0), "solution": (100, 100)}.get(student, (1, 99))
     assert total[0] <= sum(expected.values()) <= total[1]
-    with open(graded.folder / "grades.csv") as file:
-        row = next(
-            row
-            for row in csv.DictReader(file)
-            if (row["student_id"], row["assignment"]) == (student, f"ex{number:02d}")
-        )
-    assert (float(row["score"]), float(row["max_score"])) == (sum(expected.values()), 100)
 
 
 @pytest.mark.course
-@pytest.mark.parametrize("number", building.GRADED)
-def test_files_stay_and_nothing_hidden_is_shown(graded, number, tmp_path):
+def test_points_are_exported(third):
+    third.nbgrader("export")
+    with open(third.folder / "grades.csv") as file:
+        rows = {row["student_id"]: row for row in csv.DictReader(file)}
+    assert rows.keys() == DONE.keys()
+    for student, row in rows.items():
+        points = float(sum(third.points(student, 3).values()))
+        assert (row["assignment"], float(row["max_score"])) == ("ex03", 100)
+        assert float(row["score"]) == points
+
+
+@pytest.mark.course
+def test_files_stay_and_nothing_hidden_is_shown(graded, tmp_path):
+    number = graded.number
     for student in DONE:
         folder = graded.folder / "autograded" / student / f"ex{number:02d}"
         assert (folder / building.source(number).file).read_text() == "# mine\n"
@@ -336,25 +357,23 @@ def test_files_stay_and_nothing_hidden_is_shown(graded, number, tmp_path):
 
 @pytest.mark.course
 def test_released_notebooks_are_the_skeletons(graded):
-    for number in building.GRADED:
-        cells = graded.notebook("release", number)["cells"]
-        given = [source(cell) for cell in cells if not cell["id"].startswith("test-")]
-        answers = [text for text in given if "NotImplementedError(" in text]
-        assert answers and all(text in building.source(number).skeleton for text in answers)
+    number = graded.number
+    cells = graded.notebook("release", number)["cells"]
+    given = [source(cell) for cell in cells if not cell["id"].startswith("test-")]
+    answers = [text for text in given if "NotImplementedError(" in text]
+    assert answers and all(text in building.source(number).skeleton for text in answers)
 
 
 @pytest.mark.course
-def test_test_cells_work_in_a_kernel(graded, tmp_path, monkeypatch):
+def test_test_cells_work_in_a_kernel(third, script_points, tmp_path, monkeypatch):
     import nbformat
     from nbclient import NotebookClient
 
     monkeypatch.setenv("BOTSCHOOL_COURSE", str(building.ROOT))
     number = 3
-    expected = script_points(
-        number, partly(building.source(number).solution, every_second), tmp_path
-    )
-    nb = graded.solved(number, every_second)
-    place = tmp_path / graded.path("release", number).name
+    expected = script_points(number, partly(building.source(number).solution, every_second))
+    nb = third.solved(number, every_second)
+    place = tmp_path / third.path("release", number).name
     place.write_text(json.dumps(nb))
     for cell in nb["cells"]:
         if cell["id"] == "task-3-2":  # not saved

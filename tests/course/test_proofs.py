@@ -15,7 +15,6 @@ from botschool.grading.hints import read_hints
 from botschool.grading.leaks import find_leaks
 from botschool.grading.release import release, released_files
 from botschool.grading.skeleton import pairs
-from botschool.grading.submission import grade
 
 pytestmark = pytest.mark.course
 
@@ -30,7 +29,7 @@ def text_of(number, name):
 
 
 @for_each_exercise
-def test_skeleton_gets_nothing(number, tmp_path):
+def test_skeleton_gets_nothing(grade, number, tmp_path):
     file = building.write(tmp_path, number, building.source(number).skeleton)
     result = grade(building.exercise(number), file)
     assert result.points == 0
@@ -39,7 +38,7 @@ def test_skeleton_gets_nothing(number, tmp_path):
 
 
 @for_each_exercise
-def test_solution_gets_everything(number, tmp_path):
+def test_solution_gets_everything(grade, number, tmp_path):
     file = building.write(tmp_path, number, building.source(number).solution)
     result = grade(building.exercise(number), file)
     assert result.points == 100, [task for task in result.tasks if task.message]
@@ -114,7 +113,7 @@ def test_there_are_mutants(number):
 @pytest.mark.parametrize(
     "mutant", MUTANTS, ids=[f"{path.parent.name}-{path.stem}" for path in MUTANTS]
 )
-def test_mutant_loses_what_it_names(mutant, tmp_path):
+def test_mutant_loses_what_it_names(grade, mutant, tmp_path):
     number, text = int(mutant.parent.name[2:]), mutant.read_text(encoding="utf-8")
     first, second, *_ = text.splitlines()
     assert re.fullmatch(r"# loses: \d+\.\d+(, \d+\.\d+)*", first)
@@ -131,7 +130,7 @@ def test_mutant_loses_what_it_names(mutant, tmp_path):
     assert all(task.message for task in result.tasks if task.id in lost)
 
 
-def test_graded_apart_alike(tmp_path):
+def test_graded_apart_alike(grade, tmp_path):
     """Many at a time in processes of their own, and here: the same points and messages."""
     jobs, here = [], {}
     for number in building.GRADED[:2]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -30,6 +31,7 @@ from botschool.analysis.trainings import (
 )
 from botschool.errors import BotschoolError
 from botschool.output import cannot_write, check_output, written_whole
+from botschool.terminal import readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,6 +46,11 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 
 FITNESS = "fitness (mean return of an episode)"
 RETURN = "mean return of an episode"
+
+
+class NoDisplay(BotschoolError):
+    """There is no screen to draw on."""
+
 
 Curves = dict[int, np.ndarray]
 """Seed -> (generations, 6)."""
@@ -124,7 +131,8 @@ def plot_ave(
     """Prints and draws mean, standard deviation (n - 1) and n of the best post-evaluated fitness.
 
     One row and one bar for each folder of runs, with a dot for each run. The table is printed
-    before the picture is tried. Raises BotschoolError.
+    before the picture is tried; without a display to draw on, it is all there is, and a note says
+    so. Raises BotschoolError.
     """
     folders = [Path(target) for target in targets]
     if output is not None:
@@ -134,8 +142,11 @@ def plot_ave(
         for name, folder in _named(folders).items()
     }
     _print_table(fitness)
-    with new_figure(output, height=max(5.0, 1.6 + 0.6 * len(fitness))) as figure:
-        _draw_bars(figure.add_subplot(), fitness)
+    try:
+        with new_figure(output, height=max(5.0, 1.6 + 0.6 * len(fitness))) as figure:
+            _draw_bars(figure.add_subplot(), fitness)
+    except NoDisplay as error:
+        print(f"note: {error}", file=sys.stderr)
 
 
 def _read_targets(
@@ -214,7 +225,7 @@ def _shown_figure(height: float, width: float) -> Iterator[Figure]:
     import matplotlib
     from matplotlib import pyplot
 
-    headless = BotschoolError(
+    headless = NoDisplay(
         "there is no display to show the picture on: write it to a file with `-o FILE.png`."
     )
     try:
@@ -355,10 +366,7 @@ def _sd(values: np.ndarray) -> float:
 def _number(value: float) -> str:
     if isinstance(value, int):
         return str(value)
-    if np.isnan(value):
-        return "-"
-    decimals = 1 if abs(value) >= 100 else 2 if abs(value) >= 1 else 4
-    return f"{value:.{decimals}f}"
+    return "-" if np.isnan(value) else readable(value)
 
 
 def _draw_bars(axes: Axes, fitness: dict[str, np.ndarray]) -> None:

@@ -11,9 +11,11 @@ import signal
 import sys
 from contextlib import suppress
 from types import ModuleType
+from typing import Annotated
 
 import typer
 
+from botschool import __version__
 from botschool.cli import course, es, plots, rl, tournament
 from botschool.errors import BotschoolError
 
@@ -36,7 +38,7 @@ def commands(asked: str | None = None) -> typer.Typer:
         rich_markup_mode="markdown",
         pretty_exceptions_enable=False,
     )
-    app.callback()(_no_options)
+    app.callback()(_options)
     for module in [m for m in GROUPS if asked in _names(m)] or GROUPS:
         app.add_typer(module.app, name=GROUPS[module])
     return app
@@ -49,8 +51,19 @@ def _names(module: ModuleType) -> list[str]:
     return [c.name or c.callback.__name__ for c in module.app.registered_commands]
 
 
-def _no_options() -> None:
-    """`botschool` itself has none."""
+def _tell_version(asked: bool) -> None:
+    if asked:
+        print(f"botschool {__version__}")
+        raise typer.Exit
+
+
+def _options(
+    version: Annotated[
+        bool,
+        typer.Option("--version", help="Print it.", is_eager=True, callback=_tell_version),
+    ] = False,
+) -> None:
+    """Options of `botschool` itself."""
 
 
 def main() -> None:

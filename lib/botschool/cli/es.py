@@ -53,6 +53,10 @@ def es(
     generations: Annotated[
         int | None, typer.Option(min=1, help="Stop after so many generations, likewise.")
     ] = None,
+    keep_every: Annotated[
+        int | None,
+        typer.Option(min=1, help="Keep the best so far of every N generations, too.", metavar="N"),
+    ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Continue interrupted runs.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing runs.")] = False,
     render: Annotated[
@@ -114,7 +118,16 @@ def es(
     gc.set_threshold(100_000)  # a run's own objects are hardly ever in circles
     try:
         finished = replicate(
-            experiment, seeds, output, workers, steps, resume, force, terminal, generations
+            experiment,
+            seeds,
+            output,
+            workers,
+            steps,
+            resume,
+            force,
+            terminal,
+            generations,
+            keep_every,
         )
     finally:
         gc.set_threshold(*collecting)

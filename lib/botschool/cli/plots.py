@@ -35,11 +35,15 @@ def plotave(folders: Folders = None, output: Picture = None) -> None:
     plot_ave(folders or [Path(".")], output)
 
 
-@app.command(epilog="Example: botschool showrobot ant --sheet ant.png")
+@app.command(epilog="Example: botschool showrobot minitaur --sheet minitaur.png")
 def showrobot(
     name: Annotated[
         str,
-        typer.Argument(help="A locomotor, balancebot, or a .urdf or .xml file.", metavar="NAME"),
+        typer.Argument(
+            help="A locomotor, balancebot, a model of PyBullet (kuka, minitaur, r2d2 ...), or a "
+            ".urdf or .xml file.",
+            metavar="NAME",
+        ),
     ],
     video: Annotated[
         Path | None, typer.Option(help="A film of each joint's range.", metavar="FILE")

@@ -17,6 +17,20 @@ app = typer.Typer(
 RlFolder = Annotated[
     Path, typer.Option("-o", "--output", help="Folder of the trainings.", metavar="FOLDER")
 ]
+RlFolderF = Annotated[
+    Path,
+    typer.Option("-o", "--output", "-f", help="Folder of the trainings.", metavar="FOLDER"),
+]
+RlAlgo = Annotated[
+    str | None,
+    typer.Option(help="With --env: the training of this algorithm on it.", metavar="NAME"),
+]
+RlNumber = Annotated[
+    int, typer.Option("--exp-id", min=0, help="With --algo: its number; 0 is the newest.")
+]
+RlBest = Annotated[
+    bool, typer.Option("--load-best", help="The best model: what is taken anyway.", hidden=True)
+]
 RlRun = Annotated[
     Path | None,
     typer.Argument(
@@ -36,21 +50,53 @@ RlLast = Annotated[bool, typer.Option("--last", help="The last model instead of 
     epilog="Example: botschool rl train --algo ppo --env CartPole-v1 --params gamma=0.9 n_epochs=5",
 )
 def rl_train(
-    algo: Annotated[str, typer.Option(help="ppo, a2c, sac, td3 or dqn.", metavar="NAME")],
+    algo: Annotated[
+        str,
+        typer.Option(
+            help="ppo, a2c, trpo, ars, sac, td3, ddpg, tqc, her, dqn or qrdqn.", metavar="NAME"
+        ),
+    ],
     env: Annotated[str, typer.Option(help="A Gymnasium id.", metavar="ID")],
     params: Annotated[
         list[str] | None,
-        typer.Option(help="Hyperparameters; several may follow.", metavar="KEY=VALUE ..."),
+        typer.Option(
+            "--params",
+            "-params",
+            "--hyperparameters",
+            "--hyperparams",
+            help="Hyperparameters; several may follow.",
+            metavar="KEY=VALUE ...",
+        ),
     ] = None,
     more: Annotated[list[str] | None, typer.Argument(hidden=True, metavar="")] = None,
     policy: Annotated[
         str | None,
-        typer.Option(help="mlp, lstm or cnn.", metavar="NAME", show_default="cnn for images"),
+        typer.Option(
+            help="mlp, lstm, cnn or cnnlstm.", metavar="NAME", show_default="cnn for images"
+        ),
     ] = None,
     envs: Annotated[
         int | None, typer.Option(min=1, max=1024, help="Environments side by side.")
     ] = None,
-    steps: Annotated[int | None, typer.Option(min=1, max=10**12, help="Length.")] = None,
+    steps: Annotated[
+        int | None,
+        typer.Option("--steps", "-n", "--n-timesteps", min=1, max=10**12, help="Length."),
+    ] = None,
+    wrapper: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="A wrapper around the environment, as FlattenObservation or module:Class; may be "
+            "given several times.",
+            metavar="NAME",
+        ),
+    ] = None,
+    vec_env: Annotated[
+        str,
+        typer.Option(
+            help="Where environments run: dummy (all in one process) or subproc (one each).",
+            metavar="KIND",
+        ),
+    ] = "dummy",
     seed: RlSeed = 1,
     evaluations: Annotated[
         int, typer.Option(min=1, max=100_000, help="Post-evaluations during the training.")
@@ -58,7 +104,20 @@ def rl_train(
     episodes: Annotated[
         int, typer.Option(min=1, max=10_000, help="Episodes of a post-evaluation.")
     ] = 20,
-    output: RlFolder = Path("results/rl"),
+    output: RlFolderF = Path("results/rl"),
+    events: Annotated[
+        Path | None,
+        typer.Option(
+            "-tb",
+            "--tensorboard-log",
+            help="Write the curves for TensorBoard there, too.",
+            metavar="FOLDER",
+        ),
+    ] = None,
+    settings: Annotated[
+        Path | None,
+        typer.Option(help="A file of hyperparameters, as `rl tune` writes.", metavar="FILE"),
+    ] = None,
 ) -> None:
     """Train an agent in a new folder; defaults depend on algorithm and environment."""
     from botschool.rl.training import train_command
@@ -66,7 +125,45 @@ def rl_train(
     items = [*(params or []), *(more or [])]
     options = {"policy": policy, "envs": envs, "steps": steps, "seed": seed}
     options |= {"evaluations": evaluations, "episodes": episodes}
-    if not train_command(algo, env, items, output, sys.stdout.isatty(), **options):
+    options |= {"wrappers": ", ".join(wrapper or []), "vec_env": vec_env}
+    terminal = sys.stdout.isatty()
+    if not train_command(algo, env, items, output, terminal, events, settings, **options):
+        raise typer.Exit(130)
+
+
+@app.command(
+    "tune", epilog="Example: botschool rl tune --algo ppo --env CartPole-v1 --trials 30 -n 20000"
+)
+def rl_tune(
+    algo: Annotated[str, typer.Option(help="As in `rl train`.", metavar="NAME")],
+    env: Annotated[str, typer.Option(help="A Gymnasium id.", metavar="ID")],
+    trials: Annotated[int, typer.Option(min=1, max=100_000, help="Trainings to try.")] = 20,
+    steps: Annotated[
+        int | None,
+        typer.Option("--steps", "-n", "--n-timesteps", min=1, help="Length of each training."),
+    ] = None,
+    envs: Annotated[
+        int | None, typer.Option(min=1, max=1024, help="Environments side by side.")
+    ] = None,
+    wrapper: Annotated[
+        list[str] | None, typer.Option(help="As in `rl train`.", metavar="NAME")
+    ] = None,
+    seed: RlSeed = 1,
+    evaluations: Annotated[
+        int, typer.Option(min=1, max=1000, help="Post-evaluations of each training.")
+    ] = 8,
+    episodes: Annotated[
+        int, typer.Option(min=1, max=10_000, help="Episodes of a post-evaluation.")
+    ] = 20,
+    output: RlFolderF = Path("results/rl"),
+) -> None:
+    """Look for better hyperparameters by many trainings (Optuna); the same command goes on."""
+    from botschool.rl.settings import check_algorithm
+    from botschool.rl.tuning import Plan, tune_command
+
+    options = {"steps": steps, "envs": envs, "seed": seed, "wrappers": ", ".join(wrapper or [])}
+    options |= {"evaluations": evaluations, "episodes": episodes}
+    if not tune_command(Plan(check_algorithm(algo), env, output, trials, options)):
         raise typer.Exit(130)
 
 
@@ -80,12 +177,16 @@ def rl_enjoy(
         str | None, typer.Option(help="human (a window) or none.", metavar="MODE")
     ] = None,
     last: RlLast = False,
-    output: RlFolder = Path("results/rl"),
+    output: RlFolderF = Path("results/rl"),
+    algo: RlAlgo = None,
+    exp_id: RlNumber = 0,
+    load_best: RlBest = False,
 ) -> None:
     """Play new episodes with a trained agent: returns, mean and standard deviation."""
-    from botschool.rl.watch import enjoy_command
+    from botschool.rl.watch import Asked, enjoy_command
 
-    enjoy_command(run, output, env, episodes, seed, render, last)
+    asked = Asked(run, output, env, algo, exp_id, last and not load_best)
+    enjoy_command(asked, episodes, seed, render)
 
 
 @app.command("video", epilog="Example: botschool rl video results/rl/ppo/CartPole-v1_1 -f pole.mp4")
@@ -99,11 +200,20 @@ def rl_video(
     seed: RlSeed = 1,
     last: RlLast = False,
     output: RlFolder = Path("results/rl"),
+    algo: RlAlgo = None,
+    exp_id: RlNumber = 0,
+    load_best: RlBest = False,
+    steps: Annotated[
+        int | None, typer.Option("--steps", "-n", min=1, help="Steps to film at most.")
+    ] = None,
 ) -> None:
     """Film new episodes of a trained agent."""
-    from botschool.rl.watch import video_command
+    from botschool.rl.watch import Asked, video_command
 
-    video_command(run, output, env, episodes, seed, file, last)
+    if algo is not None and file.is_dir():  # as the chapter has it: -f logs
+        output, file = file, Path("agent.mp4")
+    asked = Asked(run, output, env, algo, exp_id, last and not load_best)
+    video_command(asked, episodes, seed, file, steps)
 
 
 @app.command("list", epilog="Example: botschool rl list results/rl")

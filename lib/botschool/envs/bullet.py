@@ -18,6 +18,11 @@ from botschool.errors import BotschoolError
 SELF_COLLISION = ("USE_SELF_COLLISION", "USE_SELF_COLLISION_EXCLUDE_ALL_PARENTS")
 FORMATS = (".urdf", ".xml", ".mjcf")
 
+FIELD_OF_VIEW = 45.0
+"""Degrees, from the bottom of a picture to its top."""
+MARGIN = 1.05
+"""How much farther than necessary a fitting camera stands."""
+
 _one_at_a_time = threading.RLock()
 
 
@@ -157,7 +162,7 @@ def picture(
     bullet = import_pybullet()
     width, height = size
     view = bullet.computeViewMatrixFromYawPitchRoll(target, distance, yaw, pitch, 0, 2)
-    lens = bullet.computeProjectionMatrixFOV(45, width / height, 0.1, 100)
+    lens = bullet.computeProjectionMatrixFOV(FIELD_OF_VIEW, width / height, 0.1, 100)
     pixels = bullet.getCameraImage(
         width,
         height,
@@ -170,3 +175,22 @@ def picture(
         physicsClientId=client,
     )[2]
     return np.ascontiguousarray(np.reshape(pixels, (height, width, 4))[:, :, :3].astype(np.uint8))
+
+
+def fitting_camera(
+    points: np.ndarray, yaw: float, pitch: float, aspect: float = 1.25
+) -> tuple[tuple[float, float, float], float]:
+    """Where a camera of `picture` looks, and from how far, to see all points, shape (n, 3).
+
+    aspect: width of the picture / height.
+    """
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    view = import_pybullet().computeViewMatrixFromYawPitchRoll(middle, 1, yaw, pitch, 0, 2)
+    rotation = np.reshape(view, (4, 4)).T[:3, :3]
+    seen = (points - middle) @ rotation.T  # to the right, up, towards the camera
+    shift = (seen.min(axis=0) + seen.max(axis=0)) / 2
+    seen -= shift
+    half = np.tan(np.radians(FIELD_OF_VIEW / 2))
+    distance = seen[:, 2] + np.abs(seen[:, :2] / (half * aspect, half)).max(axis=1)
+    target = middle + shift @ rotation
+    return tuple(target.tolist()), MARGIN * max(float(distance.max()), 0.1)

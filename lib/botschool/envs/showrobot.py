@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import itertools
 import math
 import time
 from collections.abc import Iterator
@@ -27,6 +28,24 @@ YAW, PITCH = 25.0, -40.0
 """Degrees: how the camera stands."""
 MOVING, STILL = (0.9, 0.5, 0.1, 1), (0.45, 0.5, 0.6, 1)
 """Colours: red, green, blue, opacity."""
+PYBULLETS = {
+    "a1": "a1/a1.urdf",
+    "aliengo": "aliengo/aliengo.urdf",
+    "biped": "biped/biped2d_pybullet.urdf",
+    "cartpole": "cartpole.urdf",
+    "husky": "husky/husky.urdf",
+    "kuka": "kuka_iiwa/model.urdf",
+    "laikago": "laikago/laikago_toes.urdf",
+    "mini_cheetah": "mini_cheetah/mini_cheetah.urdf",
+    "minitaur": "quadruped/minitaur.urdf",
+    "panda": "franka_panda/panda.urdf",
+    "r2d2": "r2d2.urdf",
+    "racecar": "racecar/racecar.urdf",
+    "vision60": "quadruped/vision60.urdf",
+    "xarm": "xarm/xarm6_robot.urdf",
+}
+"""Robots among PyBullet's own models, by the names that they are known by; its other models go by
+the names of their files."""
 
 
 @dataclass
@@ -86,13 +105,26 @@ class Model:
         return found
 
     def _find_size(self) -> None:
+        """Where the camera looks and from how far: all that is in reach of the joints is seen."""
+        self.pose()
+        self.lowest = float(self._corners()[:, 2].min())
+        corners = [self._corners()]
+        for joint in self.joints:
+            for position in np.linspace(joint.low, joint.high, POSES):
+                self.pose(joint, float(position))
+                corners.append(self._corners())
+        self.pose()
+        self.centre, self.distance = bullet.fitting_camera(np.concatenate(corners), YAW, PITCH)
+
+    def _corners(self) -> np.ndarray:
+        """Corners of the boxes around its links, shape (n, 3); metres."""
         world = {"physicsClientId": self.client}
         links = range(-1, self.bullet.getNumJoints(self.robot, **world))
         boxes = np.array([self.bullet.getAABB(self.robot, link, **world) for link in links])
-        low, high = boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
-        self.centre = tuple(((low + high) / 2).tolist())
-        self.distance = 1.1 * float(max(np.linalg.norm(high - low), 0.1))
-        self.lowest = float(low[2])
+        solid = (boxes[:, 0] < boxes[:, 1]).any(axis=1)  # links without a shape have no extent
+        boxes = boxes[solid] if solid.any() else boxes
+        which = np.array(list(itertools.product((0, 1), repeat=3)))
+        return boxes[:, which, np.arange(3)].reshape(-1, 3)
 
     def pose(self, moved: Joint | None = None, position: float = 0.0) -> None:
         """Puts one joint where it is told, and all others at 0 or the nearest they can."""
@@ -126,8 +158,8 @@ class Model:
 def find_model(name: str) -> tuple[Path, tuple[str, ...]]:
     """The file of a robot, and the flags to load it with.
 
-    name: one of the locomotors, balancebot, or the path of a .urdf or MuJoCo .xml file. Raises
-    BotschoolError.
+    name: one of the locomotors, balancebot, a model that comes with PyBullet (PYBULLETS, or the
+    name of its file), or the path of a .urdf or MuJoCo .xml file. Raises BotschoolError.
     """
     locomotors = {body.lower(): BODIES[body].model for body in BODIES}
     word = name.lower()
@@ -146,10 +178,25 @@ def find_model(name: str) -> tuple[Path, tuple[str, ...]]:
         if not Path(name).is_file():
             raise BotschoolError(f"There is no model file {name}.")
         return Path(name), ()
-    known = [*BODIES, "balancebot"]
+    if path := _of_pybullet(word):
+        return path, ()
+    known = [*BODIES, "balancebot", *PYBULLETS]
     near = difflib.get_close_matches(word, [robot.lower() for robot in known], n=1)
     hint = f"did you mean {near[0]}?" if near else f"choose from {', '.join(known)}."
     raise BotschoolError(f"There is no robot '{name}' (nor is it a .urdf or .xml file); {hint}")
+
+
+def _of_pybullet(word: str) -> Path | None:
+    """A model of pybullet_data, by its name or the name of its file."""
+    folder = bullet.data_folder()
+    if word in PYBULLETS:
+        return folder / PYBULLETS[word]
+    found = [
+        path
+        for path in folder.rglob("*")
+        if path.suffix.lower() in bullet.FORMATS and path.stem.lower() == word
+    ]
+    return min(found, key=lambda path: (len(path.parts), path), default=None)
 
 
 def show_robot(name: str, video: Path | None, sheet: Path | None) -> None:

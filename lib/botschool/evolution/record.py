@@ -56,6 +56,10 @@ class RunFiles:
         """Folder of the TensorBoard event file."""
         return self.folder / f"tensorboardS{self.seed}"
 
+    def kept(self, generation: int | str) -> Path:
+        """--keep-every: the best post-evaluated genotype so far; "*" stands for all generations."""
+        return self.folder / f"bestgS{self.seed}G{generation}.npy"
+
     def populations(self, generation: int | str) -> Path:
         """Co-evolution: the populations after a generation; "*" stands for all generations."""
         return self.folder / f"S{self.seed}G{generation}.npy"
@@ -67,7 +71,7 @@ class RunFiles:
     def all(self) -> list[Path]:
         """Every one of them; those that have a generation in their name, with a star for it."""
         named = [self.stat, self.best, self.bestg, self.fit, self.checkpoint, self.events]
-        return [*named, self.populations("*"), self.fitness("*")]
+        return [*named, self.kept("*"), self.populations("*"), self.fitness("*")]
 
     def existing(self) -> list[Path]:
         """Those that exist."""

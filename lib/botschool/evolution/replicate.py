@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from botschool.config import Experiment, competitive
+from botschool.errors import BotschoolError
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.progress import print_lines, reporting
 from botschool.evolution.record import RunFiles
@@ -22,6 +23,7 @@ def replicate(
     force: bool,
     terminal: bool,
     generations: int | None = None,
+    keep_every: int | None = None,
 ) -> bool:
     """Runs every seed and prints where the results are; False when the user stopped it.
 
@@ -29,6 +31,11 @@ def replicate(
     workers as there are for it. Everything else runs one after another, each on all workers.
     """
     kind = Coevolution if competitive(experiment) else Run
+    if keep_every and kind is Coevolution:
+        raise BotschoolError(
+            "--keep-every is for one population: the files of a co-evolution keep populations "
+            "every saveeach generations, so set that."
+        )
     with stoppable() as stopping:
         runs = [kind(experiment, seed, workers, stopping) for seed in seeds[:1]]
         claim(folder, seeds, resume, force)
@@ -37,12 +44,14 @@ def replicate(
             from botschool.evolution.side_by_side import Task, evolve_all
 
             share = workers // processes
-            task = Task(kind, experiment, folder, share, steps, resume, generations, terminal)
+            task = Task(
+                kind, experiment, folder, share, steps, resume, generations, keep_every, terminal
+            )
             return evolve_all(task, seeds, processes, stopping)
         for seed in seeds:
             run = runs.pop() if runs else kind(experiment, seed, workers, stopping)
             with reporting(seed, terminal) as report:
-                finished = evolve(run, folder, steps, resume, report, generations)
+                finished = evolve(run, folder, steps, resume, report, generations, keep_every)
             if text := run.ending(RunFiles(folder, seed), finished):
                 print_lines([text])
             if not finished:

@@ -21,9 +21,10 @@ from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.evaluate import Evaluator, Measured, mean
 from botschool.evolution.events import Events
 from botschool.evolution.record import Record, RunFiles
-from botschool.output import cannot_write, remove_leftovers
+from botschool.output import cannot_write, remove_leftovers, save_npy
 from botschool.policy import Policy
 from botschool.problems import Interrupted
+from botschool.terminal import readable
 
 EVENT_SECONDS = 10
 WAITING_STEPS = 1_000_000
@@ -112,6 +113,10 @@ class Run:
         self._open: Open | None = None
         self.begin()
 
+    def initial(self) -> np.ndarray:
+        """The random genotype that evolution starts from, as it would be saved."""
+        return self.policy.join(self.policy.initial(self.seed), self.evaluator.normalisation)
+
     def check(self) -> None:
         """Raises BotschoolError for a problem or a policy that the algorithm cannot evolve."""
 
@@ -143,8 +148,9 @@ class Run:
         """What it has reached, in short."""
         last = self.record.last
         return (
-            f"best {last['best fitness']:.1f}  post-evaluated {last['best post-evaluated']:.1f}  "
-            f"mean {last['average']:.1f}"
+            f"best {readable(last['best fitness'])}  "
+            f"post-evaluated {readable(last['best post-evaluated'])}  "
+            f"mean {readable(last['average'])}"
         )
 
     def line(self) -> str:
@@ -153,7 +159,7 @@ class Run:
         return (
             f"seed {self.seed}  generation {record.generation}  steps {record.steps} "
             f"({100 * record.steps / self.max_steps:.1f}%)  {self.numbers()}  "
-            f"of this generation {last['best of generation']:.1f}  "
+            f"of this generation {readable(last['best of generation'])}  "
             f"parameter {last['average parameter']:.3f}"
         )
 
@@ -161,8 +167,9 @@ class Run:
         """A sentence about the whole run."""
         record = self.record
         return (
-            f"seed {self.seed}: best {record.best_fitness:.2f}, best post-evaluated "
-            f"{record.bestg_fitness:.2f} after {record.steps} steps; best robot: {files.bestg}"
+            f"seed {self.seed}: best {readable(record.best_fitness)}, best post-evaluated "
+            f"{readable(record.bestg_fitness)} after {record.steps} steps; best robot: "
+            f"{files.bestg}"
         )
 
     def ending(self, files: RunFiles, finished: bool) -> str:
@@ -284,14 +291,18 @@ def evolve(
     resume: bool = False,
     report: Callable[[Run], None] = lambda run: None,
     generations: int | None = None,
+    keep_every: int | None = None,
 ) -> bool:
     """Runs until the budget, or `steps` or `generations`, is spent; saves when due and at the end.
 
     Returns whether it got there; False when it was asked to stop (all is saved then). Errors that
     break a run off save what was finished first. `report` is called after each generation, and
-    may be called during one.
+    may be called during one. With `keep_every` the best genotype so far stays in a file of its
+    own every so many generations, and the one that evolution starts from.
     """
     files = RunFiles(folder, run.seed)
+    if keep_every:
+        report = keeping(files, keep_every, report)
     if resume and files.checkpoint.exists():
         path = files.checkpoint
         try:
@@ -347,6 +358,23 @@ def evolve(
     finally:
         run.problem.close()
     return True
+
+
+def keeping(files: RunFiles, every: int, report: Callable[[Run], None]) -> Callable[[Run], None]:
+    """A `report` that also saves the best post-evaluated genotype so far every `every` generations.
+
+    It is saved before any checkpoint knows of its generation, so a run that is resumed lacks none;
+    generation 0 has the random genotype that evolution starts from.
+    """
+
+    def kept(run: Run) -> None:
+        generation = run.record.generation
+        if generation % every == 0:
+            best = run.record.bestg if generation else run.initial()
+            save_npy(files.kept(generation), best)
+        report(run)
+
+    return kept
 
 
 def claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:

@@ -41,12 +41,14 @@ class Task:
     steps: int | None
     resume: bool
     generations: int | None
+    keep_every: int | None
     terminal: bool
 
     def run(self, seed: int, stopping: Callable[[], bool], report: Callable[[Run], None]):
         """Evolves; gives whether it is finished and a sentence about it, "" if it has not begun."""
         run = self.kind(self.experiment, seed, self.workers, stopping)
-        done = evolve(run, self.folder, self.steps, self.resume, report, self.generations)
+        limits = (self.generations, self.keep_every)
+        done = evolve(run, self.folder, self.steps, self.resume, report, *limits)
         return done, run.ending(RunFiles(self.folder, seed), done)
 
 

@@ -9,6 +9,7 @@ from botschool.grading.checks import (
     expect_fields,
     show,
 )
+from botschool.grading.ends import expect_ends, went_on
 from botschool.grading.exercise import Exercise, Task
 from botschool.grading.student import Student
 
@@ -21,6 +22,8 @@ __all__ = [
     "expect",
     "expect_array",
     "expect_close",
+    "expect_ends",
     "expect_fields",
     "show",
+    "went_on",
 ]

@@ -16,7 +16,7 @@ class Wrong(Exception):
 
 
 class Mismatch(Wrong):
-    """An answer that differs from what was expected; diagnosis.py looks for a likely cause."""
+    """An answer that differs from what was expected; `diagnosis` looks for a likely cause."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""A wrong answer beside the right one, as diagnosis.py looks at it."""
+"""A wrong answer beside the right one, as the detectors of `diagnosis` look at it."""
 
 from __future__ import annotations
 
@@ -26,6 +26,11 @@ class Comparison:
     def same(self, candidate: Any) -> bool:
         """Whether the answer is this, to rounding (single precision included)."""
         return alike(self.got, candidate)
+
+    @property
+    def in_rows(self) -> bool:
+        """Whether both have the same shape, with three rows at least."""
+        return self.got.shape == self.wanted.shape and self.got.ndim > 0 and len(self.got) > 2
 
     @cached_property
     def varied(self) -> int:

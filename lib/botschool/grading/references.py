@@ -23,9 +23,10 @@ _FUNCTIONS = (ast.FunctionDef, ast.ClassDef)
 def functions_of(solution: str) -> dict[str, list[str]]:
     """task -> the functions and classes that belong to it alone."""
     found: dict[str, list[str]] = {}
+    lines = solution.split("\n")
     for node in ast.parse(solution).body:
         if isinstance(node, _FUNCTIONS):
-            tasks = _tasks(solution, node)
+            tasks = _tasks(lines, node)
             if len(tasks) == 1:
                 found.setdefault(tasks.pop(), []).append(node.name)
     return found
@@ -36,13 +37,13 @@ def pruned(solution: str, tasks: Iterable[str]) -> str:
 
     Functions of other tasks are left out in any case.
     """
-    tasks = set(tasks)
+    tasks, lines, functions = set(tasks), solution.split("\n"), functions_of(solution)
     nodes = [
         node
         for node in ast.parse(solution).body
-        if not isinstance(node, ast.If) and _tasks(solution, node) <= tasks
+        if not isinstance(node, ast.If) and _tasks(lines, node) <= tasks
     ]
-    wanted = {name for task in tasks for name in functions_of(solution).get(task, ())}
+    wanted = {name for task in tasks for name in functions.get(task, ())}
     if not wanted:
         return ""
     kept: list[ast.stmt] = []
@@ -50,14 +51,15 @@ def pruned(solution: str, tasks: Iterable[str]) -> str:
         kept += new
         wanted |= {name for node in new for name in _used(node)}
     kept += [n for n in nodes if isinstance(n, ast.Expr) and _used(n) and _used(n) <= wanted]
-    lines = [ast.get_source_segment(solution, node) for node in nodes if node in kept]
-    return "\n\n\n".join(line for line in lines if line) + "\n"
+    texts = [ast.get_source_segment(solution, node) for node in nodes if node in kept]
+    return "\n\n\n".join(text for text in texts if text) + "\n"
 
 
-def _tasks(solution: str, node: ast.stmt) -> set[str]:
+def _tasks(lines: list[str], node: ast.stmt) -> set[str]:
     """Those that a function or class is written for."""
-    text = ast.get_source_segment(solution, node) if isinstance(node, _FUNCTIONS) else ""
-    return set(_REGION.findall(text or ""))
+    if not isinstance(node, _FUNCTIONS):
+        return set()
+    return set(_REGION.findall("\n".join(lines[node.lineno - 1 : node.end_lineno])))
 
 
 def _bound(node: ast.stmt) -> set[str]:

@@ -17,26 +17,38 @@ from botschool.problems.native import NATIVE, NativeProblem
 __all__ = ["Episodes", "Interrupted", "Outcome", "Problem", "make", "names", "of"]
 
 
-def make(name: str, robots: Sequence[str] = ()) -> Problem:
+def make(name: str, robots: Sequence[str] = (), wrappers: str = "") -> Problem:
     """The problem of that name; robots: kinds of its wheeled robots, () for its own.
 
-    Raises BotschoolError when there is no such problem, or it has no such robots.
+    wrappers: those around its environment (botschool.wrappers); a native problem is then played as
+    a Gymnasium environment. Raises BotschoolError when there is no such problem, or it has no such
+    robots or wrappers.
     """
-    if name in NATIVE:
+    if name in NATIVE and not wrappers:
         return NativeProblem(name, robots)
+    if name in NATIVE and NativeProblem(name).interface.robots > 1:
+        raise BotschoolError(
+            f"{name} has several robots, which no wrapper fits: remove the line wrappers = "
+            f"{wrappers}."
+        )
     from botschool.problems.gym import GymProblem
 
+    if robots and name in NATIVE:
+        raise BotschoolError(
+            f"{name} has either other robots or wrappers: remove one of the lines."
+        )
     if robots:
         raise BotschoolError(
             f"{name} is no arena of wheeled robots: remove the line robots = {', '.join(robots)}."
         )
-    return GymProblem(name)
+    return GymProblem(name, wrappers)
 
 
 def of(experiment) -> Problem:
     """The problem of a botschool.config.Experiment. Raises BotschoolError."""
     exp = experiment.exp
-    return make(exp.environment, [name.strip() for name in exp.robots.split(",") if name.strip()])
+    robots = [name.strip() for name in exp.robots.split(",") if name.strip()]
+    return make(exp.environment, robots, exp.wrappers)
 
 
 def names() -> list[str]:

@@ -31,9 +31,12 @@ class Workers:
     sent, so the outcome is the same.
     """
 
-    def __init__(self, name: str, config: PolicyConfig, maxsteps: int, workers: int) -> None:
-        self._name = name
-        self._arguments = (name, config, maxsteps)
+    def __init__(
+        self, problem: tuple[str, str], config: PolicyConfig, maxsteps: int, workers: int
+    ) -> None:
+        """problem: name, and the wrappers around it."""
+        self._name, _ = problem
+        self._arguments = (problem, config, maxsteps)
         self._workers = workers
         self._pool: ProcessPoolExecutor | None = None
 
@@ -112,7 +115,7 @@ class Workers:
 _worker: tuple | BotschoolError | None = None
 
 
-def _start(name: str, config: PolicyConfig, maxsteps: int) -> None:
+def _start(named: tuple[str, str], config: PolicyConfig, maxsteps: int) -> None:
     global _worker
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
@@ -120,7 +123,8 @@ def _start(name: str, config: PolicyConfig, maxsteps: int) -> None:
     from botschool.policy import Policy
 
     try:
-        problem = problems.make(name)
+        name, wrappers = named
+        problem = problems.make(name, wrappers=wrappers)
         _worker = (problem, Policy(name, problem.interface, config), maxsteps)
     except BotschoolError as error:  # told by the first evaluation
         _worker = error

@@ -15,7 +15,7 @@ from botschool.errors import BotschoolError
 from botschool.policy import Policy
 from botschool.problems.transition import Transition
 from botschool.seeds import POST_EVALUATION_SEED
-from botschool.terminal import has_display
+from botschool.terminal import has_display, readable
 
 VIDEO_EPISODES = 3
 REPLAY_EPISODES = 5
@@ -94,7 +94,7 @@ class PostEvaluation:
             self.fitness.append(transition.total)
             self.steps.append(transition.step)
             name = "  ".join(filter(None, [f"episode {episode + 1}", self.label(episode)]))
-            print(f"{name}  fitness {transition.total:.2f}  steps {transition.step}")
+            print(f"{name}  fitness {readable(transition.total)}  steps {transition.step}")
 
     def frames(self, episodes: int, activations: bool) -> Iterator[np.ndarray]:
         """Pictures of the first episodes with a caption, and with the neurons on request."""
@@ -141,7 +141,8 @@ class PostEvaluation:
         """Mean and standard deviation over the episodes played."""
         if self.fitness:
             print(
-                f"mean {np.mean(self.fitness):.2f}  standard deviation {np.std(self.fitness):.2f}"
+                f"mean {readable(np.mean(self.fitness))}  "
+                f"standard deviation {readable(np.std(self.fitness))}"
                 f"  steps {np.mean(self.steps):.1f}  episodes {len(self.fitness)}"
             )
 
@@ -207,7 +208,7 @@ def watch(
             for transition in robot.play(episode):
                 if activations:
                     values = " ".join(f"{value:.3f}" for value in transition.activations)
-                    step = f"step {transition.step}  reward {transition.reward:.2f}"
+                    step = f"step {transition.step}  reward {readable(transition.reward)}"
                     print(f"{step}  activations {values}")
     robot.print_summary()
     robot.problem.close()

@@ -66,9 +66,9 @@ class Agent:
         """
         path = Path(path)
         settings = RunFolder(path.parent).settings()
-        own = make(settings.env)
+        own = make(settings.env, settings.wrappers)
         if env is not None and env != settings.env:
-            _check_same(settings.env, own, env)
+            _check_same(settings.env, own, env, make(env, settings.wrappers))
         if not path.exists():
             raise BotschoolError(f"There is no model {path}: train one with `botschool rl train`.")
         model = build(settings, own, small=True)
@@ -94,8 +94,7 @@ class Agent:
         return self.model.predict(observations, state, starts, deterministic=True)
 
 
-def _check_same(trained: str, own: gymnasium.Env, other: str) -> None:
-    given = make(other)
+def _check_same(trained: str, own: gymnasium.Env, other: str, given: gymnasium.Env) -> None:
     pairs = [
         ("observations", own.observation_space, given.observation_space),
         ("actions", own.action_space, given.action_space),

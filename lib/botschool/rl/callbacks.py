@@ -28,6 +28,10 @@ Report = Callable[[int, Evaluations], None]
 """Called with the steps so far and the evaluations so far."""
 
 
+class Stopped(Exception):
+    """Ends a training with an algorithm that does not look at what callbacks return."""
+
+
 class PostEvaluation(BaseCallback):
     """Measures the policy on fixed fresh seeds, keeps the best one, and saves the last one.
 
@@ -44,7 +48,7 @@ class PostEvaluation(BaseCallback):
         self.found: Evaluations | None = None
         first = settings.seed + POST_EVALUATION_SEED
         self._seeds = list(range(first, first + settings.episodes))
-        self._envs = [make(settings.env) for _ in self._seeds]
+        self._envs = [make(settings.env, settings.wrappers) for _ in self._seeds]
         self._every = max(1, settings.steps // max(1, settings.evaluations))
         self._saved = self._reported = time.monotonic()
 
@@ -61,6 +65,8 @@ class PostEvaluation(BaseCallback):
         elif now - self._reported > REPORT_SECONDS:
             self.report(steps, self.found)
             self._reported = now
+        if self.stopping() and self.settings.algo == "ars":
+            raise Stopped
         return not self.stopping()
 
     def _on_training_end(self) -> None:

@@ -8,17 +8,24 @@ from gymnasium import spaces
 
 from botschool.errors import BotschoolError
 from botschool.inifile import shown
-from botschool.problems.gym import make_env
+from botschool.problems.making import make_env
+from botschool.wrappers import parse
 
 LONGEST_EPISODE = 10_000
 """Steps after which an episode of an environment without a limit of its own ends."""
 
 
-def make(name: str, **options: object) -> gymnasium.Env:
-    """The environment of that id, guarded. Raises BotschoolError."""
+def make(name: str, wrapped: str = "", **options: object) -> gymnasium.Env:
+    """The environment of that id, guarded; wrapped: wrappers (botschool.wrappers).
+
+    Raises BotschoolError.
+    """
+    wrappers = parse(wrapped)
     env = make_env(name, **options)
     if env.spec is not None and env.spec.max_episode_steps is None:
         env = gymnasium.wrappers.TimeLimit(env, LONGEST_EPISODE)
+    for wrapper in wrappers:
+        env = wrapper.around(env, name)
     return Guard(env, name)
 
 

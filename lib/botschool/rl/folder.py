@@ -97,7 +97,8 @@ class RunFolder:
         """A new environment of the kind that was trained on."""
         from botschool.rl.environments import make
 
-        return make(self.settings().env, **options)
+        settings = self.settings()
+        return make(settings.env, settings.wrappers, **options)
 
     def save_evaluations(self, evaluations: Evaluations) -> None:
         """Writes evaluations.npz. Raises BotschoolError."""
@@ -149,9 +150,14 @@ def _number(text: object) -> float:
         return float("nan")
 
 
+def name_of(env: str) -> str:
+    """An id as a part of a folder's name."""
+    return re.sub(r"[^\w.-]+", "-", env)
+
+
 def next_folder(base: Path, algo: str, env: str) -> RunFolder:
     """Makes base/algo/env_N with the next free number N. Raises BotschoolError."""
-    name = re.sub(r"[^\w.-]+", "-", env)
+    name = name_of(env)
     parent = base / algo
     try:
         parent.mkdir(parents=True, exist_ok=True)
@@ -166,6 +172,30 @@ def next_folder(base: Path, algo: str, env: str) -> RunFolder:
                 number += 1
     except OSError as error:
         raise cannot_write(parent, error.strerror or str(error)) from error
+
+
+def run_of(folder: Path | str, algo: str, env: str, number: int = 0) -> RunFolder:
+    """The training `number` of an algorithm on an environment; 0 is the newest one.
+
+    Raises BotschoolError.
+    """
+    parent, name = Path(folder) / algo, name_of(env)
+    numbered = {
+        run.number: run
+        for run in find_runs(parent)
+        if run.path.name == f"{name}_{run.number}" and run.path.parent == parent
+    }
+    if not numbered or number not in (0, *numbered):
+        there = (
+            f"numbers there: {', '.join(map(str, sorted(numbered)))}"
+            if numbered
+            else (f"train one with `botschool rl train --algo {algo} --env {env} -o {folder}`")
+        )
+        which = f" number {number}" if number else ""
+        raise BotschoolError(
+            f"There is no training{which} of {algo} on {env} in {folder}; {there}."
+        )
+    return numbered[number or max(numbered)]
 
 
 def find_runs(folder: Path | str) -> list[RunFolder]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import inspect
 import sys
 import warnings
 from collections.abc import Sequence
@@ -14,22 +15,36 @@ import numpy as np
 from gymnasium import spaces
 
 from botschool.errors import BotschoolError
+from botschool.inifile import shown
+from botschool.rl import spellings
 from botschool.rl.environments import described, make
-from botschool.rl.parameters import ACTIVATIONS, OF_POLICY, complete, linear
-from botschool.rl.settings import Settings, check_algorithm, check_policy, defaults
+from botschool.rl.parameters import ACTIVATIONS, OF_GOALS, OF_POLICY, complete, linear
+from botschool.rl.settings import (
+    VEC_ENVS,
+    WITH_MEMORY,
+    Settings,
+    check_algorithm,
+    check_policy,
+    defaults,
+)
 
 if TYPE_CHECKING:
     from stable_baselines3.common.base_class import BaseAlgorithm
     from stable_baselines3.common.vec_env import VecEnv
 
+ANY = (spaces.Discrete, spaces.Box, spaces.MultiDiscrete, spaces.MultiBinary)
 ACTIONS = {
-    "ppo": (spaces.Discrete, spaces.Box, spaces.MultiDiscrete, spaces.MultiBinary),
-    "a2c": (spaces.Discrete, spaces.Box, spaces.MultiDiscrete, spaces.MultiBinary),
-    "sac": (spaces.Box,),
-    "td3": (spaces.Box,),
-    "dqn": (spaces.Discrete,),
+    **dict.fromkeys(("ppo", "a2c", "trpo"), ANY),
+    **dict.fromkeys(("sac", "td3", "ddpg", "tqc"), (spaces.Box,)),
+    **dict.fromkeys(("dqn", "qrdqn"), (spaces.Discrete,)),
+    **dict.fromkeys(("ars", "her"), (spaces.Box, spaces.Discrete)),
 }
 """The action spaces that an algorithm can handle."""
+
+CONTRIB = {"trpo": "TRPO", "qrdqn": "QRDQN", "tqc": "TQC", "ars": "ARS"}
+"""Classes in sb3-contrib, the part of Stable-Baselines3 for newer algorithms."""
+
+GOAL_PARTS = {"observation", "achieved_goal", "desired_goal"}
 
 
 def require(*packages: str) -> None:
@@ -41,8 +56,8 @@ def require(*packages: str) -> None:
             missing = (error.name or package).partition(".")[0]
             raise BotschoolError(
                 f"botschool rl needs the package {missing}: install it with `pip install torch "
-                "stable-baselines3 sb3-contrib`, or all that botschool can use with `pip install "
-                "'botschool[rl]'`."
+                "stable-baselines3 sb3-contrib optuna`, or all that botschool can use with `pip "
+                "install 'botschool[rl]'`."
             ) from None
 
 
@@ -56,26 +71,40 @@ def choose(
     seed: int = 1,
     evaluations: int = 20,
     episodes: int = 20,
+    wrappers: str = "",
+    vec_env: str = "dummy",
 ) -> Settings:
     """Settings of a training: what is given, then defaults.yaml. Raises BotschoolError."""
     algo = check_algorithm(algo)
+    given, options = spellings.translated(params or {})
+    steps, envs = steps or options.get("steps"), envs or options.get("envs")
+    policy = policy or options.get("policy")
     policy = None if policy is None else check_policy(policy, algo)
-    env_made = make(env)
+    if vec_env not in VEC_ENVS:
+        raise BotschoolError(f"--vec-env is '{shown(vec_env)}', but must be dummy or subproc.")
+    env_made = make(env, wrappers)
     _check_spaces(algo, env, env_made)
     require("torch", "stable_baselines3")
     policy = policy or ("cnn" if _sees_images(env_made) else "mlp")
-    if policy == "cnn" and not _sees_images(env_made):
+    if "cnn" in policy and not _sees_images(env_made):
         raise BotschoolError(
-            f"{env} shows no images, so it cannot be trained with a cnn policy (its observations "
-            f"are {described(env_made.observation_space)}): leave out --policy."
+            f"{env} shows no images, so it cannot be trained with a {policy} policy (its "
+            f"observations are {described(env_made.observation_space)}): leave out --policy."
         )
-    given = dict(params or {})
     entry = defaults(algo, env)
     length, width = entry.pop("steps"), entry.pop("envs")
     normalize = _normalize(given, entry.pop("normalize", False), env_made, policy)
+    width = width if envs is None else envs
     entry |= {name: value for name, value in given.items() if name != "normalize"}
-    model_class = algorithm_class(algo, policy)
-    policy_class = model_class.policy_aliases[_policy_name(policy, env_made)]
+    model_class = algorithm_class(algo, policy, isinstance(env_made.action_space, spaces.Discrete))
+    if "nminibatches" in entry:
+        _share_batches(entry, model_class, width)
+    policy_class = model_class.policy_aliases.get(_policy_name(policy, env_made))
+    if policy_class is None:
+        raise BotschoolError(
+            f"{algo} reads vectors only, but the observations of {env} are "
+            f"{described(env_made.observation_space)}: add --wrapper FlattenObservation."
+        )
     env_made.close()
     packages = ("stable_baselines3", "torch", "gymnasium", "numpy")
     return Settings(
@@ -84,18 +113,30 @@ def choose(
         policy=policy,
         seed=seed,
         steps=length if steps is None else steps,
-        envs=width if envs is None else envs,
+        envs=width,
         normalize=normalize,
         evaluations=evaluations,
         episodes=episodes,
-        parameters=complete(model_class, policy_class, entry),
+        parameters=complete(model_class, policy_class, entry, algo == "her"),
         given=given,
         versions={package: version(package) for package in packages},
+        wrappers=wrappers,
+        vec_env=vec_env,
     )
 
 
+def _share_batches(entry: dict[str, Any], model_class: type[BaseAlgorithm], envs: int) -> None:
+    """Puts batch_size into the place of nminibatches."""
+    known = inspect.signature(model_class.__init__).parameters
+    if not {"n_steps", "n_epochs", "batch_size"} <= known.keys():
+        raise BotschoolError(f"nminibatches is for ppo, not for {model_class.__name__}.")
+    n_steps = entry.get("n_steps", known["n_steps"].default)
+    if isinstance(n_steps, int):  # what else it is, its own check says
+        entry["batch_size"] = spellings.batch_size(entry.pop("nminibatches"), n_steps, envs)
+
+
 def _normalize(given: dict[str, Any], usual: bool, env: gymnasium.Env, policy: str) -> bool:
-    possible = isinstance(env.observation_space, spaces.Box) and policy != "cnn"
+    possible = isinstance(env.observation_space, spaces.Box) and "cnn" not in policy
     wanted = given.get("normalize", usual and possible)
     if not isinstance(wanted, bool):
         raise BotschoolError(f"normalize is {wanted}, but must be true or false.")
@@ -110,20 +151,34 @@ def _normalize(given: dict[str, Any], usual: bool, env: gymnasium.Env, policy: s
 def _check_spaces(algo: str, name: str, env: gymnasium.Env) -> None:
     if not isinstance(env.action_space, ACTIONS[algo]):
         kind = type(env.action_space)
-        able = [other for other, kinds in ACTIONS.items() if kind in kinds]
+        able = [other for other, kinds in ACTIONS.items() if kind in kinds and other != "her"]
         remedy = f"use --algo {' or '.join(able)}" if able else "wrap the environment"
         raise BotschoolError(
             f"{algo} cannot be trained on {name}, whose actions are "
             f"{described(env.action_space)}: {remedy}."
+        )
+    if algo == "her" and not _has_goals(env):
+        raise BotschoolError(
+            f"her cannot be trained on {name}, which has no goals: its observations must be a Dict "
+            f"of {', '.join(sorted(GOAL_PARTS))}, and it needs compute_reward, as FetchReach-v4."
         )
     parts = getattr(env.observation_space, "spaces", {})
     if isinstance(env.observation_space, spaces.Tuple) or any(
         isinstance(part, (spaces.Dict, spaces.Tuple)) for part in dict(parts).values()
     ):
         raise BotschoolError(
-            f"{name} has nested observations, which no policy here reads: wrap it with "
-            "gymnasium.wrappers.FlattenObservation."
+            f"{name} has nested observations, which no policy here reads: add --wrapper "
+            "FlattenObservation."
         )
+
+
+def _has_goals(env: gymnasium.Env) -> bool:
+    space = env.observation_space
+    return (
+        isinstance(space, spaces.Dict)
+        and space.keys() >= GOAL_PARTS
+        and env.has_wrapper_attr("compute_reward")
+    )
 
 
 def _sees_images(env: gymnasium.Env) -> bool:
@@ -133,19 +188,24 @@ def _sees_images(env: gymnasium.Env) -> bool:
     )
 
 
-def algorithm_class(algo: str, policy: str) -> type[BaseAlgorithm]:
-    """The library's class for an algorithm. Raises BotschoolError where it is not installed."""
-    if policy == "lstm":
+def algorithm_class(algo: str, policy: str, discrete: bool = False) -> type[BaseAlgorithm]:
+    """The library's class for an algorithm. Raises BotschoolError where it is not installed.
+
+    Hindsight experience replay is SAC with goals, or DQN where actions are discrete.
+    """
+    if policy in WITH_MEMORY or algo in CONTRIB:
         require("torch", "stable_baselines3", "sb3_contrib")
-        return importlib.import_module("sb3_contrib").RecurrentPPO
+        return getattr(importlib.import_module("sb3_contrib"), CONTRIB.get(algo, "RecurrentPPO"))
     require("torch", "stable_baselines3")
+    if algo == "her":
+        algo = "dqn" if discrete else "sac"
     return getattr(importlib.import_module("stable_baselines3"), algo.upper())
 
 
 def _policy_name(policy: str, env: gymnasium.Env | VecEnv) -> str:
     several = isinstance(env.observation_space, spaces.Dict)
-    kind = "MultiInput" if several else "Cnn" if policy == "cnn" else "Mlp"
-    return f"{kind}{'Lstm' if policy == 'lstm' else ''}Policy"
+    kind = "MultiInput" if several else "Cnn" if "cnn" in policy else "Mlp"
+    return f"{kind}{'Lstm' if policy in WITH_MEMORY else ''}Policy"
 
 
 def build(settings: Settings, env: VecEnv | gymnasium.Env, small: bool = False) -> BaseAlgorithm:
@@ -156,13 +216,19 @@ def build(settings: Settings, env: VecEnv | gymnasium.Env, small: bool = False) 
     policy = {name: chosen.pop(name) for name in OF_POLICY if name in chosen}
     if "activation_fn" in policy:
         policy["activation_fn"] = getattr(torch.nn, ACTIVATIONS[policy["activation_fn"]])
+    goals = {name: chosen.pop(name) for name in OF_GOALS if name in chosen}
     chosen = {name: _live(name, value, env) for name, value in chosen.items()}
+    if goals and not small:
+        from stable_baselines3 import HerReplayBuffer
+
+        chosen |= {"replay_buffer_class": HerReplayBuffer, "replay_buffer_kwargs": goals}
     if small and "buffer_size" in chosen:
         chosen["buffer_size"] = 1
-    chosen.setdefault("device", "auto" if settings.policy == "cnn" else "cpu")
+    chosen.setdefault("device", "auto" if "cnn" in settings.policy else "cpu")
     if small:
         chosen["device"] = "cpu"
-    model_class = algorithm_class(settings.algo, settings.policy)
+    discrete = isinstance(env.action_space, spaces.Discrete)
+    model_class = algorithm_class(settings.algo, settings.policy, discrete)
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", UserWarning)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import collections.abc
 import inspect
 import math
+import re
 import typing
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
 import yaml
@@ -18,10 +21,8 @@ NOT_HERE = {
     "env": "use --env",
     "seed": "use -s",
     "steps": "use --steps",
-    "n_timesteps": "use --steps",
     "total_timesteps": "use --steps",
     "envs": "use --envs",
-    "n_envs": "use --envs",
     "policy_kwargs": "give its parts themselves, as net_arch=[32,32]",
     "tensorboard_log": "every training is logged in its folder",
     "verbose": "leave it out",
@@ -42,8 +43,16 @@ OF_POLICY = {
     "n_lstm_layers": "a whole number",
     "shared_lstm": "true or false",
     "enable_critic_lstm": "true or false",
+    "with_bias": "true or false",
+    "n_quantiles": "a whole number",
 }
 """Parameters of the policy's class; which of them exist depends on the algorithm."""
+
+OF_GOALS = {"n_sampled_goal": 4, "goal_selection_strategy": "future"}
+"""Parameters of hindsight experience replay, with their defaults."""
+
+GOALS = ("future", "final", "episode")
+"""Where the goals in hindsight are taken from."""
 
 ACTIVATIONS = {"tanh": "Tanh", "relu": "ReLU", "elu": "ELU", "gelu": "GELU"}
 
@@ -56,15 +65,21 @@ RANGES = {
     **dict.fromkeys(("n_lstm_layers", "target_update_interval"), (1, None)),
     **dict.fromkeys(("learning_starts", "learning_rate", "clip_range", "action_noise"), (0, None)),
     **dict.fromkeys(("max_grad_norm", "vf_coef", "target_policy_noise"), (0, None)),
+    **dict.fromkeys(("n_delta", "n_top", "n_eval_episodes", "n_quantiles"), (1, None)),
+    **dict.fromkeys(("n_sampled_goal", "cg_max_steps", "n_critic_updates"), (1, None)),
+    **dict.fromkeys(("delta_std", "target_kl"), (0, None)),
 }
 """Smallest and largest value, or None."""
 
 
 def parse(items: Iterable[str]) -> dict[str, Any]:
-    """["gamma=0.9", "net_arch=[32,32]"] -> {"gamma": 0.9, ...}. Raises BotschoolError."""
+    """["gamma=0.9", "net_arch=[32,32]"] -> {"gamma": 0.9, ...}; a colon is as good as the first =.
+
+    Raises BotschoolError.
+    """
     values = {}
     for item in items:
-        name, equals, text = item.partition("=")
+        name, equals, text = re.match(r"([^=:]*)([=:]?)(.*)", item, re.DOTALL).groups()
         if not equals or not name.strip() or not text.strip():
             raise BotschoolError(
                 f"'{shown(item)}' is no hyperparameter: write --params name=value, as "
@@ -81,6 +96,20 @@ def parse(items: Iterable[str]) -> dict[str, Any]:
     return values
 
 
+def read_settings(path: Path) -> dict[str, Any]:
+    """The hyperparameters in a YAML file of `name: value`. Raises BotschoolError."""
+    try:
+        found = yaml.safe_load(path.read_text(encoding="utf-8")) or {}
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        reason = getattr(error, "strerror", None) or "it is no YAML"
+        raise BotschoolError(
+            f"{path} cannot be read ({reason}): give a file of name: value."
+        ) from (None)
+    if not isinstance(found, dict) or not all(isinstance(name, str) for name in found):
+        raise BotschoolError(f"{path} holds no hyperparameters: give a file of name: value.")
+    return {name: _number_if_possible(value) for name, value in found.items()}
+
+
 def _number_if_possible(value: Any) -> Any:
     """YAML takes 1e-3 for a word."""
     if isinstance(value, str):
@@ -91,9 +120,12 @@ def _number_if_possible(value: Any) -> Any:
     return value
 
 
-def accepted(model_class: type, policy_class: type) -> dict[str, Any]:
-    """Name -> the annotation of its type, or for the policy's own ones the words for it."""
-    found = {}
+def accepted(model_class: type, policy_class: type, goals: bool = False) -> dict[str, Any]:
+    """Name -> the annotation of its type, or for the policy's own ones the words for it.
+
+    goals: those of hindsight experience replay, too.
+    """
+    found = {name: type(value) for name, value in OF_GOALS.items()} if goals else {}
     for name, parameter in inspect.signature(model_class.__init__).parameters.items():
         if name != "self" and name not in NOT_HERE and not name.endswith(OBJECTS):
             found[name] = parameter.annotation
@@ -103,18 +135,21 @@ def accepted(model_class: type, policy_class: type) -> dict[str, Any]:
     return found | {name: words for name, words in OF_POLICY.items() if name in of_policy}
 
 
-def complete(model_class: type, policy_class: type, chosen: Mapping[str, Any]) -> dict[str, Any]:
+def complete(
+    model_class: type, policy_class: type, chosen: Mapping[str, Any], goals: bool = False
+) -> dict[str, Any]:
     """The chosen hyperparameters, checked, after the algorithm's own defaults for the others.
 
     Raises BotschoolError with the nearest name, or with what a value can be.
     """
-    known = accepted(model_class, policy_class)
+    known = accepted(model_class, policy_class, goals)
     signature = inspect.signature(model_class.__init__).parameters
     values = {
         name: signature[name].default
         for name in known
         if name in signature and _plain(signature[name].default) and name != "device"
     }
+    values |= OF_GOALS if goals else {}
     for name, value in chosen.items():
         if name in NOT_HERE:
             raise BotschoolError(f"{name} is not set by --params: {NOT_HERE[name]}.")
@@ -142,6 +177,8 @@ def _checked(name: str, value: Any, annotation: Any) -> Any:
     fitting = _of_policy(name, value) if name in OF_POLICY else _of_type(value, annotation)
     if fitting is None:
         raise BotschoolError(f"{name} is {shown(value)}, but must be {words}.")
+    if name == "goal_selection_strategy" and fitting not in GOALS:
+        raise BotschoolError(f"{name} is {shown(value)}, but must be {' or '.join(GOALS)}.")
     number = linear(fitting) or fitting
     low, high = RANGES.get(name, (None, None))
     if _is_number(number) and not (-math.inf if low is None else low) <= number <= (
@@ -164,11 +201,11 @@ def linear(value: Any) -> float | None:
 
 
 def _types(annotation: Any) -> set[Any]:
+    if typing.get_origin(annotation) is collections.abc.Callable:
+        return {"schedule"}
     parts = typing.get_args(annotation)
     if typing.get_origin(annotation) is tuple or not parts:
         return {tuple if parts else annotation}
-    if "Callable" in str(typing.get_origin(annotation)):
-        return {"schedule"}
     return set().union(*(_types(part) for part in parts))
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from botschool.rl.folder import Evaluations
-from botschool.terminal import progress_bar
+from botschool.terminal import progress_bar, readable
 
 
 @contextmanager
@@ -35,5 +35,6 @@ def reporting(
 def _numbers(evaluations: Evaluations) -> str:
     sd = evaluations.returns[-1].std()
     return (
-        f"post-evaluated {evaluations.last:.1f} \u00b1 {sd:.1f}  best so far {evaluations.best:.1f}"
+        f"post-evaluated {readable(evaluations.last)} \u00b1 {readable(sd)}  "
+        f"best so far {readable(evaluations.best)}"
     )

@@ -14,9 +14,17 @@ import yaml
 from botschool.errors import BotschoolError
 from botschool.inifile import nearest, shown
 from botschool.output import save_bytes
+from botschool.rl import spellings
 
-ALGORITHMS = ("ppo", "a2c", "sac", "td3", "dqn")
-POLICIES = ("mlp", "lstm", "cnn")
+ALGORITHMS = ("ppo", "a2c", "trpo", "ars", "sac", "td3", "ddpg", "tqc", "her", "dqn", "qrdqn")
+POLICIES = ("mlp", "lstm", "cnn", "cnnlstm")
+WITH_MEMORY = ("lstm", "cnnlstm")
+VEC_ENVS = ("dummy", "subproc")
+"""Where environments side by side run: all in this process, or each in one of its own."""
+
+
+LATER = {"wrappers", "vec_env"}
+"""Settings that trainings of older versions did not have."""
 
 
 @dataclass
@@ -46,12 +54,17 @@ class Settings:
     """Those that were given in place of the entry in defaults.yaml."""
     versions: dict[str, str] = field(default_factory=dict)
     """Of the packages that trained."""
+    wrappers: str = ""
+    """Around the environment, as botschool.wrappers reads them."""
+    vec_env: str = "dummy"
+    """One of VEC_ENVS; the results are the same."""
 
     @property
     def variant(self) -> str:
         """What sets it apart from a training with defaults, as `lstm learning_rate=0.001`."""
-        policy = [self.policy] if self.policy == "lstm" else []
-        return " ".join([*policy, *(f"{name}={value}" for name, value in self.given.items())])
+        policy = [self.policy] if self.policy in WITH_MEMORY else []
+        given = [f"{name}={value}" for name, value in self.given.items()]
+        return " ".join([*policy, *given, *filter(None, [self.wrappers])])
 
     def save(self, path: Path) -> None:
         """Writes a YAML file. Raises BotschoolError."""
@@ -72,7 +85,8 @@ class Settings:
             raise BotschoolError(
                 f"{path} cannot be read: {' '.join(str(error).split())}."
             ) from None
-        if not isinstance(found, dict) or found.keys() != {f.name for f in fields(cls)}:
+        needed, known = {f.name for f in fields(cls)} - LATER, {f.name for f in fields(cls)}
+        if not isinstance(found, dict) or not needed <= found.keys() <= known:
             raise BotschoolError(
                 f"{path} does not describe a training: restore it, or train again with "
                 "`botschool rl train`."
@@ -91,20 +105,27 @@ class _PlainLoader(yaml.SafeLoader):
 
 def check_algorithm(algo: str) -> str:
     """The name of a known algorithm in lower case. Raises BotschoolError."""
-    if algo.lower() not in ALGORITHMS:
+    name = spellings.algorithm(algo)
+    if name not in ALGORITHMS:
         hint = nearest(algo, ALGORITHMS)
         raise BotschoolError(f"There is no algorithm '{shown(algo)}'; {_ended(hint)}")
-    return algo.lower()
+    return name
 
 
 def check_policy(policy: str, algo: str) -> str:
     """The name of a policy that the algorithm has, in lower case. Raises BotschoolError."""
+    policy = spellings.POLICIES.get(policy.lower(), policy)
     if policy.lower() not in POLICIES:
         hint = nearest(policy, POLICIES)
         raise BotschoolError(f"There is no policy '{shown(policy)}'; {_ended(hint)}")
-    if policy.lower() == "lstm" and algo != "ppo":
-        raise BotschoolError(f"{algo} has no lstm policy: use --algo ppo with --policy lstm.")
-    return policy.lower()
+    policy = policy.lower()
+    if policy in WITH_MEMORY and algo != "ppo":
+        raise BotschoolError(
+            f"{algo} has no {policy} policy: use --algo ppo with --policy {policy}."
+        )
+    if policy == "cnn" and algo == "ars":
+        raise BotschoolError("ars has no cnn policy: use --algo ppo, or a wrapper that flattens.")
+    return policy
 
 
 def defaults(algo: str, env: str) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,12 +12,13 @@ from botschool.errors import BotschoolError
 from botschool.output import cannot_write
 from botschool.rl.folder import Evaluations, RunFolder, next_folder
 from botschool.rl.model import build, choose
-from botschool.rl.parameters import parse
+from botschool.rl.parameters import parse, read_settings
 from botschool.rl.progress import reporting
 from botschool.rl.settings import Settings
-from botschool.terminal import stoppable
+from botschool.terminal import readable, stoppable
 
 if TYPE_CHECKING:
+    import gymnasium
     from stable_baselines3.common.base_class import BaseAlgorithm
     from stable_baselines3.common.vec_env import VecEnv
 
@@ -35,16 +37,22 @@ def train(
     seed: int = 1,
     evaluations: int = 20,
     episodes: int = 20,
+    wrappers: str = "",
+    vec_env: str = "dummy",
     report: Callable[[int, Evaluations], None] = lambda steps, evaluations: None,
 ) -> RunFolder:
     """Trains an agent in folder/algo/env_N and gives that folder.
 
-    algo: ppo, a2c, sac, td3 or dqn; env: a Gymnasium id; params: hyperparameters by name. What is
-    None comes from defaults.yaml. The policy is post-evaluated `evaluations` times, each time on
-    the same `episodes` fresh seeds; `report` is called with the steps and the post-evaluations so
-    far. The same arguments give the same results on the same machine. Raises BotschoolError.
+    algo: one of botschool.rl.settings.ALGORITHMS; env: a Gymnasium id; params: hyperparameters by
+    name; wrappers: around the environment (botschool.wrappers); vec_env: subproc for a process for
+    each environment (in a script then under `if __name__ == "__main__":`). What is None comes from
+    defaults.yaml. The policy is post-evaluated `evaluations` times, each time on the same
+    `episodes` fresh seeds; `report` is called with the steps and the post-evaluations so far. The
+    same arguments give the same results on the same machine. Raises BotschoolError.
     """
-    settings = choose(algo, env, policy, params, envs, steps, seed, evaluations, episodes)
+    settings = choose(
+        algo, env, policy, params, envs, steps, seed, evaluations, episodes, wrappers, vec_env
+    )
     run, _ = learn(settings, Path(folder), report)
     return run
 
@@ -55,10 +63,12 @@ def learn(
     report: Callable[[int, Evaluations], None],
     started: Callable[[RunFolder], None] = lambda run: None,
     stopping: Callable[[], bool] = lambda: False,
+    events: Path | None = None,
 ) -> tuple[RunFolder, Evaluations]:
     """Trains with these settings in a new folder; `started` is told which as soon as it exists.
 
-    Ends early, all saved, when `stopping()` is true. Raises BotschoolError.
+    Ends early, all saved, when `stopping()` is true. Curves for TensorBoard are in its folder, and
+    in `events` too if given. Raises BotschoolError.
     """
     from botschool.rl.callbacks import PostEvaluation
 
@@ -69,7 +79,7 @@ def learn(
         started(run)
         watching = PostEvaluation(run, settings, report, stopping)
         try:
-            _learn(model, watching)
+            _learn(model, watching, events)
         except BotschoolError:
             if watching.found is not None:
                 with suppress(BotschoolError):
@@ -80,15 +90,21 @@ def learn(
     return run, watching.found
 
 
-def _learn(model: BaseAlgorithm, watching: PostEvaluation) -> None:
-    from stable_baselines3.common.logger import configure
+def _learn(model: BaseAlgorithm, watching: PostEvaluation, events: Path | None) -> None:
+    from stable_baselines3.common.logger import TensorBoardOutputFormat, configure
 
-    from botschool.rl.callbacks import Indicators
+    from botschool.rl.callbacks import Indicators, Stopped
 
     folder = watching.run.path
+    steps = [] if watching.settings.algo == "ars" else [Indicators()]  # it tells of episodes only
     try:
         model.set_logger(configure(str(folder), ["csv", "tensorboard"]))
-        model.learn(watching.settings.steps, callback=[Indicators(), watching])
+        if events is not None:
+            model.logger.output_formats.append(TensorBoardOutputFormat(str(events / folder.name)))
+        try:
+            model.learn(watching.settings.steps, callback=[*steps, watching])
+        except Stopped:
+            watching.on_training_end()
         model.logger.close()
     except OSError as error:
         raise cannot_write(folder, error.strerror or str(error)) from error
@@ -103,13 +119,13 @@ def _learn(model: BaseAlgorithm, watching: PostEvaluation) -> None:
 
 @contextmanager
 def _training_env(settings: Settings) -> Iterator[VecEnv]:
-    """`envs` environments in this process, seeded, with their returns monitored."""
-    from stable_baselines3.common.monitor import Monitor
+    """`envs` environments, seeded, with their returns monitored."""
     from stable_baselines3.common.vec_env import DummyVecEnv, VecNormalize
 
-    from botschool.rl.environments import make
+    from botschool.rl.processes import ProcessVecEnv
 
-    env = DummyVecEnv([lambda: Monitor(make(settings.env))] * settings.envs)
+    kind = DummyVecEnv if settings.vec_env == "dummy" else ProcessVecEnv
+    env = kind([partial(_monitored, settings.env, settings.wrappers)] * settings.envs)
     env.seed(settings.seed)
     if settings.normalize:
         env = VecNormalize(env, gamma=settings.parameters.get("gamma", 0.99))
@@ -119,13 +135,21 @@ def _training_env(settings: Settings) -> Iterator[VecEnv]:
         env.close()
 
 
+def _monitored(env: str, wrappers: str) -> gymnasium.Env:
+    from stable_baselines3.common.monitor import Monitor
+
+    from botschool.rl.environments import make
+
+    return Monitor(make(env, wrappers))
+
+
 @contextmanager
 def _one_thread(settings: Settings) -> Iterator[None]:
     """Networks this small are trained fastest by one thread; images deserve more."""
     import torch
 
     before = torch.get_num_threads()
-    if settings.policy != "cnn":
+    if "cnn" not in settings.policy:
         torch.set_num_threads(1)
     try:
         yield
@@ -139,20 +163,24 @@ def train_command(
     params: list[str],
     folder: Path,
     terminal: bool,
+    events: Path | None = None,
+    file: Path | None = None,
     **options: Any,
 ) -> bool:
     """`botschool rl train`: prints progress and result; False when the user stopped it."""
-    settings = choose(algo, env, params=parse(params), **options)
+    chosen = (read_settings(file) if file else {}) | parse(params)
+    settings = choose(algo, env, params=chosen, **options)
 
     def started(run: RunFolder) -> None:
         print(f"training {settings.algo} on {settings.env} in {run.path}", flush=True)
 
     with stoppable() as stopping:
         with reporting(settings.steps, settings.seed, terminal) as report:
-            run, found = learn(settings, folder, report, started, stopping)
+            run, found = learn(settings, folder, report, started, stopping, events)
         stopped = stopping()
     print(
         f"{'stopped' if stopped else 'finished'} after {found.steps[-1]} steps: best "
-        f"post-evaluated {found.best:.2f}, last {found.last:.2f}; best model: {run.best}"
+        f"post-evaluated {readable(found.best)}, last {readable(found.last)}; best model: "
+        f"{run.best}"
     )
     return not stopped

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
+import gymnasium
 import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.problems.transition import Transition
 from botschool.rl.agent import Agent, play, stacked
 from botschool.rl.environments import make
-from botschool.rl.folder import RunFolder, find_runs
+from botschool.rl.folder import RunFolder, find_runs, run_of
+from botschool.rl.settings import check_algorithm
+from botschool.terminal import has_display, readable
 
 NEW_EPISODES_SEED = 200_000
 """Added to the seed: these episodes had no part in training, nor in choosing the best model."""
@@ -34,7 +39,7 @@ class Player:
 
     def play(self, episodes: int) -> None:
         """Plays the first episodes, BATCH of them in step, and prints their returns."""
-        envs = [make(self.env) for _ in range(min(BATCH, episodes))]
+        envs = [self._make() for _ in range(min(BATCH, episodes))]
         try:
             for first in range(0, episodes, BATCH):
                 batch = envs[: episodes - first]
@@ -47,7 +52,7 @@ class Player:
 
     def transitions(self, number: int) -> Iterator[Transition]:
         """Plays episode `number`, from 0, yielding each step with its picture."""
-        env = make(self.env, render_mode="rgb_array")
+        env = self._make(render_mode="rgb_array")
         try:
             observation, _ = env.reset(seed=self._seed(number))
             state, total, step, ended = None, 0.0, 0, False
@@ -62,13 +67,16 @@ class Player:
             env.close()
         self._keep(total, step)
 
+    def _make(self, **options: object) -> gymnasium.Env:
+        return make(self.env, self.settings.wrappers, **options)
+
     def _seed(self, number: int) -> int:
         return self.seed + NEW_EPISODES_SEED + number
 
     def _keep(self, total: float, steps: int) -> None:
         self.returns.append(total)
         self.lengths.append(steps)
-        print(f"episode {len(self.returns)}  return {total:.2f}  steps {steps}", flush=True)
+        print(f"episode {len(self.returns)}  return {readable(total)}  steps {steps}", flush=True)
 
     def frames(self, episodes: int) -> Iterator[np.ndarray]:
         """Pictures of the first episodes, with a caption."""
@@ -83,7 +91,7 @@ class Player:
     @property
     def fps(self) -> float:
         """Of the environment's pictures."""
-        env = make(self.env)
+        env = self._make()
         env.close()
         return float(env.metadata.get("render_fps") or 30)
 
@@ -91,7 +99,8 @@ class Player:
         """Mean and standard deviation over the episodes played."""
         if self.returns:
             print(
-                f"mean {np.mean(self.returns):.2f}  standard deviation {np.std(self.returns):.2f}"
+                f"mean {readable(np.mean(self.returns))}  "
+                f"standard deviation {readable(np.std(self.returns))}"
                 f"  steps {np.mean(self.lengths):.1f}  episodes {len(self.returns)}"
             )
 
@@ -104,6 +113,37 @@ def _picture(env, name: str) -> np.ndarray:
             "--render none."
         )
     return frame.astype(np.uint8)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """How a user says which agent to look at, and where: the options of enjoy and video."""
+
+    run: Path | None
+    """Folder of a training, or a model in it."""
+    folder: Path
+    """Of trainings; without `run` and `algo` the one that was started last."""
+    env: str | None = None
+    """Another environment for the agent; with `algo` the one that it was trained on."""
+    algo: str | None = None
+    number: int = 0
+    """With `algo`: which training; 0 is the newest."""
+    last: bool = False
+    """The last model instead of the best one."""
+
+    def player(self, seed: int) -> Player:
+        """Raises BotschoolError."""
+        if self.algo is None:
+            return Player(model_of(self.run, self.folder, self.last), seed, self.env)
+        if self.env is None or self.run is not None:
+            raise BotschoolError(
+                "--algo says which training together with --env, as --algo ppo --env CartPole-v1; "
+                "leave it out if you name the training's folder."
+            )
+        algo = check_algorithm(self.algo)
+        chosen = run_of(self.folder, algo, self.env, self.number)
+        print(f"agent: {chosen.path}")
+        return Player(chosen.last if self.last else chosen.best, seed)
 
 
 def model_of(run: Path | None, folder: Path, last: bool) -> Path:
@@ -126,18 +166,8 @@ def model_of(run: Path | None, folder: Path, last: bool) -> Path:
     return RunFolder(run).last if last else RunFolder(run).best
 
 
-def enjoy_command(
-    run: Path | None,
-    folder: Path,
-    env: str | None,
-    episodes: int,
-    seed: int,
-    render: str | None,
-    last: bool,
-) -> None:
+def enjoy_command(asked: Asked, episodes: int, seed: int, render: str | None) -> None:
     """`botschool rl enjoy`."""
-    from botschool.terminal import has_display
-
     if render == "human" and not has_display():
         raise BotschoolError(
             "There is no display to open a window on: add --render none, or make a film with "
@@ -145,7 +175,7 @@ def enjoy_command(
         )
     if render not in (None, "human", "none"):
         raise BotschoolError(f"--render is '{render}', but must be human or none.")
-    player = Player(model_of(run, folder, last), seed, env)
+    player = asked.player(seed)
     if render == "human" or (render is None and has_display()):
         from botschool.render.window import show
 
@@ -156,21 +186,15 @@ def enjoy_command(
 
 
 def video_command(
-    run: Path | None,
-    folder: Path,
-    env: str | None,
-    episodes: int,
-    seed: int,
-    output: Path,
-    last: bool,
+    asked: Asked, episodes: int, seed: int, output: Path, steps: int | None = None
 ) -> None:
-    """`botschool rl video`."""
+    """`botschool rl video`; steps: pictures at most."""
     from botschool.output import check_output
     from botschool.render.video import VIDEO_SUFFIXES, write_video
 
     check_output(output, VIDEO_SUFFIXES)
-    player = Player(model_of(run, folder, last), seed, env)
-    write_video(output, player.frames(episodes), player.fps)
+    player = asked.player(seed)
+    write_video(output, islice(player.frames(episodes), steps), player.fps)
     print(f"video: {output}")
     player.print_summary()
 
@@ -206,7 +230,7 @@ def _row(run: RunFolder) -> list[str]:
     row = [str(settings.seed)]
     try:
         found = run.evaluations()
-        steps, best, last = str(found.steps[-1]), f"{found.best:.1f}", f"{found.last:.1f}"
+        steps, best, last = str(found.steps[-1]), readable(found.best), readable(found.last)
     except BotschoolError:
         steps = best = last = "-"
     return [*row, steps, best, last, settings.variant]

@@ -9,6 +9,6 @@ MISTAKES = [
     ("10.4", "another gravity", "gravity", "mutant earth_gravity"),
     ("10.5", "the action not cut", "is not cut to -1 and 1", "mutant action_not_cut"),
     ("10.6", "speed costs in one direction", r"see abs\(\)", "mutant reward_of_driving_forward"),
-    ("10.6", "ends by the angle instead of the height", r"m high, and terminated is True", "mutant judged_by_the_angle"),
+    ("10.6", "ends by the angle instead of the height", "terminated is True, but with the centre of the body", "mutant judged_by_the_angle"),
     ("10.7", "no limit of steps", "had 600 steps, but should have 500", "mutant no_time_limit"),
 ]  # fmt: skip

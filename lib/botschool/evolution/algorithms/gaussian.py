@@ -1,0 +1,114 @@
+"""What CMA-ES, xNES and sNES share: candidates are drawn from a Gaussian distribution that moves
+and changes its shape, x = mean + sigma * y, and only their ranks count."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.evolution.algorithm import Initial, mean_absolute
+from botschool.hyperparameters import hyper
+from botschool.linear import log
+from botschool.seeds import generator
+
+LARGEST = 5000
+"""Parameters up to which a full matrix is adapted: with more it takes gigabytes and minutes."""
+SIGMAS = (1e-30, 1e6)
+"""Within which every sigma stays, also when the fitness says nothing for long."""
+
+
+@dataclass
+class GaussianConfig:
+    """What section [ALGO] has of all three."""
+
+    maxmsteps: float = hyper(
+        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
+    )
+    popsize: int = hyper(
+        0, "candidates in a generation, 0 for 4 + 3 ln(parameters)", low=0, high=1000000
+    )
+    sigma: float = hyper(0.3, "standard deviation of the first candidates", above=0, high=1000)
+    saveeach: float = hyper(
+        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
+    )
+
+
+class Gaussian:
+    """ask() -> candidates around the mean; tell(their fitness) of a subclass adapts the rest."""
+
+    sigma: float | np.ndarray
+    """Of the candidates, in all directions or, shape (parameters,), along each axis."""
+
+    def __init__(self, config: GaussianConfig, initial: Initial, seed: int) -> None:
+        """initial(index) gives a random genotype; the mean starts at number 0."""
+        self.config = config
+        self.seed = seed
+        self.generation = 0
+        self.mean = initial(0)
+        self.size = len(self.mean)
+        self.popsize = config.popsize or 4 + math.floor(3 * log([self.size])[0])
+        self.sigma = config.sigma
+
+    @staticmethod
+    def conflicts(config: GaussianConfig) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Hyperparameters that cannot go together."""
+        if config.popsize == 1:
+            yield (
+                ("popsize",),
+                "popsize = 1 leaves nothing to rank: set popsize = 2 or more, or 0 for 4 + 3 "
+                "ln(parameters)",
+            )
+
+    def shaped(self, z: np.ndarray) -> np.ndarray:
+        """Numbers of the standard normal distribution in the distribution's shape, without sigma;
+        both (popsize, parameters)."""
+        return z
+
+    def ask(self) -> tuple[np.ndarray, np.ndarray]:
+        """Candidates, shape (popsize, parameters), and the seed of each one's evaluation.
+
+        All candidates of a generation meet the same conditions, so that the better one wins and
+        not the luckier one.
+        """
+        numbers = generator(self.seed, self.generation)
+        self.z = numbers.standard_normal((self.popsize, self.size))
+        self.y = self.shaped(self.z)
+        seeds = np.full(self.popsize, self.seed + self.generation, dtype=np.uint64)
+        return self.mean + self.sigma * self.y, seeds
+
+    def average_parameter(self) -> float:
+        """Average absolute parameter of the mean."""
+        return mean_absolute(self.mean)
+
+
+def best_first(fitness: np.ndarray) -> np.ndarray:
+    """Indices from the best to the worst; of equals, the earlier first."""
+    return np.argsort(-fitness, kind="stable")
+
+
+def utilities(count: int) -> np.ndarray:
+    """Of candidates from the best to the worst, in natural evolution strategies; their sum is 0.
+
+    (Wierstra and others 2014, section 3.1)
+    """
+    numbers = np.arange(1, count + 1)
+    raised = np.maximum(0, log([count / 2 + 1])[0] - log(numbers))
+    return raised / math.fsum(raised.tolist()) - 1 / count
+
+
+def within_limits(sigma: float | np.ndarray) -> float | np.ndarray:
+    """sigma, or the nearest that SIGMAS allow."""
+    return np.clip(sigma, *SIGMAS)
+
+
+def refuse_large(size: int, algorithm: str, remedy: str) -> None:
+    """Raises BotschoolError for a network that is too large for a full matrix."""
+    if size > LARGEST:
+        raise BotschoolError(
+            f"{algorithm} adapts a matrix of {size} x {size} numbers for this network's {size} "
+            f"parameters, and {LARGEST} parameters are the most that it can: {remedy}."
+        )

@@ -1,0 +1,69 @@
+"""sNES, separable natural evolution strategy: Schaul, Glasmachers and Schmidhuber (2011), "High
+dimensions and heavy tails for natural evolution strategies", as in Wierstra, Schaul, Glasmachers,
+Sun, Peters and Schmidhuber (2014), algorithm 6, and docs/specification.md, "sNES".
+
+Candidates have a standard deviation of their own along each axis. Mean and deviations follow the
+natural gradient of the expected utility.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool.evolution.algorithm import Initial, algorithm
+from botschool.evolution.algorithms.gaussian import (
+    Gaussian,
+    GaussianConfig,
+    best_first,
+    utilities,
+    within_limits,
+)
+from botschool.hyperparameters import hyper
+from botschool.linear import exp, log, weighted
+
+
+@dataclass
+class SNESConfig(GaussianConfig):
+    """Section [ALGO] of sNES."""
+
+    etamu: float = hyper(1.0, "learning rate of the mean", above=0, high=10)
+    etasigma: float = hyper(
+        0.0, "learning rate of the candidates' shape, 0 for the paper's", low=0, high=10
+    )
+
+
+@algorithm("sNES", "natural evolution strategy with a deviation for each parameter", SNESConfig)
+class SNES(Gaussian):
+    """ask() -> candidates to evaluate; tell(their fitness) -> the next mean and deviations."""
+
+    def __init__(self, config: SNESConfig, initial: Initial, seed: int) -> None:
+        super().__init__(config, initial, seed)
+        n = self.size
+        self.sigma = np.full(n, config.sigma)
+        self.etasigma = config.etasigma or (3 + log([n])[0]) / (5 * math.sqrt(n))
+        self.utilities = utilities(self.popsize)
+
+    def tell(self, fitness: np.ndarray) -> None:
+        """Adapts mean and deviations; fitness has shape (popsize,), in the order of ask()."""
+        z = self.z[best_first(fitness)]
+        gradient_mean = weighted(self.utilities, z)
+        gradient_sigma = weighted(self.utilities, z * z - 1)
+        self.mean = self.mean + self.config.etamu * self.sigma * gradient_mean
+        self.sigma = within_limits(self.sigma * exp(self.etasigma / 2 * gradient_sigma))
+        self.generation += 1
+
+    def state(self) -> dict[str, np.ndarray]:
+        """All that a checkpoint needs besides config and seed."""
+        return {
+            "generation": np.array(self.generation),
+            "mean": self.mean,
+            "sigma": self.sigma,
+        }
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """The reverse of state()."""
+        self.generation = int(state["generation"])
+        self.mean, self.sigma = state["mean"], state["sigma"]

@@ -1,0 +1,133 @@
+"""gymnasium.make with errors for learners: packages that have an id, wrappers, pictures."""
+
+from __future__ import annotations
+
+import ctypes
+import difflib
+import importlib
+import os
+import re
+import sys
+import warnings
+from collections.abc import Sequence
+from contextlib import suppress
+
+import gymnasium
+
+from botschool.errors import BotschoolError
+from botschool.paths import look_here
+from botschool.problems import faces  # noqa: F401  (registers our own)
+from botschool.problems.native import INFOS, NATIVE
+from botschool.terminal import has_display
+from botschool.wrappers import Wrapper
+
+PACKAGES = {"BalanceBotBulletEnv-v0": "balance_bot"}
+"""Environments of the course in packages of their own, which register them on import."""
+
+FAMILIES = (
+    (r"ALE/.*|.*(NoFrameskip|Deterministic)-v\d+", "ale_py", "ale-py"),
+    (r"(MiniGrid|BabyAI)-.*", "minigrid", "minigrid"),
+    (r"(Fetch|HandReach|HandManipulate|AdroitHand|PointMaze_|AntMaze_|FrankaKitchen-).*",
+     "gymnasium_robotics", "gymnasium-robotics"),
+)  # fmt: skip
+"""Ids of well-known packages: pattern, the module that registers them, what to install."""
+
+DRAWING = (("egl", "libEGL.so.1"), ("osmesa", "libOSMesa.so"), ("osmesa", "libOSMesa.so.8"))
+"""How MuJoCo draws without a display: a value of MUJOCO_GL, and the library that it needs."""
+
+
+def make_env(name: str, wrappers: Sequence[Wrapper] = (), **options) -> gymnasium.Env:
+    """The environment of that id, inside the wrappers, the first one innermost.
+
+    A `module:` before the id may lie in the present folder. Options go to gymnasium.make. Raises
+    BotschoolError.
+    """
+    env = _make(name, **options)
+    for wrapper in wrappers:
+        env = wrapper.around(env, name)
+    return env
+
+
+def _make(name: str, **options) -> gymnasium.Env:
+    if ":" in name:
+        look_here(name.partition(":")[0])
+    elif name not in gymnasium.registry:
+        _import_package(name)
+    if options.get("render_mode") == "rgb_array":
+        _choose_drawing(name)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)  # errors say it in a sentence
+            return gymnasium.make(_registered(name), disable_env_checker=True, **options)
+    except (gymnasium.error.DependencyNotInstalled, ModuleNotFoundError) as error:
+        raise BotschoolError(
+            f"{name} needs a package that is not installed: {sentence(error)}"
+        ) from None
+    except gymnasium.error.UnregisteredEnv:
+        module, colon, own = name.rpartition(":")
+        known = [*NATIVE, *PACKAGES, *gymnasium.registry]
+        near = difflib.get_close_matches(own, known, n=1, cutoff=0.65)
+        hint = "is the package that has it installed?"
+        if near:
+            hint = f"did you mean {module}{colon}{near[0]}?"
+        raise BotschoolError(f"There is no environment '{name}'; {hint}") from None
+    except Exception as error:
+        raise BotschoolError(f"{name} cannot be made: {sentence(error)}") from error
+
+
+def _registered(name: str) -> str:
+    """The id under which Gymnasium knows it; others may have taken our plain one."""
+    if f"botschool/{name}" in gymnasium.registry:
+        return f"botschool/{name}"
+    if name in NATIVE and name not in gymnasium.registry:
+        own = NATIVE[name][0]
+        return own if own in gymnasium.registry else INFOS[own]["gym"] or f"botschool/{own}"
+    return name
+
+
+def _choose_drawing(name: str) -> None:
+    """Tells MuJoCo to draw in memory where there is no display, unless the user has told it how.
+
+    Raises BotschoolError for an environment of MuJoCo's where it cannot.
+    """
+    if sys.platform != "linux" or has_display() or "MUJOCO_GL" in os.environ:
+        return
+    for value, library in DRAWING:
+        with suppress(OSError):
+            ctypes.CDLL(library)
+            os.environ["MUJOCO_GL"] = value
+            return
+    spec = gymnasium.registry.get(name.rpartition(":")[2])
+    if spec is not None and "mujoco" in str(spec.entry_point):
+        raise BotschoolError(
+            f"{name} is drawn by MuJoCo, which needs EGL or OSMesa where there is no display: "
+            "install it (on Debian and Ubuntu libegl1 and libgl1-mesa-dri), or draw no pictures."
+        )
+
+
+def _import_package(name: str) -> None:
+    """Imports the package that registers this id, if it is a known one."""
+    if name in PACKAGES:
+        package = PACKAGES[name]
+        remedy = (
+            f"comes in a package of its own, which exercise 10 builds: install it with 'pip "
+            f"install -e envs/{package}', or the one that you have built yourself."
+        )
+    else:
+        found = [row for row in FAMILIES if re.fullmatch(row[0], name)]
+        if not found:
+            return
+        _, package, install = found[0]
+        remedy = f"comes with the package {install}: install it with 'pip install {install}'."
+    try:
+        importlib.import_module(package)
+    except ModuleNotFoundError as error:
+        if error.name != package:
+            raise BotschoolError(f"{name} cannot be made: {sentence(error)}") from None
+        raise BotschoolError(f"{name} {remedy}") from None
+
+
+def sentence(error: Exception) -> str:
+    """What an exception says, on one line with a full stop."""
+    text = " ".join(str(error).split()) or type(error).__name__
+    return text if text.endswith(".") else text + "."

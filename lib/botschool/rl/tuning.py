@@ -1,0 +1,240 @@
+"""Tuning: many short trainings with other hyperparameters, which Optuna chooses (Akiba 2019).
+
+    FOLDER/tune/ppo/CartPole-v1/
+        study.log     Optuna's journal of the trials: what the same command goes on from
+        best.yaml     the hyperparameters of the best trial, for `botschool rl train --settings`
+        trials/       the trainings
+
+Trial 0 is the start: the entry of defaults.yaml. A trial's choices depend on the seed and on the
+trials before it alone, so an interrupted tuning ends as an uninterrupted one.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import yaml
+
+from botschool.errors import BotschoolError
+from botschool.inifile import shown
+from botschool.output import save_bytes
+from botschool.rl.folder import Evaluations, name_of
+from botschool.rl.model import choose, require
+from botschool.rl.training import learn
+from botschool.terminal import readable, stoppable
+
+if TYPE_CHECKING:
+    from optuna import Study, Trial
+
+STARTUP = 5
+"""Trials that are random and never broken off."""
+
+
+@dataclass(frozen=True)
+class Log:
+    """Any number between two, as likely in each power of ten."""
+
+    low: float
+    high: float
+
+
+LEARNING = {
+    "learning_rate": Log(1e-5, 1e-2),
+    "gamma": (0.9, 0.95, 0.98, 0.99, 0.995, 0.999),
+    "net_arch": ("[64, 64]", "[256, 256]"),
+}
+ON_POLICY = LEARNING | {
+    "n_steps": (16, 32, 64, 128, 256, 512, 1024),
+    "gae_lambda": (0.8, 0.9, 0.95, 0.98, 1.0),
+}
+GRADIENT = {"ent_coef": Log(1e-8, 0.1), "max_grad_norm": (0.3, 0.5, 1.0, 2.0, 5.0)}
+BATCH = {"batch_size": (32, 64, 128, 256)}
+OFF_POLICY = LEARNING | BATCH | {"tau": (0.001, 0.005, 0.01, 0.02), "train_freq": (1, 4, 8, 16)}
+VALUES = LEARNING | BATCH | {
+    "train_freq": (1, 4, 8, 16, 128),
+    "target_update_interval": (10, 100, 1000, 5000),
+    "exploration_fraction": (0.1, 0.2, 0.3, 0.5),
+    "exploration_final_eps": (0.01, 0.04, 0.1),
+}  # fmt: skip
+SPACES: Mapping[str, Mapping[str, Any]] = {
+    "ppo": ON_POLICY | GRADIENT | BATCH | {
+        "n_epochs": (1, 4, 10, 20), "clip_range": (0.1, 0.2, 0.3, 0.4)},
+    "a2c": ON_POLICY | GRADIENT,
+    "trpo": ON_POLICY | BATCH | {"target_kl": (0.001, 0.01, 0.03), "n_critic_updates": (5, 10, 20)},
+    **dict.fromkeys(("sac", "td3", "ddpg", "tqc"), OFF_POLICY),
+    "her": {**LEARNING, **BATCH, "n_sampled_goal": (2, 4, 8)},
+    **dict.fromkeys(("dqn", "qrdqn"), VALUES),
+    "ars": {
+        "learning_rate": Log(1e-3, 0.5), "delta_std": Log(0.005, 0.5), "n_delta": (2, 4, 8, 16)},
+}  # fmt: skip
+"""What is tried of each algorithm: one of several values, or a number of a range."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A tuning; all but `trials` stays as it is when it goes on."""
+
+    algo: str
+    env: str
+    folder: Path
+    trials: int
+    options: Mapping[str, Any]
+    """steps, envs, seed, evaluations, episodes, wrappers of each training, as in `choose`."""
+
+    @property
+    def path(self) -> Path:
+        """Its folder."""
+        return self.folder / "tune" / self.algo / name_of(self.env)
+
+    @property
+    def best(self) -> Path:
+        """The file with the best hyperparameters."""
+        return self.path / "best.yaml"
+
+
+def tune(
+    plan: Plan,
+    say: Callable[[str], None] = lambda line: None,
+    stopping: Callable[[], bool] = lambda: False,
+) -> bool:
+    """Tries until the plan has so many trials; False if it was stopped. Raises BotschoolError."""
+    require("optuna")
+    import optuna
+
+    optuna.logging.set_verbosity(optuna.logging.ERROR)
+    choose(plan.algo, plan.env, **plan.options)  # refuses now what no trial can train
+    study = _study(plan, 0)
+    _check_same(study, plan)
+    for trial in study.get_trials(states=[optuna.trial.TrialState.RUNNING]):
+        study.tell(trial.number, state=optuna.trial.TrialState.FAIL)  # it was broken off
+    while (number := len(_ended(study))) < plan.trials:
+        study = _study(plan, number)
+        trial = study.ask()
+        given = _choices(plan.algo, trial) if number else {}
+        value, state = _train(plan, trial, given, stopping)
+        if stopping():
+            study.tell(trial, state=optuna.trial.TrialState.FAIL)
+            return False
+        trial.set_user_attr("given", given)
+        study.tell(trial, value if state == optuna.trial.TrialState.COMPLETE else None, state)
+        how = "" if state == optuna.trial.TrialState.COMPLETE else ", broken off"
+        told = " ".join(f"{name}={_short(each)}" for name, each in given.items()) or "the start"
+        say(f"trial {number}: {readable(value)}{how}  ({told})")
+        _save_best(plan, study)
+    return True
+
+
+def _study(plan: Plan, number: int) -> Study:
+    """The study, with a sampler for its trial `number`."""
+    import optuna
+    from optuna.storages.journal import JournalFileBackend
+
+    plan.path.mkdir(parents=True, exist_ok=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
+        storage = optuna.storages.JournalStorage(JournalFileBackend(str(plan.path / "study.log")))
+        return optuna.create_study(
+            study_name="tune",
+            storage=storage,
+            load_if_exists=True,
+            direction="maximize",
+            sampler=optuna.samplers.TPESampler(
+                seed=1000 * plan.options["seed"] + number, n_startup_trials=STARTUP
+            ),
+            pruner=optuna.pruners.MedianPruner(n_startup_trials=STARTUP, n_warmup_steps=1),
+        )
+
+
+def _ended(study: Study) -> list:
+    """The trials that have a result."""
+    from optuna.trial import TrialState
+
+    return study.get_trials(states=[TrialState.COMPLETE, TrialState.PRUNED])
+
+
+def _check_same(study: Study, plan: Plan) -> None:
+    now = dict(plan.options)
+    before = study.user_attrs.get("options", now)
+    for name, value in now.items():
+        if before.get(name) != value:
+            raise BotschoolError(
+                f"{plan.path} is a tuning with {name} = {shown(before.get(name))}, not "
+                f"{shown(value)}: change it back to go on, or choose another folder (-o)."
+            )
+    study.set_user_attr("options", now)
+
+
+def _choices(algo: str, trial: Trial) -> dict[str, Any]:
+    given = {}
+    for name, values in SPACES[algo].items():
+        if isinstance(values, Log):
+            given[name] = trial.suggest_float(name, values.low, values.high, log=True)
+        else:
+            given[name] = trial.suggest_categorical(name, values)
+    if "net_arch" in given:
+        given["net_arch"] = yaml.safe_load(given["net_arch"])
+    return given
+
+
+def _train(plan: Plan, trial: Trial, given: dict[str, Any], stopping: Callable[[], bool]):
+    """(mean return of the last post-evaluation, state of the trial)."""
+    from optuna.trial import TrialState
+
+    pruned, reported = False, 0
+
+    def report(steps: int, found: Evaluations) -> None:
+        nonlocal pruned, reported
+        while reported < len(found.steps):
+            trial.report(float(found.returns[reported].mean()), reported)
+            reported += 1
+            pruned = pruned or trial.should_prune()
+
+    settings = choose(plan.algo, plan.env, params=given, **plan.options)
+    try:
+        _, found = learn(
+            settings, plan.path / "trials", report, stopping=lambda: pruned or stopping()
+        )
+    except BotschoolError as error:
+        if "broke down" not in str(error):
+            raise
+        return -1e9, TrialState.PRUNED  # its numbers have overflown
+    report(0, found)
+    return found.last, TrialState.PRUNED if pruned else TrialState.COMPLETE
+
+
+def _save_best(plan: Plan, study: Study) -> None:
+    from optuna.trial import TrialState
+
+    if not study.get_trials(states=[TrialState.COMPLETE]):
+        return
+    best = study.best_trial
+    text = (
+        f"# {plan.algo} on {plan.env}: the best of {len(_ended(study))} trials, with "
+        f"{readable(best.value)} in its last post-evaluation.\n"
+        + (yaml.safe_dump(best.user_attrs["given"], sort_keys=False, default_flow_style=None))
+    )
+    save_bytes(plan.best, text.encode())
+
+
+def _short(value: Any) -> str:
+    return f"{value:.3g}" if isinstance(value, float) else str(value).replace(" ", "")
+
+
+def tune_command(plan: Plan) -> bool:
+    """`botschool rl tune`: prints a line for each trial; False when the user stopped it."""
+    print(f"tuning {plan.algo} on {plan.env} in {plan.path}", flush=True)
+    with stoppable() as stopping:
+        done = tune(plan, lambda line: print(line, flush=True), stopping)
+    if not done:
+        print("stopped: the same command goes on.", file=sys.stderr)
+    elif plan.best.exists():
+        print(
+            f"best hyperparameters: {plan.best} (botschool rl train --algo {plan.algo} --env "
+            f"{plan.env} --settings {plan.best})"
+        )
+    return done

@@ -1,0 +1,155 @@
+"""Wrappers around environments, as an experiment file names them: Gymnasium's, or one's own.
+
+    wrappers = TimeAwareObservation, ResizeObservation(shape=(32, 32)), my_module:MyWrapper
+
+The first one is the innermost. Arguments are literals: numbers, words in quotes, lists, tuples.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import re
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from botschool.errors import BotschoolError
+from botschool.inifile import nearest, shown
+from botschool.paths import look_here
+
+if TYPE_CHECKING:
+    import gymnasium
+
+FORGETFUL = {
+    "NormalizeObservation": "normalize = 1 under [POLICY] (botschool rl: --params normalize=true)",
+    "NormalizeReward": "a scale of your own (TransformReward)",
+}
+"""Wrappers whose statistics outlive an episode, and what to use instead."""
+
+
+@dataclass(frozen=True)
+class Wrapper:
+    """A wrapper's name and arguments."""
+
+    module: str
+    """Where it is; "" for Gymnasium's own."""
+    name: str
+    given: tuple[Any, ...] = ()
+    named: dict[str, Any] = field(default_factory=dict)
+
+    def around(self, env: gymnasium.Env, wrapped: str) -> gymnasium.Env:
+        """The environment called `wrapped` inside the wrapper. Raises BotschoolError."""
+        import gymnasium
+
+        found = self._find()
+        try:
+            outside = found(env, *self.given, **self.named)
+        except gymnasium.error.DependencyNotInstalled as error:
+            raise BotschoolError(
+                f"The wrapper {self.name} needs a package that is not installed: "
+                f"{_sentence(error)}."
+            ) from None
+        except Exception as error:
+            raise BotschoolError(
+                f"The wrapper {self.name} does not fit {wrapped} ({_sentence(error)}): give its "
+                "arguments in brackets, as ResizeObservation(shape=(32, 32)), or leave it out."
+            ) from error
+        if not isinstance(outside, gymnasium.Env):
+            raise BotschoolError(
+                f"{self.name} is no wrapper: it makes a {type(outside).__name__} of an environment."
+            )
+        return outside
+
+    def _find(self) -> Any:
+        if not self.module and self.name in FORGETFUL:
+            raise BotschoolError(
+                f"The wrapper {self.name} remembers earlier episodes, so what an episode is worth "
+                f"would depend on them: use {FORGETFUL[self.name]} instead."
+            )
+        if not self.module:
+            import gymnasium.wrappers as module
+        else:
+            module = self._import()
+        try:
+            found = getattr(module, self.name)
+        except (AttributeError, ImportError):
+            raise BotschoolError(self._missing(module)) from None
+        if not callable(found):
+            raise BotschoolError(f"{self.name} is no wrapper, but a {type(found).__name__}.")
+        return found
+
+    def _import(self) -> Any:
+        look_here(self.module)
+        try:
+            return importlib.import_module(self.module)
+        except ModuleNotFoundError as error:
+            if error.name and not f"{self.module}.".startswith(f"{error.name}."):
+                reason = f"it needs {error.name}, which is not installed"
+            else:
+                reason = "is its package installed, or are you in its folder"
+            raise BotschoolError(
+                f"There is no module {self.module} to take the wrapper {self.name} from; {reason}?"
+            ) from None
+        except Exception as error:
+            raise BotschoolError(
+                f"The wrapper {self.name} cannot be taken from {self.module}: {_sentence(error)}."
+            ) from error
+
+    def _missing(self, module: Any) -> str:
+        import gymnasium
+
+        known = [
+            name
+            for name, value in vars(module).items()
+            if isinstance(value, type) and issubclass(value, gymnasium.Wrapper)
+        ]
+        near = nearest(self.name, known)
+        place = self.module or "gymnasium.wrappers"
+        if not near.endswith("?"):
+            near = "write module:Class for one of your own" if not self.module else f"{near}"
+        end = "" if near.endswith("?") else "."
+        return f"There is no wrapper '{shown(self.name)}' in {place}; {near}{end}"
+
+
+def parse(text: str) -> tuple[Wrapper, ...]:
+    """The wrappers that a text names, separated by commas. Raises BotschoolError."""
+    return tuple(_wrapper(part.strip()) for part in _split(text)) if text.strip() else ()
+
+
+def _split(text: str) -> list[str]:
+    """At the commas outside of brackets."""
+    parts, depth = [""], 0
+    for character in text:
+        depth += (character in "([{") - (character in ")]}")
+        if character == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += character
+    return parts
+
+
+def _wrapper(text: str) -> Wrapper:
+    match = re.fullmatch(r"(?:([A-Za-z_][\w.]*)[:.])?([A-Za-z_]\w*)\s*(\(.*\))?", text, re.DOTALL)
+    if not text:
+        raise BotschoolError("the wrappers have a comma too many: put a name between two commas")
+    if not match:
+        raise BotschoolError(
+            f"'{shown(text)}' is no wrapper: write its name, as FlattenObservation, "
+            "my_module:MyWrapper or ResizeObservation(shape=(32, 32))"
+        )
+    module, name, brackets = match.groups()
+    try:
+        call = ast.parse(f"f{brackets or '()'}", mode="eval").body
+        given = tuple(ast.literal_eval(value) for value in call.args)
+        named = {each.arg: ast.literal_eval(each.value) for each in call.keywords if each.arg}
+    except (ValueError, SyntaxError, AttributeError, MemoryError, RecursionError):
+        raise BotschoolError(
+            f"The arguments of the wrapper {name} cannot be read: write numbers, words in quotes, "
+            "lists or tuples, as in ResizeObservation(shape=(32, 32))"
+        ) from None
+    return Wrapper(module or "", name, given, named)
+
+
+def _sentence(error: Exception) -> str:
+    text = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+    return text if len(text) <= 300 else f"{text[:300]}..."

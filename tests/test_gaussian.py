@@ -1,0 +1,274 @@
+"""CMA-ES, xNES and sNES: the updates of the papers, step by step; runs of whole experiments."""
+
+import itertools
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from botschool.config import load
+from botschool.errors import BotschoolError
+from botschool.evolution.algorithm import ALGORITHMS
+from botschool.evolution.algorithms.xnes import exponential
+from plain_gaussian import PlainCMAES, PlainSNES, PlainXNES
+from running import experiment, run_seeds, same, write_experiment
+
+SIZE = 6
+VARIANTS = {
+    "CMA-ES": ("CMA-ES", {}),
+    "CMA-ES, not active": ("CMA-ES", {"active": 0}),
+    "CMA-ES, diagonal": ("CMA-ES", {"diagonal": 1}),
+    "xNES": ("xNES", {}),
+    "sNES": ("sNES", {}),
+}
+each = pytest.mark.parametrize("name", VARIANTS)
+
+
+def initial(index, size=SIZE):
+    return np.random.default_rng(index).normal(size=size)
+
+
+def made(name, size=SIZE, **options):
+    algo, own = VARIANTS[name]
+    entry = ALGORITHMS[algo]
+    config = entry.config(**({"sigma": 0.5} | own | options))
+    return entry.make(config, lambda index: initial(index, size), 7)
+
+
+def bent(x):
+    """A valley that is no axis's: fitness, the higher the better."""
+    return -(x[:, 0] ** 2) - 30 * (x[:, 1] - x[:, 0]) ** 2 - np.abs(x[:, 2:]).sum(axis=1)
+
+
+def plain(name, mean, popsize):
+    if name == "xNES":
+        return PlainXNES(mean, 0.5)
+    if name == "sNES":
+        return PlainSNES(mean, 0.5)
+    return PlainCMAES(mean, 0.5, popsize, "diagonal" in name, "not" not in name)
+
+
+def shape_of(algorithm):
+    """Covariance of its next candidates, (n, n)."""
+    state, n = algorithm.state(), len(algorithm.mean)
+    if "covariance" in state:
+        c = state["covariance"]
+        return state["sigma"] ** 2 * (np.diag(c) if c.ndim == 1 else c)
+    root = state["sigma"] * state.get("shape", np.eye(n))
+    return root @ root.T
+
+
+def plain_shape(algorithm):
+    if isinstance(algorithm, PlainCMAES):
+        return algorithm.sigma**2 * algorithm.c
+    root = algorithm.sigma * getattr(algorithm, "b", np.eye(SIZE))
+    return root @ root.T
+
+
+@pytest.mark.parametrize("popsize", [0, 7, 40])
+@each
+def test_every_step_is_that_of_the_paper(name, popsize):
+    one = made(name, popsize=popsize)
+    other = plain(name, initial(0), one.popsize)
+    assert one.popsize == popsize or one.popsize == 9
+    for generation in range(60):
+        candidates, seeds = one.ask()
+        assert candidates.shape == (one.popsize, SIZE)
+        assert seeds.tolist() == [7 + generation] * one.popsize
+        assert np.array_equal(one.ask()[0], candidates)
+        # sometimes in steps, so that there are equals
+        fitness = bent(candidates) if generation % 3 else np.round(bent(candidates))
+        before = candidates.copy()
+        one.tell(fitness)
+        other.tell(candidates, fitness)
+        assert np.array_equal(candidates, before)
+        np.testing.assert_allclose(one.mean, getattr(other, "m", getattr(other, "mu", 0)), 1e-8)
+        np.testing.assert_allclose(shape_of(one), plain_shape(other), 1e-7, 1e-12)
+    assert one.average_parameter() == pytest.approx(np.abs(one.mean).mean())
+    assert bent(one.mean[None]) > bent(initial(0)[None])
+
+
+@pytest.mark.parametrize("name", [name for name in VARIANTS if name.startswith("CMA")])
+def test_a_path_that_gets_long_stalls_the_covariance_as_in_the_paper(name):
+    """On a slope, with a sigma that is far too small."""
+    one = made(name)
+    other = plain(name, initial(0), one.popsize)
+    stalled = 0
+    for _ in range(25):
+        candidates, _ = one.ask()
+        path = one.path_c
+        one.tell(candidates[:, 0])
+        other.tell(candidates, candidates[:, 0])
+        stalled += np.array_equal(one.path_c, (1 - one.settings.cc) * path) and path.any()
+        np.testing.assert_allclose(shape_of(one), plain_shape(other), 1e-7)
+    assert stalled >= 2
+
+
+@each
+def test_candidates_have_the_distribution_that_the_state_says(name):
+    one = made(name, popsize=20000)
+    small = made(name)
+    for _ in range(30):
+        small.tell(bent(small.ask()[0]))
+    state = small.state()
+    if "root" in state:
+        # what is used is the root of the newest decomposition
+        root = state["root"]
+        state["covariance"] = root * root if root.ndim == 1 else root @ root
+    one.restore(state)
+    candidates, _ = one.ask()
+    np.testing.assert_allclose(candidates.mean(axis=0), one.mean, atol=0.03 * np.max(one.sigma))
+    scale = np.sqrt(np.diag(shape_of(one)))
+    found = np.cov(candidates.T) / np.outer(scale, scale)
+    np.testing.assert_allclose(found, shape_of(one) / np.outer(scale, scale), atol=0.05)
+
+
+def test_cma_es_decomposes_seldom_where_little_is_learnt():
+    one = made("CMA-ES", size=60, popsize=6)
+    gap = one.settings.gap
+    assert gap > 1
+    roots = []
+    for _ in range(2 * gap):
+        one.tell(bent(one.ask()[0]))
+        roots.append(one.state()["root"])
+    changed = [not np.array_equal(a, b) for a, b in itertools.pairwise(roots)]
+    assert [i + 2 for i, c in enumerate(changed) if c] == [gap, 2 * gap]
+    for _ in range(2 * gap):
+        root = one.state()["root"]
+        one.tell(bent(one.ask()[0]))
+    np.testing.assert_allclose(one.matrix.root @ one.matrix.root, one.matrix.covariance, 1e-9)
+    assert root.shape == (60, 60)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1, 30])
+def test_the_exponential_of_few_rows(scale):
+    rng = np.random.default_rng(3)
+    z, weights = rng.normal(size=(5, 9)), scale * rng.normal(size=5) / 9
+    values, vectors = np.linalg.eigh((z.T * weights) @ z)
+    expected = (vectors * np.exp(values)) @ vectors.T
+    found = np.eye(9) + z.T @ exponential(z, weights) @ z
+    np.testing.assert_allclose(found, expected, atol=1e-10 * np.abs(expected).max())
+
+
+def test_xnes_keeps_the_volume_in_sigma():
+    one = made("xNES")
+    for _ in range(100):
+        one.tell(bent(one.ask()[0]))
+    assert np.linalg.det(one.shape) == pytest.approx(1, rel=1e-9)
+    assert np.linalg.cond(one.shape) > 3
+
+
+@each
+def test_one_parameter_and_fitness_that_says_nothing(name):
+    one = made(name, size=1)
+    assert one.popsize == 4
+    for _ in range(300):
+        candidates, _ = one.ask()
+        assert np.isfinite(candidates).all()
+        one.tell(np.zeros(len(candidates)))
+    assert np.isfinite(one.mean).all()
+
+
+# whole runs
+
+POLICY = {"normalize": 1, "episodes": 2, "pepisodes": 3}
+
+
+def small(folder, name, **options):
+    algo, own = VARIANTS[name]
+    return experiment(folder, "CartPole-v1", algo, POLICY, popsize=6, **own, **options)
+
+
+@each
+def test_workers_and_stops_do_not_show(name, tmp_path):
+    own = small(tmp_path, name)
+    assert run_seeds(own, tmp_path / "whole", [1, 2])
+    assert run_seeds(own, tmp_path / "workers", [1, 2], workers=3)
+    for steps in (1, 1500, 1501, 3000, None):
+        assert run_seeds(own, tmp_path / "parts", [1, 2], steps=steps, resume=True)
+    assert same(tmp_path / "whole", tmp_path / "workers")
+    assert same(tmp_path / "whole", tmp_path / "parts")
+
+
+BITS = """
+import hashlib
+from test_gaussian import VARIANTS, bent, made
+for name in VARIANTS:
+    one, found = made(name, size=40), hashlib.sha256()
+    for generation in range(25):
+        candidates, _ = one.ask()
+        found.update(candidates.tobytes())
+        one.tell(bent(candidates))
+    print(name, found.hexdigest())
+"""
+
+
+def test_instruction_sets_and_blas_do_not_show():
+    """Of numpy, and of its BLAS."""
+    features = np._core._multiarray_umath.__cpu_features__
+    dispatch = np._core._multiarray_umath.__cpu_dispatch__
+    disabled = " ".join(name for name in dispatch if features.get(name))
+    printed = []
+    for variables in (
+        {},
+        {"NPY_DISABLE_CPU_FEATURES": disabled, "OPENBLAS_NUM_THREADS": "1"},
+        {"OPENBLAS_CORETYPE": "Prescott"},
+    ):
+        paths = os.pathsep.join(sys.path)
+        done = subprocess.run(
+            [sys.executable, "-c", BITS],
+            env=os.environ | {"PYTHONPATH": paths} | variables,
+            cwd=Path(__file__).parent,
+            capture_output=True,
+            text=True,
+        )
+        assert done.returncode == 0, done.stderr
+        printed.append(done.stdout)
+    assert len(printed[0].splitlines()) == len(VARIANTS)
+    assert printed[0] == printed[1] == printed[2]
+
+
+@each
+def test_all_solve_cartpole(name, tmp_path):
+    algo, own = VARIANTS[name]
+    policy = {"episodes": 3, "pepisodes": 20, "maxsteps": 500, "nhiddens": 5, "bias": 1}
+    made = experiment(tmp_path, "CartPole-v1", algo, policy, maxmsteps=1, **own)
+    assert run_seeds(made, tmp_path, [1])
+    words = (tmp_path / "S1.fit").read_text().split()
+    assert float(words[words.index("bestgfit") + 1]) == 500
+
+
+# bad input
+
+
+@pytest.mark.parametrize(
+    ("algo", "line", "says"),
+    [
+        ("CMA-ES", "popsize = 1", "popsize = 1 leaves nothing to rank"),
+        ("xNES", "popsize = 2.5", "is not a whole number"),
+        ("sNES", "sigma = 0", "above 0"),
+        ("sNES", "diagonal = 1", "diagonal is a hyperparameter of CMA-ES"),
+        ("CMA-ES", "active = 2", "0 (no) or 1 (yes)"),
+        ("xNES", "etasigna = 1", "etasigma"),
+        ("OpenAI-ES", "sigma = 1", "CMA-ES"),
+        ("CMAES", "sigma = 1", "CMA-ES"),
+    ],
+)
+def test_wrong_lines_are_refused(algo, line, says, tmp_path):
+    path = tmp_path / "own.ini"
+    head = f"[EXP]\nenvironment = CartPole-v1\nalgo = {algo}\n[POLICY]\n[ALGO]\n"
+    path.write_text(head + line + "\n")
+    with pytest.raises(BotschoolError) as error:
+        load(path)
+    assert says in str(error.value) and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(("algo", "says"), [("CMA-ES", "diagonal = 1"), ("xNES", "algo = sNES")])
+def test_a_network_too_large_for_a_matrix_is_refused(algo, says, tmp_path, refused):
+    path = write_experiment(tmp_path, algo=algo, policy={"nhiddens": 1000})
+    refused("es", "-f", path, "-o", tmp_path, says=("6000 parameters", says))
+    path = write_experiment(tmp_path, algo="CMA-ES", policy={"nhiddens": 1000}, diagonal=1)
+    assert run_seeds(load(path), tmp_path / "diagonal", steps=1)
