@@ -67,7 +67,7 @@ nb::object accelerations(const Body& body, Vector<const double> position,
 nb::tuple advance(const Body& body, Vector<const double> state, Vector<const double> action,
                   double h, int steps, double slope, double curvature, double gravity,
                   bool single) {
-  expect_size(state, 3 * body.size(), "the state");
+  expect_size(state, 2 * body.size(), "the state");
   expect_size(action, body.size() - 3, "the action");
   if (steps < 1 || !(h > 0)) throw std::invalid_argument("h and steps must be above 0.");
   std::vector<double> after(state.data(), state.data() + state.size());
@@ -75,7 +75,7 @@ nb::tuple advance(const Body& body, Vector<const double> state, Vector<const dou
   body.planar->advance(after.data(), action.data(), load.data(), h, steps,
                        {slope, curvature, gravity}, single);
   const std::size_t points = load.size();
-  return nb::make_tuple(to_numpy(std::move(after), {3 * body.size()}),
+  return nb::make_tuple(to_numpy(std::move(after), {2 * body.size()}),
                         to_numpy(std::move(load), {points}));
 }
 

@@ -1,4 +1,4 @@
-"""The figures of docs/results.md, from the data in docs/results."""
+"""The figures of docs/results.md and docs/bodies.md, from the data in docs/results."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from evolved import BOX2D, ROWS, grid
 from matplotlib.figure import Figure
+from planar_runs import GAIT, RUNNERS
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
 """Okabe and Ito's: they differ for colour-blind readers too."""
@@ -117,11 +118,35 @@ def ppo_compare(parts: dict) -> Figure:
     return figure
 
 
+def planar(parts: dict) -> Figure:
+    """Learning curves of the planar runners, and below when their feet touch the ground."""
+    found = parts["planar"]["data"]
+    figure = Figure(figsize=(10, 5.6), layout="constrained")
+    upper, lower = figure.subplots(2, len(found))
+    for above, below, (file, of) in zip(upper, lower, found.items(), strict=True):
+        curves(above, grid(of["steps"]) / 1e6, [run["curve"] for run in of["runs"]], COLOURS[0])
+        panel(above, title=f"{file}.ini", xscale="log", xlabel="million steps")
+        above.xaxis.set_major_formatter("{x:g}")
+        for run in of["runs"]:
+            feet = run["gait"].values()
+            for i, (colour, steps) in enumerate(zip(COLOURS, feet, strict=False)):
+                place = run["seed"] - 0.4 + 0.8 * i / len(feet)
+                seconds = RUNNERS[file].substep * RUNNERS[file].substeps
+                touches = [(k * seconds, seconds) for k, touch in enumerate(steps) if touch == "1"]
+                below.broken_barh(touches, (place, 0.8 / len(feet)), color=colour)
+        panel(below, xlabel="seconds", yticks=[run["seed"] for run in of["runs"]], xlim=(0, GAIT))
+        below.invert_yaxis()
+    upper[0].set_ylabel("best post-evaluated so far")
+    lower[0].set_ylabel("seed")
+    return figure
+
+
 FIGURES = {
     "evolved": (evolved, ("evolved",)),
     "speed": (speed, ("speed",)),
     "es_and_ppo": (es_and_ppo, ("evolved", "trained")),
     "ppo_compare": (ppo_compare, ("ppo",)),
+    "planar": (planar, ("planar",)),
 }
 """Name -> who draws it, and the parts that it needs."""
 

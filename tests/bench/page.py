@@ -1,4 +1,5 @@
-"""docs/results.md: its blocks, `<!-- NAME -->` to `<!-- end -->`, made from docs/results."""
+"""Blocks of docs/results.md and docs/bodies.md, `<!-- NAME -->` to `<!-- end -->`, made from
+docs/results."""
 
 from __future__ import annotations
 
@@ -13,10 +14,13 @@ from trained import PROBLEMS
 
 DOCS = Path(__file__).parents[2] / "docs"
 DATA = DOCS / "results"
-PAGE = DOCS / "results.md"
+PAGES = (DOCS / "results.md", DOCS / "bodies.md")
 PUBLISHED_PPO = {"CartPole-v1": "500", "Pendulum-v1": "-172 +- 104", "Acrobot-v1": "-73.5 +- 18"}
 SPEED = ("others", "gymnasium", "workers", "runs", "memory")
-"""Parts of the bench that the page shows."""
+PLANAR_SPEED = ("runners", "runnerworkers")
+"""Parts of the bench that the pages show."""
+SURE = 0.9
+"""Share of new episodes in which a runner must go ten body lengths, or never fall, to count."""
 SHARES = (10, 25, 50, 75, 100)
 
 
@@ -78,14 +82,40 @@ def evolved(parts: dict) -> str:
     )  # fmt: skip
 
 
-def tables(part: str):
+def planar(parts: dict) -> str:
+    """A row for each runner, and where that was measured."""
+    rows = []
+    for file, of in parts["planar"]["data"].items():
+        runs = of["runs"]
+        best, new, metres, seconds = (
+            [each[key] for each in runs] for key in ("best", "new", "metres", "seconds")
+        )
+        sure, whole = (sum(each[key] >= SURE for each in runs) for key in ("lengths", "upright"))
+        finer = [100 * each["finer"][1] / each["finer"][0] for each in runs]
+        rows.append([
+            f"{file}.ini", f"{of['steps']:g} M", str(len(runs)), spread(best, 0),
+            f"{min(best):.0f} to {max(best):.0f}", spread(new, 0), spread(metres),
+            f"{min(metres):.1f} to {max(metres):.1f}", f"{sure} of {len(runs)}",
+            f"{whole} of {len(runs)}", f"{min(finer):.0f} to {max(finer):.0f} %",
+            f"{np.mean(seconds):.0f} s",
+        ])  # fmt: skip
+    columns = [
+        "experiment", "steps", "seeds", "best post-evaluated", "range", "in new episodes",
+        "metres", "range", "ten lengths", "no falls", "half the substep", "a run, one core",
+    ]  # fmt: skip
+    at = parts["planar"]["measured"]
+    stamp = f"({at['date']}, commit {at['commit']}, {at['minutes']} minutes. {at['note']})"
+    return f"{markdown(columns, rows)}\n\n{stamp}"
+
+
+def tables(part: str, measured: str = "speed"):
     """A function that gives the tables of a part of the bench, without its internal targets."""
 
     def shown(parts: dict) -> str:
-        if part not in parts["speed"]["data"]:
-            return "Not measured yet: `make results` does."
+        if part not in parts[measured]["data"]:
+            return "Not measured yet."
         texts = []
-        for table in parts["speed"]["data"][part]:
+        for table in parts[measured]["data"][part]:
             kept = [i for i, name in enumerate(table["columns"]) if name not in ("", "target")]
             columns = [table["columns"][i] for i in kept]
             rows = [[row[i] for i in kept] for row in table["rows"]]
@@ -127,13 +157,15 @@ BLOCKS = {
     "evolved": (evolved, "evolved"),
     "trained": (trained, "trained"),
     "ppo": (ppo, "ppo"),
+    "planar": (planar, "planar"),
     **{part: (tables(part), "speed") for part in SPEED},
+    **{part: (tables(part, "planarspeed"), "planarspeed") for part in PLANAR_SPEED},
 }
 """Who makes each block, and the part of the data without which it stays as it is."""
 
 
 def filled(text: str, parts: dict) -> str:
-    """The page with its blocks made anew."""
+    """A page with its blocks made anew."""
 
     def block(match: re.Match) -> str:
         make, needed = BLOCKS[match[2]]
@@ -145,9 +177,10 @@ def filled(text: str, parts: dict) -> str:
 
 
 def write() -> None:
-    """Writes the page and its figures."""
+    """Writes the pages and their figures."""
     import figures
 
     parts = load()
-    PAGE.write_text(filled(PAGE.read_text(encoding="utf-8"), parts), encoding="utf-8")
-    print(f"{PAGE}; figures: {', '.join(figures.draw(parts, DOCS / 'images'))}")
+    for page in PAGES:
+        page.write_text(filled(page.read_text(encoding="utf-8"), parts), encoding="utf-8")
+    print(f"{DOCS}; figures: {', '.join(figures.draw(parts, DOCS / 'images'))}")

@@ -1,8 +1,8 @@
-"""Measures all that docs/results.md shows, and writes the page anew: `make results`.
+"""Measures what docs/results.md shows, and the planar runners of docs/bodies.md: `make results`.
 
 Each part leaves a file in docs/results (with commit, date and machine); tables and figures of the
-page are made from these files alone. `--only speed` measures one part anew, `--only` none: the page
-is written from what is there. The machine should have nothing else to do.
+pages are made from these files alone. `--only speed` measures one part anew, `--only` none: the
+pages are written from what is there. The machine should have nothing else to do.
 """
 
 from __future__ import annotations
@@ -12,23 +12,25 @@ import json
 import subprocess
 import time
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 
 import evolved
+import planar_runs
 import ppo_compare
 import run
 import trained
 from comparison import notice
-from page import DATA, SPEED, write
+from page import DATA, PLANAR_SPEED, SPEED, write
 from processes import Neighbours
 from report import machine
 
 REPOSITORY = Path(__file__).parents[2]
 
 
-def speed(quick: bool) -> dict:
+def speed(parts: tuple[str, ...], quick: bool) -> dict:
     """Tables of `make bench`, by their part."""
-    tables = {part: list(run.measured([part], quick)) for part in SPEED}
+    tables = {part: list(run.measured([part], quick)) for part in parts}
     print(notice())
     return {part: [asdict(table) for table in those] for part, those in tables.items()}
 
@@ -47,7 +49,11 @@ PARTS = {
     "box2d": lambda quick: evolved.evolved(
         evolved.BOX2D, 2 if quick else 4, 0.01 if quick else float("inf")
     ),
-    "speed": speed,
+    "planar": lambda quick: planar_runs.planar_runs(
+        range(1, 3 if quick else 11), 0.3 if quick else float("inf")
+    ),
+    "speed": partial(speed, SPEED),
+    "planarspeed": partial(speed, PLANAR_SPEED),
     "trained": lambda quick: trained.trained(2 if quick else 5, 2000 if quick else None),
     "ppo": ppo,
 }

@@ -18,10 +18,10 @@ from botschool.problems import Episodes
 
 DATA = Path(__file__).parents[2] / "data"
 BODIES = {
-    # experiment file: target (steps/s), Gymnasium's id, EnvPool's id, ours in PyBullet
-    "planarhopper": (300e3, "Hopper-v5", "Hopper-v4", "HopperBulletEnv-v5"),
-    "planarwalker2d": (150e3, "Walker2d-v5", "Walker2d-v4", "Walker2DBulletEnv-v5"),
-    "planarhalfcheetah": (150e3, "HalfCheetah-v5", "HalfCheetah-v4", "HalfCheetahBulletEnv-v5"),
+    # experiment file: target (steps/s), id in Gymnasium and in EnvPool, ours in PyBullet
+    "planarhopper": (300e3, "Hopper-v5", "HopperBulletEnv-v5"),
+    "planarwalker2d": (150e3, "Walker2d-v5", "Walker2DBulletEnv-v5"),
+    "planarhalfcheetah": (150e3, "HalfCheetah-v5", "HalfCheetahBulletEnv-v5"),
 }
 CANDIDATES = 320
 STEPS = 100
@@ -93,12 +93,12 @@ class InEnvPool:
 
 def _others(body: str, hiddens: int) -> list[Callable[[], int] | None]:
     """MuJoCo in Gymnasium and in EnvPool, and PyBullet; None for what is not installed."""
-    _, mujoco, pool, bullet = BODIES[body]
+    _, mujoco, bullet = BODIES[body]
     players: list[Callable[[], int] | None] = [None] * 3
     if find_spec("mujoco"):
         players[0] = InPython(gymnasium.make(mujoco, disable_env_checker=True), hiddens).play
     if find_spec("envpool"):
-        players[1] = InEnvPool(pool).play
+        players[1] = InEnvPool(mujoco).play
     if find_spec("pybullet"):
         players[2] = InPython(gymnasium.make(bullet, disable_env_checker=True), hiddens).play
     return players

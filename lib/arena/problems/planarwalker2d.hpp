@@ -7,7 +7,7 @@
 BOTSCHOOL_BEGIN
 
 constexpr Race walker_race(bool standard) {
-  Race race{0.008, 8, 0.005};
+  Race race{0.008, 16, 0.005};
   race.alive = standard ? 1 : 0;
   race.effort = standard ? 0.001 : 0;
   race.lowest = 0.8;

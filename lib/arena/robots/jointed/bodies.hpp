@@ -1,6 +1,9 @@
 // Bodies that run in a plane: sizes, masses, hinges and motors of Gymnasium's models for MuJoCo.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "table.hpp"
 
 BOTSCHOOL_BEGIN
@@ -117,20 +120,33 @@ struct Box : BodyBase {
   static constexpr Limit limit{0, 0};
 };
 
-/// The hopper's segments hung up by the torso's middle, without motors and friction; for tests.
-struct Swing : BodyBase {
-  static constexpr const char* name = "swing";
+/// Another body hung up by its root's origin, without motors, dampers and limits; for tests.
+template <class Body>
+struct Hung : BodyBase {
   static constexpr bool pinned = true;
-  static constexpr double down = -kPi / 2, far = 1e9;
-  static constexpr Segment segments[]{
-      {"torso", -1, 0, 0, {}, {{0, -0.2, down, 0.2, 0.05}}},
-      {"thigh", 0, 0, -0.4, {-far, far}, {{0, -0.225, down, 0.225, 0.05}}},
-      {"leg", 1, 0, -0.45, {-far, far}, {{0, -0.25, down, 0.25, 0.04}}},
-      {"foot", 2, 0, -0.5, {-far, far}, {{0.065, 0, 0, 0.195, 0.06}}},
-  };
-  static constexpr Contact contacts[]{{3, 0, 0, 0.06}};
-  static constexpr Touch touch{1};
+  static constexpr double total_mass = Body::total_mass, far = 1e9;
+  static constexpr auto segments = [] {
+    std::array<Segment, sizeof(Body::segments) / sizeof(Segment)> free{};
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      free[i] = Body::segments[i];
+      const Hinge& hinge = free[i].hinge;
+      free[i].hinge = {-far, far, 0, 0, hinge.stiffness, hinge.armature};
+    }
+    return free;
+  }();
+  static constexpr auto& contacts = Body::contacts;
+  static constexpr Touch touch = Body::touch;
   static constexpr Limit limit{0, 0};
+};
+
+struct HungHopper : Hung<Hopper> {
+  static constexpr const char* name = "hung hopper";
+};
+struct HungWalker2D : Hung<Walker2D> {
+  static constexpr const char* name = "hung walker2d";
+};
+struct HungHalfCheetah : Hung<HalfCheetah> {
+  static constexpr const char* name = "hung halfcheetah";
 };
 
 BOTSCHOOL_END

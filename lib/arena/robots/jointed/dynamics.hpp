@@ -5,9 +5,13 @@
 // and 6, written out for these coordinates). With r turned by the angle of its segment, a point at r
 // moves by turn(r) = (-r_z, r_x) when the angle grows by 1. With h_c the vector from the origin of a
 // segment i to that of its child c, and j on or below c:
-//   M_ij = turn(h_c) . m turn(s_j)    s_j: first moment of mass of j and of all that hangs on it
-//   M_xj, M_zj = m turn(s_j)          M_jj: constant        M_xx = M_zz = whole mass
-// Accelerations that speeds cause are centripetal only: -speed^2 h along the tree.
+//   M_ij = h_c . s_j                  s_j: first moment of mass of j and of all that hangs on it
+//   M_xj, M_zj = turn(s_j)            M_jj: constant        M_xx = M_zz = whole mass
+// Speeds cause centripetal forces only. With w the angular speeds they are
+//   on i: turn(h_c) . s_j w_j^2       on j: -turn(h_c) . s_j w_i^2       on x and z: s_j w_j^2
+//
+// A substep goes half its way with the old speeds, changes them by the forces there, and goes the
+// other half with the new ones, which is symmetric in time and of second order.
 #pragma once
 
 #include <cstddef>
@@ -78,10 +82,9 @@ struct Dynamics {
   /// Coordinates: x, z, then the angle of each segment.
   static constexpr int size = n + 2;
 
-  // the state; velocities are those of half a substep before the positions
-  V position[size], speed[size];
-  V change[size];    ///< of the speeds in the last substep, halved
-  V load[contacts];  ///< force of each contact point across the ground, N
+  V position[size], speed[size];  ///< the state
+  V change[n];       ///< of the segments' angular speeds in the last substep, halved; 0 if unknown
+  V load[contacts];  ///< sum over substeps of each contact point's force across the ground, N
 
   /// The parent of a coordinate in the tree z -> x, root -> z, segment -> its parent.
   static constexpr int up(int k) { return k <= 2 ? k - 1 : Body::segments[k - 2].parent + 2; }
@@ -97,11 +100,13 @@ struct Dynamics {
 
   static BOTSCHOOL_INLINE V number(double x) { return V(T(x)); }
 
-  V mass[size][size];      ///< lower triangle, entries of ancestors only; after solve() its factors
-  V force[size];           ///< generalised forces; after solve() accelerations
-  Vec along[n];            ///< from the parent's origin to the segment's
-  Vec moment[n];           ///< first moments of mass, s_j
-  Vec origin[n], pull[n];  ///< place; acceleration that speeds and gravity cause, reversed
+  V mass[size][size];  ///< lower triangle, entries of ancestors only; after factor() its factors
+  V inverse[size];     ///< factor(): of the pivots
+  V lever[n][n];       ///< turn(h_c) . s_j of segments j and i
+  V force[size];       ///< generalised forces; after substitute() accelerations
+  Vec along[n];        ///< from the parent's origin to the segment's, h
+  Vec moment[n];       ///< first moments of mass, s
+  Vec origin[n];
   V sine[n], cosine[n];
 
   template <int I>
@@ -125,19 +130,10 @@ struct Dynamics {
     });
   }
 
-  /// The mass matrix, and the forces that gravity and the speeds cause.
-  BOTSCHOOL_INLINE void inertia(double gravity) {
-    upwards<n>(BOTSCHOOL_EACH(i) {
-      constexpr int p = Body::segments[i].parent;
-      if constexpr (i == 0) {
-        pull[0] = {V(0), number(-gravity)};
-      } else {
-        const V w = speed[2 + p] + change[2 + p];
-        pull[i] = pull[p] + (w * w) * along[i];
-      }
-    });
+  /// The mass matrix but for what hinges and the ground add, and the levers.
+  BOTSCHOOL_INLINE void inertia() {
     mass[0][0] = mass[1][1] = number(numbers.all[0]);
-    mass[1][0] = force[0] = force[1] = V(0);
+    mass[1][0] = V(T(0));
     upwards<n>(BOTSCHOOL_EACH(j) {
       constexpr int k = j + 2;
       const Vec effect = turn(moment[j]);
@@ -145,15 +141,30 @@ struct Dynamics {
       mass[k][1] = effect.z;
       mass[k][k] = number(numbers.second[j]);
       descend<j>(BOTSCHOOL_EACH(c) {  // c: j and its ancestors but the root
-        constexpr int i = Body::segments[c].parent + 2;
-        mass[k][i] = dot(turn(along[c]), effect);
+        constexpr int i = Body::segments[c].parent;
+        mass[k][i + 2] = dot(along[c], moment[j]);
+        lever[j][i] = dot(turn(along[c]), moment[j]);
       });
-      // own mass only: what hangs on it has its own acceleration
-      const Vec centre = turned<j>(numbers.x[j], numbers.z[j]);
-      const V w = speed[k] + change[k];
-      const Vec push = number(numbers.mass[j]) * (pull[j] + (w * w) * centre);
-      force[k] = dot(turn(centre), push);
-      apply<j>(push);
+    });
+  }
+
+  /// The forces of gravity, and no other.
+  BOTSCHOOL_INLINE void weigh(double gravity) {
+    force[0] = V(T(0));
+    force[1] = number(-gravity * numbers.all[0]);
+    upwards<n>(BOTSCHOOL_EACH(j) { force[2 + j] = number(-gravity) * moment[j].x; });
+  }
+
+  /// Adds centripetal forces; `square`: of the segments' angular speeds.
+  BOTSCHOOL_INLINE void whirl(const V* square) {
+    upwards<n>(BOTSCHOOL_EACH(j) {
+      force[0] += square[j] * moment[j].x;
+      force[1] += square[j] * moment[j].z;
+      descend<j>(BOTSCHOOL_EACH(c) {
+        constexpr int i = Body::segments[c].parent;
+        force[2 + i] += lever[j][i] * square[j];
+        force[2 + j] -= lever[j][i] * square[i];
+      });
     });
   }
 
@@ -175,9 +186,9 @@ struct Dynamics {
         BOTSCHOOL_EACH(c) { force[Body::segments[c].parent + 2] += dot(turn(along[c]), push); });
   }
 
-  /// Torques of the hinges. With a substep h, springs and dampers answer to the speed after it
-  /// (implicit Euler, linearised), which lets them be stiff: damping h + stiffness h^2 joins the
-  /// mass matrix. With h = 0 they answer to the state as it is.
+  /// Torques of the hinges. With a substep h, dampers answer to the mean of the speeds before and
+  /// after it, which lets them be stiff: h / 2 damping joins the mass matrix. With h = 0 they answer
+  /// to the speeds as they are.
   BOTSCHOOL_INLINE void hinges(const V* action, T h) {
     upwards<n - 1>(BOTSCHOOL_EACH(index) {
       constexpr int i = index + 1, k = i + 2, p = up(k);
@@ -187,14 +198,13 @@ struct Dynamics {
       const V beyond = larger(above, V(T(0))) + smaller(below, V(T(0)));
       const V out = beyond * beyond;
       const V spring = if_positive(out, number(Body::limit.stiffness), V(T(0)));
-      const V damper = if_positive(out, number(Body::limit.damping), V(T(0)));
-      const V resistance =
-          (number(hinge.damping) + damper) + V(h) * (number(hinge.stiffness) + spring);
+      const V damping =
+          number(hinge.damping) + if_positive(out, number(Body::limit.damping), V(T(0)));
       const V torque = number(hinge.torque) * action[index] -
-                       ((number(hinge.stiffness) * angle + spring * beyond) + resistance * rate);
+                       ((number(hinge.stiffness) * angle + spring * beyond) + damping * rate);
       force[k] += torque;
       force[p] -= torque;
-      const V both = V(h) * resistance;
+      const V both = V(h * T(0.5)) * damping;
       mass[k][k] += both;
       mass[p][p] += both;
       mass[k][p] -= both + number(hinge.armature);
@@ -202,8 +212,9 @@ struct Dynamics {
   }
 
   /// Forces of the ground. A contact point at depth d that moves at v across the ground and at u
-  /// along it is pushed by N = stiffness d - damping min(1, d / ramp) v and dragged by
-  /// -friction N u / max(|u|, slip), both after the substep (see hinges).
+  /// along it is pushed by N = stiffness d - damping min(1, d / ramp) v, with the mean of v (see
+  /// hinges), and dragged by -friction N u / max(|u|, slip), with the u after the substep, since that
+  /// is stiffer by far (implicit Euler, linearised).
   template <class Ground>
   BOTSCHOOL_INLINE void touch(const Ground& ground, T h) {
     Vec velocity[n];
@@ -231,7 +242,7 @@ struct Dynamics {
       const Vec tangent{normal.z, -normal.x};
       const V across = dot(normal, moving), sliding = dot(tangent, moving);
       const V share = smaller(depth * number(1 / Body::touch.ramp), V(T(1)));
-      V damping = number(Body::touch.damping) * share + V(h * T(Body::touch.stiffness));
+      V damping = number(Body::touch.damping) * share;
       V push = number(Body::touch.stiffness) * depth - damping * across;
       push = if_positive(depth, larger(push, V(T(0))), V(T(0)));
       damping = if_positive(push, damping, V(T(0)));
@@ -241,7 +252,7 @@ struct Dynamics {
       const Vec pushed = push * normal - (drag * sliding) * tangent;
       force[2 + s] += dot(turn(arm), pushed);
       apply<s>(pushed);
-      resist<s>(arm, V(h) * damping, V(h) * drag, normal, Ground::flat);
+      resist<s>(arm, V(h * T(0.5)) * damping, V(h) * drag, normal, Ground::flat);
     });
   }
 
@@ -280,23 +291,27 @@ struct Dynamics {
     });
   }
 
-  /// mass * acceleration = force, by M = L^T D L from the leaves to the root, which keeps the
-  /// zeros of a tree (Featherstone 2008, section 6.5). The acceleration is left in `force`.
-  BOTSCHOOL_INLINE void solve() {
-    if constexpr (Body::pinned) {
-      force[0] = force[1] = V(T(0));
+  /// mass = L^T D L from the leaves to the root, which keeps the zeros of a tree (Featherstone
+  /// 2008, section 6.5). L is left below the diagonal of `mass`, and 1 / D in `inverse`.
+  BOTSCHOOL_INLINE void factor() {
+    if constexpr (Body::pinned)
       upwards<n>(BOTSCHOOL_EACH(i) { mass[2 + i][0] = mass[2 + i][1] = V(T(0)); });
-    }
-    V inverse[size];
     downwards<size>(BOTSCHOOL_EACH(k) {
       inverse[k] = V(T(1)) / mass[k][k];
       ancestors<k>(BOTSCHOOL_EACH(i) {
-        const V factor = mass[k][i] * inverse[k];
-        mass[i][i] -= factor * mass[k][i];
-        ancestors<i>(BOTSCHOOL_EACH(j) { mass[i][j] -= factor * mass[k][j]; });
-        force[i] -= factor * force[k];
-        mass[k][i] = factor;
+        const V share = mass[k][i] * inverse[k];
+        mass[i][i] -= share * mass[k][i];
+        ancestors<i>(BOTSCHOOL_EACH(j) { mass[i][j] -= share * mass[k][j]; });
+        mass[k][i] = share;
       });
+    });
+  }
+
+  /// Solves mass * acceleration = force after factor(); the acceleration is left in `force`.
+  BOTSCHOOL_INLINE void substitute() {
+    if constexpr (Body::pinned) force[0] = force[1] = V(T(0));
+    downwards<size>(BOTSCHOOL_EACH(k) {
+      ancestors<k>(BOTSCHOOL_EACH(i) { force[i] -= mass[k][i] * force[k]; });
     });
     upwards<size>(BOTSCHOOL_EACH(k) {
       V value = force[k] * inverse[k];
@@ -309,17 +324,39 @@ struct Dynamics {
   template <class Ground>
   BOTSCHOOL_INLINE void step(const V* action, const Ground& ground, T h,
                              double gravity = kGravity) {
+    const V half(h * T(0.5));
+    upwards<size>(BOTSCHOOL_EACH(k) { position[k] += half * speed[k]; });
     place();
-    inertia(gravity);
+    inertia();
+    weigh(gravity);
+    // centripetal forces want the speeds in the middle: first as the last substep foretells them
+    V square[n], gain[size];
+    upwards<n>(BOTSCHOOL_EACH(i) {
+      const V middle = speed[2 + i] + change[i];
+      square[i] = middle * middle;
+    });
+    whirl(square);
     hinges(action, h);
     touch(ground, h);
-    solve();
+    factor();
+    substitute();
+    // then as this one makes them
     upwards<size>(BOTSCHOOL_EACH(k) {
-      const V gain = V(h) * force[k];
-      change[k] = V(T(0.5)) * gain;
-      speed[k] += gain;
-      position[k] += V(h) * speed[k];
+      gain[k] = force[k];
+      force[k] = V(T(0));
     });
+    upwards<n>(BOTSCHOOL_EACH(i) {
+      const V middle = speed[2 + i] + half * gain[2 + i];
+      square[i] = middle * middle - square[i];
+    });
+    whirl(square);
+    substitute();
+    upwards<size>(BOTSCHOOL_EACH(k) {
+      gain[k] = V(h) * (gain[k] + force[k]);
+      speed[k] += gain[k];
+      position[k] += half * speed[k];
+    });
+    upwards<n>(BOTSCHOOL_EACH(i) { change[i] = V(T(0.5)) * gain[2 + i]; });
   }
 
   /// `steps` substeps on even ground. Out of line, so that the problems of a body share it.

@@ -36,7 +36,7 @@ class Planar final : public PlanarBody {
     const double rest[size] = {};
     load(body, position, rest);
     body.place();
-    body.inertia(0);
+    body.inertia();
     double none[size] = {};
     run_hinges(body, none);
     std::vector<double> matrix(size * size);
@@ -51,9 +51,14 @@ class Planar final : public PlanarBody {
     One<double, Body> body{};
     load(body, position, speed);
     body.place();
-    body.inertia(gravity);
+    body.inertia();
+    body.weigh(gravity);
+    Lanes<double, 1> square[n];
+    for (int i = 0; i < n; ++i) square[i] = speed[2 + i] * speed[2 + i];
+    body.whirl(square);
     run_hinges(body, action);
-    body.solve();
+    body.factor();
+    body.substitute();
     std::vector<double> result(size);
     for (int k = 0; k < size; ++k) result[k] = body.force[k][0];
     return result;
@@ -73,8 +78,9 @@ class Planar final : public PlanarBody {
     for (int k = 0; k < size; ++k) {
       body.position[k] = T(position[k]);
       body.speed[k] = T(speed[k]);
-      body.change[k] = T(0);
     }
+    for (auto& change : body.change) change = T(0);
+    for (auto& force : body.load) force = T(0);
   }
 
   static void run_hinges(One<double, Body>& body, const double* action) {
@@ -88,10 +94,8 @@ class Planar final : public PlanarBody {
                   const Surroundings& around) {
     One<T, Body> body{};
     load(body, state, state + size);
-    for (int k = 0; k < size; ++k) body.change[k] = T(state[2 * size + k]);
     Lanes<T, 1> torque[n];
     for (int i = 0; i < n - 1; ++i) torque[i] = T(action[i]);
-    for (auto& force : body.load) force = T(0);
     const bool flat = around.slope == 0 && around.curvature == 0;
     for (int s = 0; s < steps; ++s) {
       if (flat)
@@ -102,7 +106,6 @@ class Planar final : public PlanarBody {
     for (int k = 0; k < size; ++k) {
       state[k] = body.position[k][0];
       state[size + k] = body.speed[k][0];
-      state[2 * size + k] = body.change[k][0];
     }
     for (int c = 0; c < One<T, Body>::contacts; ++c) mean[c] = body.load[c][0] / steps;
   }
@@ -116,7 +119,9 @@ std::vector<std::unique_ptr<PlanarBody>> planar_bodies() {
   bodies.push_back(std::make_unique<Planar<Walker2D>>());
   bodies.push_back(std::make_unique<Planar<HalfCheetah>>());
   bodies.push_back(std::make_unique<Planar<Box>>());
-  bodies.push_back(std::make_unique<Planar<Swing>>());
+  bodies.push_back(std::make_unique<Planar<HungHopper>>());
+  bodies.push_back(std::make_unique<Planar<HungWalker2D>>());
+  bodies.push_back(std::make_unique<Planar<HungHalfCheetah>>());
   return bodies;
 }
 

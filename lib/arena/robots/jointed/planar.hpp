@@ -30,9 +30,8 @@ class PlanarBody {
   /// In the air, with the torques of motors, dampers, springs and limits.
   virtual std::vector<double> accelerations(const double* position, const double* speed,
                                             const double* action, double gravity) const = 0;
-  /// `steps` substeps of h seconds. `state`: positions, speeds and half their last changes (see
-  /// Dynamics), 3 * size, updated; `load` gets the mean force of each contact point in N. In single
-  /// precision on request, as in evolution.
+  /// `steps` substeps of h seconds. `state`: positions and speeds, 2 * size, updated; `load` gets the
+  /// mean force of each contact point in N. In single precision on request, as in evolution.
   virtual void advance(double* state, const double* action, double* load, double h, int steps,
                        const Surroundings& around, bool single) const = 0;
 };

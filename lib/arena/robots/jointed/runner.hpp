@@ -29,7 +29,7 @@ struct Runner : ProblemBase {
   using Moving = Dynamics<Body, float, kWidth>;
   using V = Lanes<float, kWidth>;
   static constexpr int n = Moving::n, size = Moving::size, contacts = Moving::contacts;
-  static constexpr int kStates = 2 * size + n + contacts;
+  static constexpr int kStates = 2 * size + contacts;
 
   static Info describe(const char* name) {
     Info info;
@@ -42,8 +42,8 @@ struct Runner : ProblemBase {
     return info;
   }
 
-  /// Positions and speeds of x, z and each segment's angle; half the last changes of the angles'
-  /// speeds; mean force of each contact point in the last step.
+  /// Positions and speeds of x, z and each segment's angle; mean force of each contact point in the
+  /// last step.
   double state[kStates][L];
 
   void bounds(double* low, double* high) const {
@@ -116,9 +116,8 @@ struct Runner : ProblemBase {
     for (int k = 0; k < size; ++k) {
       body.position[k] = V::from(&state[k][first]);
       body.speed[k] = V::from(&state[size + k][first]);
-      body.change[k] = V(0.0f);
     }
-    for (int i = 0; i < n; ++i) body.change[2 + i] = V::from(&state[2 * size + i][first]);
+    for (auto& change : body.change) change = V(0.0f);  // motors have changed: as good as unknown
     for (auto& force : body.load) force = V(0.0f);
     body.position[0] = V(0.0f);  // the way in this step; the whole way needs double precision
   }
@@ -139,8 +138,7 @@ struct Runner : ProblemBase {
       write(k, body.position[k], k == 0);
       write(size + k, body.speed[k], false);
     }
-    for (int i = 0; i < n; ++i) write(2 * size + i, body.change[2 + i], false);
-    for (int c = 0; c < contacts; ++c) write(2 * size + n + c, V(share) * body.load[c], false);
+    for (int c = 0; c < contacts; ++c) write(2 * size + c, V(share) * body.load[c], false);
   }
 
   /// Positive where the body has not fallen.
