@@ -32,6 +32,21 @@ def test_robots_are_those_of_the_experiment_file(tmp_path):
     assert np.array_equal(evolved, np.load(tmp_path / "bestgS5.npy"))
 
 
+@pytest.mark.parametrize("seed", [1, 3])
+def test_one_stands_and_the_other_hops(seed):
+    """What exercise 9 shows, after a fifth of its steps; seed 3's hopper is the worst of ten."""
+    metres, grounded = {}, {}
+    for version in ("v0", "v5"):
+        runner = Runner(f"PlanarHopper-{version}")
+        genotype = runner.evolve(1_000_000, seed)
+        episodes = [runner.record(genotype, 1000 + i) for i in range(5)]
+        ways = [one["distance"] for one in episodes]
+        metres[version] = np.mean([way[0] - way[-1] for way in ways])
+        grounded[version] = np.mean([one["feet"].mean() for one in episodes])
+    assert metres["v5"] > 2 * metres["v0"]
+    assert grounded["v0"] > 0.9 and grounded["v5"] < 0.6
+
+
 @pytest.mark.parametrize("body", ["hopper", "walker2d", "halfcheetah"])
 def test_recorded_episodes_add_up(body):
     """Progress is the reward of version 5; in a gait feet leave the ground and come back."""

@@ -1,4 +1,4 @@
-"""Writes data/episodes/locomotors.npz, by which exercise 9 is graded where PyBullet is not installed.
+"""Writes data/episodes/locomotors.npz: exercise 9 is graded by it where PyBullet is missing.
 
 Needs PyBullet: .venv/bin/python tools/record_locomotors.py
 """
