@@ -10,7 +10,9 @@ def draw() -> None:
     folder = ROOT / "results" / "demo"
     if not (folder / "hopper.mp4").is_file():
         subprocess.run(["make", "demo"], cwd=ROOT, check=True)
-    shares = [0.02 + 0.012 * i for i in range(6)]
-    film = frames(folder / "hopper.mp4", shares, 900, (0.28, 0.08, 0.72, 1))
-    curve = beside([Image.open(folder / "hopper.png").convert("RGB")], 900)
-    write(above(film, curve), "../demo_hopper")
+    shares = [0.3 + 0.012 * i for i in range(7)]
+    film = frames(folder / "hopper.mp4", shares, 900, (0.3, 0.06, 0.7, 0.93))
+    curve = beside([Image.open(folder / "hopper.png").convert("RGB")], 660)
+    page = Image.new("RGB", (900, curve.height), "white")
+    page.paste(curve, (120, 0))
+    write(above(film, page), "../demo_hopper")
