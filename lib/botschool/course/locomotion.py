@@ -52,7 +52,7 @@ class Runner:
         """Seconds that a step lasts."""
         table = _core.PlanarBody(self.robot.removeprefix("Planar").lower()).table
         segments = [contact[0] for contact in table["contacts"]]
-        self._coordinates = len(table["segments"]) + 2
+        self._contacts = len(segments)
         self._feet = [
             [i for i, segment in enumerate(segments) if segment == foot]
             for foot, each in enumerate(table["segments"])
@@ -84,7 +84,7 @@ class Runner:
             parameters[None], normalisation, seed, 0, self._problem.steps(maxsteps)
         )
         states = tape["states"]
-        loads = states[1:, 3 * self._coordinates - 2 :]
+        loads = states[1:, -self._contacts :]
         feet = [(loads[:, contacts] > 0).any(axis=1) for contacts in self._feet]
         return {
             "robot": self.robot,
