@@ -211,7 +211,8 @@ if __name__ == "__main__":
         examples[label] = trajectories[label][middle]
         incomes[label] = {k: float(v.sum()) for k, v in planar_v0(examples[label]).items()}
         strips[label] = runner.strip(rows[middle], 1000)
-        runner.film(f"hopper_{version}.mp4", rows[middle], 1000)
+        paid = Runner(f"PlanarHopper-{version}")
+        paid.film(f"hopper_{version}.mp4", rows[middle], 1000)
         about = f"evolved in {version} with seed {SEEDS[middle]}, {STEPS:,} steps"
-        runner.replay(f"hopper_{version}.html", rows[middle], 1000, about)
+        paid.replay(f"hopper_{version}.html", rows[middle], 1000, about)
     draw_gaits("gaits.png", trajectories, incomes, examples, strips)
