@@ -24,8 +24,9 @@ def without_pybullet(monkeypatch):
 
 
 def test_robots_are_those_of_the_experiment_file(tmp_path):
-    """The same genotype as with `botschool es` and the same steps."""
+    """The same genotype as with `botschool es` and the same steps, but for `pepisodes`."""
     experiment = config.load(ROOT / "data" / "experiments" / "planarhopper.ini")
+    experiment.policy.pepisodes = locomotion.POLICY["pepisodes"]
     run = Run(experiment, 5)
     evolve(run, tmp_path, steps=60_000)
     evolved = Runner("PlanarHopper-v5").evolve(60_000, 5)

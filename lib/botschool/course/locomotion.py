@@ -27,7 +27,7 @@ POLICY = {
     "clip": 1,
 }
 ALGO = {"samplesize": 20, "stepsize": 0.01, "noiseStdDev": 0.02, "wdecay": 1}
-"""The settings of data/experiments/planarhopper.ini."""
+"""The settings of data/experiments/planarhopper.ini, but for fewer post-evaluations."""
 TARGET = 1000.0
 """Where the runners are to go, in metres ahead."""
 FILM_STEPS = 4
