@@ -17,12 +17,16 @@ help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z%-]+:.*## / { sub("%", "N", $$1); printf "make %-14s %s\n", $$1, $$2 }' Makefile
 
 DEMO := results/demo
-demo: .venv/.module ## evolve a policy for Acrobot, then draw its curve and film it
-	$(BIN)/botschool es -f data/experiments/acrobot.ini -s 1 -w 2 -o $(DEMO) --steps 3000000 --force
-	$(BIN)/botschool plotstat $(DEMO) -o $(DEMO)/curve.png
-	$(BIN)/botschool es -f data/experiments/acrobot.ini -s 1 -p -g $(DEMO)/bestgS1.npy \
+demo: .venv/.module ## evolve an Acrobot and a hopping robot, draw their curves and film them
+	$(BIN)/botschool es -f data/experiments/acrobot.ini -s 1 -w 2 -o $(DEMO)/acrobot --steps 3000000 --force
+	$(BIN)/botschool plotstat $(DEMO)/acrobot -o $(DEMO)/acrobot.png
+	$(BIN)/botschool es -f data/experiments/acrobot.ini -s 1 -p -g $(DEMO)/acrobot/bestgS1.npy \
 		--video $(DEMO)/acrobot.mp4
-	@echo "Curve: $(DEMO)/curve.png   Video: $(DEMO)/acrobot.mp4   Saved robot: $(DEMO)/bestgS1.npy"
+	$(BIN)/botschool es -f data/experiments/planarhopper.ini -s 1 -w 2 -o $(DEMO)/hopper --steps 10000000 --force
+	$(BIN)/botschool plotstat $(DEMO)/hopper -o $(DEMO)/hopper.png
+	$(BIN)/botschool es -f data/experiments/planarhopper.ini -s 1 -p -g $(DEMO)/hopper/bestgS1.npy \
+		--episodes 1 --video $(DEMO)/hopper.mp4
+	@echo "Curves: $(DEMO)/acrobot.png $(DEMO)/hopper.png   Films: $(DEMO)/acrobot.mp4 $(DEMO)/hopper.mp4"
 
 build: .venv/.module ## the Python environment and the C++ module
 

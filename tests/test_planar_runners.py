@@ -180,7 +180,7 @@ def test_gymnasium_accepts_them(name):
     env.reset(seed=1)
     frame = env.render()
     env.step(env.action_space.sample())
-    assert frame.shape == (300, 600, 3) and frame.std() > 10
+    assert frame.shape == (360, 600, 3) and frame.std() > 10
     env.close()
 
 

@@ -85,7 +85,7 @@ def test_what_has_no_wheel_is_left_out_with_one_notice(setup):
     code, out, errors, calls, stamps = setup("tests", WITHOUT="pybullet")
     assert (code, errors) == (0, "")
     assert stamps == [".extra-box2d", ".extra-rl", ".tests"]
-    assert out.count("Notice") == 1 and "PyBullet (exercises 9 and 10)" in out
+    assert out.count("Notice") == 1 and "PyBullet (exercise 10)" in out
     assert "PYTHON=python3.11 make test" in out and "pip install 'botschool[pybullet]'" in out
     assert not any("compare" in call for call in calls)
     code, out, *_ = setup("tests", WITHOUT="pybullet box2d rl")
@@ -102,7 +102,7 @@ def test_with_all_wheels_there_is_no_notice(setup):
 def test_an_exercise_without_wheels_says_how_to_get_them(setup):
     code, _, errors, _, stamps = setup("extra", "pybullet", WITHOUT="pybullet")
     assert code == 2 and not stamps
-    assert errors.startswith("error: No wheels for Python 3.13") and "exercises 9 and 10" in errors
+    assert errors.startswith("error: No wheels for Python 3.13") and "exercise 10" in errors
 
 
 def test_a_real_conflict_is_no_missing_wheel(setup):

@@ -21,7 +21,7 @@
 
 import numpy as np
 
-from botschool.course.locomotion import Runner, draw_gaits, strip
+from botschool.course.locomotion import Runner, draw_gaits
 
 # %% [markdown]
 # A *trajectory* is a recorded episode of T steps, a dict of arrays:
@@ -29,6 +29,7 @@ from botschool.course.locomotion import Runner, draw_gaits, strip
 # | key | shape | what it holds |
 # |---|---|---|
 # | `"robot"` | | Hopper, HalfCheetah, Ant, Walker2D or Humanoid |
+# | `"duration"` | | seconds that a step lasts |
 # | `"distance"` | (T + 1,) | metres to the target: at the start, then after each step |
 # | `"height"`, `"pitch"` | (T,) | of the torso after each step, in metres and radians |
 # | `"heading"` | (T,) | angle to the target after each step, in radians |
@@ -41,14 +42,14 @@ from botschool.course.locomotion import Runner, draw_gaits, strip
 
 
 # %%
-def progress(distance: np.ndarray) -> np.ndarray:
+def progress(distance: np.ndarray, duration: float) -> np.ndarray:
     """The speed towards the target in each step, in metres per second; shape (T,).
 
-    distance, shape (T + 1,), holds the metres to the target. A step lasts 0.0165 s. Coming nearer
-    is positive.
+    distance, shape (T + 1,), holds the metres to the target, duration the seconds that a step
+    lasts. Coming nearer is positive.
     """
     ### BEGIN SOLUTION task 9.1: measure progress
-    return (distance[:-1] - distance[1:]) / 0.0165
+    return (distance[:-1] - distance[1:]) / duration
     ### END SOLUTION
 
 
@@ -112,7 +113,7 @@ def components_v0(trajectory: dict) -> dict:
     ### BEGIN SOLUTION task 9.3: rebuild version 0
     robot = trajectory["robot"]
     return {
-        "progress": progress(trajectory["distance"]),
+        "progress": progress(trajectory["distance"], trajectory["duration"]),
         "alive": alive_bonus(
             robot, trajectory["height"], trajectory["pitch"], trajectory["touching"]
         ),
@@ -141,7 +142,7 @@ def reward_v5(trajectory: dict) -> np.ndarray:
     """The reward of version 5 in each step, by the table above; shape (T,)."""
     ### BEGIN SOLUTION task 9.4: rebuild version 5
     robot, positions = trajectory["robot"], trajectory["positions"]
-    reward = progress(trajectory["distance"])
+    reward = progress(trajectory["distance"], trajectory["duration"])
     if robot in ("Hopper", "Walker2D"):
         return reward
     reward = reward + joints_at_limit(positions)
@@ -155,28 +156,67 @@ def reward_v5(trajectory: dict) -> np.ndarray:
 
 
 # %% [markdown]
-# ## Task 9.5. A gait in four numbers
+# ## Task 9.5. Planar runners, and a gait in five numbers
+#
+# The robots that you are going to evolve live in a vertical plane. They are paid in version 5 like
+# their namesakes above. Their version 0 has three components:
+#
+# | robot | progress | alive bonus | it has fallen unless | effort, for each joint |
+# |---|---|---|---|---|
+# | PlanarHopper | as before | 1 | height > 0.7 and abs(pitch) < 0.2 | -0.001 * action^2 |
+# | PlanarWalker2D | as before | 1 | 0.8 < height < 2 and abs(pitch) < 1 | -0.001 * action^2 |
+# | PlanarHalfCheetah | as before | 0 | (it does not matter) | -0.1 * action^2 |
+#
+# The fallen get 0 here instead of the bonus. The effort of a step is the *sum* over the joints.
+#
+# Trajectories of planar runners have `"robot"`, `"duration"`, `"distance"`, `"height"`, `"pitch"`
+# and `"actions"` as above, and `"feet"`, shape (T, feet): 1 if a foot has touched the ground in
+# the step, else 0.
 
 
 # %%
+def planar_v0(trajectory: dict) -> dict:
+    """The reward of a planar runner's version 0 in each step, as components to be added up.
+
+    Returns a dict of arrays of the shape (T,): "progress", "alive" and "effort".
+    """
+    ### BEGIN SOLUTION task 9.5: rebuild a planar runner's version 0
+    robot, height, pitch = (trajectory[key] for key in ("robot", "height", "pitch"))
+    price, alive = 0.001, np.zeros(len(height))
+    if robot == "PlanarHopper":
+        alive = np.where((height > 0.7) & (np.abs(pitch) < 0.2), 1.0, 0.0)
+    elif robot == "PlanarWalker2D":
+        alive = np.where((height > 0.8) & (height < 2) & (np.abs(pitch) < 1), 1.0, 0.0)
+    else:
+        price = 0.1
+    return {
+        "progress": progress(trajectory["distance"], trajectory["duration"]),
+        "alive": alive,
+        "effort": -price * (trajectory["actions"] ** 2).sum(axis=1),
+    }
+    ### END SOLUTION
+
+
 def gait(trajectory: dict) -> dict:
-    """What a robot does, in four floats.
+    """What a planar runner does, in five floats.
 
     "metres": how much nearer the target is at the end than at the start. "seconds": the length of
     the episode. "speed": metres per second, on average. "standing": the share of its income in
     version 0 that is pay for standing, sum(alive) / (sum(alive) + sum(progress)), where only
-    positive values are added up; 0.0 if there are none.
+    positive values are added up; 0.0 if there are none. "grounded": the share of the steps in
+    which at least one foot has touched the ground.
     """
     ### BEGIN SOLUTION task 9.5: describe a gait
-    parts = components_v0(trajectory)
+    parts = planar_v0(trajectory)
     metres = float(trajectory["distance"][0] - trajectory["distance"][-1])
-    seconds = 0.0165 * len(trajectory["height"])
+    seconds = trajectory["duration"] * len(trajectory["height"])
     alive, moved = (float(np.maximum(parts[key], 0).sum()) for key in ("alive", "progress"))
     return {
         "metres": metres,
         "seconds": seconds,
         "speed": metres / seconds,
         "standing": alive / (alive + moved) if alive + moved > 0 else 0.0,
+        "grounded": float(trajectory["feet"].max(axis=1).mean()),
     }
     ### END SOLUTION
 
@@ -184,62 +224,73 @@ def gait(trajectory: dict) -> dict:
 # %% [markdown]
 # ## Task 9.6. Evolve both, and compare
 #
-# `Runner("HopperBulletEnv-v5").evolve(steps, seed)` evolves a robot and returns its genotype.
-# `runner.record(genotype, seed)` plays an episode and returns its trajectory.
+# `Runner("PlanarHopper-v5").evolve(steps, seed)` evolves a robot and returns its genotype, an
+# array. `runner.record(genotype, seed)` plays an episode and returns its trajectory.
+#
+# One evolution can be lucky. So each version is evolved several times, from several seeds.
 
 
 # %%
-def evolve_both(robot: str, steps: int, seed: int) -> dict:
-    """Evolves the robot in both versions, with the same number of steps and the same seed.
+def evolve_both(robot: str, steps: int, seeds: list[int]) -> dict:
+    """Evolves the robot in both versions, each once with every seed, for so many steps each.
 
-    robot is for example "Hopper". Returns {"v0": genotype, "v5": genotype}.
+    robot is for example "PlanarHopper". Returns {"v0": genotypes, "v5": genotypes}, arrays with a
+    row for each seed.
     """
     ### BEGIN SOLUTION task 9.6: evolve in both versions
     return {
-        version: Runner(f"{robot}BulletEnv-{version}").evolve(steps, seed)
+        version: np.array([Runner(f"{robot}-{version}").evolve(steps, seed) for seed in seeds])
         for version in ("v0", "v5")
     }
     ### END SOLUTION
 
 
 def compare(robot: str, genotypes: dict, seed: int, episodes: int) -> dict:
-    """The mean gait of each genotype.
+    """The gaits of robots that were evolved in several versions.
 
-    All are recorded in version 5 of the robot's environment, in the episodes with the seeds
-    seed, seed + 1, ... Returns, for each key of genotypes, a dict as `gait` does, with the means
-    over the episodes.
+    genotypes: as `evolve_both` returns them. All are recorded in version 5 of the robot's
+    environment, in the episodes with the seeds seed, seed + 1, ... Returns, for each key of
+    genotypes, a dict with the keys of `gait`: arrays with the mean over the episodes for each row.
     """
     ### BEGIN SOLUTION task 9.6: compare the gaits
-    runner, means = Runner(f"{robot}BulletEnv-v5"), {}
-    for key, genotype in genotypes.items():
-        gaits = [gait(runner.record(genotype, seed + i)) for i in range(episodes)]
-        means[key] = {name: float(np.mean([each[name] for each in gaits])) for name in gaits[0]}
-    return means
+    runner, table = Runner(f"{robot}-v5"), {}
+    for version, rows in genotypes.items():
+        means = []
+        for genotype in rows:
+            gaits = [gait(runner.record(genotype, seed + i)) for i in range(episodes)]
+            means.append([np.mean([each[name] for each in gaits]) for name in gaits[0]])
+        table[version] = dict(zip(gaits[0], np.array(means).T, strict=True))
+    return table
     ### END SOLUTION
 
 
+# %% [markdown]
+# ## The pictures
+#
+# `botschool show 9` (or running this file once all tasks are done) evolves ten Hoppers in each
+# version and compares them. Of each ten, the one that comes neither farthest nor least far is
+# drawn, filmed and replayed.
+
 # %%
 if __name__ == "__main__":
-    from botschool.course import SavedRobot, experiment_file, genotype_file
-
-    STEPS, SEED = 60_000, 1
-    genotypes = evolve_both("Hopper", STEPS, SEED)
-    for version, means in compare("Hopper", genotypes, 1000, 20).items():
-        numbers = "  ".join(f"{name} {value:.2f}" for name, value in means.items())
-        print(f"Hopper evolved in {version}:  {numbers}")
-    runner = Runner("HopperBulletEnv-v5")
-    recorded = {version: runner.record(genotypes[version], 1000) for version in genotypes}
-    labels = {version: f"evolved in {version}" for version in genotypes}
-    draw_gaits(
-        "gaits.png",
-        {
-            labels[version]: {key: float(v.sum()) for key, v in components_v0(one).items()}
-            for version, one in recorded.items()
-        },
-        {labels[v]: one["distance"][0] - one["distance"][1:] for v, one in recorded.items()},
-        {labels[v]: strip("HopperBulletEnv-v5", genotypes[v], 1000) for v in recorded},
-    )
-    for version, genotype in genotypes.items():
-        runner.film(f"hopper_{version}.mp4", genotype, 1000)
-    evolved = SavedRobot(experiment_file("hopper.ini"), np.load(genotype_file("hopper.npy")))
-    evolved.film("evolved_longer.mp4", seed=1000)
+    STEPS, SEEDS = 5_000_000, list(range(1, 11))
+    genotypes = evolve_both("PlanarHopper", STEPS, SEEDS)
+    table = compare("PlanarHopper", genotypes, 1000, 10)
+    for version, gaits in table.items():
+        numbers = (f"{name} {v.mean():.2f} ({v.min():.2f} to {v.max():.2f})"
+                   for name, v in gaits.items())  # fmt: skip
+        print(f"evolved in {version}: ", ", ".join(numbers))
+    runner = Runner("PlanarHopper-v5")
+    trajectories, incomes, examples, strips = {}, {}, {}, {}
+    for version, rows in genotypes.items():
+        label = f"evolved in {version}"
+        middle = int(np.argsort(table[version]["metres"])[len(rows) // 2])
+        trajectories[label] = [runner.record(genotype, 1000) for genotype in rows]
+        examples[label] = trajectories[label][middle]
+        incomes[label] = {k: float(v.sum()) for k, v in planar_v0(examples[label]).items()}
+        strips[label] = runner.strip(rows[middle], 1000)
+        paid = Runner(f"PlanarHopper-{version}")
+        paid.film(f"hopper_{version}.mp4", rows[middle], 1000)
+        about = f"evolved in {version} with seed {SEEDS[middle]}, {STEPS:,} steps"
+        paid.replay(f"hopper_{version}.html", rows[middle], 1000, about)
+    draw_gaits("gaits.png", trajectories, incomes, examples, strips)

@@ -1,4 +1,7 @@
-"""Draws the figures of the exercises' texts: `make figures`, or `make figures ONLY="3 5"`."""
+"""Draws the figures of the exercises' texts and of the README's demo.
+
+`make figures`, or `make figures ONLY="3 5 demo"`.
+"""
 
 import importlib
 import os
@@ -8,5 +11,5 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))
 os.environ.setdefault("BOTSCHOOL_COURSE", str(Path(__file__).parents[2]))
 
-for number in map(int, sys.argv[1:] or range(1, 16)):
-    importlib.import_module(f"ex{number:02d}").draw()
+for name in sys.argv[1:] or [*map(str, range(1, 16)), "demo"]:
+    importlib.import_module(f"ex{int(name):02d}" if name.isdigit() else name).draw()

@@ -20,3 +20,8 @@ def genotype_file(name: str) -> Path:
 def robot_file(name: str) -> Path:
     """A robot's description, as "balance_bot.urdf". Raises BotschoolError."""
     return course_root() / "data" / "robots" / name
+
+
+def episode_file(name: str) -> Path:
+    """Recorded episodes of the course, as "locomotors.npz". Raises BotschoolError."""
+    return course_root() / "data" / "episodes" / name

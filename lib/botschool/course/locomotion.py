@@ -1,136 +1,216 @@
-"""What exercise 9 is given ready-made: short evolutions, recorded episodes, and their picture."""
+"""What exercise 9 is given ready-made: runners to evolve, recorded episodes, pictures of gaits."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
 
-from botschool import problems
+from botschool import _core, problems
 from botschool.config import Exp, Experiment, OpenAIESConfig, PolicyConfig
 from botschool.policy import Policy
+from botschool.problems.transition import Transition
 
-SETTINGS = {
-    "nhiddens": 10,
+POLICY = {
+    "episodes": 1,
+    "pepisodes": 3,
+    "maxsteps": 1000,
+    "nhiddens": 50,
     "bias": 1,
     "afunction": 2,
     "out_type": 3,
     "winit": 1,
+    "action_noise": 1,
     "normalize": 1,
     "clip": 1,
 }
-"""Network of the exercise's robots: as in data/experiments/hopper.ini, but smaller."""
+ALGO = {"samplesize": 20, "stepsize": 0.01, "noiseStdDev": 0.02, "wdecay": 1}
+"""The settings of data/experiments/planarhopper.ini, but for fewer post-evaluations."""
+TARGET = 1000.0
+"""Where the runners are to go, in metres ahead."""
+FILM_STEPS = 4
+"""Steps of a hopper between two pictures of a film, which has 31 a second."""
 
 
 class Runner:
-    """A locomotor with a network of 10 hidden neurons, for example Runner("HopperBulletEnv-v5").
+    """A planar runner with its network, for example Runner("PlanarHopper-v5").
 
     Its genotypes hold `size` numbers: the parameters, then means and standard deviations of the
-    observations.
+    observations. They are those that `botschool es` saves with planarhopper.ini's settings.
     """
 
     def __init__(self, environment: str) -> None:
+        """environment: PlanarHopper, PlanarWalker2D or PlanarHalfCheetah, with -v0 or -v5."""
         self.environment = environment
+        self.robot = environment.partition("-")[0]
         self._problem = problems.make(environment)
-        self.policy = Policy(environment, self._problem.interface, PolicyConfig(**SETTINGS))
+        self.policy = Policy(environment, self._problem.interface, PolicyConfig(**POLICY))
         self.size = self.policy.genotype_size + 2 * self.policy.spec.inputs
+        self.duration = 1 / self._problem.fps
+        """Seconds that a step lasts."""
+        table = _core.PlanarBody(self.robot.removeprefix("Planar").lower()).table
+        segments = [contact[0] for contact in table["contacts"]]
+        self._contacts = len(segments)
+        self._feet = [
+            [i for i, segment in enumerate(segments) if segment == foot]
+            for foot, each in enumerate(table["segments"])
+            if each["name"].endswith("foot")
+        ]
 
     def evolve(self, steps: int, seed: int) -> np.ndarray:
         """OpenAI-ES until so many steps are done; the best post-evaluated genotype."""
-        from botschool.evolution.run import Run
+        from botschool.evolution.run import Limit, Run
 
-        policy = PolicyConfig(**SETTINGS, episodes=1, pepisodes=3)
-        algo = OpenAIESConfig(samplesize=20, noiseStdDev=0.02, stepsize=0.01)
-        run = Run(Experiment(Exp(self.environment), policy, algo), seed)
-        while run.record.steps < steps:
-            run.advance()
+        experiment = Experiment(Exp(self.environment), self.policy.config, OpenAIESConfig(**ALGO))
+        run = Run(experiment, seed)
+        run.limit = Limit(steps=steps)
+        while not run.limit.reached(run):
+            run.advance(goes_on=True)
+        run.settle()
         return np.array(run.record.bestg)
 
     def record(self, genotype: np.ndarray, seed: int, maxsteps: int = 1000) -> dict:
         """Plays one episode and records it, as a dict of plain data for its T steps.
 
-        "robot" is its name; "distance", shape (T + 1,), the metres to the target at the start and
-        after each step; "height" (m), "pitch", "heading" (rad) and "touching", shape (T,), are
-        those after each step; "actions", "speeds" and "positions" have the shape (T, joints).
+        "robot" is its name and "duration" how many seconds a step lasts; "distance", shape
+        (T + 1,), the metres to the target at the start and after each step; "height" (m) and
+        "pitch" (rad), shape (T,), are those after each step; "actions" has the shape (T, joints),
+        "feet" (T, feet): 1 where a foot has touched the ground in the step, else 0.
         """
-        env = self._problem._env
-        body, joints = env.unwrapped, env.action_space.shape[0]
-        observation, _ = env.reset(seed=seed)
-        self.policy.load(*self.policy.split(genotype))
-        self.policy.reset(seed, 0)
-        rows = [{**body.measured()}]
-        ended = False
-        while not ended and len(rows) <= maxsteps:
-            action = np.clip(self.policy.act(observation), -1, 1).astype(np.float32)
-            observation, _, terminated, truncated, _ = env.step(action)
-            rows.append({**body.measured(), "actions": action})
-            rows[-1]["positions"] = observation[8 : 8 + 2 * joints : 2]
-            rows[-1]["speeds"] = observation[9 : 9 + 2 * joints : 2]
-            ended = terminated or truncated
-        trajectory = {
-            key: np.array([row[key] for row in rows[1:]], dtype=np.float64) for key in rows[-1]
+        parameters, normalisation = self.policy.split(genotype)
+        tape = self._problem.engine(self.policy).record(
+            parameters[None], normalisation, seed, 0, self._problem.steps(maxsteps)
+        )
+        states = tape["states"]
+        loads = states[1:, -self._contacts :]
+        feet = [(loads[:, contacts] > 0).any(axis=1) for contacts in self._feet]
+        return {
+            "robot": self.robot,
+            "duration": self.duration,
+            "distance": TARGET - states[:, 0],
+            "height": states[1:, 1],
+            "pitch": states[1:, 2],
+            "actions": np.clip(tape["actions"], -1, 1),
+            "feet": np.stack(feet, axis=1).astype(float),
         }
-        trajectory["distance"] = np.array([row["distance"] for row in rows])
-        trajectory["robot"] = self.environment.partition("BulletEnv")[0]
-        return trajectory
+
+    def play(self, genotype: np.ndarray, seed: int, maxsteps: int = 1000) -> Iterator[Transition]:
+        """The steps of the episode that `record` records."""
+        robot = self.policy.split(genotype)
+        return self._problem.play(self.policy, *robot, seed, 0, maxsteps)
 
     def film(self, file: str | Path, genotype: np.ndarray, seed: int, maxsteps: int = 1000) -> None:
-        """A film of one episode."""
+        """A film of one episode, in real time."""
         from botschool.render.panel import with_caption
         from botschool.render.video import write_video
 
-        robot = self.policy.split(genotype)
-        play = self._problem.play(self.policy, *robot, seed, 0, maxsteps, render=True)
-        write_video(Path(file), (with_caption(t.frame, 1, t) for t in play), self._problem.fps)
+        scene = self._scene()
+        seen = islice(self.play(genotype, seed, maxsteps), 0, None, FILM_STEPS)
+        frames = (with_caption(scene.draw_transition(step), 1, step) for step in seen)
+        write_video(Path(file), frames, scene.fps / FILM_STEPS)
         print(f"film: {file}")
+
+    def replay(
+        self, file: str | Path, genotype: np.ndarray, seed: int, about: str, maxsteps: int = 1000
+    ) -> None:
+        """A page that plays one episode in a browser; about: a line on the robot."""
+        from botschool.render.replay import write_replay
+
+        neurons = self.policy.spec.inputs, self.policy.spec.outputs
+        play, scene = self.play(genotype, seed, maxsteps), self._scene()
+        write_replay(Path(file), self.environment, about, [play], scene.fps, neurons, scene)
+        print(f"replay: {file}")
+
+    def strip(
+        self, genotype: np.ndarray, seed: int, steps: int = 320, pictures: int = 8
+    ) -> np.ndarray:
+        """Pictures of an episode's first steps side by side, equally far apart in time."""
+        scene, found = self._scene(), []
+        wanted = set(np.linspace(1, steps, pictures).astype(int).tolist())
+        for step in self.play(genotype, seed, steps):
+            if step.step in wanted:
+                frame = scene.draw_transition(step)
+                margin = (frame.shape[1] - round(0.6 * frame.shape[0])) // 2
+                found.append(frame[:, margin : frame.shape[1] - margin])
+        return np.hstack(found)
+
+    def _scene(self):
+        from botschool.render.canvas import draw_offscreen
+        from botschool.render.scenes import make_scene
+
+        draw_offscreen()
+        return make_scene(self.environment)
+
+
+COLOURS = ("#d55e00", "#0072b2", "#009e73", "#cc79a7")
+GAIT_SECONDS = 3.0
+"""How much of an episode a gait diagram shows."""
 
 
 def draw_gaits(
     file: str | Path,
-    components: dict[str, dict[str, float]],
-    distances: dict[str, np.ndarray],
-    frames: dict[str, np.ndarray],
+    trajectories: dict[str, list[dict]],
+    incomes: dict[str, dict[str, float]],
+    examples: dict[str, dict],
+    strips: dict[str, np.ndarray],
 ) -> None:
-    """A picture of several robots: what their reward is made of, and where they are over time.
+    """A picture of how the robots of two or more rewards live and move.
 
-    For every robot's label: the sum of each component of the reward of version 0, the metres
-    covered after each step, and pictures in a row, (height, width, 3).
+    For every label: an episode of each of its robots (their way over time); the components of an
+    income; the trajectory of one robot, whose height and feet on the ground are drawn; and
+    pictures of it in a row, (height, width, 3).
     """
     from matplotlib.figure import Figure
 
-    colours = dict(zip(components, ("#d55e00", "#0072b2", "#009e73", "#cc79a7"), strict=False))
-    figure = Figure(figsize=(10, 4.2 + 1.5 * len(frames)), layout="constrained")
-    upper, lower = figure.subfigures(2, 1, height_ratios=(4.2, 1.5 * len(frames)))
-    bars, lines = upper.subplots(1, 2, width_ratios=(3, 2))
-    names = list(next(iter(components.values())))
-    width = 0.8 / len(components)
-    for i, (label, sums) in enumerate(components.items()):
-        places = np.arange(len(names)) + (i - (len(components) - 1) / 2) * width
-        bars.bar(places, [sums[name] for name in names], width, color=colours[label], label=label)
-        lines.plot(distances[label], color=colours[label], label=label)
-    bars.set_xticks(range(len(names)), [name.replace("_", " ") for name in names])
-    bars.axhline(0, color="black", linewidth=0.8)
-    bars.set_title("What each would earn in version 0, an episode", fontsize=10)
-    bars.legend(frameon=False)
-    lines.set(xlabel="step", ylabel="metres", title="Distance covered")
-    for axes in (bars, lines):
+    colours = dict(zip(trajectories, COLOURS, strict=False))
+    high = sum(strip.shape[0] / strip.shape[1] * 9.6 for strip in strips.values()) + 0.2
+    figure = Figure(figsize=(10, 6 + high), layout="constrained")
+    upper, middle, lower = figure.subfigures(3, 1, height_ratios=(3.6, 2.4, high))
+    ways, bars = upper.subplots(1, 2, width_ratios=(3, 2))
+    for label, robots in trajectories.items():
+        for i, one in enumerate(robots):
+            way = one["distance"][0] - one["distance"]
+            seconds = one["duration"] * np.arange(len(way))
+            ways.plot(seconds, way, color=colours[label], lw=1.2, label="" if i else label)
+            ways.plot(seconds[-1], way[-1], ".", color=colours[label], ms=7)
+    ways.set(xlabel="seconds", ylabel="metres", title="Where each robot is, until its episode ends")
+    ways.legend(frameon=False)
+    names = list(next(iter(incomes.values())))
+    width = 0.8 / len(incomes)
+    for i, (label, parts) in enumerate(incomes.items()):
+        places = np.arange(len(names)) + (i - (len(incomes) - 1) / 2) * width
+        bars.bar(places, [parts[name] for name in names], width, color=colours[label])
+    bars.set_xticks(range(len(names)), names)
+    bars.axhline(0, color="black", lw=0.8)
+    bars.set_title("Income in version 0, an episode")
+    rows = middle.subplots(1, len(examples), sharey=True, squeeze=False)[0]
+    for axes, (label, one) in zip(rows, examples.items(), strict=True):
+        _draw_gait(axes, one, colours[label])
+        axes.set_title(f"{label}: the robot in the middle")
+    rows[0].set_ylabel("height (m)")
+    for axes in (ways, bars, *rows):
         axes.spines[["top", "right"]].set_visible(False)
-    rows = lower.subplots(len(frames), 1, squeeze=False)[:, 0]
-    for axes, (label, strip) in zip(rows, frames.items(), strict=True):
+    pictures = lower.subplots(len(strips), 1, squeeze=False)[:, 0]
+    for axes, (label, strip) in zip(pictures, strips.items(), strict=True):
         axes.imshow(strip)
-        axes.set(xticks=[], yticks=[], ylabel=label)
+        axes.set(xticks=[], yticks=[])
+        axes.set_ylabel(label, fontsize=8)
     figure.savefig(file, dpi=100)
     print(f"picture: {file}")
 
 
-def strip(environment: str, genotype: np.ndarray, seed: int, pictures: int = 7) -> np.ndarray:
-    """Pictures of one episode side by side, equally far apart in time."""
-    runner = Runner(environment)
-    steps = len(runner.record(genotype, seed)["height"])
-    wanted = set(np.linspace(1, steps, pictures).astype(int).tolist())
-    problem, found = problems.make(environment), []
-    play = problem.play(runner.policy, *runner.policy.split(genotype), seed, 0, 1000, render=True)
-    for transition in play:
-        if transition.step in wanted:
-            found.append(transition.frame)
-    return np.hstack(found)
+def _draw_gait(axes, trajectory: dict, colour: str) -> None:
+    """The height of the torso, and below it a bar while a foot is on the ground."""
+    steps = round(GAIT_SECONDS / trajectory["duration"])
+    height, feet = trajectory["height"][:steps], trajectory["feet"][:steps]
+    seconds = trajectory["duration"] * np.arange(1, len(height) + 1)
+    axes.plot(seconds, height, color=colour)
+    for i, foot in enumerate(feet.T):
+        low, across = 0.12 * i, axes.get_xaxis_transform()
+        axes.fill_between(
+            seconds, low, low + 0.1, foot > 0, step="mid", color="black", transform=across, lw=0
+        )
+    axes.set(xlabel="seconds (black: the foot is on the ground)", xlim=(0, GAIT_SECONDS))
+    axes.set_ylim(0.4, 1.7)

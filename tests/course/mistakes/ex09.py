@@ -10,5 +10,5 @@ MISTAKES = [
     ("9.2", "upper limits only", "lower limits count, too", "mutant upper_limits_only"),
     ("9.3", "the sum as a further component", r"does not have: \['reward'\]", "mutant components_with_the_sum"),
     ("9.4", "joints at their limits cost all robots", "cost this robot nothing", "mutant limits_for_all"),
-    ("9.5", "divides by 0", "0 / 0", "mutant divides_by_nothing"),
+    ("9.5", "the effort is a mean", "not their mean", "mutant mean_effort"),
 ]  # fmt: skip

@@ -18,7 +18,7 @@ class PlanarScene(Scene):
     """
 
     scale = 150.0
-    HALF_WIDTH, BELOW, ABOVE = 2.0, 0.35, 1.65
+    HALF_WIDTH, BELOW, ABOVE = 2.0, 0.35, 2.05
     FULL_FORCE = 5.0
     """Arrows have full length at so many times the body's weight."""
 

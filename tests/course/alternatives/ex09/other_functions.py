@@ -1,9 +1,6 @@
 # Differences, einsum, selections and sums of booleans.
-STEP = 0.0165
-
-
-def progress(distance):
-    return -np.diff(np.asarray(distance, dtype=np.float64)) / STEP
+def progress(distance, duration):
+    return -np.diff(np.asarray(distance, dtype=np.float64)) / duration
 
 
 def alive_bonus(robot, height, pitch, touching):
@@ -33,7 +30,7 @@ def components_v0(trajectory):
     one = dict(trajectory)
     robot = one.pop("robot")
     return {
-        "progress": progress(one["distance"]),
+        "progress": progress(one["distance"], one["duration"]),
         "alive": alive_bonus(robot, one["height"], one["pitch"], one["touching"]),
         "electricity": electricity(robot, one["actions"], one["speeds"]),
         "joints_at_limit": joints_at_limit(one["positions"]),
@@ -54,26 +51,48 @@ def reward_v5(trajectory):
     return reward
 
 
+def planar_v0(trajectory):
+    robot, height, pitch = trajectory["robot"], trajectory["height"], trajectory["pitch"]
+    low, high, lean = {"PlanarHopper": (0.7, np.inf, 0.2)}.get(robot, (0.8, 2, 1))
+    upright = (low < height) & (height < high) & (-lean < pitch) & (pitch < lean)
+    cheetah = robot == "PlanarHalfCheetah"
+    return {
+        "progress": progress(trajectory["distance"], trajectory["duration"]),
+        "alive": np.zeros_like(height) if cheetah else upright,
+        "effort": (0.1 if cheetah else 0.001)
+        * -(np.linalg.norm(trajectory["actions"], axis=1) ** 2),
+    }
+
+
 def gait(trajectory):
-    parts = components_v0(trajectory)
+    parts, duration = planar_v0(trajectory), trajectory["duration"]
     alive, moved = (parts[key][parts[key] > 0].sum() for key in ("alive", "progress"))
-    seconds = STEP * trajectory["height"].size
-    metres = STEP * parts["progress"].sum()
-    standing = alive / (alive + moved) if alive or moved else 0.0
-    return {"metres": metres, "seconds": seconds, "speed": metres / seconds, "standing": standing}
+    seconds = duration * trajectory["height"].size
+    metres = duration * parts["progress"].sum()
+    return {
+        "metres": metres,
+        "seconds": seconds,
+        "speed": metres / seconds,
+        "standing": alive / (alive + moved) if alive or moved else 0.0,
+        "grounded": np.any(trajectory["feet"], axis=1).mean(),
+    }
 
 
-def evolve_both(robot, steps, seed):
+def evolve_both(robot, steps, seeds):
     versions = ["v0", "v5"]
-    runners = [Runner(f"{robot}BulletEnv-{version}") for version in versions]
-    return dict(zip(versions, [runner.evolve(steps, seed) for runner in runners], strict=False))
+    runners = [Runner(f"{robot}-{version}") for version in versions]
+    return {v: [r.evolve(steps, s) for s in seeds] for v, r in zip(versions, runners)}
 
 
 def compare(robot, genotypes, seed, episodes):
-    runner = Runner(f"{robot}BulletEnv-v5")
+    runner = Runner(f"{robot}-v5")
 
     def mean_gait(genotype):
         gaits = [gait(runner.record(genotype, s)) for s in range(seed, seed + episodes)]
-        return {name: np.mean([each[name] for each in gaits]) for name in gaits[0]}
+        return np.mean([list(each.values()) for each in gaits], axis=0)
 
-    return {key: mean_gait(genotype) for key, genotype in genotypes.items()}
+    names = ["metres", "seconds", "speed", "standing", "grounded"]
+    return {
+        key: dict(zip(names, np.stack([mean_gait(row) for row in rows], axis=1)))
+        for key, rows in genotypes.items()
+    }

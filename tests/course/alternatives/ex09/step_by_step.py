@@ -2,8 +2,8 @@
 import itertools
 
 
-def progress(distance):
-    return [(before - after) / 0.0165 for before, after in itertools.pairwise(distance)]
+def progress(distance, duration):
+    return [(before - after) / duration for before, after in itertools.pairwise(distance)]
 
 
 def alive_bonus(robot, height, pitch, touching):
@@ -42,12 +42,12 @@ def components_v0(trajectory):
         "electricity": electricity(robot, trajectory["actions"], trajectory["speeds"]),
         "alive": alive_bonus(robot, *(trajectory[name] for name in names)),
         "joints_at_limit": joints_at_limit(trajectory["positions"]),
-        "progress": progress(trajectory["distance"]),
+        "progress": progress(trajectory["distance"], trajectory["duration"]),
     }
 
 
 def reward_v5(trajectory):
-    rewards = progress(trajectory["distance"])
+    rewards = progress(trajectory["distance"], trajectory["duration"])
     limits = joints_at_limit(trajectory["positions"])
     for t in range(len(rewards)):
         if trajectory["robot"] == "HalfCheetah":
@@ -61,31 +61,63 @@ def reward_v5(trajectory):
     return rewards
 
 
+def planar_v0(trajectory):
+    alive, effort = [], []
+    for h, p, action in zip(trajectory["height"], trajectory["pitch"], trajectory["actions"]):
+        squares = sum(a**2 for a in action)
+        if trajectory["robot"] == "PlanarHopper":
+            alive.append(1 if h > 0.7 and -0.2 < p < 0.2 else 0)
+            effort.append(-0.001 * squares)
+        if trajectory["robot"] == "PlanarWalker2D":
+            alive.append(1 if 0.8 < h < 2 and -1 < p < 1 else 0)
+            effort.append(-0.001 * squares)
+        if trajectory["robot"] == "PlanarHalfCheetah":
+            alive.append(0)
+            effort.append(-0.1 * squares)
+    moved = progress(trajectory["distance"], trajectory["duration"])
+    return {"effort": effort, "alive": alive, "progress": moved}
+
+
 def gait(trajectory):
-    parts = components_v0(trajectory)
+    parts = planar_v0(trajectory)
     alive = sum(each for each in parts["alive"] if each > 0)
     moved = sum(each for each in parts["progress"] if each > 0)
-    seconds = len(parts["alive"]) * 0.0165
+    steps = len(parts["alive"])
+    seconds = steps * trajectory["duration"]
     metres = trajectory["distance"][0] - trajectory["distance"][-1]
     standing = 0.0
     if alive + moved:
         standing = alive / (alive + moved)
-    return {"standing": standing, "metres": metres, "seconds": seconds, "speed": metres / seconds}
+    grounded = sum(1 for feet in trajectory["feet"] if sum(feet) > 0) / steps
+    return {
+        "standing": standing,
+        "grounded": grounded,
+        "metres": metres,
+        "seconds": seconds,
+        "speed": metres / seconds,
+    }
 
 
-def evolve_both(robot, steps, seed):
+def evolve_both(robot, steps, seeds):
     found = {}
-    for environment in (f"{robot}BulletEnv-v5", f"{robot}BulletEnv-v0"):
-        found[environment[-2:]] = Runner(environment).evolve(steps=steps, seed=seed)
+    for environment in (f"{robot}-v5", f"{robot}-v0"):
+        rows = []
+        for seed in seeds:
+            rows.append(Runner(environment).evolve(steps=steps, seed=seed))
+        found[environment[-2:]] = np.stack(rows)
     return found
 
 
 def compare(robot, genotypes, seed, episodes):
     table = {}
     for name in genotypes:
-        runner = Runner(robot + "BulletEnv-v5")
-        table[name] = {"metres": 0.0, "seconds": 0.0, "speed": 0.0, "standing": 0.0}
-        for episode in range(episodes):
-            for key, value in gait(runner.record(genotypes[name], seed + episode)).items():
-                table[name][key] += value / episodes
+        runner = Runner(robot + "-v5")
+        table[name] = {"metres": [], "seconds": [], "speed": [], "standing": [], "grounded": []}
+        for genotype in genotypes[name]:
+            sums = dict.fromkeys(table[name], 0.0)
+            for episode in range(episodes):
+                for key, value in gait(runner.record(genotype, seed + episode)).items():
+                    sums[key] += value / episodes
+            for key, value in sums.items():
+                table[name][key].append(value)
     return table

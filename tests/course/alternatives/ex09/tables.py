@@ -3,8 +3,8 @@ LOWEST = {"Hopper": 0.8, "Walker2D": 0.8, "Ant": 0.26, "Humanoid": 0.78, "HalfCh
 STEEPEST = {"Ant": np.inf, "Humanoid": np.inf}
 
 
-def progress(distance):
-    return np.convolve(distance, [-1, 1], mode="valid") / 0.0165
+def progress(distance, duration):
+    return np.convolve(distance, [-1, 1], mode="valid") / duration
 
 
 def alive_bonus(robot, height, pitch, touching):
@@ -28,7 +28,7 @@ def joints_at_limit(positions):
 
 def components_v0(trajectory):
     keys = {
-        "progress": (progress, ["distance"]),
+        "progress": (progress, ["distance", "duration"]),
         "alive": (alive_bonus, ["robot", "height", "pitch", "touching"]),
         "electricity": (electricity, ["robot", "actions", "speeds"]),
         "joints_at_limit": (joints_at_limit, ["positions"]),
@@ -40,32 +40,53 @@ def reward_v5(trajectory):
     robot = trajectory["robot"]
     position = np.abs(trajectory["positions"])
     beyond = np.where(position > 1, position - 1, 0).sum(1)
-    terms = [progress(trajectory["distance"])]
+    terms = [progress(trajectory["distance"], trajectory["duration"])]
     terms += [joints_at_limit(position)] if robot in ("HalfCheetah", "Ant", "Humanoid") else []
     terms += [0.01 - 0.01 * (trajectory["actions"] ** 2).mean(1)] if robot == "Ant" else []
     terms += [1 - 10 * beyond - trajectory["heading"] ** 2 / 10] if robot == "Humanoid" else []
     return np.sum(terms, axis=0)
 
 
+# lowest, highest, steepest, bonus, price of effort
+RUNNERS = {
+    "PlanarHopper": (0.7, np.inf, 0.2, 1.0, 1e-3),
+    "PlanarWalker2D": (0.8, 2.0, 1.0, 1.0, 1e-3),
+    "PlanarHalfCheetah": (-np.inf, np.inf, np.inf, 0.0, 1e-1),
+}
+
+
+def planar_v0(trajectory):
+    low, high, steep, bonus, price = RUNNERS[trajectory["robot"]]
+    height = trajectory["height"]
+    fallen = (height <= low) | (height >= high) | (np.abs(trajectory["pitch"]) >= steep)
+    return {
+        "progress": progress(trajectory["distance"], trajectory["duration"]),
+        "alive": bonus * ~fallen,
+        "effort": -price * np.einsum("tj,tj->t", trajectory["actions"], trajectory["actions"]),
+    }
+
+
 def gait(trajectory):
-    v0 = components_v0(trajectory)
+    v0 = planar_v0(trajectory)
     income = np.array([v0["alive"].clip(0).sum(), v0["progress"].clip(0).sum()])
-    distance = trajectory["distance"]
+    distance, duration = trajectory["distance"], trajectory["duration"]
     steps = len(distance) - 1
     return {
         "metres": float(distance[0] - distance[steps]),
-        "seconds": steps * 0.0165,
-        "speed": (distance[0] - distance[steps]) / steps / 0.0165,
+        "seconds": steps * duration,
+        "speed": (distance[0] - distance[steps]) / steps / duration,
         "standing": income[0] / income.sum() if income.any() else 0,
+        "grounded": np.count_nonzero(trajectory["feet"].sum(1)) / steps,
     }
 
 
 def compare(robot, genotypes, seed, episodes):
-    runner = Runner(f"{robot}BulletEnv-v5")
-    sums = {key: np.zeros(4) for key in genotypes}
-    names = ["metres", "seconds", "speed", "standing"]
+    runner = Runner(f"{robot}-v5")
+    names = ["metres", "seconds", "speed", "standing", "grounded"]
+    sums = {key: np.zeros((5, len(rows))) for key, rows in genotypes.items()}
     for i in range(episodes):
-        for key, genotype in genotypes.items():
-            one = gait(runner.record(genotype, seed + i))
-            sums[key] += [one[name] for name in names]
-    return {key: dict(zip(names, total / episodes, strict=False)) for key, total in sums.items()}
+        for key, rows in genotypes.items():
+            for column, genotype in enumerate(rows):
+                one = gait(runner.record(genotype, seed + i))
+                sums[key][:, column] += [one[name] for name in names]
+    return {key: dict(zip(names, total / episodes)) for key, total in sums.items()}

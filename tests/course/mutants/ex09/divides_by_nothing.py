@@ -4,6 +4,6 @@ _gait = gait
 
 
 def gait(trajectory):
-    parts = components_v0(trajectory)
+    parts = planar_v0(trajectory)
     alive, moved = (np.maximum(parts[key], 0).sum() for key in ("alive", "progress"))
     return {**_gait(trajectory), "standing": float(alive / (alive + moved))}

@@ -3,5 +3,5 @@
 _evolve_both = evolve_both
 
 
-def evolve_both(robot, steps, seed):
-    return _evolve_both(robot, 1, seed)
+def evolve_both(robot, steps, seeds):
+    return _evolve_both(robot, steps // 10, seeds)

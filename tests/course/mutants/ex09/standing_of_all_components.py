@@ -4,6 +4,6 @@ _gait = gait
 
 
 def gait(trajectory):
-    parts = components_v0(trajectory)
+    parts = planar_v0(trajectory)
     total = sum(float(each.sum()) for each in parts.values())
     return {**_gait(trajectory), "standing": float(parts["alive"].sum()) / total}

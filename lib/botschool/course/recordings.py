@@ -1,0 +1,86 @@
+"""Short episodes of PyBullet's locomotors and what they were paid, simulated or as recorded."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from botschool.course.files import episode_file
+
+RECORDED = "locomotors.npz"
+"""Episodes with the seed 1, for where PyBullet is not installed; tools/record_locomotors.py."""
+STEPS = 30
+
+
+class Paid(NamedTuple):
+    """An episode with random actions."""
+
+    trajectory: dict
+    """As exercise 9 describes it."""
+    v0: dict[str, np.ndarray]
+    """The components of the reward of version 0, each of shape (T,)."""
+    v5: np.ndarray
+    """The reward of version 5, shape (T,)."""
+
+
+def paid_episode(robot: str, seed: int) -> Paid:
+    """An episode of Hopper, HalfCheetah, Ant, Walker2D or Humanoid, in version 5.
+
+    Where PyBullet is not installed it is the recorded one, whatever the seed.
+    """
+    return simulated(robot, seed) if find_spec("pybullet") else recorded(robot)
+
+
+def simulated(robot: str, seed: int) -> Paid:
+    """Of PyBullet. Raises BotschoolError if it is not installed."""
+    from botschool.envs.locomotors import STEP, Locomotor
+
+    env, rng = Locomotor(robot, 5), np.random.default_rng(seed)
+    env.reset(seed=seed)
+    rows, infos, rewards = [env.measured()], [], []
+    while len(rewards) < STEPS:
+        action = rng.uniform(-1, 1, env.action_space.shape).astype(np.float32)
+        observation, reward, ended, _, info = env.step(action)
+        positions, speeds = observation[8:][: 2 * len(action)].reshape(-1, 2).T
+        rows.append({**env.measured(), "actions": action, "positions": positions, "speeds": speeds})
+        infos.append(info["v0"])
+        rewards.append(reward)
+        if ended:
+            break
+    env.close()
+    one = {key: np.array([row[key] for row in rows[1:]], dtype=float) for key in rows[-1]}
+    one["distance"] = np.array([row["distance"] for row in rows])
+    v0 = {key: np.array([info[key] for info in infos]) for key in infos[0]}
+    return Paid({**one, "robot": robot, "duration": STEP}, v0, np.array(rewards))
+
+
+def recorded(robot: str) -> Paid:
+    """The one in data/episodes. Raises BotschoolError if there is no course here."""
+    from botschool.envs.locomotors import STEP
+
+    parts: dict[str, dict[str, np.ndarray]] = {"trajectory": {}, "v0": {}, "v5": {}}
+    with np.load(episode_file(RECORDED), allow_pickle=False) as file:
+        for name in file.files:
+            owner, part, key = name.split("/")
+            if owner == robot:
+                parts[part][key] = file[name]
+    trajectory = {**parts["trajectory"], "robot": robot, "duration": STEP}
+    return Paid(trajectory, parts["v0"], parts["v5"]["reward"])
+
+
+def write_recordings(file: str | Path, seed: int = 1) -> None:
+    """Simulates an episode of each robot and writes all of them."""
+    from botschool.envs.locomotor_bodies import BODIES
+
+    arrays = {}
+    for robot in BODIES:
+        one = simulated(robot, seed)
+        for key, value in one.trajectory.items():
+            if isinstance(value, np.ndarray):
+                arrays[f"{robot}/trajectory/{key}"] = value
+        arrays |= {f"{robot}/v0/{key}": value for key, value in one.v0.items()}
+        arrays[f"{robot}/v5/reward"] = one.v5
+    np.savez_compressed(file, **arrays)
