@@ -34,6 +34,7 @@ POLICY_DEFAULTS = {
     "episodes": 1,
     "pepisodes": 1,
     "maxsteps": 1000,
+    "pmaxsteps": 0,
     "nhiddens": 50,
     "nhiddens2": 0,
     "nlayers": 1,

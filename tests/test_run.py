@@ -266,3 +266,28 @@ def test_event_files_of_long_runs_are_thinned(tmp_path):
     steps = [p.step for p in EventAccumulator(str(file)).Reload().Scalars("average")]
     assert 900 < len(steps) <= 1001
     assert np.all(np.diff(steps) >= 200)
+
+
+@pytest.mark.parametrize("environment", ["Pendulum-v1", "MountainCar-v0"])
+def test_post_evaluations_may_have_longer_episodes(environment, tmp_path):
+    """pmaxsteps; here no episode ends by itself. With workers it is the same."""
+    policy = {"maxsteps": 20, "pmaxsteps": 50}
+    own = experiment(tmp_path, environment, policy=policy, maxmsteps=0.001)
+    assert run_seeds(own, tmp_path / "one")
+    generation = 6 * 2 * 20 + 3 * 50
+    steps = np.load(tmp_path / "one" / "statS1.npy").reshape(-1, len(STAT))[:, 0]
+    assert steps.tolist() == [generation, 2 * generation, 3 * generation]
+    assert run_seeds(own, tmp_path / "two", workers=2)
+    assert same(tmp_path / "one", tmp_path / "two")
+    saved = np.load(tmp_path / "one" / "bestgS1.npy")
+    shown = PostEvaluation(own, 1, saved)
+    for episode in range(3):
+        assert len(list(shown.play(episode))) == 50
+    best = run_fitness(tmp_path / "one" / "S1.fit")
+    assert np.mean(shown.fitness) == pytest.approx(best)
+
+
+def run_fitness(path):
+    """The best post-evaluated fitness that a .fit file names."""
+    words = path.read_text().split()
+    return float(words[words.index("bestgfit") + 1])

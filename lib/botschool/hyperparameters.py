@@ -52,6 +52,14 @@ class _Evaluation:
     episodes: int = hyper(1, "episodes a candidate's fitness averages", low=1, high=1000000)
     pepisodes: int = hyper(1, "episodes of a post-evaluation", low=1, high=1000000)
     maxsteps: int = hyper(1000, "steps after which an episode is cut", low=1, high=100000000)
+    pmaxsteps: int = hyper(
+        0, "the same for post-evaluations (0 = as maxsteps)", low=0, high=100000000
+    )
+
+    @property
+    def post_steps(self) -> int:
+        """Steps after which an episode of a post-evaluation is cut."""
+        return self.pmaxsteps or self.maxsteps
 
 
 PolicyConfig = make_dataclass(

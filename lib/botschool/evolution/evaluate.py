@@ -113,7 +113,7 @@ class Evaluator:
     @property
     def post_steps(self) -> int:
         """The most steps that a post-evaluation can take."""
-        longest = self.problem.steps(self.policy.config.maxsteps)
+        longest = self.problem.steps(self.policy.config.post_steps)
         return self.policy.config.pepisodes * longest
 
     @property
@@ -135,7 +135,8 @@ class Evaluator:
             self._owed_next -= collecting
             collect = (np.arange(len(episodes)) < collecting).astype(np.uint8)
             episodes = replace(episodes, collect=collect)
-        outcome = self._run(genotype[None], episodes, stoppable)
+        longest = self.policy.config.post_steps
+        outcome = self._run(genotype[None], episodes, stoppable, longest)
         robots = self.problem.interface.robots
         self._collected = [
             (float(robots * outcome.steps[i]), *np.split(outcome.moments[i], 2))
@@ -152,13 +153,19 @@ class Evaluator:
             self.normalisation = self._moments.vectors()
         self._collected = []
 
-    def _run(self, genotypes: np.ndarray, episodes: Episodes, stoppable: bool = True) -> Outcome:
+    def _run(
+        self,
+        genotypes: np.ndarray,
+        episodes: Episodes,
+        stoppable: bool = True,
+        maxsteps: int | None = None,
+    ) -> Outcome:
         return self.problem.evaluate(
             self.policy,
             genotypes,
             self.normalisation,
             episodes,
-            self.policy.config.maxsteps,
+            maxsteps or self.policy.config.maxsteps,
             self._workers,
             self._stopping if stoppable else lambda: False,
         )

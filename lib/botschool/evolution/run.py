@@ -224,6 +224,7 @@ class Run:
         return (
             self.together
             and self.problem.native
+            and self.policy.config.post_steps == self.policy.config.maxsteps
             and self.evaluator.collects == 0
             and most <= WAITING_STEPS
             and self.record.steps + steps + most < self.limit.steps

@@ -57,8 +57,8 @@ class GymProblem(Problem):
             from botschool.problems.workers import Workers
 
             if self._pool is None:
-                self._pool = Workers((self.name, self._wrapped), policy.config, maxsteps, workers)
-            return self._pool.evaluate(genotypes, normalisation, episodes, stopping)
+                self._pool = Workers((self.name, self._wrapped), policy.config, workers)
+            return self._pool.evaluate(genotypes, normalisation, episodes, maxsteps, stopping)
         n, size = len(episodes), self.interface.observations
         outcome = Outcome(np.zeros(n), np.zeros(n, dtype=np.int32))
         if episodes.collect is not None:

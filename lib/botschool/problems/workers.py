@@ -31,12 +31,10 @@ class Workers:
     sent, so the outcome is the same.
     """
 
-    def __init__(
-        self, problem: tuple[str, str], config: PolicyConfig, maxsteps: int, workers: int
-    ) -> None:
+    def __init__(self, problem: tuple[str, str], config: PolicyConfig, workers: int) -> None:
         """problem: name, and the wrappers around it."""
         self._name, _ = problem
-        self._arguments = (problem, config, maxsteps)
+        self._arguments = (problem, config)
         self._workers = workers
         self._pool: ProcessPoolExecutor | None = None
 
@@ -45,6 +43,7 @@ class Workers:
         genotypes: np.ndarray,
         normalisation: np.ndarray | None,
         episodes: Episodes,
+        maxsteps: int,
         stopping: Callable[[], bool],
     ) -> Outcome:
         """See Problem.evaluate."""
@@ -56,7 +55,7 @@ class Workers:
         while len(done) < len(chunks):
             before = len(done)
             try:
-                self._run(chunks, done, genotypes, normalisation, episodes, stopping)
+                self._run(chunks, done, genotypes, normalisation, episodes, maxsteps, stopping)
             except BrokenProcessPool:
                 self.close()
                 deaths = 0 if len(done) > before else deaths + 1
@@ -75,7 +74,9 @@ class Workers:
             moments,
         )
 
-    def _run(self, chunks, done, genotypes, normalisation, episodes, stopping) -> None:
+    def _run(
+        self, chunks, done, genotypes, normalisation, episodes, maxsteps, stopping
+    ) -> None:
         if self._pool is None:
             self._pool = ProcessPoolExecutor(
                 self._workers,
@@ -90,7 +91,9 @@ class Workers:
             chosen = episodes.select(chunk)
             used, chosen.candidate = np.unique(chosen.candidate, return_inverse=True)
             with _unheard(signal.SIGINT):  # Ctrl-C is the main process's affair
-                future = self._pool.submit(_evaluate, genotypes[used], normalisation, chosen)
+                future = self._pool.submit(
+                    _evaluate, genotypes[used], normalisation, chosen, maxsteps
+                )
             running[future] = i
         while running:
             finished, _ = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)
@@ -115,7 +118,7 @@ class Workers:
 _worker: tuple | BotschoolError | None = None
 
 
-def _start(named: tuple[str, str], config: PolicyConfig, maxsteps: int) -> None:
+def _start(named: tuple[str, str], config: PolicyConfig) -> None:
     global _worker
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
@@ -125,7 +128,7 @@ def _start(named: tuple[str, str], config: PolicyConfig, maxsteps: int) -> None:
     try:
         name, wrappers = named
         problem = problems.make(name, wrappers=wrappers)
-        _worker = (problem, Policy(name, problem.interface, config), maxsteps)
+        _worker = (problem, Policy(name, problem.interface, config))
     except BotschoolError as error:  # told by the first evaluation
         _worker = error
 
@@ -148,8 +151,10 @@ def _unheard(number: int) -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _evaluate(genotypes: np.ndarray, normalisation, episodes: Episodes) -> Outcome:
+def _evaluate(
+    genotypes: np.ndarray, normalisation, episodes: Episodes, maxsteps: int
+) -> Outcome:
     if isinstance(_worker, BotschoolError):
         raise _worker
-    problem, policy, maxsteps = _worker
+    problem, policy = _worker
     return problem.evaluate(policy, genotypes, normalisation, episodes, maxsteps)

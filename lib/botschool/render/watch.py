@@ -55,7 +55,7 @@ class PostEvaluation:
         self.problem = problems.of(experiment)
         self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
         self.seed = seed
-        self.maxsteps = experiment.policy.maxsteps
+        self.maxsteps = experiment.policy.post_steps
         self.fitness: list[float] = []
         self.steps: list[int] = []
         if saved is None:
