@@ -14,7 +14,11 @@ from botschool.evolution.replicate import replicate
 SENTENCE = re.compile(r"error: \S[^\n]*[.?]\n")
 TESTS = Path(__file__).parent
 ALGORITHMS = ("SSS", "OpenAI-ES")
-POPULATION = {"SSS": {"popsize": 6, "mutrate": 0.2}, "OpenAI-ES": {"samplesize": 3}}
+POPULATION = {
+    "SSS": {"popsize": 6, "mutrate": 0.2},
+    "OpenAI-ES": {"samplesize": 3},
+    "ARS": {"samplesize": 3},
+}
 
 
 def write_experiment(folder, environment="CartPole-v1", algo="SSS", policy=None, **algorithm):

@@ -1,4 +1,4 @@
-"""SSS and OpenAI-ES against small implementations in plain Python of docs/specification.md,
+"""SSS, OpenAI-ES and ARS against small implementations in plain Python of docs/specification.md,
 "Algorithms"."""
 
 import math
@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from botschool.config import OpenAIESConfig, SSSConfig
+from botschool.evolution.algorithms.ars import ARS, ARSConfig
 from botschool.evolution.algorithms.openaies import OpenAIES
 from botschool.evolution.algorithms.sss import SSS
+from botschool.errors import BotschoolError
 from running import ALGORITHMS, experiment, run_seeds
 
 SIZE = 7
@@ -142,10 +144,50 @@ def test_decay_pulls_the_centre_towards_zero(wdecay):
     assert np.all(np.abs(es.centre) < before)
 
 
-@pytest.mark.parametrize("algo", ALGORITHMS)
+@pytest.mark.parametrize("symseed", [0, 1])
+@pytest.mark.parametrize("ntop", [0, 3])
+def test_ars_moves_the_centre_by_the_best_directions(ntop, symseed):
+    config = ARSConfig(samplesize=5, ntop=ntop, noiseStdDev=0.1, stepsize=0.3, symseed=symseed)
+    ars, centre = ARS(config, initial, seed=9), initial(0)
+    for generation in range(4):
+        noise = numbers(9, generation, (5, SIZE))
+        expected = [centre + sign * 0.1 * e for e in noise for sign in (1, -1)]
+        candidates, seeds = ars.ask()
+        np.testing.assert_allclose(candidates, expected, rtol=1e-12)
+        each = [9 + 5 * generation + b for b in range(5) for _ in "+-"]
+        alone = [9 + 10 * generation + i for i in range(10)]
+        assert seeds.tolist() == (each if symseed else alone)
+        fitness = fitness_of(candidates)
+        pairs = sorted(range(5), key=lambda b: -max(fitness[2 * b], fitness[2 * b + 1]))
+        pairs = pairs[: ntop or 5]
+        counted = [fitness[2 * b + side] for b in pairs for side in (0, 1)]
+        step = sum((fitness[2 * b] - fitness[2 * b + 1]) * noise[b] for b in pairs)
+        centre = centre + 0.3 / (len(pairs) * np.std(counted)) * step
+        ars.tell(fitness)
+        np.testing.assert_allclose(ars.centre, centre, rtol=1e-9)
+    assert ars.average_parameter() == pytest.approx(np.abs(centre).mean())
+
+
+def test_ars_stays_where_all_candidates_are_alike():
+    ars = ARS(ARSConfig(samplesize=3), initial, seed=2)
+    ars.ask()
+    ars.tell(np.full(6, 4.0))
+    assert np.array_equal(ars.centre, initial(0)) and ars.generation == 1
+
+
+def test_ars_needs_as_many_directions_as_count(tmp_path):
+    with pytest.raises(BotschoolError, match="ntop = 4 is above samplesize = 3"):
+        experiment(tmp_path, algo="ARS", samplesize=3, ntop=4)
+
+
+@pytest.mark.parametrize("algo", [*ALGORITHMS, "ARS"])
 def test_state_goes_out_and_in(algo):
-    config = {"SSS": SSSConfig(popsize=6), "OpenAI-ES": OpenAIESConfig(samplesize=3)}[algo]
-    make = {"SSS": SSS, "OpenAI-ES": OpenAIES}[algo]
+    config = {
+        "SSS": SSSConfig(popsize=6),
+        "OpenAI-ES": OpenAIESConfig(samplesize=3),
+        "ARS": ARSConfig(samplesize=3),
+    }[algo]
+    make = {"SSS": SSS, "OpenAI-ES": OpenAIES, "ARS": ARS}[algo]
     one, two = make(config, initial, 3), make(config, initial, 3)
     for _ in range(3):
         one.tell(fitness_of(one.ask()[0]))
@@ -157,13 +199,14 @@ def test_state_goes_out_and_in(algo):
 
 
 @pytest.mark.parametrize("seed", [1, 2])
-@pytest.mark.parametrize("algo", ALGORITHMS)
-def test_both_solve_cartpole(algo, seed, tmp_path):
+@pytest.mark.parametrize("algo", [*ALGORITHMS, "ARS"])
+def test_all_solve_cartpole(algo, seed, tmp_path):
     """A trivial task; 500 is the best that CartPole-v1 gives."""
     policy = {"episodes": 3, "pepisodes": 20, "maxsteps": 500, "nhiddens": 5, "bias": 1}
     options = {
         "SSS": {"popsize": 20, "mutrate": 0.1},
         "OpenAI-ES": {"samplesize": 20, "stepsize": 0.05, "noiseStdDev": 0.1},
+        "ARS": {"samplesize": 20, "stepsize": 0.1, "noiseStdDev": 0.1},
     }[algo]
     own = experiment(tmp_path, "CartPole-v1", algo, policy, maxmsteps=3, **options)
     assert run_seeds(own, tmp_path, [seed])

@@ -146,7 +146,7 @@ def test_every_value_is_read_with_its_type(tmp_path):
     algo += "symseed=0\nsaveeach=0.5"
     experiment = load(write(tmp_path, text(policy, algo)))
     assert experiment.policy == PolicyConfig(
-        2, 1, 3, 7, 1000, 100, 30, 2, 1, 4, 5, 0, 3, 2, 2, 0.05, 1, 1, 0.5
+        2, 1, 3, 7, 1000, 0, 100, 30, 2, 1, 4, 5, 0, 3, 2, 2, 0.05, 1, 1, 0.5
     )
     assert experiment.algo == OpenAIESConfig(0.25, 0.01, 250, 0.02, 2, 0, 0.5)
     assert experiment.path == tmp_path / "own.ini"
@@ -385,7 +385,7 @@ def test_refused_dict(data, part):
 def test_describe_lists_every_hyperparameter_with_default_and_help():
     rows = describe()
     listed = {(section, name): default for section, name, default, _ in rows}
-    assert len(listed) == len(rows) == 4 + 19 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12
+    assert len(listed) == len(rows) == 4 + 20 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12
     for section, defaults in (
         ("EXP", {"environment": None, "algo": "OpenAI-ES", "robots": "", "wrappers": ""}),
         ("POLICY", POLICY_DEFAULTS),

@@ -1,0 +1,116 @@
+"""ARS, augmented random search: Mania, Guy and Recht (2018), "Simple random search of static linear
+policies is competitive for reinforcement learning", as in docs/specification.md, "Algorithms".
+
+As OpenAI-ES it measures candidates on both sides of a centre. But only the directions with the best
+candidates count, weighted by fitness itself instead of ranks, and the centre moves by their mean,
+divided by the spread of fitness, so that steps get smaller where fitness varies more.
+"""
+
+# Hyperparameters keep the names they have in .ini files.
+# ruff: noqa: N815
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
+from botschool.evolution.algorithms.openaies import mirrored
+from botschool.hyperparameters import NO_YES, hyper
+from botschool.seeds import generator
+
+
+@dataclass
+class ARSConfig:
+    """Section [ALGO] of ARS."""
+
+    maxmsteps: float = hyper(
+        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
+    )
+    stepsize: float = hyper(0.02, "step size", above=0, high=1000)
+    samplesize: int = hyper(
+        16, "directions per generation, two candidates each", low=1, high=1000000
+    )
+    ntop: int = hyper(0, "directions that count, the best (0 = all)", low=0, high=1000000)
+    noiseStdDev: float = hyper(0.05, "standard deviation of perturbations", above=0, high=1000)
+    symseed: int = hyper(1, "both candidates of a perturbation meet the same seed", choices=NO_YES)
+    saveeach: float = hyper(
+        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
+    )
+
+
+def shift(fitness: np.ndarray, samples: np.ndarray, ntop: int) -> np.ndarray:
+    """How far the centre moves at a step size of 1, shape (parameters,).
+
+    samples: directions, shape (samplesize, parameters); fitness: that of the two candidates of
+    each, centre + s e and centre - s e, shape (2 * samplesize,).
+    """
+    pairs = fitness.reshape(-1, 2)
+    # the directions whose better candidate is best; of equal ones the first
+    best = np.argsort(-pairs.max(axis=1), kind="stable")[:ntop]
+    counted = pairs[best].ravel().tolist()
+    mean = math.fsum(counted) / len(counted)
+    spread = math.sqrt(math.fsum((one - mean) ** 2 for one in counted) / len(counted))
+    if not spread > 0:  # all are alike: there is no direction
+        return np.zeros(samples.shape[1])
+    weights = (pairs[best, 0] - pairs[best, 1]) / (len(best) * spread)
+    # summed row by row, so that no BLAS can change the last bits
+    return np.add.reduce(weights[:, None] * samples[best], axis=0)
+
+
+@algorithm("ARS", "augmented random search", ARSConfig)
+class ARS:
+    """ask() -> candidates to evaluate; tell(their fitness) -> one step of the centre."""
+
+    def __init__(self, config: ARSConfig, initial: Initial, seed: int) -> None:
+        """initial(index) gives a random genotype; the centre starts at number 0."""
+        self.config = config
+        self.seed = seed
+        self.generation = 0
+        numbers = np.arange(2 * config.samplesize, dtype=np.uint64)
+        self._own_seeds = numbers // np.uint64(2) if config.symseed else numbers
+        self._seeds_used = config.samplesize if config.symseed else 2 * config.samplesize
+        self.centre = initial(0)
+
+    @staticmethod
+    def conflicts(config: ARSConfig) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Hyperparameters that cannot go together."""
+        if config.ntop > config.samplesize:
+            yield (
+                ("ntop", "samplesize"),
+                f"ntop = {config.ntop} is above samplesize = {config.samplesize}: "
+                f"set ntop = {config.samplesize}, or 0 for all directions",
+            )
+
+    def ask(self) -> tuple[np.ndarray, np.ndarray]:
+        """Candidates, shape (2 * samplesize, parameters), and the seed of each one's evaluation.
+
+        Candidates 2 b and 2 b + 1 are centre + noiseStdDev * e_b and centre - noiseStdDev * e_b.
+        """
+        shape = (self.config.samplesize, len(self.centre))
+        self.samples = generator(self.seed, self.generation).standard_normal(shape)
+        candidates = mirrored(self.centre, self.samples, self.config.noiseStdDev)
+        return candidates, self.seed + self.generation * self._seeds_used + self._own_seeds
+
+    def tell(self, fitness: np.ndarray) -> None:
+        """Moves the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
+        config = self.config
+        rising = shift(fitness, self.samples, config.ntop or config.samplesize)
+        self.centre = self.centre + config.stepsize * rising
+        self.generation += 1
+
+    def average_parameter(self) -> float:
+        """Average absolute parameter of the centre."""
+        return mean_absolute(self.centre)
+
+    def state(self) -> dict[str, np.ndarray]:
+        """All that a checkpoint needs besides config and seed."""
+        return {"generation": np.array(self.generation), "centre": self.centre}
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """The reverse of state()."""
+        self.generation = int(state["generation"])
+        self.centre = state["centre"]
