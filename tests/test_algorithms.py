@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from botschool.config import OpenAIESConfig, SSSConfig
+from botschool.errors import BotschoolError
 from botschool.evolution.algorithms.ars import ARS, ARSConfig
 from botschool.evolution.algorithms.openaies import OpenAIES
 from botschool.evolution.algorithms.sss import SSS
-from botschool.errors import BotschoolError
 from running import ALGORITHMS, experiment, run_seeds
 
 SIZE = 7

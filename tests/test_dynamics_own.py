@@ -246,6 +246,7 @@ LIMITS = {
     "ErDpole": 1000,
     "ErDiscrim": 500,
     "ErPredprey": 2000,
+    "PlanarBodyBrain-v0": 1000,
     **{
         f"Planar{body}-v{version}": 1000
         for body in ("Hopper", "Walker2D", "HalfCheetah")

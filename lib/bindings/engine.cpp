@@ -56,6 +56,7 @@ nb::dict to_dict(const Info& info) {
   d["high"] = info.high;
   d["seconds"] = info.seconds;
   d["robots"] = info.robots;
+  d["body"] = info.body;
   d["alias"] = info.alias;
   d["alias_limit"] = info.alias_limit;
   d["gym"] = info.gym;
@@ -104,7 +105,8 @@ std::size_t offset_of(const Engine& engine, bool heterogeneous, std::size_t give
 }
 
 void check_genotypes(const Engine& engine, std::size_t length, std::size_t offset) {
-  const std::size_t needed = engine.layout().parameters + (engine.info().robots - 1) * offset;
+  const std::size_t needed = engine.layout().parameters + (engine.info().robots - 1) * offset +
+                             std::size_t(engine.info().body);
   if (length < needed)
     throw std::invalid_argument("a genotype has " + std::to_string(length) + " values, but " +
                                 std::to_string(needed) + " are needed.");
@@ -307,6 +309,11 @@ void bind_engine(nb::module_& module) {
           "set",
           [](Stepper& s, int limit, const Options* options) { s.set(setting_of(limit, options)); },
           nb::arg("limit"), nb::arg("options").none() = nb::none(), nb::keep_alive<1, 3>())
+      .def("set_body",
+           [](Stepper& s, Vector<const double> parameters) {
+             expect_size(parameters, s.info().body, "the body");
+             s.set_body(parameters.data());
+           })
       .def("start", &Stepper::start, nb::arg("seed"), nb::arg("episode") = 0)
       .def_prop_rw("state", &state_of,
                    [](Stepper& s, Vector<const double> state) {

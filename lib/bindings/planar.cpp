@@ -46,6 +46,11 @@ struct Body {
       if (body->name() == name) planar = std::move(body);
     if (!planar) throw std::invalid_argument("there is no planar body '" + name + "'.");
   }
+  /// The chain of BodyBrain.
+  explicit Body(Vector<const double> parameters) {
+    expect_size(parameters, 64, "the body");
+    planar = planar_chain(parameters.data());
+  }
   std::unique_ptr<PlanarBody> planar;
   std::size_t size() const { return planar->size(); }
 };
@@ -84,6 +89,7 @@ nb::tuple advance(const Body& body, Vector<const double> state, Vector<const dou
 void bind_planar(nb::module_& module) {
   nb::class_<Body>(module, "PlanarBody")
       .def(nb::init<const std::string&>(), nb::arg("name"))
+      .def(nb::init<Vector<const double>>(), nb::arg("parameters"))
       .def_prop_ro("size", &Body::size)
       .def_prop_ro("table", [](const Body& body) { return to_dict(*body.planar); })
       .def("mass_matrix", &mass_matrix, nb::arg("position"))

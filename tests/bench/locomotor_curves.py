@@ -1,132 +1,193 @@
 """How far runs of the locomotors have come, beside the published runs of 50 M steps.
 
-    python tests/bench/locomotor_curves.py FOLDER --picture docs/images/locomotors.png
+    python tests/bench/locomotor_curves.py FOLDER            prints the table
+    python tests/bench/locomotor_curves.py FOLDER --write    renews documents and robots
 
-FOLDER holds a run in a folder of its own for each robot, named as its file in data/experiments:
-`botschool es -f data/experiments/hopper.ini -s 1 -o FOLDER/hopper`. Prints a Markdown table.
+FOLDER holds a folder of runs for each robot, named as the robot, made with linear policies:
+`botschool es -f data/experiments/hopper_linear.ini -s 1 -o FOLDER/hopper`. --write renews what
+docs/bodies.md and data/genotypes/README.md have between their LOCOMOTORS markers, the figure
+docs/images/locomotors.png, and the best robot of each in data/genotypes.
 """
 
 from __future__ import annotations
 
 import argparse
+import re
+import shutil
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from report import Table, machine
 
 from botschool import config
-from botschool.analysis.runs import BEST_POST, GENERATION_AVERAGE, STEPS, read_stat
+from botschool.analysis.runs import BEST_POST, STEPS, read_stat
 from botschool.evolution.record import RunFiles
-from botschool.evolution.run import Run
-from botschool.problems import Episodes
+from botschool.policy import Policy
+from botschool.problems import Episodes, make
 
-DATA = Path(__file__).parents[2] / "data" / "experiments"
+ROOT = Path(__file__).parents[2]
+DATA = ROOT / "data"
 PUBLISHED = {
     "hopper": (2261, 264),
     "halfcheetah": (2480, 474),
-    "ant": (1576, 184),
     "walker2d": (910, 477),
+    "ant": (1576, 184),
     "humanoid": (931, 736),
 }
 """Mean and standard deviation of the best post-evaluated fitness, 10 seeds (docs/specification.md,
 "Published results")."""
-SEED = 1
+BUDGET = {"humanoid": 100e6}
 NEW_SEED, NEW_EPISODES = 2_000_000, 50
+LONGEST = 1000
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 
 
-def projection(stat: np.ndarray, steps: np.ndarray) -> np.ndarray:
-    """Best post-evaluated fitness to be expected after more `steps`.
+@dataclass
+class Seed:
+    """A run, and its best post-evaluated robot in episodes that had no part in choosing it."""
 
-    The straight line along the last two doublings of the steps, on a logarithmic axis, from the
-    curve's end: it supposes that each doubling goes on to bring as much as those did.
-    """
-    logs, end = np.log(stat[:, STEPS]), np.log(stat[-1, STEPS])
-    points = np.linspace(end - np.log(4), end, 200)  # equally weighted along the axis
-    slope = np.polyfit(points - end, np.interp(points, logs, stat[:, BEST_POST]), 1)[0]
-    return stat[-1, BEST_POST] + slope * (np.log(steps) - end)
+    seed: int
+    files: RunFiles
+    stat: np.ndarray
+    returns: np.ndarray
+    steps: np.ndarray
+    metres: np.ndarray
 
+    @property
+    def done(self) -> float:
+        """Steps of the run."""
+        return float(self.stat[-1, STEPS])
 
-def new_episodes(experiment, files: RunFiles) -> np.ndarray:
-    """Returns of the best post-evaluated robot in episodes that had no part in choosing it."""
-    run = Run(experiment, SEED)
-    genotype, normalisation = run.policy.split(np.load(files.bestg))
-    episodes = Episodes.of([NEW_SEED], NEW_EPISODES)
-    outcome = run.problem.evaluate(
-        run.policy, genotype[None], normalisation, episodes, experiment.policy.maxsteps
-    )
-    run.problem.close()
-    return outcome.fitness
+    @property
+    def best(self) -> float:
+        """Best post-evaluated fitness."""
+        return float(self.stat[-1, BEST_POST])
 
 
-def draw(curves: dict[str, np.ndarray], budgets: dict[str, float], picture: Path) -> None:
-    """A panel for each robot."""
+def experiment_of(robot: str):
+    """The experiment of its runs."""
+    return config.load(DATA / "experiments" / f"{robot}_linear.ini")
+
+
+def seeds_of(folder: Path, robot: str) -> list[Seed]:
+    """The runs of a robot that a folder holds."""
+    experiment = experiment_of(robot)
+    problem = make(experiment.exp.environment)
+    policy = Policy(problem.name, problem.interface, experiment.policy)
+    found = []
+    for path in sorted((folder / robot).glob("statS*.npy")):
+        seed = int(re.findall(r"\d+", path.stem)[0])
+        files, stat = RunFiles(folder / robot, seed), read_stat(path)
+        if not len(stat) or not files.bestg.is_file():
+            continue
+        genotype, normalisation = policy.split(np.load(files.bestg))
+        returns, steps, metres = [], [], []
+        for episode in range(NEW_EPISODES):
+            one = Episodes.of([NEW_SEED], NEW_EPISODES).select(slice(episode, episode + 1))
+            outcome = problem.evaluate(policy, genotype[None], normalisation, one, LONGEST)
+            returns.append(outcome.fitness[0])
+            steps.append(outcome.steps[0])
+            metres.append(problem._env.unwrapped._place[0])
+        found.append(Seed(seed, files, stat, *map(np.array, (returns, steps, metres))))
+    problem.close()
+    return sorted(found, key=lambda s: s.seed)
+
+
+def table_of(runs: dict[str, list[Seed]]) -> Table:
+    """A row for each run."""
+    table = Table(
+        "Locomotors, version 5, linear policies",
+        f"Best post-evaluated robots in {NEW_EPISODES} new episodes which had no part in choosing "
+        "them: mean return and standard deviation, mean way ahead and length of an episode "
+        f"({LONGEST} steps are 16.5 s). Published: 10 seeds after 50 M steps, Humanoid 100 M.",
+        ["robot", "seed", "steps", "best post-evaluated", "new episodes", "way", "steps / episode",
+         "published"],
+    )  # fmt: skip
+    for robot, seeds in runs.items():
+        mean, deviation = PUBLISHED[robot]
+        for run in seeds:
+            table.add(
+                robot,
+                str(run.seed),
+                f"{run.done / 1e6:.2f} M",
+                f"{run.best:.0f}",
+                f"{run.returns.mean():.0f} +- {run.returns.std(ddof=1):.0f}",
+                f"{run.metres.mean():.1f} m",
+                f"{run.steps.mean():.0f}",
+                f"{mean} +- {deviation}",
+            )
+    return table
+
+
+def draw(runs: dict[str, list[Seed]], picture: Path) -> None:
+    """A panel for each robot, a line for each seed."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(13, 3.4), layout="constrained")
-    panels = figure.subplots(1, len(curves), squeeze=False)[0]
-    for axes, (robot, stat) in zip(panels, curves.items(), strict=True):
-        steps, end = stat[:, STEPS] / 1e6, budgets[robot]
-        ahead = np.geomspace(steps[-1], end, 50)
-        axes.plot(steps, stat[:, GENERATION_AVERAGE], color="#bbbbbb", lw=0.8, label="average")
-        axes.plot(steps, stat[:, BEST_POST], color="#0072b2", lw=2, label="best post-evaluated")
-        expected = projection(stat, 1e6 * ahead)
-        axes.plot(ahead, expected, "--", color="#0072b2", lw=1.2, label="projected")
-        mean, deviation = PUBLISHED[robot]
-        style = {"fmt": "o", "color": "#d55e00", "capsize": 4, "label": "published, 10 seeds"}
+    panels = figure.subplots(1, len(runs), squeeze=False)[0]
+    for axes, (robot, seeds) in zip(panels, runs.items(), strict=True):
+        end, (mean, deviation) = BUDGET.get(robot, 50e6) / 1e6, PUBLISHED[robot]
+        for run, colour in zip(seeds, COLOURS, strict=False):
+            steps = run.stat[:, STEPS] / 1e6
+            axes.plot(steps, run.stat[:, BEST_POST], color=colour, lw=1.8, label=f"seed {run.seed}")
+        style = {"fmt": "o", "color": "black", "capsize": 4, "label": "published, 10 seeds"}
         axes.errorbar(end, mean, deviation, **style)
         axes.set_xscale("log")
-        axes.set(title=f"{robot} (seed {SEED})", xlabel="million steps", xlim=(0.05, 1.6 * end))
-        axes.set_ylim(bottom=min(0, *stat[:, BEST_POST]) - 50)
+        axes.set(title=robot, xlabel="million steps", xlim=(0.05, 1.6 * end))
         axes.grid(color="#eeeeee")
         axes.spines[["top", "right"]].set_visible(False)
-    panels[0].set_ylabel("fitness of an episode")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    panels[0].set_ylabel("best post-evaluated fitness")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=7)
     figure.savefig(picture, dpi=110)
+
+
+def put(path: Path, text: str) -> None:
+    """Replaces what a document has between its markers."""
+    begin, end = "<!-- BEGIN LOCOMOTORS -->", "<!-- END LOCOMOTORS -->"
+    before, _, rest = path.read_text(encoding="utf-8").partition(begin)
+    _, found, after = rest.partition(end)
+    if not found:
+        raise SystemExit(f"{path} lacks the markers {begin} and {end}.")
+    path.write_text(f"{before}{begin}\n{text}\n{end}{after}", encoding="utf-8")
+
+
+def write(runs: dict[str, list[Seed]]) -> None:
+    """Table and figure into the documents, the best robots into data/genotypes."""
+    draw(runs, ROOT / "docs" / "images" / "locomotors.png")
+    table = table_of(runs)
+    put(ROOT / "docs" / "bodies.md", f"\n{table.markdown()}\n\n({table.about})\n")
+    rows = []
+    for robot, seeds in runs.items():
+        best = max(seeds, key=lambda run: run.best)
+        name = f"{robot}_linear"
+        shutil.copyfile(best.files.bestg, DATA / "genotypes" / f"{name}.npy")
+        rows.append(
+            f"| {name}.npy | {name}.ini | `botschool es -f data/experiments/{name}.ini "
+            f"-s {best.seed} --steps {best.done:.0f}` (***) | {best.done:,.0f} | "
+            f"{best.returns.mean():.0f} |"
+        )
+    put(
+        DATA / "genotypes" / "README.md",
+        "\n| genotype | experiment | command | steps | fitness |\n|---|---|---|---|---|\n"
+        + "\n".join(rows)
+        + "\n",
+    )
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--picture", type=Path, help="also draw the curves")
+    parser.add_argument("--write", action="store_true", help="renew documents and robots")
     options = parser.parse_args()
-    table = Table(
-        "Locomotors, version 5",
-        f"Seed {SEED}. New episodes: mean and standard deviation of {NEW_EPISODES} which had no "
-        "part in choosing the robot. Projected: best post-evaluated fitness if each doubling of "
-        "the steps goes on to bring as much as the last two did. Published: means of 10 seeds at "
-        "the file's budget.",
-        [
-            "robot",
-            "steps",
-            "best post-evaluated",
-            "new episodes",
-            "budget",
-            "projected",
-            "published",
-        ],
-    )
-    curves, budgets = {}, {}
-    for robot, (mean, deviation) in PUBLISHED.items():
-        files = RunFiles(options.folder / robot, SEED)
-        if not files.stat.is_file():
-            continue
-        experiment = config.load(DATA / f"{robot}.ini")
-        stat, budget = read_stat(files.stat), experiment.algo.maxmsteps
-        new = new_episodes(experiment, files)
-        table.add(
-            robot,
-            f"{stat[-1, STEPS] / 1e6:.2f} M",
-            f"{stat[-1, BEST_POST]:.0f}",
-            f"{new.mean():.0f} +- {new.std(ddof=1):.0f}",
-            f"{budget:g} M",
-            f"{projection(stat, np.array(1e6 * budget)):.0f}",
-            f"{mean} +- {deviation}",
-        )
-        curves[robot], budgets[robot] = stat, budget
+    runs = {robot: seeds_of(options.folder, robot) for robot in PUBLISHED}
+    runs = {robot: seeds for robot, seeds in runs.items() if seeds}
+    if not runs:
+        raise SystemExit(f"{options.folder} holds no runs of {', '.join(PUBLISHED)}.")
     print(f"Machine: {machine()}\n")
-    table.show(markdown=True)
-    if options.picture:
-        draw(curves, budgets, options.picture)
+    table_of(runs).show(markdown=True)
+    if options.write:
+        write(runs)
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from bodies import locomotors
 from bodies import two_workers as two_workers_on_bodies
-from bodybrain import bodybrain
+from bodybrain import bodybrain, chains
 from comparison import comparison, notice
 from processes import Neighbours, help_seconds, peak_memory
 from report import Table, machine, rate, verdict
@@ -277,6 +277,7 @@ PARTS = {
     "bodies": (locomotors, (5,), (50,)),
     "bodyworkers": (two_workers_on_bodies, (1,), (4,)),
     "bodybrain": (bodybrain, (5,), (30,)),
+    "chains": (chains, (0.2, 2), (1.0, 5)),
     "runners": (runners, (0.2, 2), (1.0, 5)),
     "runnerworkers": (two_workers_on_runners, (3,), (20,)),
     "memory": (memory_and_start, (2, 3), (8, 10)),

@@ -58,8 +58,12 @@ class ProblemStepper final : public Stepper {
   }
   Info info() const override { return Problem<1>::info(); }
   void set(const Setting& setting) override { problem_.set(setting); }
+  void set_body(const double* parameters) override {
+    body_.assign(parameters, parameters + info().body);
+  }
   void start(std::uint64_t seed, std::uint32_t episode) override {
     Random random(seed, episode, Stream::start);
+    problem_.build(0, body_.empty() ? nullptr : body_.data());
     problem_.start(0, random);
   }
   void set_state(const double* state) override {
@@ -87,6 +91,7 @@ class ProblemStepper final : public Stepper {
 
  private:
   Problem<1> problem_{};
+  std::vector<double> body_;
 };
 
 template <template <int> class... Problem>

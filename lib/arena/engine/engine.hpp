@@ -45,6 +45,8 @@ class Stepper {
   virtual ~Stepper() = default;
   virtual Info info() const = 0;
   virtual void set(const Setting& setting) = 0;
+  /// The body of the episodes from the next start on, info().body parameters.
+  virtual void set_body(const double* parameters) = 0;
   virtual void start(std::uint64_t seed, std::uint32_t episode) = 0;
   virtual void set_state(const double* state) = 0;
   virtual void get_state(double* state) const = 0;

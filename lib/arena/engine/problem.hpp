@@ -36,6 +36,7 @@ struct Info {
   double low = -1, high = 1;  ///< range of the actuators
   double seconds = 0.02;      ///< of one step
   int robots = 1;
+  int body = 0;            ///< parameters of a body that evolves, after those of the network
   const char* alias = "";  ///< another name, with
   int alias_limit = 0;     ///< another longest episode
   const char* gym = "";    ///< id of its Gymnasium face; "": `name` itself, or botschool/name
@@ -62,6 +63,8 @@ struct ProblemBase {
   static constexpr bool movable = false;
   /// Once, before anything else.
   void set(const Setting&) {}
+  /// The body of the episode that starts next in a lane: `body` parameters, or null for all zeros.
+  void build(int, const double*) {}
   /// Recomputes what is derived from a state that was changed from outside.
   void refresh(int) {}
   /// Writes the least and the greatest value of each observation of a robot, where there are such;

@@ -214,6 +214,7 @@ class Rollout {
     if (job < 0 && !unused) return;
     const NoiseKey key = job < 0 ? NoiseKey{0, 0} : NoiseKey{jobs_.seed[job], jobs_.episode[job]};
     Random random(key.seed, key.episode, Stream::start);
+    problem_.build(lane, job < 0 ? nullptr : body(jobs_.candidate[job]));
     problem_.start(lane, random);  // an unused lane gets harmless contents
     for (int r = 0; r < robots_; ++r) keys_[r][lane] = robot_key(key, r);
     if (job < 0) return;
@@ -300,6 +301,11 @@ class Rollout {
 
   const double* genotype(int robot, std::int32_t candidate) const {
     return jobs_.genotypes + jobs_.genotype_stride * candidate + robot * jobs_.robot_offset;
+  }
+
+  /// What comes after a candidate's network.
+  const double* body(std::int32_t candidate) const {
+    return jobs_.genotypes + jobs_.genotype_stride * candidate + layout_.parameters;
   }
 
   bool wants_moments(std::ptrdiff_t job) const { return jobs_.collect && jobs_.collect[job]; }

@@ -24,7 +24,8 @@ class NativeEnv(gymnasium.Env):
 
     problem: its name in experiment files, such as ErDiscrim. noise: standard deviation of an
     arena's infrared readings; None is the problem's own. robots: kinds of its wheeled robots, () is
-    the problem's own. Raises BotschoolError.
+    the problem's own. morphology: parameters of a body that evolves, None for zeros. Raises
+    BotschoolError.
     """
 
     metadata: ClassVar[dict] = {"render_modes": RENDER_MODES}
@@ -35,6 +36,7 @@ class NativeEnv(gymnasium.Env):
         render_mode: str | None = None,
         noise: float | None = None,
         robots: Sequence[str] = (),
+        morphology: np.ndarray | None = None,
     ) -> None:
         self.render_mode = render_mode
         self._simulation = Simulation(problem, render_mode, noise=noise, robots=robots)
@@ -48,6 +50,23 @@ class NativeEnv(gymnasium.Env):
         else:
             shape = (info["outputs"],)
             self.action_space = spaces.Box(info["low"], info["high"], shape, np.float32)
+
+        self.morphology_size = info["body"]
+        if morphology is not None:
+            self.set_morphology(morphology)
+
+    def set_morphology(self, parameters: np.ndarray) -> None:
+        """The body of all episodes from the next reset on, `morphology_size` finite numbers."""
+        p = np.asarray(parameters)
+        if (
+            p.shape != (self.morphology_size,)
+            or p.dtype.kind not in "fiu"
+            or not np.isfinite(p).all()
+        ):
+            raise BotschoolError(
+                f"A morphology here is {self.morphology_size} finite numbers, not {p.tolist()!r}."
+            )
+        self._simulation.set_body(p)
 
     def reset(self, *, seed: int | None = None, options: dict | None = None):
         super().reset(seed=seed)

@@ -68,6 +68,10 @@ class Simulation:
         """The native problem's state."""
         return self._stepper.state
 
+    def set_body(self, parameters: np.ndarray) -> None:
+        """The body of the episodes from the next start on, where it evolves."""
+        self._stepper.set_body(np.ascontiguousarray(parameters, dtype=np.float64))
+
     def start(self, random: np.random.Generator) -> int:
         """Starts an episode with a seed that it draws and returns."""
         seed = int(random.integers(2**63))

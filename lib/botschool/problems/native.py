@@ -53,6 +53,7 @@ class NativeProblem(Problem):
             info["discrete"],
             info["low"],
             info["high"],
+            morphology=info["body"],
             robots=info["robots"],
         )
 

@@ -74,9 +74,7 @@ class Workers:
             moments,
         )
 
-    def _run(
-        self, chunks, done, genotypes, normalisation, episodes, maxsteps, stopping
-    ) -> None:
+    def _run(self, chunks, done, genotypes, normalisation, episodes, maxsteps, stopping) -> None:
         if self._pool is None:
             self._pool = ProcessPoolExecutor(
                 self._workers,
@@ -151,9 +149,7 @@ def _unheard(number: int) -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _evaluate(
-    genotypes: np.ndarray, normalisation, episodes: Episodes, maxsteps: int
-) -> Outcome:
+def _evaluate(genotypes: np.ndarray, normalisation, episodes: Episodes, maxsteps: int) -> Outcome:
     if isinstance(_worker, BotschoolError):
         raise _worker
     problem, policy = _worker

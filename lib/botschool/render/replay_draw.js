@@ -47,7 +47,8 @@ function drawScene(pen, width, height) {
 function placed(shape, numbers) {
   const size = shape.size === undefined ? 1 : numbers[shape.size];
   const [atX, atY] = shape.at ?? [0, 0];
-  const points = shape.points.map(([x, y]) => [x * size + atX, y * Math.abs(size) + atY]);
+  const high = shape.height === undefined ? Math.abs(size) : numbers[shape.height];
+  const points = shape.points.map(([x, y]) => [x * size + atX, y * high + atY]);
   if (shape.pose === undefined) return points;
   const [x, y, angle] = numbers.slice(shape.pose, shape.pose + 3);
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];

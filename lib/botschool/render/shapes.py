@@ -63,6 +63,8 @@ class Shape:
     """Index of the first of three numbers (x, y, angle) that move the shape."""
     size: int | None = None
     """Index of a number that scales the points; a negative one mirrors x."""
+    height: int | None = None
+    """Index of a number that scales y in place of `size`."""
     level: int | None = None
     """Index of a number, 0 to 1, that multiplies the opacity."""
     steps: int = 0
@@ -76,7 +78,8 @@ class Shape:
     def placed(self, numbers: np.ndarray) -> np.ndarray:
         """The points in the world, (points, 2)."""
         size = 1.0 if self.size is None else numbers[self.size]
-        points = np.array(self.points) * (size, abs(size)) + self.at
+        height = abs(size) if self.height is None else numbers[self.height]
+        points = np.array(self.points) * (size, height) + self.at
         if self.pose is None:
             return points
         x, y, angle = numbers[self.pose : self.pose + 3]

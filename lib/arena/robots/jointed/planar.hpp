@@ -39,4 +39,7 @@ class PlanarBody {
 /// All bodies, those for tests included.
 std::vector<std::unique_ptr<PlanarBody>> planar_bodies();
 
+/// The chain of BodyBrain with a body of 64 parameters (bodybrain.hpp).
+std::unique_ptr<PlanarBody> planar_chain(const double* parameters);
+
 }  // namespace botschool
