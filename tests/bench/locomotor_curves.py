@@ -164,7 +164,7 @@ def write(runs: dict[str, list[Seed]]) -> None:
         shutil.copyfile(best.files.bestg, DATA / "genotypes" / f"{name}.npy")
         rows.append(
             f"| {name}.npy | {name}.ini | `botschool es -f data/experiments/{name}.ini "
-            f"-s {best.seed} --steps {best.done:.0f}` (***) | {best.done:,.0f} | "
+            f"-s {best.seed} --steps {best.done:.0f}` (++) | {best.done:,.0f} | "
             f"{best.returns.mean():.0f} |"
         )
     put(
