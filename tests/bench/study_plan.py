@@ -69,18 +69,18 @@ class Plan:
         return experiment
 
 
-SMALL = {"popsize": 20, "selsize": 5, "samplesize": 10}
+SMALL = {"popsize": 10, "selsize": 3, "samplesize": 10}
 PLANS = (
     Plan(
         "small",
-        "coevo2 with popsize 20, selsize 5 and samplesize 10; the others as in their files",
-        (100, 200),
+        "coevo2 with popsize 10, selsize 3 and samplesize 10; the others as in their files",
+        (50, 100, 200),
         (1, 2, 3, 4, 5),
         {
             "coevo2-best": 1,
             "coevo2-random": 1,
             "archive": 10,
-            "archivestar": 2,
+            "archivestar": 1,
             "maxsolvestar": 10,
         },
         {"coevo2-best": SMALL, "coevo2-random": SMALL},
