@@ -137,6 +137,9 @@ def verdict(data: dict) -> str:
     """What the table of progress says of each side, and who has made the most, in sentences."""
     texts = []
     for plan, found in shown(data):
+        if min(len(group.runs) for group in groups(found)) < 2:
+            texts.append(f"{heading(plan, found)} one seed alone tells nothing of others.")
+            continue
         lines = [f"{heading(plan, found)}", ""]
         of_both = {}
         for name, index in PROGRESS.items():
@@ -193,7 +196,7 @@ def cross(data: dict) -> str:
         fitness = strangers(np.array(found["cross"]["predators"]))
         means = by_variant(fitness, own, names)
         rows = [
-            [f"predators of {name}", *(f"{value:.2f}" for value in means[i]),
+            [f"predators of {name}", *(in_words([value], ".2f") for value in means[i]),
              in_words(strength(fitness, own, names)[name], ".2f")]
             for i, name in enumerate(names)
         ]  # fmt: skip
