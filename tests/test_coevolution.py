@@ -1,5 +1,6 @@
 """Runs of coevo2: their files, and that workers, stops and kills do not show in them."""
 
+import json
 import random
 import shutil
 import signal
@@ -404,3 +405,16 @@ def test_damaged_checkpoints(refused, own, tmp_path):
     refused(*arguments(tmp_path, "--resume"), says=[f"popsize is now {POPSIZE + 1}"])
     write(tmp_path, evolving="best")
     refused(*arguments(tmp_path, "--resume"), says=["evolving = random", "is now best"])
+
+
+def test_checkpoints_of_networks_that_were_computed_otherwise(refused, tmp_path):
+    """As of versions in which an LSTM's outputs were linear, whatever out_type said."""
+    assert run(experiment(tmp_path, policy={"out_type": 3}), tmp_path / "run", generations=1)
+    path = tmp_path / "run" / "checkpointS3.npz"
+    whole = dict(np.load(path))
+    header = json.loads(str(whole["botschool"]))
+    header["experiment"]["policy"]["out_type"] = 2
+    np.savez(path, **whole | {"botschool": np.array(json.dumps(header))})
+    write(tmp_path)
+    says = ["checkpointS3.npz", "evaluates robots differently", "--force"]
+    refused(*arguments(tmp_path, "--resume"), says=says)

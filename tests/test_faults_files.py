@@ -202,3 +202,35 @@ def test_an_environment_that_has_changed(refused, tmp_path):
     np.savez(results / "checkpointS1.npz", **other | {"botschool": header})
     says = ["checkpointS1.npz", "environment has changed"]
     refused("es", "-f", ini, "-o", results, "--resume", says=says)
+
+
+@pytest.mark.parametrize(
+    ("then", "now"),
+    [({"architecture": 3, "out_type": 3}, {"out_type": 2}), ({"clip": 0}, {"clip": 1})],
+    ids=["LSTM", "clip"],
+)
+def test_checkpoints_of_networks_that_were_computed_otherwise(
+    then, now, refused, command, tmp_path
+):
+    """Versions before out_type held for LSTMs, and clip without normalize, computed for `now` what
+    this one computes for `then`; their checkpoints say `now` and are otherwise the same."""
+    problem = ("Pendulum-v1", "OpenAI-ES")
+    policy = {"normalize": 0, "out_type": 3, "maxsteps": 200} | then
+    ini = write_experiment(tmp_path, *problem, policy, maxmsteps=0.02)
+    results = tmp_path / "results"
+    assert command("es", "-f", ini, "-o", results)[0] == 0
+    path = results / "checkpointS1.npz"
+    whole = dict(np.load(path))
+    header = json.loads(str(whole["botschool"]))
+    header["experiment"]["policy"] |= now
+    np.savez(path, **whole | {"botschool": np.array(json.dumps(header))})
+    before = contents(results)
+
+    write_experiment(tmp_path, *problem, policy | now, maxmsteps=0.02)
+    says = ["checkpointS1.npz", "evaluates robots differently", "--force"]
+    refused("es", "-f", ini, "-o", results, "--resume", says=says)
+    assert contents(results) == before
+
+    np.savez(path, **whole)
+    write_experiment(tmp_path, *problem, policy, maxmsteps=0.02)
+    assert command("es", "-f", ini, "-o", results, "--resume")[0] == 0

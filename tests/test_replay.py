@@ -86,6 +86,15 @@ def test_a_page_holds_what_the_scene_draws(name, tmp_path):
     assert len(data["scene"]["shapes"]) == len(scene.shapes)
 
 
+def test_a_caught_prey_is_drawn_touching():
+    """Poses leave a gap, as a move that ends in a collision is not carried out."""
+    scene = make_scene("ErPredprey")
+    state = np.array([300.0, 0, 0, 300, 200, 0, 7])
+    assert scene.numbers(state, reward=0.5)[:6].tolist() == [300, 30, 0, 300, 200, 0]
+    assert scene.numbers(state)[:6].tolist() == state[:6].tolist()
+    assert state[1] == 0, "the recorded state stays as it is"
+
+
 def test_the_same_robot_gives_the_same_page(tmp_path):
     pages = [arena(tmp_path / name).read_bytes() for name in ("a.html", "b.html")]
     assert pages[0] == pages[1]

@@ -51,6 +51,7 @@ ROWS = [
     Row("mountaincarcontinuous", solved=90),
     Row("swingup"),
     Row("dpole", "725 +- 21", 725),
+    Row("dpole_lstm", "725 +- 21 (10,000 M steps)", 725),
     Row("discrim", "about 180 to 360 (50 M steps)"),
 ]
 BOX2D = [Row("lunarlander", solved=200, new=100)]

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import os
 import platform
+import subprocess
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import gymnasium
 import numpy as np
 from rich.console import Console
 from rich.table import Table as Grid
+
+REPOSITORY = Path(__file__).parents[2]
 
 
 @dataclass
@@ -67,6 +71,19 @@ def rate(steps_per_second: float) -> str:
     """A number of steps per second, three digits of it: 45.3 M, 30.5 k."""
     unit, name = (1e6, "M") if steps_per_second >= 1e6 else (1e3, "k")
     return f"{steps_per_second / unit:.3g} {name}"
+
+
+def commit() -> str:
+    """That of the checkout; it says so if code or experiments have been changed since."""
+
+    def git(*arguments: str) -> str:
+        done = subprocess.run(
+            ["git", *arguments], cwd=REPOSITORY, capture_output=True, text=True, check=True
+        )
+        return done.stdout.strip()
+
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!docs")
+    return git("rev-parse", "--short=10", "HEAD") + (" with changes" if changed else "")
 
 
 def machine() -> str:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import subprocess
 import time
 from dataclasses import asdict
 from functools import partial
@@ -23,7 +22,7 @@ import trained
 from comparison import notice
 from page import DATA, PLANAR_SPEED, SPEED, write
 from processes import Neighbours
-from report import machine
+from report import commit, machine
 
 REPOSITORY = Path(__file__).parents[2]
 
@@ -58,19 +57,6 @@ PARTS = {
     "ppo": ppo,
 }
 """What is measured: quick -> data, for a file of the same name."""
-
-
-def commit() -> str:
-    """That of the checkout; it says so if code or experiments have been changed since."""
-
-    def git(*arguments: str) -> str:
-        done = subprocess.run(
-            ["git", *arguments], cwd=REPOSITORY, capture_output=True, text=True, check=True
-        )
-        return done.stdout.strip()
-
-    changed = git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!docs")
-    return git("rev-parse", "--short=10", "HEAD") + (" with changes" if changed else "")
 
 
 def measure(name: str, quick: bool) -> None:

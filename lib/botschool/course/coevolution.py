@@ -258,15 +258,11 @@ def _draw_chase(axes, chase: dict) -> None:
 
 
 def _touching(places: np.ndarray, apart: float) -> np.ndarray:
-    """Places with the predator led up to the prey that it has caught, shape (T + 1, 2, 2), in mm.
+    """Places in mm, (T + 1, 2, 2), with the predator led up to the prey that it has caught."""
+    from botschool.render.scenes.predprey import touching
 
-    The arena does not carry out a move that ends in a collision, so the last poses leave a gap.
-    apart: distance of the centres of robots that touch.
-    """
-    predator, prey = places[-1]
-    away = predator - prey
     led = places.copy()
-    led[-1, 0] = prey + away * (apart / np.linalg.norm(away))
+    led[-1, 0] = touching(*places[-1], apart)
     return led
 
 

@@ -98,6 +98,12 @@ class Competition(Protocol):
         Playing for this changes nothing, and its steps do not count.
         """
 
+    def remembered(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None:
+        """Meetings of which the state holds the outcome: what `play` was given, and what it gave.
+
+        A resumed run repeats them, to see that they still end as they did. None if there are none.
+        """
+
     def average_parameter(self) -> float:
         """Average absolute parameter, for the stat file."""
 

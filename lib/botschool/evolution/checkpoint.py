@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -12,6 +13,19 @@ from botschool.errors import BotschoolError
 from botschool.output import save_npz
 
 FORMAT = 1
+
+
+class Resumable(Protocol):
+    """What a run is, seen from its checkpoint."""
+
+    experiment: Experiment
+    seed: int
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """Raises KeyError, ValueError, IndexError or TypeError for the state of another run."""
+
+    def reproduces(self) -> bool:
+        """Whether robots still get the fitness that is on record."""
 
 
 def save(path: Path, experiment: Experiment, seed: int, state: dict[str, np.ndarray]) -> None:
@@ -57,6 +71,26 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
                     f"{value}: change it back to resume, or use --force to start anew."
                 )
     return state
+
+
+def resume(path: Path, run: Resumable) -> None:
+    """Brings a run to where it was when the checkpoint was written.
+
+    Raises BotschoolError as `load` does, when the state is not that of such a run, and when this
+    version of botschool gives its robots another fitness than the one that wrote it.
+    """
+    try:
+        run.restore(load(path, run.experiment, run.seed))
+    except (KeyError, ValueError, IndexError, TypeError):
+        raise BotschoolError(
+            f"{path} does not fit this run (the environment has changed, or parts are "
+            "missing): restore it from a copy, or use --force to start anew."
+        ) from None
+    if not run.reproduces():
+        raise BotschoolError(
+            f"{path} was written by a version of botschool that evaluates robots differently (its "
+            "best one gets another fitness here): use that version, or --force to start anew."
+        )
 
 
 def _reason(error: Exception) -> str:

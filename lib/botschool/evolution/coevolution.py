@@ -138,6 +138,15 @@ class Coevolution(Run):
         )
         return means(outcome.fitness.reshape(-1, count)), int(outcome.steps.sum())
 
+    def reproduces(self) -> bool:
+        """Whether meetings that the algorithm remembers still end as they did, to the bit."""
+        remembered = self.algorithm.remembered()
+        if remembered is None:
+            return True
+        *meetings, fitness = remembered
+        again, _ = self._meet(*meetings, lambda: False)
+        return bool((again == fitness).all())
+
     @property
     def _milestone(self) -> bool:
         """Whether individuals are to be kept, as every `saveeach` generations."""

@@ -144,6 +144,17 @@ class Evaluator:
         ]
         return Measured(outcome.fitness, int(outcome.steps.sum()))
 
+    def post_fitness(self, genotype: np.ndarray, normalisation: np.ndarray | None) -> float:
+        """Post-evaluated fitness of a genotype with normalisation vectors of its own.
+
+        It takes part in nothing: no data are collected, and its steps do not count.
+        """
+        episodes, maxsteps = self._post_episodes, self.policy.config.maxsteps
+        outcome = self.problem.evaluate(
+            self.policy, genotype[None], normalisation, episodes, maxsteps, self._workers
+        )
+        return mean(outcome.fitness)
+
     def refresh(self) -> None:
         """Ends a generation: takes the data that its post-evaluation collected into use."""
         self._owed = self._owed_next

@@ -284,6 +284,21 @@ class Run:
             values = {k.removeprefix(prefix): v for k, v in state.items() if k.startswith(prefix)}
             getattr(self, owner).restore(values)
 
+    def reproduces(self) -> bool:
+        """Whether the best robot on record still gets its fitness, to the bit.
+
+        If not, this version evaluates robots differently from the one that wrote the record. Other
+        problems than native ones are not asked: they may be slow, or never the same twice.
+        """
+        record = self.record
+        if not (self.problem.native and record.generation):
+            return True
+        try:
+            genotype, normalisation = self.policy.split(record.bestg)
+        except BotschoolError:  # it is of another network
+            return False
+        return self.evaluator.post_fitness(genotype, normalisation) == record.bestg_fitness
+
 
 def evolve(
     run: Run,
@@ -305,14 +320,7 @@ def evolve(
     if keep_every:
         report = keeping(files, keep_every, report)
     if resume and files.checkpoint.exists():
-        path = files.checkpoint
-        try:
-            run.restore(checkpoint.load(path, run.experiment, run.seed))
-        except (KeyError, ValueError, IndexError, TypeError):
-            raise BotschoolError(
-                f"{path} does not fit this run (the environment has changed, or parts are "
-                "missing): restore it from a copy, or use --force to start anew."
-            ) from None
+        checkpoint.resume(files.checkpoint, run)
     limit = run.budget.and_also(steps, generations)
     events = Events(files.events, limit.steps if limit.steps < math.inf else 0)
     logged = 0

@@ -202,6 +202,14 @@ class Coevo2:
         """Both populations, the best first."""
         return (self.parameters, self.fitness) if self.met else None
 
+    def remembered(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None:
+        """The best predator against the prey."""
+        if not self.met:
+            return None
+        predators, prey = self.parameters
+        pairs = np.stack([np.zeros(len(prey)), np.arange(len(prey))]).astype(np.int32)
+        return predators[:1], prey, pairs, self.fitness[0]
+
     def average_parameter(self) -> float:
         """Average absolute parameter of both populations."""
         return float(np.mean(np.abs(self.parameters)))

@@ -179,6 +179,9 @@ class HallOfFame:
         """`saved`, who meet here for the files alone."""
         return self.saved, everyone(play, *self.saved)
 
+    def remembered(self) -> None:
+        """No meeting can be repeated: the opponents that were drawn are not kept."""
+
     def average_parameter(self) -> float:
         """Average absolute parameter of all centres."""
         return float(np.mean(np.abs(self.centres)))

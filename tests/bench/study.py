@@ -1,0 +1,90 @@
+"""The study of co-evolution: five ways to evolve predators and prey, five seeds each.
+
+    python tests/bench/study.py run      evolves (hours); stopped with Ctrl-C, it goes on next time
+    python tests/bench/study.py state    how far each run is
+    python tests/bench/study.py page     measures what is there and writes docs/coevolution.md
+
+What is compared is in study_plan.py. Runs lie in results/coevolution, or --folder. A run is
+compared with runs only that have done as many steps.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+import time
+from pathlib import Path
+
+from report import commit, machine
+from study_measure import measured
+from study_page import DATA, write
+from study_plan import PLANS, REPOSITORY, complete, runs
+from study_queue import Queue
+
+
+def run(folder: Path, processes: int) -> int:
+    """The exit code: 0 if all is done."""
+    folder.mkdir(parents=True, exist_ok=True)
+    if not _alone(folder):
+        print(f"Another process works on {folder}.", file=sys.stderr)
+        return 2
+    if hasattr(os, "nice"):
+        os.nice(19)
+    return 0 if Queue(folder).work(processes) else 1
+
+
+def _alone(folder: Path) -> bool:
+    """Whether no other process holds the folder's lock; this one does from now on."""
+    try:
+        import fcntl
+    except ImportError:  # Windows
+        return True
+    lock = os.open(folder / ".lock", os.O_CREAT | os.O_RDWR)
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    os.set_inheritable(lock, False)
+    return True
+
+
+def state(folder: Path) -> None:
+    """Prints how far the runs are."""
+    for plan in PLANS:
+        done = complete(folder, plan)
+        print(f"{plan.name}: all have reached {f'{done:g} M' if done else 'no milestone'}")
+        for each in runs(folder, plan):
+            if each.reached():
+                print(f"  {each.name}: {each.reached():.0f} M steps")
+
+
+def page(folder: Path) -> None:
+    """Measures and writes; the data go to docs/images/study.json."""
+    plans = measured(folder)
+    stamp = {
+        "commit": commit(),
+        "date": time.strftime("%Y-%m-%d", time.gmtime()),
+        "machine": machine(),
+    }
+    text = json.dumps({"measured": stamp, "plans": plans}, separators=(",", ":"))
+    # a line for each run, so that a difference can be read
+    DATA.write_text(text.replace(',"', ',\n"') + "\n", encoding="utf-8")
+    write()
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="The study of co-evolution.")
+    parser.add_argument("what", choices=("run", "state", "page"))
+    parser.add_argument("--folder", type=Path, default=REPOSITORY / "results" / "coevolution")
+    parser.add_argument("--processes", type=int, default=1, help="runs at a time")
+    options = parser.parse_args()
+    if options.what == "run":
+        return run(options.folder, options.processes)
+    (state if options.what == "state" else page)(options.folder)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,222 @@
+"""The study of co-evolution: who takes part, that it can be stopped, and what its numbers mean."""
+
+import os
+import signal
+import sys
+import threading
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from botschool import config
+
+BENCH = Path(__file__).parent / "bench"
+posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
+
+
+@pytest.fixture(autouse=True)
+def bench(monkeypatch):
+    monkeypatch.syspath_prepend(str(BENCH))
+    before = set(sys.modules)
+    yield
+    for name in set(sys.modules) - before:
+        if (BENCH / f"{name}.py").exists():
+            del sys.modules[name]
+
+
+def tiny(monkeypatch):
+    """A plan of two variants and one seed, as small as can be."""
+    import study_page
+    import study_plan
+
+    variants = study_plan.VARIANTS[1:3]
+    for module in (study_plan, study_page):
+        monkeypatch.setattr(module, "VARIANTS", variants)
+    changes = {
+        "coevo2-random": {"popsize": 2, "selsize": 1, "samplesize": 1},
+        "archive": {"samplesize": 1, "ncompetitors": 1},
+    }
+    plan = study_plan.Plan(
+        "tiny", "tiny", (0.02, 0.1), (1,), dict.fromkeys(changes, 1), changes
+    )  # fmt: skip
+    monkeypatch.setattr(study_page, "PLANS", (plan,))
+    return plan
+
+
+# who takes part
+
+
+def test_runs_differ_from_their_files_in_what_the_plan_says():
+    from study_plan import DATA, PLANS, VARIANTS
+
+    lengths = {"saveeach", "maxmsteps", "archivelen"}
+    for plan in PLANS:
+        for variant in VARIANTS:
+            own = config.to_dict(plan.experiment(variant))
+            file = config.to_dict(config.load(DATA / f"{variant.file}.ini"))
+            differing = {
+                key for part in own for key in own[part] if own[part][key] != file[part][key]
+            }
+            told = set(variant.changes) | set(plan.changes.get(variant.name, {})) | lengths
+            assert differing <= told
+            assert "saveeach" in differing
+
+
+def test_experiment_files_say_the_same(tmp_path):
+    from study_plan import PLANS, runs
+
+    for plan in PLANS:
+        for run in runs(tmp_path, plan)[:5]:
+            written = config.load(run.write_experiment())
+            assert written == plan.experiment(run.variant)
+
+
+def test_one_seed_of_all_comes_first(tmp_path):
+    from study_plan import PLANS, VARIANTS, jobs
+
+    found = list(jobs(tmp_path))
+    assert [run.variant for run, _ in found[:5]] == list(VARIANTS)
+    assert {run.seed for run, _ in found[:5]} == {1}
+    steps = [millions for run, millions in found if run.plan is PLANS[0]]
+    assert steps == sorted(steps)
+    assert len(found) == sum(len(plan.milestones) * len(plan.seeds) * 5 for plan in PLANS)
+
+
+# the queue
+
+
+def test_from_runs_to_the_page(tmp_path, monkeypatch):
+    """The first milestone, then the second, of one run only."""
+    plan = tiny(monkeypatch)
+    from study_measure import measured
+    from study_page import behaviour, cross, progress, reached
+    from study_plan import complete, runs
+    from study_queue import Queue
+
+    first, second = runs(tmp_path, plan)
+    assert complete(tmp_path, plan) is None and first.reached() == 0
+    assert Queue(tmp_path, (replace(plan, milestones=(0.02,)),)).work(2)
+    assert complete(tmp_path, plan) == 0.02
+
+    both = measured(tmp_path, (plan,))
+    assert set(both["tiny"]["runs"]) == {first.name, second.name}
+    for run in both["tiny"]["runs"].values():
+        shape = (len(run["generations"]),) * 2
+        assert np.shape(run["predators"]) == shape and shape[0] >= 2
+        assert run["generations"][0] == 0 and run["millions"][-1] >= 0.02
+    data = {"plans": both}
+    assert "**0.02 million steps a run**, all (tiny)" in progress(data)
+    assert "archive, prey" in progress(data) and "predators of archive" in cross(data)
+    assert "| coevo2-random |" in behaviour(data)
+
+    queue = Queue(tmp_path, (plan,))
+    queue.waiting = [job for job in queue.waiting if job[0].name == first.name]
+    assert queue.work(1)
+    assert first.reached() >= 0.1 > second.reached() >= 0.02
+    assert complete(tmp_path, plan) == 0.02  # so it is still compared there
+    alone = replace(plan, milestones=(0.1,))
+    late = {"plans": measured(tmp_path, (alone,))}
+    assert set(late["plans"]["tiny"]["runs"]) == {first.name}
+    assert "the 1 of 2 that have come so far" in progress(late)
+    assert "archive, " not in progress(late) and "| archive |" in reached(late)
+
+
+@posix
+def test_the_queue_is_stopped_and_goes_on(tmp_path, monkeypatch):
+    """A request to stop reaches its runs, which end as they like."""
+    plan = tiny(monkeypatch)
+    import study_queue
+
+    program = "import signal, sys; signal.signal(15, lambda *_: sys.exit(130)); signal.pause()"
+
+    def patient(run, millions):
+        run.write_experiment()
+        return [sys.executable, "-c", program]
+
+    with monkeypatch.context() as patch:
+        patch.setattr(study_queue, "command", patient)
+        queue = study_queue.Queue(tmp_path, (plan,))
+        threading.Timer(1.5, os.kill, (os.getpid(), signal.SIGTERM)).start()
+        assert not queue.work(2)
+    assert not queue.running and not queue.failed
+    assert len(queue.waiting) == 2  # two of four had been begun
+    assert len(study_queue.Queue(tmp_path, (plan,)).waiting) == 4
+    assert signal.getsignal(signal.SIGTERM) is not queue.stop
+
+
+def test_a_run_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
+    plan = tiny(monkeypatch)
+    import study_queue
+
+    right = study_queue.command
+
+    def command(run, millions):
+        line = right(run, millions)
+        return [*line, "--no-such-option"] if run.variant.name == "archive" else line
+
+    monkeypatch.setattr(study_queue, "command", command)
+    queue = study_queue.Queue(tmp_path, (replace(plan, milestones=(0.01, 0.02)),))
+    assert not queue.work(1)
+    assert queue.failed == ["tiny archive 1"]
+    assert "tiny archive 1: failed, see" in capsys.readouterr().out
+    assert [run.name for run, _ in study_queue.Queue(tmp_path, (plan,)).waiting] == [
+        "tiny archive 1",
+        "tiny coevo2-random 1",
+        "tiny archive 1",
+    ]
+
+
+# numbers
+
+
+def test_intervals_over_seeds():
+    from study_page import in_words, interval
+
+    mean, low, high = interval([1, 2, 3, 4, 5])  # deviation 1.5811, t 2.776
+    assert (mean, low, high) == pytest.approx((3, 3 - 1.963, 3 + 1.963), abs=1e-3)
+    assert in_words([0.5]) == "+0.50" and np.isnan(interval([0.5])[1])
+    numbers = np.random.default_rng(1).standard_normal((20_000, 5))
+    inside = [low < 0 < high for _, low, high in map(interval, numbers)]
+    assert np.mean(inside) == pytest.approx(0.95, abs=0.006)
+
+
+def test_a_cross_test_is_between_strangers():
+    """Runs a1, a2 of a variant, b1 of another; each beats its own competitors only."""
+    from study_page import by_variant, strangers, strength
+
+    fitness = strangers(np.array([[1.0, 0.2, 0.4], [0.1, 1.0, 0.6], [0.3, 0.5, 1.0]]))
+    own, names = ["a", "a", "b"], ["a", "b"]
+    assert by_variant(fitness, own, names)[0] == pytest.approx([0.15, 0.5])
+    assert by_variant(fitness, own, names)[1, 0] == pytest.approx(0.4)
+    found = strength(fitness, own, names)
+    assert found["a"] == pytest.approx([0.3, 0.35])  # means of (0.2, 0.4) and of (0.1, 0.6)
+    assert found["b"] == pytest.approx([0.4])
+
+
+def test_times_are_as_far_apart_in_steps(tmp_path, monkeypatch):
+    """Generations get longer: those are chosen that are nearest to 0, 1, ... 10 million steps."""
+    plan = tiny(monkeypatch)
+    import study_measure
+    from study_plan import runs
+
+    run = runs(tmp_path, plan)[0]
+    run.home.mkdir(parents=True)
+    steps = np.array([0.4, 1.1, 2.2, 4.1, 5.8, 10.2, 14.0]) * 1e6
+    np.save(run.files.stat, np.column_stack([steps, *[steps] * 5]).ravel())
+    for generation in (0, 1, 2, 3, 4, 5, 6, 7):
+        np.save(run.files.populations(generation), np.zeros(1))
+    assert run.reached() == 14
+    assert study_measure.times(run, 10) == [0, 2, 3, 4, 5, 6]
+    run.files.populations(2).unlink()
+    assert study_measure.times(run, 10) == [0, 1, 3, 4, 5, 6]
+
+
+def test_the_page_is_made_from_its_data():
+    import study_page
+
+    text = study_page.PAGE.read_text(encoding="utf-8")
+    data = study_page.load()
+    assert study_page.filled(text, data) == text, "run tests/bench/study.py page"
+    assert set(study_page.BLOCKS) == set(study_page.re.findall(r"<!-- (study_\w+) -->", text))
