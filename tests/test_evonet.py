@@ -112,7 +112,8 @@ def test_lanes_of_evolution_agree_with_the_reference(name, choices, nbins, seed)
     # memories fade at this scale, so what single precision loses does not grow over the steps
     genotypes = np.array([random_genotype(spec, rng, 0.5) for _ in range(robots)])
     normalisation = random_normalisation(spec, rng)
-    tape = problem.engine(policy).record(genotypes, normalisation, seed, 3, 40)
+    bodies = rng.standard_normal((robots, problem.interface.morphology))
+    tape = problem.engine(policy).record(np.hstack([genotypes, bodies]), normalisation, seed, 3, 40)
     assert 0 < len(tape["rewards"]) <= 40
     columns = [tape[kind] for kind in ("observations", "actions", "activations")]
     for robot, genotype in enumerate(genotypes):

@@ -75,8 +75,8 @@ def test_help_loads_nothing_heavy():
         ("[ALGO]", "[ALGOS]", ["[ALGOS]", "[ALGO]"]),
         (
             "algo = SSS",
-            "algo = CMA-ES",
-            ["line 3", "CMA-ES", "OpenAI-ES, SSS, archive, archivestar"],
+            "algo = annealing",
+            ["line 3", "annealing", "OpenAI-ES, SSS, "],
         ),
         ("algo = SSS", "algo = SSSS", ["line 3", "did you mean SSS?"]),
         ("popsize = 6", "popsize = 7", ["popsize = 7", "popsize = 8"]),
