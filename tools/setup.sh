@@ -255,10 +255,10 @@ install_bench() {
 
 build_sanitized() {
     check_compiler
-    say "Compiling the C++ tests with sanitizers (up to a minute)"
+    say "Compiling the C++ tests with sanitizers (some minutes)"
     PATH="$PWD/.venv/bin:$PATH"
     quietly cmake -S lib -B build/sanitize -DBOTSCHOOL_SANITIZE=ON
-    quietly cmake --build build/sanitize --target core_tests
+    quietly cmake --build build/sanitize --parallel "$(getconf _NPROCESSORS_ONLN)" --target core_tests
 }
 
 case ${TORCH:-cpu} in
