@@ -1,6 +1,8 @@
 """Any environment evolves (docs/specification.md, "Any environment")."""
 
+import ctypes
 import sys
+from contextlib import suppress
 
 import gymnasium
 import numpy as np
@@ -10,7 +12,7 @@ from gymnasium import spaces
 from botschool import config, problems, wrappers
 from botschool.errors import BotschoolError
 from botschool.policy import Policy
-from botschool.problems import Episodes
+from botschool.problems import Episodes, making
 from botschool.problems.spaces import Flattener, fitted, interface
 from running import TESTS, experiment, run_seeds, same, write_experiment
 
@@ -121,11 +123,18 @@ def test_car_racing_evolves_and_is_filmed(command, tmp_path):
     assert command("es", "-f", ini, *film, "--episodes", 1)[0] == 0
 
 
+def loads(library):
+    with suppress(OSError):
+        return ctypes.CDLL(library)
+
+
 def test_mujoco_is_filmed_without_a_display(tmp_path):
     """In a process of its own: what draws is chosen once."""
     pytest.importorskip("mujoco")
     if sys.platform != "linux":
         pytest.skip("elsewhere there is a display")
+    if not any(map(loads, [library for _, library in making.DRAWING])):
+        pytest.skip("MuJoCo has nothing to draw with")
     from running import call, environment_of_command
 
     ini = write_experiment(tmp_path, "Hopper-v5", policy={"maxsteps": 5})
@@ -141,8 +150,6 @@ def test_mujoco_is_filmed_without_a_display(tmp_path):
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere there is a display")
 def test_mujoco_that_cannot_draw_says_what_to_install(monkeypatch):
-    from botschool.problems import making
-
     monkeypatch.delenv("MUJOCO_GL", raising=False)
     monkeypatch.setattr(making, "DRAWING", (("egl", "libnothing.so"),))
     with pytest.raises(BotschoolError, match=r"Hopper-v5 is drawn by MuJoCo.*libegl1"):

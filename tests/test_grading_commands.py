@@ -6,20 +6,24 @@ import csv
 import ctypes
 import json
 import platform
+import re
 import signal
 import subprocess
 import sys
 import time
 from html.parser import HTMLParser
+from io import StringIO
 
 import psutil
 import pytest
+from rich.console import Console
 
 from botschool.errors import BotschoolError
 from botschool.grading import batch, starting
 from botschool.grading.collect import grade_all, page_names
 from botschool.grading.exercise import load_exercise
 from botschool.grading.leaks import find_leaks
+from botschool.grading.progress import table
 from botschool.grading.release import MANIFEST, release
 from botschool.grading.report import Screen
 from botschool.grading.secret import grading_secret
@@ -137,6 +141,18 @@ def test_progress_shows_what_was_graded(course, monkeypatch):
     assert " 100 " in rows["3"] and "changed since" in rows["3"]  # 3.1 was graded in another file
     call("reset", "3")
     assert " 0 " in rows_of_progress()[0]["3"]
+
+
+def test_a_long_problem_leaves_the_table_readable():
+    task = {"id": "7.1", "title": "A step", "points": 2, "max_points": 5}
+    result = {"title": "A foraging robot", "points": 2, "max_points": 5, "tasks": [task]}
+    problem = "Exercise 10 needs pybullet: install it with 'pip install botschool[pybullet]'."
+    console = Console(width=80, file=StringIO())
+    console.print(table({7: result | {"problem": ""}, 10: result | {"problem": problem}}))
+    _, first, *rest = console.file.getvalue().splitlines()
+    assert re.fullmatch(r" 7  A foraging robot .* 2 +0/1  7\.1 A step *", first)
+    assert rest[0].startswith("10  A foraging robot") and len(rest) > 1
+    assert " ".join(line[53:].strip() for line in rest) == problem
 
 
 def test_progress_without_a_file_or_with_a_damaged_store(course):

@@ -5,13 +5,13 @@ import pytest
 
 from botschool.errors import BotschoolError
 from botschool.rl.agent import Agent, play
-from botschool.rl.callbacks import PostEvaluation
 from botschool.rl.model import choose
 from botschool.rl.training import learn, train
 from botschool.seeds import POST_EVALUATION_SEED
 from running import TESTS
 
 pytest.importorskip("sb3_contrib")
+callbacks = pytest.importorskip("botschool.rl.callbacks")
 
 
 @pytest.fixture(autouse=True)
@@ -120,8 +120,10 @@ def test_environments_in_processes_give_the_same(tmp_path):
     ("fault", "says"), [("nan", "its reward was nan"), ("dies", "ended unexpectedly.*vec-env dumm")]
 )
 def test_an_environment_that_breaks_in_a_process(fault, says, tmp_path, monkeypatch):
-    monkeypatch.setattr(PostEvaluation, "_evaluate", lambda self: None)  # it would die, too
-    monkeypatch.setattr(PostEvaluation, "_on_step", lambda self: True)
+    monkeypatch.setattr(
+        callbacks.PostEvaluation, "_evaluate", lambda self: None
+    )  # it would die, too
+    monkeypatch.setattr(callbacks.PostEvaluation, "_on_step", lambda self: True)
     with pytest.raises(BotschoolError, match=says):
         tiny(
             *(tmp_path, "ppo", f"tiny_envs:Tiny{fault}-v0"),

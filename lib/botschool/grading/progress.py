@@ -7,6 +7,7 @@ from typing import Any
 
 from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
 from botschool.errors import BotschoolError
 from botschool.grading.exercise import load_exercise, submission_file
@@ -66,13 +67,13 @@ def table(results: dict[int, dict[str, Any]]) -> Table:
     shown.add_column("points", no_wrap=True, min_width=_BAR)
     shown.add_column("", justify="right", no_wrap=True, min_width=3)
     shown.add_column("tasks", justify="right", no_wrap=True, min_width=5)
-    shown.add_column("next", no_wrap=True, overflow="ellipsis")
+    shown.add_column("next")  # the only one that gives way, to a problem told in a sentence
     for number in sorted(results):
         shown.add_row(str(number), *_row(results[number]))
     return shown
 
 
-def _row(result: dict[str, Any]) -> tuple[str, ...]:
+def _row(result: dict[str, Any]) -> tuple[str | Text, ...]:
     tasks, state = result["tasks"], result.get("state", "")
     undone = [task for task in tasks if task["points"] < task["max_points"]]
     if result["problem"]:
@@ -83,12 +84,14 @@ def _row(result: dict[str, Any]) -> tuple[str, ...]:
         next_ = f"{undone[0]['id']} {escape(undone[0]['title'])}"
     else:
         next_ = "[green]all done[/]"
+    told = Text.from_markup(next_, overflow="ellipsis")
+    told.no_wrap = not result["problem"]
     return (
         escape(result["title"]),
         _bar(result["points"] / max(1, result["max_points"])),
         "?" if state == UNKNOWN else str(result["points"]),
         f"{len(tasks) - len(undone)}/{len(tasks)}",
-        next_,
+        told,
     )
 
 
