@@ -83,10 +83,20 @@ def test_a_busy_machine_costs_no_time(sandboxed, server):
         os.sched_setaffinity(server._process.pid, {processor})
         stack.callback(os.sched_setaffinity, server._process.pid, before)
         one = sandboxed(BUSY)
-        for _ in range(8):
-            loop = f"import os\nos.sched_setaffinity(0, {{{processor}}})\nwhile True: pass"
-            other = stack.enter_context(subprocess.Popen([sys.executable, "-c", loop]))
+        loop = f"import os\nos.sched_setaffinity(0, {{{processor}}})\nprint(flush=True)\n"
+        loop += "while True: pass"
+        # sessions of their own: where processors are shared by session, each counts as one, too
+        others = [
+            subprocess.Popen(
+                [sys.executable, "-c", loop], stdout=subprocess.PIPE, start_new_session=True
+            )
+            for _ in range(8)
+        ]
+        for other in others:
+            stack.enter_context(other)
             stack.callback(other.kill)
+        for other in others:
+            assert other.stdout.readline() == b"\n"  # it runs
         allowance = Allowance(1)
         answer = one.child.ask({"name": "work", "arguments": [0.7], "options": {}}, allowance)
     assert answer == {"value": None}
