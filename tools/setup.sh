@@ -26,7 +26,7 @@ any_system="it with 'curl -LsSf https://astral.sh/uv/install.sh | sh; ~/.local/b
 # PYTHON if it is set, else the first of the usual names that is new enough.
 find_python() {
     if [ -n "${PYTHON:-}" ]; then set -- "$PYTHON"
-    else set -- python3 python3.13 python3.12 python3.11 python3.10 /usr/bin/python3 ~/.local/bin/python3.12
+    else set -- python3 python3.13 python3.12 python3.11 python3.10 python3.14 /usr/bin/python3 ~/.local/bin/python3.12
     fi
     old=
     for candidate in "$@"; do
