@@ -48,7 +48,7 @@ class Plan:
     name: str
     about: str
     milestones: tuple[float, ...]
-    """Million steps. All runs reach the first one before any goes on to the next."""
+    """Million steps. All runs of the plan reach one before any goes on to the next."""
     seeds: tuple[int, ...]
     saveeach: dict[str, int]
     """Generations between saved individuals, by variant."""
@@ -88,7 +88,7 @@ PLANS = (
     Plan(
         "full",
         "all as in their files",
-        (2000,),
+        (250, 500, 1000, 2000),
         (1, 2, 3, 4, 5),
         {
             "coevo2-best": 2,
@@ -161,11 +161,15 @@ def runs(folder: Path, plan: Plan) -> list[StudyRun]:
 
 
 def jobs(folder: Path, plans: tuple[Plan, ...] = PLANS) -> Iterator[tuple[StudyRun, float]]:
-    """What there is to do, in its order: a run, and the million steps that it is to reach."""
-    for plan in plans:
-        for milestone in plan.milestones:
-            for run in runs(folder, plan):
-                yield run, milestone
+    """What there is to do, in its order: a run, and the million steps that it is to reach.
+
+    The first milestone of each plan, then the last plan to its end, then those before it.
+    """
+    first = [(plan, plan.milestones[0]) for plan in plans]
+    then = [(plan, milestone) for plan in reversed(plans) for milestone in plan.milestones[1:]]
+    for plan, milestone in first + then:
+        for run in runs(folder, plan):
+            yield run, milestone
 
 
 def complete(folder: Path, plan: Plan) -> float | None:
