@@ -358,7 +358,7 @@ def test_ctrl_c_saves_the_last_whole_generation(tmp_path):
     ("environment", "policy", "says"),
     [
         ("CartPole-v1", {"nrobots": 1, "heterogeneous": 0}, ["two robots", "ErPredprey"]),
-        ("tiny_envs:Tiny-v0", {"nrobots": 1}, ["not a native problem", "algo = OpenAI-ES"]),
+        ("tiny_envs:Tiny-v0", {"nrobots": 1}, ["of one robot", "PettingZoo", "algo = OpenAI-ES"]),
         ("ErPredprey", {"nrobots": 1}, ["set nrobots = 2"]),
         ("ErPredprey", {"heterogeneous": 0}, ["set heterogeneous = 1"]),
         ("ErPredprey", {"normalize": 1}, ["set normalize = 0"]),

@@ -23,7 +23,7 @@ from botschool.evolution.algorithms.sss import SSSConfig
 from botschool.hyperparameters import NO_YES, PolicyConfig, hyper
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
 from botschool.robots import MODELS, find
-from botschool.wrappers import parse
+from botschool.wrappers import keywords, parse
 
 __all__ = [
     "NO_YES",
@@ -45,7 +45,9 @@ __all__ = [
 class Exp:
     """Section [EXP]: what is evolved, and by which algorithm."""
 
-    environment: str = hyper(MISSING, "the problem: a native one or any Gymnasium id")
+    environment: str = hyper(
+        MISSING, "the problem: a native one, any Gymnasium id, or PettingZoo's for two"
+    )
     algo: str = hyper(
         "OpenAI-ES",
         "the evolutionary algorithm",
@@ -61,6 +63,12 @@ class Exp:
         "wrappers around the environment, which then is played in Python",
         check=parse,
         form="names of Gymnasium's wrappers or module:Class, separated by commas",
+    )
+    options: str = hyper(
+        "",
+        "options of the environment, as its constructor takes them",
+        check=keywords,
+        form="name=value, separated by commas",
     )
 
 
@@ -88,6 +96,11 @@ class Experiment:
     """The hyperparameters of `exp.algo`, in the dataclass that its file declares."""
     path: Path | None = field(default=None, compare=False)
 
+    @property
+    def competitive(self) -> bool:
+        """Whether two populations evolve against each other in it."""
+        return ALGORITHMS[self.exp.algo].competitive
+
 
 def load(path: str | PathLike[str]) -> Experiment:
     """Read and check an experiment file.
@@ -114,11 +127,6 @@ def from_dict(data: dict[str, dict[str, Any]], source: str = "experiment") -> Ex
         for part, values in data.items()
     }
     return replace(_experiment(sections, source), path=None)
-
-
-def competitive(experiment: Experiment) -> bool:
-    """Whether two populations evolve against each other in it."""
-    return ALGORITHMS[experiment.exp.algo].competitive
 
 
 def defaults(experiment: Experiment) -> dict[str, dict[str, Any]]:

@@ -77,6 +77,11 @@ class Policy:
         """Parameters of the body, from the genotype that is loaded; often none."""
 
     @property
+    def neurons(self) -> tuple[int, int]:
+        """Inputs and outputs of one network."""
+        return self.spec.inputs, self.spec.outputs * self.spec.nbins
+
+    @property
     def genotype_size(self) -> int:
         """Parameters of the networks and of the body."""
         return self.networks * self.nparameters + self.interface.morphology

@@ -3,6 +3,7 @@
     wrappers = TimeAwareObservation, ResizeObservation(shape=(32, 32)), my_module:MyWrapper
 
 The first one is the innermost. Arguments are literals: numbers, words in quotes, lists, tuples.
+The options of the environment itself are read here too (`keywords`).
 """
 
 from __future__ import annotations
@@ -114,6 +115,21 @@ class Wrapper:
 def parse(text: str) -> tuple[Wrapper, ...]:
     """The wrappers that a text names, separated by commas. Raises BotschoolError."""
     return tuple(_wrapper(part.strip()) for part in _split(text)) if text.strip() else ()
+
+
+def keywords(text: str) -> dict[str, Any]:
+    """The options of an environment, as `num_good=1, speeds=(2, 3)`. Raises BotschoolError."""
+    try:
+        call = ast.parse(f"f({text})", mode="eval").body
+        found = {each.arg: ast.literal_eval(each.value) for each in call.keywords}
+        if call.args or None in found:
+            raise ValueError
+    except (ValueError, SyntaxError, AttributeError, MemoryError, RecursionError):
+        raise BotschoolError(
+            f"'{shown(text)}' cannot be read as options: write name=value, separated by commas, "
+            "with numbers, words in quotes, lists or tuples, as in num_good=1, speeds=(2, 3)"
+        ) from None
+    return found
 
 
 def _split(text: str) -> list[str]:

@@ -126,11 +126,16 @@ def post_evaluate(
 
     Raises BotschoolError for a generation or a file that cannot be used.
     """
-    contest = Contest(experiment, seed, workers)
+    with Contest(experiment, seed, workers) as contest:
+        report.print_roles(contest.problem.roles)
+        _post_evaluate(contest, folder, request, show)
+
+
+def _post_evaluate(contest: Contest, folder: Path, request: Request, show: Show) -> None:
     if request.files:
         cross_test(contest, request.files)
         return
-    populations = Populations(folder, seed, contest.policy)
+    populations = Populations(folder, contest.seed, contest.policy)
     if request.kind in "Pp":
         population = populations.load(request.generation).best(request.number)
         if request.kind == "P":
@@ -164,14 +169,15 @@ def tournament(
     """
     files = None if picture is None else check_files(picture)
     seed = only_seed(folder) if seed is None else seed
-    contest = Contest(experiment, seed, workers)
-    populations = Populations(folder, seed, contest.policy)
-    generations = wanted or thinned(populations, every)
-    if len(generations) < 2:
-        raise BotschoolError(f"A tournament needs two generations: {populations.there()}.")
-    chosen = select(populations, generations, best)
-    print(_taking_part(chosen))
-    tables = _tournament(contest, chosen)
+    with Contest(experiment, seed, workers) as contest:
+        populations = Populations(folder, seed, contest.policy)
+        generations = wanted or thinned(populations, every)
+        if len(generations) < 2:
+            raise BotschoolError(f"A tournament needs two generations: {populations.there()}.")
+        chosen = select(populations, generations, best)
+        report.print_roles(contest.problem.roles)
+        print(_taking_part(chosen))
+        tables = _tournament(contest, chosen)
     report.print_tournament(tables, [population.name for population in chosen])
     if files:
         save_csv(files[1], tables, generations)
@@ -280,7 +286,7 @@ def cross_test(contest: Contest, files: tuple[Path, Path]) -> None:
 
 def _pairs(contest: Contest, population: Population) -> None:
     fitness = play(contest, [population.predators], [population.prey])
-    report.print_pairs(fitness[0, 0], summarised(fitness, contest.seed), population.name)
+    report.print_pairs(fitness[..., 0, 0, :, :], summarised(fitness, contest.seed), population.name)
 
 
 def _row(contest: Contest, populations: list[Population]) -> tuple[Table, Table]:

@@ -7,7 +7,8 @@ is *historical* if later generations do better against the competitors that came
 *global* if they do better against competitors at large.
 
 A table of fitness has the shape (..., generations, generations of competitors); row and column are
-in the order of time. The prey's table follows from the predators', as its fitness is 1 - theirs.
+in the order of time. The prey's table follows from the predators', as its fitness is 1 - theirs,
+unless each side has a fitness of its own.
 """
 
 from __future__ import annotations
@@ -21,7 +22,6 @@ from botschool import problems
 from botschool.analysis.populations import Population
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
-from botschool.policy import Policy
 from botschool.problems import Episodes
 from botschool.seeds import POST_EVALUATION_SEED, generator
 
@@ -42,14 +42,24 @@ class Contest:
         if robots != 2:
             raise BotschoolError(
                 f"{self.problem.name} has {'one robot' if robots == 1 else f'{robots} robots'}: "
-                "predators and prey meet in ErPredprey, so give its experiment with -f."
+                "predators and prey meet in ErPredprey or an environment of PettingZoo with two "
+                "agents, so give its experiment with -f."
             )
-        self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
+        self.policy = self.problem.policy(experiment.policy)
         self.seed = seed
         self._workers = workers
 
+    def __enter__(self) -> Contest:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.problem.close()
+
     def meet(self, predators: np.ndarray, prey: np.ndarray) -> np.ndarray:
-        """The predators' fitness, shape (predators, prey); both given as (n, nparameters)."""
+        """The predators' fitness, shape (predators, prey); both given as (n, nparameters).
+
+        Where a prey's is not 1 minus it (`problem.constant_sum`), that of both: (2, ...).
+        """
         repeats = self.policy.config.pepisodes
         # Neighbouring episodes share a predator, so its parameters stay at hand.
         pairs = np.indices((len(predators), len(prey)), dtype=np.int32).reshape(2, -1)
@@ -68,7 +78,8 @@ class Contest:
             self.policy.config.maxsteps,
             self._workers,
         )
-        return outcome.fitness.reshape(len(predators), len(prey), repeats).mean(axis=2)
+        shape = *outcome.fitness.shape[:-1], len(predators), len(prey), repeats
+        return outcome.fitness.reshape(shape).mean(axis=-1)
 
 
 def play(
@@ -80,16 +91,17 @@ def play(
     """Predators of several generations against prey of several generations.
 
     All of one side have as many individuals. Returns the predators' fitness, float64, of shape
-    (generations of predators, generations of prey, predators, prey); `report` gets the
-    generations of predators that are done.
+    (generations of predators, generations of prey, predators, prey), or that of both sides, (2,
+    ...); `report` gets the generations of predators that are done.
     """
     competitors = np.concatenate(prey)
     parts = []
     for done, group in enumerate(predators, 1):
         fitness = contest.meet(group, competitors)
-        parts.append(fitness.reshape(len(group), len(prey), -1).transpose(1, 0, 2))
+        shape = *fitness.shape[:-2], len(group), len(prey), -1
+        parts.append(fitness.reshape(shape).swapaxes(-3, -2))
         report(done)
-    return np.array(parts)
+    return np.stack(parts, axis=-4)
 
 
 @dataclass(frozen=True)
@@ -119,15 +131,23 @@ def summarised(fitness: np.ndarray, seed: int) -> tuple[Table, Table]:
     seed alone.
     """
     rng = generator(seed, POST_EVALUATION_SEED)
-    rows, columns, predators, prey = fitness.shape
+    rows, columns, predators, prey = fitness.shape[-4:]
     own = rng.multinomial(predators, np.full(predators, 1 / predators), (RESAMPLES, rows))
     met = rng.multinomial(prey, np.full(prey, 1 / prey), (RESAMPLES, columns))
-    samples = [
-        np.einsum("ijm,jm->ij", np.einsum("in,ijnm->ijm", own[k] / predators, fitness), met[k])
-        for k in range(RESAMPLES)
-    ]
-    mean, samples = fitness.mean(axis=(2, 3)), np.array(samples) / prey
-    prey_table = Table(ROLES[1], 1 - mean.T, 1 - samples.transpose(0, 2, 1))
+
+    def resampled(fitness: np.ndarray) -> np.ndarray:
+        samples = [
+            np.einsum("ijm,jm->ij", np.einsum("in,ijnm->ijm", own[k] / predators, fitness), met[k])
+            for k in range(RESAMPLES)
+        ]
+        return np.array(samples) / prey
+
+    if fitness.ndim == 5:
+        (mean, other), (samples, others) = fitness.mean(axis=(3, 4)), map(resampled, fitness)
+    else:
+        mean, samples = fitness.mean(axis=(2, 3)), resampled(fitness)
+        other, others = 1 - mean, 1 - samples
+    prey_table = Table(ROLES[1], other.T, others.transpose(0, 2, 1))
     return Table(ROLES[0], mean, samples), prey_table
 
 

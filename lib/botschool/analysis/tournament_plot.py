@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Sequence
 from io import StringIO
 from pathlib import Path
@@ -73,11 +74,18 @@ def _other(table: Table) -> str:
     return ROLES[1 - ROLES.index(table.role)]
 
 
+def _one_scale(tables: tuple[Table, Table]) -> bool:
+    """Whether all fitness is from 0 to 1; otherwise each side has a scale of its own."""
+    return all(table.mean.min() >= 0 and table.mean.max() <= 1 for table in tables)
+
+
 def _draw_maps(page: Figure | SubFigure, tables: tuple[Table, Table], generations) -> None:
-    low = min(table.mean.min() for table in tables)
-    high = max(table.mean.max() for table in tables)
+    shared = _one_scale(tables)
     panels = page.subplots(1, 2)
     for axes, table in zip(panels, tables, strict=True):
+        scaled = tables if shared else (table,)
+        low = min(each.mean.min() for each in scaled)
+        high = max(each.mean.max() for each in scaled)
         picture = axes.imshow(table.mean, cmap="viridis", vmin=low, vmax=high, origin="lower")
         axes.set_title(f"fitness of the {table.role}")
         axes.set_xlabel(f"generation of the {_other(table)}: ancient to the left")
@@ -90,7 +98,10 @@ def _draw_maps(page: Figure | SubFigure, tables: tuple[Table, Table], generation
         _frame_contemporaries(axes, len(generations))
         if len(generations) <= MAX_NUMBERS:
             _write_numbers(axes, table.mean, (low + high) / 2)
-    page.colorbar(picture, ax=panels, label="mean fitness", fraction=0.03, pad=0.02)
+        if not shared:
+            page.colorbar(picture, ax=axes, label="mean fitness", fraction=0.045, pad=0.02)
+    if shared:
+        page.colorbar(picture, ax=panels, label="mean fitness", fraction=0.03, pad=0.02)
 
 
 def _frame_contemporaries(axes: Axes, count: int) -> None:
@@ -101,11 +112,12 @@ def _frame_contemporaries(axes: Axes, count: int) -> None:
 
 
 def _write_numbers(axes: Axes, mean: np.ndarray, middle: float) -> None:
+    form = ".2f" if np.abs(mean).max() < 10 else ".0f"
     for (row, column), value in np.ndenumerate(mean):
         axes.text(
             column,
             row,
-            f"{value:.2f}".removeprefix("0"),
+            re.sub(r"^0\.", ".", f"{value:{form}}"),
             ha="center",
             va="center",
             fontsize=9,
@@ -116,7 +128,8 @@ def _write_numbers(axes: Axes, mean: np.ndarray, middle: float) -> None:
 def _draw_profiles(page: Figure | SubFigure, tables: tuple[Table, Table], generations) -> None:
     from matplotlib import colormaps
 
-    panels = page.subplots(1, 2, sharey=True)
+    shared = _one_scale(tables)
+    panels = page.subplots(1, 2, sharey=shared)
     chosen = spaced(len(generations), PROFILES)
     # Single hues from light to dark, so that later generations are the darker ones.
     hues = {"predators": colormaps["Oranges"], "prey": colormaps["Blues"]}
@@ -133,7 +146,11 @@ def _draw_profiles(page: Figure | SubFigure, tables: tuple[Table, Table], genera
         axes.set_title(f"{table.role} against ancient and future {_other(table)}")
         axes.set_xlabel(f"generation of the {_other(table)} (dot: of the same generation)")
         _tidy(axes)
-        axes.set(ylim=(-0.05, 1.25), yticks=np.linspace(0, 1, 6))  # with room for the legend
+        if shared:
+            axes.set(ylim=(-0.05, 1.25), yticks=np.linspace(0, 1, 6))  # with room for the legend
+        else:
+            bottom, top = axes.get_ylim()
+            axes.set_ylim(bottom, top + 0.2 * (top - bottom))
         axes.legend(frameon=False, fontsize=9, loc="upper center", ncols=2)
     panels[0].set_ylabel("mean fitness, 95 % interval")
 

@@ -17,22 +17,36 @@ MAX_COLUMNS = 11
 """Generations or individuals that a table shows side by side."""
 
 
+def print_roles(roles: str) -> None:
+    """Who predators and prey are, if it has to be said."""
+    if roles:
+        print(roles)
+
+
 def print_pairs(fitness: np.ndarray, tables: tuple[Table, Table], name: str) -> None:
-    """Each predator of a generation against each prey: the predators' fitness, (n, n)."""
-    count = len(fitness)
-    if count <= MAX_COLUMNS:
-        grid = _grid(f"{name}: fitness of predators (rows) against prey (columns)")
-        _columns(grid, ["", *(str(j + 1) for j in range(count)), "all"])
-        for i, row in enumerate(fitness):
-            grid.add_row(str(i + 1), *map(_number, row), _number(row.mean()))
-        means = fitness.mean(axis=0)
-        grid.add_row("all", *map(_number, means), _number(means.mean()))
-        _print(grid)
+    """Each predator of a generation against each prey: the predators' fitness, (n, n), or that of
+    both sides, (2, n, n)."""
+    if fitness.shape[-1] <= MAX_COLUMNS:
+        if fitness.ndim == 2:
+            _print_pairs(fitness, f"{name}: fitness of predators (rows) against prey (columns)")
+        else:
+            _print_pairs(fitness[0], f"{name}: fitness of predators (rows) against prey (columns)")
+            _print_pairs(fitness[1], f"{name}: fitness of these prey (columns)")
     for table in tables:
         words = in_words(Estimate.of(table.mean[0, 0], table.samples[:, 0, 0]))
-        if count == 1:
+        if fitness.shape[-1] == 1:
             words = _number(table.mean[0, 0])
         print(f"mean fitness of the {table.role}: {words}")
+
+
+def _print_pairs(fitness: np.ndarray, title: str) -> None:
+    grid = _grid(title)
+    _columns(grid, ["", *(str(j + 1) for j in range(len(fitness))), "all"])
+    for i, row in enumerate(fitness):
+        grid.add_row(str(i + 1), *map(_number, row), _number(row.mean()))
+    means = fitness.mean(axis=0)
+    grid.add_row("all", *map(_number, means), _number(means.mean()))
+    _print(grid)
 
 
 def print_row(predators: Table, prey: Table, name: str, names: Sequence[str]) -> None:

@@ -80,14 +80,13 @@ def post_evaluate(
     watching: Watching,
 ) -> None:
     """Shows a robot, by chance or from a file; or lets the populations of a folder meet."""
-    from botschool import config
     from botschool.analysis import coevolution
     from botschool.render.pairs import PairEpisodes
     from botschool.render.watch import PostEvaluation, read_genotype
 
     if genotype is None:
         watching.show(PostEvaluation(experiment, seed))
-    elif not config.competitive(experiment) or coevolution.names_file(genotype):
+    elif not experiment.competitive or coevolution.names_file(genotype):
         path = Path(genotype)
         watching.show(PostEvaluation(experiment, seed, read_genotype(path), path.name))
     else:

@@ -54,10 +54,12 @@ class Algorithm(Protocol):
 
 
 Play = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
-"""(predators, prey, pairs) -> the predator's fitness in each meeting, float64 (meetings,).
+"""(predators, prey, pairs) -> fitness in each meeting, float64.
 
 Predators and prey are networks, float64, shapes (p, parameters) and (q, parameters); pairs says who
-meets whom, int32 (2, meetings). A prey's fitness is 1 minus the predator's."""
+meets whom, int32 (2, meetings). In a game of constant sum the fitness is the predator's,
+(meetings,), and a prey's is 1 minus it. In others it is that of both, (2, meetings), on any
+scale."""
 
 
 class Competition(Protocol):
@@ -77,7 +79,9 @@ class Competition(Protocol):
     plays: int
     """Calls of `play` in a generation."""
 
-    def __init__(self, config: Any, initial: Initial, seed: int) -> None: ...
+    def __init__(
+        self, config: Any, initial: Initial, seed: int, constant_sum: bool = True
+    ) -> None: ...
 
     def advance(self, play: Play) -> None:
         """A generation, or what must come before the first one: then `generation` stays 0.
@@ -93,7 +97,8 @@ class Competition(Protocol):
 
     def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray] | None:
         """Who is kept in files: networks, float64 (2, n, parameters), predators, then prey; and the
-        fitness of predators (rows) against prey (columns), (n, n). None if there is nobody yet.
+        fitness of predators (rows) against prey (columns), (n, n) or (2, n, n) as `Play` says. None
+        if there is nobody yet.
 
         Playing for this changes nothing, and its steps do not count.
         """

@@ -1,4 +1,8 @@
-"""A run in which predators and prey evolve against each other: who meets whom, and what is left."""
+"""A run in which two sides evolve against each other: who meets whom, and what is left.
+
+The sides are called predators and prey, whatever they are; in an environment of PettingZoo the
+predators are the first agent.
+"""
 
 from __future__ import annotations
 
@@ -63,7 +67,10 @@ class Coevolution(Run):
         """Makes both sides, the record and the budget."""
         config = self.experiment.algo
         self.algorithm = ALGORITHMS[self.experiment.exp.algo].make(
-            config, partial(self.policy.initial, self.seed), self.seed
+            config,
+            partial(self.policy.initial, self.seed),
+            self.seed,
+            self.problem.constant_sum,
         )
         self.record = CoevolutionRecord(tuple(self.algorithm.summary()))
         steps = self.max_steps if hasattr(config, "maxmsteps") else math.inf
@@ -74,10 +81,11 @@ class Coevolution(Run):
     def check(self) -> None:
         """Raises BotschoolError for experiments that have no two sides."""
         config, problem, name = self.experiment.policy, self.problem, self.experiment.exp.algo
-        if not problem.native or problem.interface.robots != 2:
+        if problem.interface.robots != 2:
             raise BotschoolError(
-                f"{problem.name} is not a native problem of two robots, which {name} needs: "
-                "set environment = ErPredprey, or algo = OpenAI-ES or SSS."
+                f"{name} needs two robots, but {problem.name} has {problem.interface.robots}: set "
+                "environment = ErPredprey or one of PettingZoo with two agents, or algo = "
+                "OpenAI-ES or SSS."
             )
         if not config.heterogeneous:
             raise BotschoolError(
@@ -110,7 +118,7 @@ class Coevolution(Run):
         self.report(self)
 
     def _play(self, predators: np.ndarray, prey: np.ndarray, pairs: np.ndarray) -> np.ndarray:
-        """The predator's fitness in each meeting: the algorithm's `Play`."""
+        """Fitness in each meeting: the algorithm's `Play`."""
         fitness, steps = self._meet(predators, prey, pairs, self.stopping)
         self._steps += steps
         if self.record.steps and self.algorithm.plays > 1:
@@ -120,7 +128,7 @@ class Coevolution(Run):
         return fitness
 
     def _meet(self, predators, prey, pairs, stopping) -> tuple[np.ndarray, int]:
-        """By one native call: the predator's fitness in each meeting, and the steps it took."""
+        """By one call: fitness in each meeting, as `Play` says, and the steps it took."""
         count, meetings = self.policy.config.episodes, pairs.shape[1]
         places = pairs + np.array([[0], [len(predators)]], dtype=np.int32)
         outcome = self.problem.evaluate(
@@ -136,12 +144,18 @@ class Coevolution(Run):
             self.workers,
             stopping,
         )
-        return means(outcome.fitness.reshape(-1, count)), int(outcome.steps.sum())
+        met = means(outcome.fitness.reshape(-1, count))
+        if not self.problem.constant_sum:
+            met = met.reshape(2, meetings)
+        return met, int(outcome.steps.sum())
 
     def reproduces(self) -> bool:
-        """Whether meetings that the algorithm remembers still end as they did, to the bit."""
+        """Whether meetings that the algorithm remembers still end as they did, to the bit.
+
+        As in `Run`, problems in Python are not asked.
+        """
         remembered = self.algorithm.remembered()
-        if remembered is None:
+        if remembered is None or not self.problem.native:
             return True
         *meetings, fitness = remembered
         again, _ = self._meet(*meetings, lambda: False)
@@ -219,7 +233,7 @@ class Coevolution(Run):
             f"seed {self.seed}: predators {_shown(last['predators'], '.3f')}, "
             f"prey {_shown(last['prey'], '.3f')} on "
             f"average in generation {self.record.generation}, after {self.record.steps} steps; "
-            f"best of both: {files.bestg}"
+            f"best of both: {files.bestg}{f' ({roles})' if (roles := self.problem.roles) else ''}"
         )
 
 

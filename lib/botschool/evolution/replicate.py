@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from botschool.config import Experiment, competitive
+from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.progress import print_lines, reporting
@@ -30,7 +30,7 @@ def replicate(
     Several runs of a native problem share the workers: they run side by side, each on as many
     workers as there are for it. Everything else runs one after another, each on all workers.
     """
-    kind = Coevolution if competitive(experiment) else Run
+    kind = Coevolution if experiment.competitive else Run
     if keep_every and kind is Coevolution:
         raise BotschoolError(
             "--keep-every is for one population: the files of a co-evolution keep populations "

@@ -22,7 +22,6 @@ from botschool.evolution.evaluate import Evaluator, Measured, mean
 from botschool.evolution.events import Events
 from botschool.evolution.record import Record, RunFiles
 from botschool.output import cannot_write, remove_leftovers, save_npy
-from botschool.policy import Policy
 from botschool.problems import Interrupted
 from botschool.terminal import readable
 
@@ -108,7 +107,7 @@ class Run:
         self.stopping = stopping
         self.problem = problems.of(experiment)
         self.check()
-        self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
+        self.policy = self.problem.policy(experiment.policy)
         self.report: Callable[[Run], None] = lambda run: None
         self._open: Open | None = None
         self.begin()

@@ -3,7 +3,8 @@
 A problem has a `name`, an `interface` (what it asks of a policy), a `limit` (longest episode in
 steps, or None), `fps` (of its pictures), and two methods: `evaluate` runs a batch of episodes,
 `play` runs one and yields every step. Native problems run whole episodes in C++ (native.py);
-every other name is a Gymnasium id (gym.py).
+every other name is a Gymnasium id (gym.py) or, where two sides compete, a PettingZoo environment
+(parallel.py).
 """
 
 from __future__ import annotations
@@ -17,22 +18,29 @@ from botschool.problems.native import NATIVE, NativeProblem
 __all__ = ["Episodes", "Interrupted", "Outcome", "Problem", "make", "names", "of"]
 
 
-def make(name: str, robots: Sequence[str] = (), wrappers: str = "") -> Problem:
+def make(
+    name: str,
+    robots: Sequence[str] = (),
+    wrappers: str = "",
+    options: str = "",
+    competitive: bool = False,
+) -> Problem:
     """The problem of that name; robots: kinds of its wheeled robots, () for its own.
 
     wrappers: those around its environment (botschool.wrappers); a native problem is then played as
-    a Gymnasium environment. Raises BotschoolError when there is no such problem, or it has no such
-    robots or wrappers.
+    a Gymnasium environment. options: keywords of the environment's constructor. competitive: two
+    sides evolve against each other in it. Raises BotschoolError when there is no such problem, or
+    it has no such robots, wrappers or options.
     """
     if name in NATIVE and not wrappers:
+        if options:
+            raise BotschoolError(f"{name} takes no options: remove the line options = {options}.")
         return NativeProblem(name, robots)
     if name in NATIVE and NativeProblem(name).interface.robots > 1:
         raise BotschoolError(
             f"{name} has several robots, which no wrapper fits: remove the line wrappers = "
             f"{wrappers}."
         )
-    from botschool.problems.gym import GymProblem
-
     if robots and name in NATIVE:
         raise BotschoolError(
             f"{name} has either other robots or wrappers: remove one of the lines."
@@ -41,14 +49,20 @@ def make(name: str, robots: Sequence[str] = (), wrappers: str = "") -> Problem:
         raise BotschoolError(
             f"{name} is no arena of wheeled robots: remove the line robots = {', '.join(robots)}."
         )
-    return GymProblem(name, wrappers)
+    if competitive:
+        from botschool.problems.parallel import ParallelProblem
+
+        return ParallelProblem(name, wrappers, options)
+    from botschool.problems.gym import GymProblem
+
+    return GymProblem(name, wrappers, options)
 
 
 def of(experiment) -> Problem:
     """The problem of a botschool.config.Experiment. Raises BotschoolError."""
     exp = experiment.exp
     robots = [name.strip() for name in exp.robots.split(",") if name.strip()]
-    return make(exp.environment, robots, exp.wrappers)
+    return make(exp.environment, robots, exp.wrappers, exp.options, experiment.competitive)
 
 
 def names() -> list[str]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from botschool.errors import BotschoolError
+from botschool.hyperparameters import PolicyConfig
 from botschool.policy import Interface, Policy
 from botschool.problems.transition import Transition
 
@@ -56,7 +57,8 @@ class Outcome:
     """What a batch of n episodes gave."""
 
     fitness: np.ndarray
-    """float64, shape (n,): the return of each episode."""
+    """float64, shape (n,): the return of each episode; of a problem of two sides without
+    `constant_sum` (2, n), the return of each side."""
     steps: np.ndarray
     """int32, shape (n,)."""
     moments: np.ndarray | None = None
@@ -73,6 +75,22 @@ class Problem(ABC):
     native: bool
     dynamics: str
     """Name of the dynamics, by which pictures are drawn."""
+    constant_sum = True
+    """Of two sides: whether an episode has one return, the first side's, and the second side gets
+    1 minus it. Otherwise each has a return of its own."""
+    sides: tuple[str, str] = ("predator", "prey")
+    """What individuals of two sides are called."""
+
+    @property
+    def roles(self) -> str:
+        """Who predators and prey are, where they have other names; "" where they have not."""
+        if self.sides == Problem.sides:
+            return ""
+        return f"predators are {self.sides[0]}, prey are {self.sides[1]}"
+
+    def policy(self, config: PolicyConfig) -> Policy:
+        """The policy that a [POLICY] section describes. Raises BotschoolError."""
+        return Policy(self.name, self.interface, config)
 
     @abstractmethod
     def evaluate(

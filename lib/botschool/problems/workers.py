@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 
@@ -31,10 +32,10 @@ class Workers:
     sent, so the outcome is the same.
     """
 
-    def __init__(self, problem: tuple[str, str], config: PolicyConfig, workers: int) -> None:
-        """problem: name, and the wrappers around it."""
-        self._name, _ = problem
-        self._arguments = (problem, config)
+    def __init__(self, made: dict[str, Any], config: PolicyConfig, workers: int) -> None:
+        """made: arguments of botschool.problems.make."""
+        self._name = made["name"]
+        self._arguments = (made, config)
         self._workers = workers
         self._pool: ProcessPoolExecutor | None = None
 
@@ -69,7 +70,7 @@ class Workers:
         if episodes.collect is not None:
             moments = np.concatenate([outcome.moments for outcome in outcomes])
         return Outcome(
-            np.concatenate([outcome.fitness for outcome in outcomes]),
+            np.concatenate([outcome.fitness for outcome in outcomes], axis=-1),
             np.concatenate([outcome.steps for outcome in outcomes]),
             moments,
         )
@@ -87,7 +88,9 @@ class Workers:
             if i in done:
                 continue
             chosen = episodes.select(chunk)
-            used, chosen.candidate = np.unique(chosen.candidate, return_inverse=True)
+            shape = chosen.candidate.shape
+            used, places = np.unique(chosen.candidate, return_inverse=True)
+            chosen.candidate = places.reshape(shape)
             with _unheard(signal.SIGINT):  # Ctrl-C is the main process's affair
                 future = self._pool.submit(
                     _evaluate, genotypes[used], normalisation, chosen, maxsteps
@@ -116,17 +119,15 @@ class Workers:
 _worker: tuple | BotschoolError | None = None
 
 
-def _start(named: tuple[str, str], config: PolicyConfig) -> None:
+def _start(made: dict[str, Any], config: PolicyConfig) -> None:
     global _worker
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
     from botschool import problems
-    from botschool.policy import Policy
 
     try:
-        name, wrappers = named
-        problem = problems.make(name, wrappers=wrappers)
-        _worker = (problem, Policy(name, problem.interface, config))
+        problem = problems.make(**made)
+        _worker = (problem, problem.policy(config))
     except BotschoolError as error:  # told by the first evaluation
         _worker = error
 

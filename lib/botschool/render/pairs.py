@@ -18,7 +18,8 @@ class PairEpisodes(PostEvaluation):
     def __init__(
         self, experiment: Experiment, seed: int, predators: np.ndarray, prey: np.ndarray, name: str
     ) -> None:
-        super().__init__(experiment, seed, name=f"{name} (fitness is the predator's)")
+        super().__init__(experiment, seed)
+        self.name = f"{name} (fitness is the {self.problem.sides[0]}'s)"
         self._predators, self._prey = predators, prey
         self._repeats = experiment.policy.pepisodes
 
@@ -36,7 +37,8 @@ class PairEpisodes(PostEvaluation):
     def label(self, episode: int) -> str:
         """Who meets whom."""
         predator, prey, _ = self._pair(episode)
-        return f"predator {predator + 1}, prey {prey + 1}"
+        numbers = zip(self.problem.sides, (predator, prey), strict=True)
+        return ", ".join(f"{side} {number + 1}" for side, number in numbers)
 
     def _pair(self, episode: int) -> tuple[int, int, int]:
         again, place = divmod(episode, self.available)

@@ -30,8 +30,8 @@ _CELL_WITH_NUMBER = 34
 def with_activations(
     frame: np.ndarray,
     activations: np.ndarray,
-    ninputs: int,
-    noutputs: int,
+    ninputs: int | Sequence[int],
+    noutputs: int | Sequence[int],
     robots: Sequence[str] = ("",),
 ) -> np.ndarray:
     """The frame with a panel at its right: one coloured cell for each neuron.
@@ -55,24 +55,28 @@ def with_activations(
 
 
 def neuron_groups(
-    neurons: int, ninputs: int, noutputs: int, robots: Sequence[str] = ("",)
+    neurons: int,
+    ninputs: int | Sequence[int],
+    noutputs: int | Sequence[int],
+    robots: Sequence[str] = ("",),
 ) -> list[tuple[str, int]]:
     """Labels and sizes of the groups in a vector of activations; empty groups are left out.
 
-    ninputs and noutputs are those of one robot's network; all robots' networks are alike.
-    Raises ValueError if there are fewer neurons than inputs and outputs.
+    ninputs and noutputs are those of one robot's network if all are alike, else of each; all have
+    as many hidden neurons. Raises ValueError if there are fewer neurons than inputs and outputs.
     """
-    nhiddens, rest = divmod(neurons - len(robots) * (ninputs + noutputs), len(robots))
+    inputs, outputs = (np.broadcast_to(n, len(robots)).tolist() for n in (ninputs, noutputs))
+    nhiddens, rest = divmod(neurons - sum(inputs) - sum(outputs), len(robots))
     if nhiddens < 0 or rest:
         raise ValueError(
             f"{neurons} activations for {ninputs} inputs and {noutputs} outputs "
             f"of {len(robots)} robot(s)"
         )
-    sizes = {"inputs": ninputs, "hidden": nhiddens, "outputs": noutputs}
+    hidden = [nhiddens] * len(robots)
     return [
         (f"{robot} {kind}".strip(), size)
-        for robot in robots
-        for kind, size in sizes.items()
+        for robot, *sizes in zip(robots, inputs, hidden, outputs, strict=True)
+        for kind, size in zip(("inputs", "hidden", "outputs"), sizes, strict=True)
         if size
     ]
 
@@ -94,11 +98,14 @@ def with_caption(frame: np.ndarray, episode: int, transition: Transition) -> np.
 
 def caption(episode: int, transition: Transition) -> tuple[str, str, str, str]:
     """What `with_caption` writes."""
+    returns = f"return {transition.total:.1f}"
+    if transition.totals:
+        returns = "returns " + " : ".join(f"{total:.1f}" for total in transition.totals)
     return (
         f"episode {episode}",
         f"step {transition.step}",
         f"reward {transition.reward:.2f}",
-        f"return {transition.total:.1f}",
+        returns,
     )
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import zlib
 from base64 import b64encode
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from importlib.resources import files
 from io import BytesIO
 from itertools import repeat
@@ -38,15 +38,17 @@ def write_replay(
     about: str,
     episodes: Iterable[Iterable[Transition]],
     fps: float,
-    neurons: tuple[int, int],
+    neurons: tuple[int | Sequence[int], int | Sequence[int]],
     scene: Scene | None = None,
     labels: Iterable[str] = repeat(""),
+    robots: Sequence[str] = ("",),
 ) -> None:
     """Writes the page.
 
     title: the problem's name; about: a line on the robot and the experiment. fps: steps a second.
-    neurons: inputs and outputs of one robot's network. Without a scene the transitions must hold
-    frames. labels: what tells each episode from the others, shown while it plays.
+    neurons: inputs and outputs of one robot's network, or of each robot's. Without a scene the
+    transitions must hold frames. labels: what tells each episode from the others, shown while it
+    plays. robots: names of the robots where there is no scene that has them.
     Raises BotschoolError if the file cannot be written or there are no steps to show.
     """
     path = check_output(path, REPLAY_SUFFIXES)
@@ -65,7 +67,7 @@ def write_replay(
             episode["frames"] = frames.of(number)
     charted = scene.charted if scene else ()
     count -= sum(len(lines) for _, lines in charted)
-    groups = neuron_groups(count, *neurons, scene.robots if scene else ("",)) if count else []
+    groups = neuron_groups(count, *neurons, scene.robots if scene else robots) if count else []
     groups += [(label, len(lines)) for label, lines in charted]
     data = {
         "title": title,

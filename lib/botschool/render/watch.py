@@ -12,7 +12,6 @@ import numpy as np
 from botschool import problems
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
-from botschool.policy import Policy
 from botschool.problems.transition import Transition
 from botschool.seeds import POST_EVALUATION_SEED
 from botschool.terminal import has_display, readable
@@ -53,10 +52,12 @@ class PostEvaluation:
     ) -> None:
         self.name = name
         self.problem = problems.of(experiment)
-        self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
+        self.policy = self.problem.policy(experiment.policy)
         self.seed = seed
         self.maxsteps = experiment.policy.post_steps
         self.fitness: list[float] = []
+        self.others: list[float] = []
+        """Of the second side, where it has a fitness of its own."""
         self.steps: list[int] = []
         if saved is None:
             self._robot = (self.policy.initial(seed), None)
@@ -93,8 +94,13 @@ class PostEvaluation:
         if transition is not None:
             self.fitness.append(transition.total)
             self.steps.append(transition.step)
+            self.others.extend(transition.totals[1:])
             name = "  ".join(filter(None, [f"episode {episode + 1}", self.label(episode)]))
-            print(f"{name}  fitness {readable(transition.total)}  steps {transition.step}")
+            fitness = readable(transition.total)
+            if transition.totals:
+                returns = zip(self.problem.sides, transition.totals, strict=True)
+                fitness = ", ".join(f"{readable(total)} of {side}" for side, total in returns)
+            print(f"{name}  fitness {fitness}  steps {transition.step}")
 
     def frames(self, episodes: int, activations: bool) -> Iterator[np.ndarray]:
         """Pictures of the first episodes with a caption, and with the neurons on request."""
@@ -104,7 +110,7 @@ class PostEvaluation:
 
         draw_offscreen()
         scene = scene_of(self.problem)
-        robots = scene.robots if scene else ("",)
+        robots = self._robots(scene)
         for episode in range(episodes):
             for transition in self.play(episode, render=True):
                 frame = scene.draw_transition(transition) if scene else transition.frame
@@ -115,9 +121,14 @@ class PostEvaluation:
 
     @property
     def neurons(self) -> tuple[int, int]:
-        """Inputs and outputs of one robot's network."""
-        spec = self.policy.spec
-        return spec.inputs, spec.outputs * spec.nbins
+        """Inputs and outputs of one robot's network, or of each robot's."""
+        return self.policy.neurons
+
+    def _robots(self, scene) -> tuple[str, ...]:
+        """Names beside the neurons of each robot; "" for a single one."""
+        if scene:
+            return scene.robots
+        return self.problem.sides if self.problem.interface.robots > 1 else ("",)
 
     def write_replay(self, path: Path, episodes: int) -> None:
         """A page that plays the first episodes; see botschool.render.replay."""
@@ -126,6 +137,7 @@ class PostEvaluation:
         from botschool.render.scenes import scene_of
 
         draw_offscreen()
+        scene = scene_of(self.problem)
         write_replay(
             path,
             self.problem.name,
@@ -133,18 +145,21 @@ class PostEvaluation:
             (self.play(episode, render=True) for episode in range(episodes)),
             self.problem.fps,
             self.neurons,
-            scene_of(self.problem),
+            scene,
             [self.label(episode) for episode in range(episodes)],
+            self._robots(scene),
         )
 
     def print_summary(self) -> None:
-        """Mean and standard deviation over the episodes played."""
-        if self.fitness:
-            print(
-                f"mean {readable(np.mean(self.fitness))}  "
-                f"standard deviation {readable(np.std(self.fitness))}"
-                f"  steps {np.mean(self.steps):.1f}  episodes {len(self.fitness)}"
-            )
+        """Mean and standard deviation over the episodes played, of each side that has its own."""
+        names = [f"{side}: " for side in self.problem.sides] if self.others else [""]
+        for name, fitness in zip(names, (self.fitness, self.others), strict=False):
+            if fitness:
+                print(
+                    f"{name}mean {readable(np.mean(fitness))}  "
+                    f"standard deviation {readable(np.std(fitness))}"
+                    f"  steps {np.mean(self.steps):.1f}  episodes {len(fitness)}"
+                )
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ stronger ones of those that are drawn.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,15 +46,21 @@ class ArchiveStar(HallOfFame):
     """Several centres a side. Each archived individual has a lineage and a strength.
 
     The strength is a running mean of its success, 1 minus the fitness of those who meet it: after
-    each turn in which it was met, 0.9 * strength + 0.1 * mean success in that turn.
+    each turn in which it was met, 0.9 * strength + 0.1 * mean success in that turn. Where the sum
+    is not constant, success is minus that fitness, the first turn gives the strength alone, and who
+    was never met counts as the mean of those who were.
     """
 
-    def __init__(self, config: ArchiveStarConfig, initial: Initial, seed: int) -> None:
+    def __init__(
+        self, config: ArchiveStarConfig, initial: Initial, seed: int, constant_sum: bool = True
+    ) -> None:
         """As HallOfFame; the random individuals of an archive are of all lineages by turns."""
-        super().__init__(config, initial, seed)
+        super().__init__(config, initial, seed, constant_sum)
         first = [i % config.popsize for i in range(config.ncompetitors)]
         self.lineages = (first.copy(), first.copy())
-        self.strengths = ([UNKNOWN] * len(first), [UNKNOWN] * len(first))
+        self.whole = 1 if constant_sum else 0
+        self.unknown = UNKNOWN if constant_sum else np.nan
+        self.strengths = ([self.unknown] * len(first), [self.unknown] * len(first))
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
         """As HallOfFame.ask; each pair of candidates of each centre draws its own opponents."""
@@ -78,6 +85,8 @@ class ArchiveStar(HallOfFame):
     def _strongest(self, numbers: np.random.Generator) -> np.ndarray:
         """Each opponent is the strongest of `preferential` drawn ones; of equals, the first."""
         strengths = np.array(self.strengths[1 - self.side])
+        known = ~np.isnan(strengths)
+        strengths[~known] = mean(strengths[known]) if known.any() else 0
         drawn = numbers.integers(len(strengths), size=(*self._shape, self.config.preferential))
         strongest = strengths[drawn].argmax(axis=-1, keepdims=True)
         return np.take_along_axis(drawn, strongest, axis=-1)[..., 0]
@@ -90,15 +99,16 @@ class ArchiveStar(HallOfFame):
         if self.turn % self.config.addtoarchiveevery == 0:
             self.archives[side].extend(best.astype(np.float32))
             self.lineages[side].extend(range(len(best)))
-            self.strengths[side].extend([UNKNOWN] * len(best))
+            self.strengths[side].extend([self.unknown] * len(best))
         self.generation += 1
 
     def _remember(self, strengths: list[float], fitness: np.ndarray) -> None:
         """Updates the strength of those who were met."""
         met = np.repeat(self.opponents, 2, axis=1)  # by both candidates of a perturbation
         for place in np.unique(met):
-            success = 1 - mean(fitness[met == place])
-            strengths[place] = KEPT * strengths[place] + (1 - KEPT) * success
+            success = self.whole - mean(fitness[met == place])
+            before = success if math.isnan(strengths[place]) else strengths[place]
+            strengths[place] = KEPT * before + (1 - KEPT) * success
 
     def state(self) -> dict[str, np.ndarray]:
         """As HallOfFame.state, and what is known of archived individuals."""

@@ -31,6 +31,7 @@ from botschool.evolution.algorithms.sides import (
     means,
     ranking,
     seen_by,
+    unknown,
 )
 from botschool.hyperparameters import WEIGHT_DECAY, hyper
 from botschool.seeds import generator
@@ -84,8 +85,8 @@ class Coevo2:
     """advance(play): at first everyone meets everyone, then each call is a generation.
 
     Everything is in the order of the populations, which are sorted: best mean fitness against the
-    whole other population first. `fitness` is seen by the predators: predators in rows, prey in
-    columns; nan before the first meeting.
+    whole other population first. `fitness` has predators in rows and prey in columns, as `seen_by`
+    takes it; nan before the first meeting.
     """
 
     plays = SUB_GENERATIONS + 1
@@ -94,7 +95,9 @@ class Coevo2:
     """Local progress of the last generation: by how much the mean fitness of the evolved
     individuals against the chosen competitors has grown."""
 
-    def __init__(self, config: Coevo2Config, initial: Initial, seed: int) -> None:
+    def __init__(
+        self, config: Coevo2Config, initial: Initial, seed: int, constant_sum: bool = True
+    ) -> None:
         """initial(index) gives two random networks in a row: the index-th predator and prey."""
         self.config = config
         self.seed = seed
@@ -104,7 +107,7 @@ class Coevo2:
         """Of predators, then prey: shape (2, popsize, parameters)."""
         self.m = np.zeros_like(self.parameters)
         self.v = np.zeros_like(self.parameters)
-        self.fitness = np.full((config.popsize, config.popsize), np.nan)
+        self.fitness = unknown(config.popsize, constant_sum)
 
     @staticmethod
     def conflicts(config: Coevo2Config) -> Iterator[tuple[tuple[str, ...], str]]:
@@ -119,7 +122,7 @@ class Coevo2:
     @property
     def met(self) -> bool:
         """Whether everyone has met everyone."""
-        return not np.isnan(self.fitness[0, 0])
+        return not np.isnan(self.fitness.flat[0])
 
     @property
     def side(self) -> int:
@@ -152,9 +155,9 @@ class Coevo2:
         after = seen_by(side, met)[:, competitors]
 
         # everyone, newcomers first so that of equals they stay; without the worst
-        fitness = np.concatenate([met, self.fitness], axis=side)
+        fitness = np.concatenate([met, self.fitness], axis=side - 2)
         kept = ranking(seen_by(side, fitness))[: self.config.popsize]
-        self.fitness = np.take(fitness, kept, axis=side)
+        self.fitness = np.take(fitness, kept, axis=side - 2)
         for array, new in zip((self.parameters, self.m, self.v), evolved, strict=True):
             array[side] = np.concatenate([new, array[side]])[kept]
         self._sort()
@@ -185,13 +188,13 @@ class Coevo2:
         """Puts the best of both populations first."""
         for side in (PREDATORS, PREY):
             order = ranking(seen_by(side, self.fitness))
-            self.fitness = np.take(self.fitness, order, axis=side)
+            self.fitness = np.take(self.fitness, order, axis=side - 2)
             for array in (self.parameters, self.m, self.v):
                 array[side] = array[side, order]
 
     def best(self) -> tuple[np.ndarray, float]:
         """The first of both populations, and the predator's mean fitness against all prey."""
-        return np.concatenate(self.parameters[:, 0]), mean(self.fitness[0])
+        return np.concatenate(self.parameters[:, 0]), mean(seen_by(PREDATORS, self.fitness)[0])
 
     def summary(self) -> dict[str, float]:
         """Local progress, and the mean fitness of both populations."""
@@ -208,7 +211,7 @@ class Coevo2:
             return None
         predators, prey = self.parameters
         pairs = np.stack([np.zeros(len(prey)), np.arange(len(prey))]).astype(np.int32)
-        return predators[:1], prey, pairs, self.fitness[0]
+        return predators[:1], prey, pairs, self.fitness[..., 0, :]
 
     def average_parameter(self) -> float:
         """Average absolute parameter of both populations."""
@@ -232,5 +235,5 @@ class Coevo2:
 
 
 def _play(play: Play, side: int, ours: np.ndarray, theirs: np.ndarray) -> np.ndarray:
-    """Individuals of one side meet competitors; the fitness is seen by the predators."""
+    """Individuals of one side meet competitors; the fitness has predators in rows."""
     return everyone(play, *((ours, theirs) if side == PREDATORS else (theirs, ours)))

@@ -20,7 +20,7 @@ import numpy as np
 
 from botschool.evolution.algorithm import Initial, Play
 from botschool.evolution.algorithms.openaies import climb, mirrored
-from botschool.evolution.algorithms.sides import PREDATORS, SIDES, everyone, mean, means
+from botschool.evolution.algorithms.sides import PREDATORS, PREY, SIDES, everyone, mean, means
 from botschool.hyperparameters import WEIGHT_DECAY, hyper
 
 SAVED = 10
@@ -67,7 +67,7 @@ class HallOfFame:
     share = 0.0
     plays = 1
 
-    def __init__(self, config: Any, initial: Initial, seed: int) -> None:
+    def __init__(self, config: Any, initial: Initial, seed: int, constant_sum: bool = True) -> None:
         """initial(index) gives two random networks in a row: the index-th predator and prey.
 
         The first `popsize` of each side are its centres, the next `ncompetitors` its archive.
@@ -135,10 +135,14 @@ class HallOfFame:
         theirs = np.stack([archive[place] for place in places]).astype(np.float64)
         flat = candidates.reshape(-1, candidates.shape[2])
         if self.side == PREDATORS:
-            fitness = play(flat, theirs, pairs)
+            met = play(flat, theirs, pairs)
         else:
-            fitness = 1 - play(theirs, flat, np.ascontiguousarray(pairs[::-1]))
-        self.tell(fitness.reshape(rivals.shape))
+            met = play(theirs, flat, np.ascontiguousarray(pairs[::-1]))
+        if met.ndim == 2:  # both sides have a fitness of their own
+            met = met[self.side]
+        elif self.side == PREY:
+            met = 1 - met
+        self.tell(met.reshape(rivals.shape))
 
     def _samples(self, numbers: np.random.Generator) -> np.ndarray:
         """Draws a turn's directions and returns the candidates on both sides of each centre."""

@@ -51,9 +51,11 @@ class MaxSolveStar(HallOfFame):
     of the fitness of those who met it in each phase of evolution, and how many they were.
     """
 
-    def __init__(self, config: MaxSolveStarConfig, initial: Initial, seed: int) -> None:
+    def __init__(
+        self, config: MaxSolveStarConfig, initial: Initial, seed: int, constant_sum: bool = True
+    ) -> None:
         """As HallOfFame."""
-        super().__init__(config, initial, seed)
+        super().__init__(config, initial, seed, constant_sum)
         self.solved: tuple[list, list] = ([], [])
         for solved, archive in zip(self.solved, self.archives, strict=True):
             solved.extend(np.zeros((2, config.nphases)) for _ in archive)

@@ -15,9 +15,17 @@ SIDES = ("predators", "prey")
 def seen_by(side: int, fitness: np.ndarray) -> np.ndarray:
     """Fitness of the individuals of one side (rows) against their competitors (columns).
 
-    fitness: of predators (rows) against prey (columns). A prey's fitness is 1 - the predator's.
+    fitness: of predators (rows) against prey (columns), whose fitness is 1 - the predators'; or
+    with a first axis of two, the predators' and the prey's own.
     """
+    if fitness.ndim == 3:
+        return fitness[PREDATORS] if side == PREDATORS else fitness[PREY].T
     return fitness if side == PREDATORS else 1 - fitness.T
+
+
+def unknown(count: int, constant_sum: bool) -> np.ndarray:
+    """What `everyone` gives, before so many of each side have met: nan."""
+    return np.full((count, count) if constant_sum else (2, count, count), np.nan)
 
 
 BAND = 4
@@ -26,14 +34,16 @@ network's weights are read once for four of them (lib/evonet/rows.hpp)."""
 
 
 def everyone(play: Play, predators: np.ndarray, prey: np.ndarray) -> np.ndarray:
-    """Fitness of every predator (rows) against every prey (columns).
+    """Fitness of every predator (rows) against every prey (columns), as `seen_by` takes it.
 
     They meet in bands of a few predators: all of a band the first prey, then the next.
     """
-    fitness = np.empty((len(predators), len(prey)))
-    row, column = np.indices(fitness.shape, dtype=np.int32).reshape(2, -1)
+    shape = len(predators), len(prey)
+    row, column = np.indices(shape, dtype=np.int32).reshape(2, -1)
     pairs = np.stack([row, column])[:, np.lexsort((row, column, row // BAND))]
-    fitness[tuple(pairs)] = play(predators, prey, pairs)
+    met = play(predators, prey, pairs)
+    fitness = np.empty((*met.shape[:-1], *shape))
+    fitness[..., pairs[0], pairs[1]] = met
     return fitness
 
 

@@ -1,0 +1,144 @@
+"""Episodes that run in Python, in worker processes with -w: what such problems have in common."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.inifile import shown
+from botschool.policy import Policy
+from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
+from botschool.problems.making import sentence
+from botschool.problems.transition import Transition
+
+
+class PythonProblem(Problem):
+    """A problem whose environment is a Python object.
+
+    A class of such problems sets what `Problem` has, `_env` and `made`, and plays an episode.
+    """
+
+    native = False
+    made: dict[str, Any]
+    """The arguments of botschool.problems.make that make it anew, in a worker process."""
+    _env: Any
+    _pool = None
+
+    def evaluate(
+        self,
+        policy: Policy,
+        genotypes: np.ndarray,
+        normalisation: np.ndarray | None,
+        episodes: Episodes,
+        maxsteps: int,
+        workers: int = 1,
+        stopping: Callable[[], bool] = lambda: False,
+    ) -> Outcome:
+        if workers > 1:
+            from botschool.problems.workers import Workers
+
+            if self._pool is None:
+                self._pool = Workers(self.made, policy.config, workers)
+            return self._pool.evaluate(genotypes, normalisation, episodes, maxsteps, stopping)
+        n, size = len(episodes), self.interface.observations
+        returns = np.zeros((n,) if self.constant_sum else (self.interface.robots, n))
+        outcome = Outcome(returns, np.zeros(n, dtype=np.int32))
+        if episodes.collect is not None:
+            outcome.moments = np.zeros((n, 2 * size))
+        for i in range(n):
+            if stopping():
+                raise Interrupted
+            policy.load(genotypes[episodes.candidate[..., i]], normalisation)
+            wanted = episodes.collect is not None and episodes.collect[i]
+            moments = outcome.moments[i] if wanted else None
+            seed, episode = int(episodes.seed[i]), int(episodes.episode[i])
+            for transition in self._episode(self._env, policy, seed, episode, maxsteps):
+                returns[..., i] = transition.total if self.constant_sum else transition.totals
+                outcome.steps[i] = transition.step
+                if moments is not None:
+                    moments[:size] += transition.observation
+                    moments[size:] += transition.observation**2
+        return outcome
+
+    def play(
+        self,
+        policy: Policy,
+        genotype: np.ndarray,
+        normalisation: np.ndarray | None,
+        seed: int,
+        episode: int,
+        maxsteps: int,
+        render: bool = False,
+    ) -> Iterator[Transition]:
+        if render and "rgb_array" not in (self._env.metadata.get("render_modes") or ()):
+            raise self._unseen()
+        policy.load(genotype, normalisation)
+        env = self._drawing() if render else self._env
+        try:
+            for transition in self._episode(env, policy, seed, episode, maxsteps):
+                if render:
+                    transition.frame = self._picture(env)
+                yield transition
+        finally:
+            if render:
+                env.close()
+
+    @abstractmethod
+    def _episode(
+        self, env: Any, policy: Policy, seed: int, episode: int, maxsteps: int
+    ) -> Iterator[Transition]:
+        """Plays an episode of what the policy has loaded."""
+
+    @abstractmethod
+    def _drawing(self) -> Any:
+        """An environment like the own one that draws."""
+
+    def _call(self, method, where: str, *arguments, **options):
+        try:
+            return method(*arguments, **options)
+        except (Exception, SystemExit) as error:
+            raise BotschoolError(
+                f"{self.name} raised {type(error).__name__} in {where} ({sentence(error)[:-1]}): "
+                "mend the environment."
+            ) from error
+
+    def _flat(self, flattener, raw, seed: int, episode: int) -> np.ndarray:
+        try:
+            flat = flattener(raw)
+        except (TypeError, ValueError, LookupError):
+            what = f"an observation {shown(raw)}, which its observation_space does not contain,"
+            raise self.broken(what, seed, episode) from None
+        if not np.isfinite(flat).all():
+            raise self.broken("an observation with NaN or infinity", seed, episode)
+        return flat
+
+    def _number(self, reward, step: int, seed: int, episode: int) -> float:
+        try:
+            number = float(reward)
+        except (TypeError, ValueError):
+            number = np.nan
+        if not np.isfinite(number):
+            raise self.broken(f"a reward of {shown(reward)} at step {step}", seed, episode)
+        return number
+
+    def _picture(self, env) -> np.ndarray:
+        frame = np.asarray(self._call(env.render, "render"))
+        if frame.ndim != 3 or frame.shape[2] != 3:
+            raise self._unseen()
+        return frame.astype(np.uint8)
+
+    def _unseen(self) -> BotschoolError:
+        return BotschoolError(
+            f"{self.name} draws no pictures (render_mode rgb_array): leave out --video and "
+            "--replay, and add --render none."
+        )
+
+    def close(self) -> None:
+        """Ends worker processes."""
+        if self._pool is not None:
+            self._pool.close()
+            self._pool = None
