@@ -287,7 +287,7 @@ def test_names_of_algorithms_are_suggested(refused, tmp_path):
 def test_other_problems_are_refused(refused, tmp_path):
     path = write(tmp_path, policy={"nrobots": 1, "heterogeneous": 0})
     path.write_text(path.read_text().replace("ErPredprey", "CartPole-v1"))
-    refused(*arguments(tmp_path), says=["which archive needs", "ErPredprey"])
+    refused(*arguments(tmp_path), says=["archive needs two robots", "ErPredprey"])
 
 
 def test_damaged_checkpoints(whole, refused, tmp_path):

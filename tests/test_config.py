@@ -126,7 +126,13 @@ def test_defaults(tmp_path):
     ):
         path = write(tmp_path, text(exp=f"environment = X-v0\nalgo = {algo}"))
         assert to_dict(load(path)) == {
-            "exp": {"environment": "X-v0", "algo": algo, "robots": "", "wrappers": ""},
+            "exp": {
+                "environment": "X-v0",
+                "algo": algo,
+                "robots": "",
+                "wrappers": "",
+                "options": "",
+            },
             "policy": POLICY_DEFAULTS,
             "algo": defaults,
         }
@@ -135,6 +141,7 @@ def test_defaults(tmp_path):
         "algo": "OpenAI-ES",
         "robots": "",
         "wrappers": "",
+        "options": "",
     }
 
 
@@ -385,9 +392,13 @@ def test_refused_dict(data, part):
 def test_describe_lists_every_hyperparameter_with_default_and_help():
     rows = describe()
     listed = {(section, name): default for section, name, default, _ in rows}
-    assert len(listed) == len(rows) == 4 + 20 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12
+    assert len(listed) == len(rows) == 5 + 20 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12
     for section, defaults in (
-        ("EXP", {"environment": None, "algo": "OpenAI-ES", "robots": "", "wrappers": ""}),
+        (
+            "EXP",
+            {"environment": None, "algo": "OpenAI-ES", "robots": "", "wrappers": ""}
+            | {"options": ""},
+        ),
         ("POLICY", POLICY_DEFAULTS),
         ("ALGO OpenAI-ES", OPENAI_ES_DEFAULTS),
         ("ALGO SSS", SSS_DEFAULTS),

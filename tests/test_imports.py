@@ -13,6 +13,7 @@ LAYERS = (
     {"samples", "robots", "hyperparameters", "wrappers", "linear"},
     {"net"},
     {"policy", "arena"},
+    {"pair"},
     {"problems"},
     {"evolution.algorithm"},
     {"evolution.algorithms"},

@@ -1,5 +1,6 @@
 """PettingZoo environments of two agents co-evolve (docs/specification.md, "Two sides")."""
 
+import importlib
 import re
 import sys
 
@@ -169,18 +170,35 @@ def test_an_episode_of_our_face_is_that_of_the_native_problem_in_double_precisio
     assert len(set(outcome.steps.tolist())) > 2
 
 
-@pytest.mark.parametrize("algo", ["coevo2", "archive"])
-def test_a_run_of_our_face_leaves_what_the_native_problem_leaves(algo, tmp_path):
+BOLD = {"maxsteps": 60, "nhiddens": 0, "winit": 2, "bias": 1}
+
+
+def test_meetings_of_our_face_end_as_those_of_the_native_problem():
     """In short episodes, as single precision drifts from double; there to the bit."""
-    bold = {"maxsteps": 40, "nhiddens": 4, "winit": 2, "wrange": 2, "bias": 1}
-    native = write(tmp_path / "native", "ErPredprey", algo, "", bold | {"maxsteps": 40})
-    face = write(tmp_path / "face", FACE, algo, "", bold)
+    face = problems.make(FACE, options="max_steps=60", competitive=True)
+    native = problems.make("ErPredprey")
+    policy = face.policy(PolicyConfig(nrobots=2, heterogeneous=1, **BOLD))
+    rows = np.array([policy.initial(3, i) for i in range(14)]).reshape(28, -1)
+    pairs = np.array([2, 2])[:, None] * np.indices((14, 14)).reshape(2, -1) + [[0], [1]]
+    meetings = Episodes(
+        pairs.astype(np.int32), np.full(196, 3, np.uint64), np.zeros(196, np.uint32)
+    )
+    one = face.evaluate(policy, rows, None, meetings, 60)
+    other = native.evaluate(native.policy(policy.config), rows, None, meetings, 60)
+    assert np.array_equal(one.steps, other.steps)
+    assert np.array_equal(one.fitness, [other.fitness, 1 - other.fitness])
+    assert len(set(one.steps.tolist())) > 5
+
+
+def test_a_run_of_our_face_leaves_what_the_native_problem_leaves(tmp_path):
+    native = write(tmp_path / "native", "ErPredprey", "archive", "", BOLD)
+    face = write(tmp_path / "face", FACE, "archive", "max_steps=60", BOLD)
     assert run(native, tmp_path / "a", generations=2) and run(face, tmp_path / "b", generations=2)
     one, two = contents(tmp_path / "a"), contents(tmp_path / "b")
     fitness = np.load(tmp_path / "a" / "S3FitG2.npy")
     assert len(set(fitness.ravel().tolist())) > 4
     for name in one.keys() | two.keys():
-        if not name.startswith("checkpointS3.npz:"):
+        if name != "checkpointS3.npz:botschool":
             assert one[name] == two[name], name
 
 
@@ -239,7 +257,7 @@ def test_mice_and_cats_get_better(tmp_path):
     parts = [np.split(np.load(tmp_path / "run" / f"S3G{g}.npy"), 2) for g in (0, 40)]
     tables = summarised(play(contest, *zip(*parts, strict=True)), 3)
     for table in tables:
-        assert table.mean[1, 0] > table.mean[0, 0] + 1, table.role
+        assert table.mean[1, 0] > table.mean[0, 0] + 0.5, table.role
 
 
 # the command
@@ -266,7 +284,7 @@ def test_pairs_are_measured_and_watched(es, tmp_path):
     assert code == 0 and (tmp_path / "duels.html").stat().st_size > 1000
     shown = re.findall(r"(cat \d, mouse \d)  fitness (-?[\d.]+) of cat, (-?[\d.]+) of mouse", out)
     assert [pair for pair, _, _ in shown] == [f"cat {i}, mouse {k}" for i in (1, 2) for k in (1, 2)]
-    assert re.search(rf"fitness of the prey: {np.mean([float(m) for *_, m in shown]):.1f}", out)
+    assert f"mean fitness of the prey: {np.mean([float(m) for *_, m in shown]):.2f}" in out
 
 
 def test_the_best_of_both_are_filmed_with_their_neurons(es, tmp_path):
@@ -345,7 +363,10 @@ def test_without_seeds_it_says_so(command, tmp_path):
 
 
 def test_without_the_package_it_says_what_to_install(monkeypatch):
-    monkeypatch.setitem(sys.modules, "mpe2", None)
+    def missing(module):
+        raise ModuleNotFoundError("No module named 'mpe2'", name="mpe2")
+
+    monkeypatch.setattr(importlib, "import_module", missing)
     for name in ("mpe2.simple_push_v3", "mpe2.simple_push_v3:parallel_env"):
         with pytest.raises(BotschoolError, match=r"comes with the package mpe2: install it with"):
             problems.make(name, competitive=True)

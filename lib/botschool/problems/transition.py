@@ -22,10 +22,10 @@ class Transition:
     """Shape (outputs,), or one index for a discrete problem."""
     activations: np.ndarray
     """Shape (neurons,): inputs, hidden, outputs after this step's update."""
-    totals: tuple[float, ...] = ()
-    """Of two sides that have a return of their own: the return of each so far. `reward` and `total`
-    are the first side's; of the others the values of both stand one after the other."""
     state: np.ndarray | None = None
     """The native problem's state after the step, else None."""
     frame: np.ndarray | None = None
     """The environment's own picture after the step, (height, width, 3) uint8, on request."""
+    totals: tuple[float, ...] = ()
+    """Of two sides that have a return of their own: the return of each so far. `reward` and `total`
+    are the first side's; of the others the values of both stand one after the other."""

@@ -119,7 +119,7 @@ def _registered(name: str) -> Callable[..., Any]:
     if not hasattr(pettingzoo, "parallel_registry"):
         raise BotschoolError(
             f"This version of PettingZoo has no ids, so '{shown(name)}' cannot be found: name a "
-            "module, as pettingzoo.classic.rps_v2, or install PettingZoo 1.26 or newer."
+            "module, as pettingzoo.classic.rps_v2, or install a newer PettingZoo."
         )
     for kind in ("parallel", "aec"):
         with suppress(Exception):
