@@ -349,6 +349,14 @@ def test_other_settings_that_do_not_fit(refused, tmp_path):
     refused("es", "-f", path, "-o", tmp_path / "run", says=["wrappers do not fit", "module:func"])
 
 
+@pytest.mark.parametrize("name", ["tiny_duels:Duel", FACE, "classic/rps-v2"])
+def test_one_population_does_not_evolve_in_a_game_of_two(name, refused, tmp_path):
+    path = write(tmp_path, name, "SSS", policy={"nrobots": 1, "heterogeneous": 0})
+    path.write_text(re.sub(r"(?s)\[ALGO\].*", "[ALGO]\npopsize = 2\n", path.read_text()))
+    says = [f"{name} is an environment of PettingZoo", "algo = coevo2"]
+    refused("es", "-f", path, "-o", tmp_path / "run", says=says)
+
+
 def test_without_pictures(refused, tmp_path):
     film = ("--video", tmp_path / "duel.mp4")
     refused("es", "-f", write(tmp_path, "tiny_duels:Blind"), "-p", *film, says="draws no pictures")

@@ -55,7 +55,17 @@ def make(
         return ParallelProblem(name, wrappers, options)
     from botschool.problems.gym import GymProblem
 
-    return GymProblem(name, wrappers, options)
+    try:
+        return GymProblem(name, wrappers, options)
+    except BotschoolError:
+        from botschool.problems.zoo import is_parallel
+
+        if is_parallel(name):
+            raise BotschoolError(
+                f"{name} is an environment of PettingZoo, in which two sides evolve against each "
+                "other: set algo = coevo2, archive, archivestar or maxsolvestar."
+            ) from None
+        raise
 
 
 def of(experiment) -> Problem:

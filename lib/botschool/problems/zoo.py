@@ -8,6 +8,7 @@ The module may lie in the present folder.
 from __future__ import annotations
 
 import importlib
+import re
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
@@ -70,6 +71,15 @@ def make_parallel(name: str, **options: Any) -> Any:
             f"{type(env).__name__}: {NAMES}."
         )
     return env
+
+
+def is_parallel(name: str) -> bool:
+    """Whether an environment of this name can be made."""
+    if not re.search(r"[.:/]", name):
+        return False
+    with suppress(BotschoolError):
+        return make_parallel(name) is not None
+    return False
 
 
 def _maker(name: str) -> Callable[..., Any]:
