@@ -3,15 +3,18 @@
 import importlib
 import re
 import sys
+from functools import partial
 
 import numpy as np
 import pytest
 
 pytest.importorskip("pettingzoo")
 
+import tiny_game
 from botschool import _core, config, problems
 from botschool.analysis.tournament import Contest, play, summarised
 from botschool.errors import BotschoolError
+from botschool.evolution.algorithm import ALGORITHMS as ALGORITHMS_BY_NAME
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.run import evolve
 from botschool.hyperparameters import PolicyConfig
@@ -258,6 +261,54 @@ def test_mice_and_cats_get_better(tmp_path):
     tables = summarised(play(contest, *zip(*parts, strict=True)), 3)
     for table in tables:
         assert table.mean[1, 0] > table.mean[0, 0] + 0.5, table.role
+
+
+# algorithms
+
+
+@pytest.mark.parametrize("algo", ALGORITHMS)
+def test_two_returns_that_add_up_to_1_evolve_as_one(algo):
+    """... and what counts is the order of returns, not their scale."""
+    entry = ALGORITHMS_BY_NAME[algo]
+    options = ALGORITHMS[algo] | {"samplesize": 3, "noiseStdDev": 0.1, "stepsize": 0.03}
+    settings = entry.config(**options | ({"preferential": 1} if algo == "archivestar" else {}))
+
+    def scaled(*meeting, scale=1.0):
+        fitness = tiny_game.play(*meeting)
+        return np.stack([scale * fitness, 1 - fitness])
+
+    one = entry.make(settings, tiny_game.initial, 9)
+    two = entry.make(settings, tiny_game.initial, 9, constant_sum=False)
+    four = entry.make(settings, tiny_game.initial, 9, constant_sum=False)
+    for _ in range(4):
+        one.advance(tiny_game.play)
+        two.advance(scaled)
+        four.advance(partial(scaled, scale=4.0))
+        for name in ("parameters",) if algo == "coevo2" else ("centres", "champions"):
+            assert np.array_equal(getattr(one, name), getattr(two, name))
+            assert np.array_equal(getattr(one, name), getattr(four, name))
+        if algo == "coevo2" or one.generation > 1:
+            both = one.summary(), four.summary()
+            assert both[1]["predators"] == pytest.approx(4 * both[0]["predators"])
+            assert both[1]["prey"] == pytest.approx(both[0]["prey"])
+
+
+def test_strength_on_any_scale():
+    """Minus the fitness of those who met it; unknown ones are as strong as the mean of others."""
+    entry = ALGORITHMS_BY_NAME["archivestar"]
+    settings = entry.config(popsize=1, samplesize=1, ncompetitors=3, addtoarchiveevery=1)
+    star = entry.make(settings, tiny_game.initial, 9, constant_sum=False)
+    assert np.isnan(star.strengths[1]).all()
+    star.ask()
+    star.opponents = np.array([[[0, 2, 0]]])
+    star.tell(np.array([[[10.0, 70.0, 20.0], [30.0, 50.0, 40.0]]]))
+    assert star.strengths[1][0] == pytest.approx(-25) and np.isnan(star.strengths[1][1])
+    assert star.strengths[1][2] == pytest.approx(-60)
+    star.generation = 2
+    star.ask()
+    star.opponents = np.array([[[0, 0, 0]]])
+    star.tell(np.zeros((1, 2, 3)))
+    assert star.strengths[1][0] == pytest.approx(-22.5)
 
 
 # the command
