@@ -72,7 +72,8 @@ def of(experiment) -> Problem:
     """The problem of a botschool.config.Experiment. Raises BotschoolError."""
     exp = experiment.exp
     robots = [name.strip() for name in exp.robots.split(",") if name.strip()]
-    return make(exp.environment, robots, exp.wrappers, exp.options, experiment.competitive)
+    chosen = {"options": exp.options, "competitive": experiment.competitive}
+    return make(exp.environment, robots, exp.wrappers, **chosen)
 
 
 def names() -> list[str]:
