@@ -1,4 +1,4 @@
-// What no task uses yet: light, laser, walls inside an arena; and bodies against published numbers.
+// What only declared arenas use: light, laser, walls inside an arena; and bodies against published numbers.
 #include <cmath>
 
 #include "arena/robots/sensors.hpp"
@@ -9,8 +9,8 @@ using namespace botschool;
 namespace {
 
 // 1000 x 800, two Kheperas, a cylinder, a wall inside, a light
-constexpr Plan kYard{1000, 800, 2, {{"Khepera"}, {"Khepera"}}, 0, 1, 50, 1, {{200, 500, 260, 500}},
-                     700,  500};
+constexpr Plan kYard{1000, 800, 2, {{"Khepera"}, {"Khepera"}}, 0,
+                     1,    50,  1, {{200, 500, 260, 500}},     1};
 
 template <int L>
 struct Yard : World<L, kYard> {
@@ -20,6 +20,7 @@ struct Yard : World<L, kYard> {
       this->place(l, 0, 200, 300, heading);
       this->place(l, 1, 100, 400, 0);
       this->place_cylinder(l, 0, 500, 310);
+      this->place_light(l, 0, 700, 500);
     }
   }
 };
@@ -32,7 +33,7 @@ double seen(double distance) { return 1 - (distance - 27.5) / 500; }
 
 TEST(laser_measures_to_what_comes_first) {
   const Yard<1> yard;
-  double out[Laser::size];
+  double out[8];
   Laser::read(yard, 0, out);
   const double diagonal = std::sqrt(2.0);
   CHECK(near(out[0], seen(300 - std::sqrt(50.0 * 50 - 10 * 10))));  // the cylinder
@@ -46,7 +47,7 @@ TEST(laser_measures_to_what_comes_first) {
 }
 
 TEST(laser_turns_with_the_robot) {
-  double straight[Laser::size], turned[Laser::size];
+  double straight[8], turned[8];
   Laser::read(Yard<1>(), 0, straight);
   Laser::read(Yard<1>(kPi / 2), 0, turned);
   // the ray that ended on the very end of the inner wall may miss it now
@@ -69,7 +70,7 @@ TEST(light_follows_its_law) {
 TEST(lanes_see_alike_in_single_precision) {
   const Yard<4> four(0.3);
   const Yard<1> one(0.3);
-  using Senses = Suite<Infrared, Camera, Ground, Light, Laser, Time, Bias>;
+  using Senses = Suite<Infrared, Camera, CylinderCamera, Gradient, Light, Time, Bias>;
   float many[Senses::size * 4];
   double few[Senses::size];
   Senses::read(four, 0, many);

@@ -11,21 +11,27 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from botschool.errors import BotschoolError
+from botschool.plan import PROBLEM, Plan
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.native import NATIVE, NativeProblem
 
 __all__ = ["Episodes", "Interrupted", "Outcome", "Problem", "make", "names", "of"]
 
 
-def make(name: str, robots: Sequence[str] = (), wrappers: str = "") -> Problem:
-    """The problem of that name; robots: kinds of its wheeled robots, () for its own.
+def make(
+    name: str, robots: Sequence[str] = (), wrappers: str = "", plan: Plan | None = None
+) -> Problem:
+    """The problem of that name; robots: kinds of its wheeled robots, () for its own; plan: a
+    declared arena, for ErArena.
 
     wrappers: those around its environment (botschool.wrappers); a native problem is then played as
     a Gymnasium environment. Raises BotschoolError when there is no such problem, or it has no such
     robots or wrappers.
     """
     if name in NATIVE and not wrappers:
-        return NativeProblem(name, robots)
+        return NativeProblem(name, robots, plan=plan)
+    if plan is not None and name == PROBLEM:
+        raise BotschoolError(f"A declared arena takes no wrappers: remove wrappers = {wrappers}.")
     if name in NATIVE and NativeProblem(name).interface.robots > 1:
         raise BotschoolError(
             f"{name} has several robots, which no wrapper fits: remove the line wrappers = "
@@ -48,7 +54,7 @@ def of(experiment) -> Problem:
     """The problem of a botschool.config.Experiment. Raises BotschoolError."""
     exp = experiment.exp
     robots = [name.strip() for name in exp.robots.split(",") if name.strip()]
-    return make(exp.environment, robots, exp.wrappers)
+    return make(exp.environment, robots, exp.wrappers, experiment.plan)
 
 
 def names() -> list[str]:
