@@ -22,8 +22,9 @@ from botschool.evolution.algorithms.openaies import OpenAIESConfig
 from botschool.evolution.algorithms.sss import SSSConfig
 from botschool.hyperparameters import NO_YES, PolicyConfig, hyper
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
-from botschool.plan import PROBLEM, ArenaConfig, Plan, PlanError
+from botschool.plan import PROBLEM, WORDS, ArenaConfig, Plan, PlanError
 from botschool.robots import MODELS, find
+from botschool.things import KINDS
 from botschool.wrappers import parse
 
 __all__ = [
@@ -318,8 +319,10 @@ def _also(f: Field) -> str:
 def _unknown(key: str, section: str, cls: type) -> str:
     """The sentence for a key that its section does not have."""
     name = key.lower()
-    if section == ARENA and f"{name.rstrip('s')}1" in (f.name for f in fields(cls)):
-        return f"{key} has no number: write {name.rstrip('s')}1, and so on"
+    if section == ARENA and (kind := re.fullmatch(r"(\D+?)s?(\d*)", name)) and kind[1] in KINDS:
+        if kind[2]:
+            return f"{key} cannot be: an arena has {kind[1]}1 to {kind[1]}{WORDS[kind[1] + 's']}"
+        return f"{key} has no number: write {kind[1]}1, and so on"
     for other, config in (("EXP", Exp), ("POLICY", PolicyConfig), (ARENA, ArenaConfig)):
         if name in (f.name.lower() for f in fields(config)):
             return f"{key} belongs in section [{other}], not [{section}]: move the line there"

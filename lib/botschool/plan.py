@@ -18,6 +18,7 @@ be given as texts, as in a file. docs/specification.md, "Declared arenas".
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, fields, make_dataclass
 from functools import cached_property
 from typing import Any
@@ -121,13 +122,26 @@ class _Scalars:
     laser_range: float = _length(500.0, "how far they reach, mm")
 
 
+def _reader(key: str, cls: type[Thing]) -> Callable[[str], Thing]:
+    """Reads the text of that key; what is wrong with it begins with the key."""
+
+    def read(text: str) -> Thing:
+        try:
+            return cls.read(text)
+        except (ValueError, BotschoolError) as error:
+            raise ValueError(f"{key}: {str(error).rstrip('.')}") from None
+
+    return read
+
+
 def _lines() -> list[tuple[str, type, Any]]:
     """The keys robot1, robot2 ... of a file."""
     made = []
     for kind, cls in KINDS.items():
         form = ", ".join(("KIND" if f.name == "kind" else f"{f.name} NUMBER") for f in fields(cls))
         for number in range(1, WORDS[f"{kind}s"] + 1):
-            line = hyper("", f"{kind} {number} of the arena", check=cls.read, form=form)
+            check = _reader(f"{kind}{number}", cls)
+            line = hyper("", f"{kind} {number} of the arena", check=check, form=form)
             made.append((f"{kind}{number}", str, line))
     return made
 
@@ -189,10 +203,10 @@ class Plan:
             made = []
             for number, thing in enumerate(given, 1):
                 try:
-                    thing = thing if isinstance(thing, cls) else cls.read(thing)
-                except (ValueError, TypeError, BotschoolError) as error:
-                    raise PlanError(f"{kind}{number}", f"{kind}{number}: {_said(error)}") from None
-                made.append(thing)
+                    key = f"{kind}{number}"
+                    made.append(thing if isinstance(thing, cls) else _reader(key, cls)(thing))
+                except ValueError as error:
+                    raise PlanError(key, str(error)) from None
             object.__setattr__(self, f"{kind}s", tuple(made))
         if not self.robots:
             object.__setattr__(self, "robots", (Robot(),))
@@ -235,11 +249,12 @@ class Plan:
                 kind = NEEDS.get(name)
                 if kind and not getattr(self, f"{kind}s"):
                     raise PlanError(
-                        key, f"{said} needs a {kind}, but there is none: add a line {kind}1 = ..."
+                        key,
+                        f"{said} needs a {kind}, but there is none: add {kind}1 = x 100, y 100",
                     )
                 if name in TEAM and len(self.robots) < 2:
                     raise PlanError(
-                        key, f"{said} is for two robots or more: add a line robot2 = ..."
+                        key, f"{said} is for two robots or more: add a line robot2 = Khepera"
                     )
         if self.reward == "every-zone" and len(self.zones) > len(self.robots):
             raise PlanError(
@@ -402,10 +417,3 @@ def _gap(wall: Wall, x: float, y: float) -> float:
     ux, uy = wall.x2 - wall.x, wall.y2 - wall.y
     t = min(max(((x - wall.x) * ux + (y - wall.y) * uy) / (ux * ux + uy * uy), 0.0), 1.0)
     return math.hypot(x - wall.x - t * ux, y - wall.y - t * uy)
-
-
-def _said(error: Exception) -> str:
-    """What went wrong with a thing, without a full stop."""
-    if isinstance(error, TypeError):
-        return "it is a text such as 'x 100, y 200', with all of its numbers"
-    return str(error).rstrip(".")

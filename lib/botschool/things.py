@@ -98,7 +98,7 @@ class Robot(Thing):
     kind: str = "Khepera"
     x: Range = None
     y: Range = None
-    heading: Range = (0.0, 360.0)
+    heading: Range = None
     speed: float = field(default=0.0, metadata={"low": 0, "high": LONGEST})
     """mm/s of a wheel at an action of 1; 0 is the kind's own."""
 
