@@ -3,6 +3,7 @@ whoever computes them; how they start; what users see of them."""
 
 import dataclasses
 
+import gymnasium
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
@@ -332,8 +333,9 @@ def test_visited_cells_are_drawn():
 
 def test_the_gymnasium_face(tmp_path):
     plan = dataclasses.replace(FULL, robots=["marXbot"], sensors=("laser", "light"), noise=0.01)
-    env = botschool.envs.native.NativeEnv("ErArena", "rgb_array", arena=plan)
-    check_env(env)
+    env = gymnasium.make("botschool/Arena-v0", render_mode="rgb_array", arena=plan)
+    assert env.spec.max_episode_steps == 1000
+    check_env(env.unwrapped)
     assert env.observation_space.shape == (15,)
     with pytest.raises(botschool.errors.BotschoolError, match="but this arena has 2"):
         botschool.envs.native.NativeEnv("ErArena", arena=declared(tmp_path))

@@ -1,6 +1,8 @@
 """Plans of declared arenas: what they are in files and in Python, and what cannot be."""
 
+import copy
 import dataclasses
+import pickle
 
 import pytest
 from hypothesis import given
@@ -150,6 +152,12 @@ def test_what_python_cannot_declare():
     ]
     for call, words in refused_:
         refused(call, words)
+
+
+def test_plans_can_be_copied():
+    copied = pickle.loads(pickle.dumps(PLAN))
+    assert copied == copy.deepcopy(PLAN) == PLAN
+    assert copied.core.observations == PLAN.core.observations == 16
 
 
 def test_every_field_of_a_plan_is_a_key_of_the_section():

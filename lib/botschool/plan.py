@@ -334,6 +334,10 @@ class Plan:
             "something away",
         )
 
+    def __getstate__(self) -> dict:
+        """For copies: without what C++ has made of it."""
+        return {name: value for name, value in vars(self).items() if name != "core"}
+
     @property
     def models(self) -> tuple[RobotModel, ...]:
         """What each robot is built like."""
