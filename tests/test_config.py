@@ -28,6 +28,25 @@ from botschool.errors import BotschoolError
 
 EXPERIMENTS = sorted((Path(__file__).parents[1] / "data" / "experiments").glob("*.ini"))
 
+ARENA_DEFAULTS = {
+    "width": 400.0,
+    "height": 400.0,
+    "steps": 1000,
+    "sensors": "infrared",
+    "noise": 0.0,
+    "reward": "avoid",
+    "distance": 60.0,
+    "collisions": "block",
+    "light_distance": 200.0,
+    "laser_beams": 8,
+    "laser_angle": 360.0,
+    "laser_range": 500.0,
+    "robot1": "",
+    "wall1": "",
+    "cylinder1": "",
+    "light1": "",
+    "zone1": "",
+}
 POLICY_DEFAULTS = {
     "nrobots": 1,
     "heterogeneous": 0,
@@ -392,7 +411,7 @@ def test_refused_dict(data, part):
 def test_describe_lists_every_hyperparameter_with_default_and_help():
     rows = describe()
     listed = {(section, name): default for section, name, default, _ in rows}
-    assert len(listed) == len(rows) == 5 + 20 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12
+    assert len(listed) == len(rows) == 5 + 20 + 17 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12
     for section, defaults in (
         (
             "EXP",
@@ -400,6 +419,7 @@ def test_describe_lists_every_hyperparameter_with_default_and_help():
             | {"options": ""},
         ),
         ("POLICY", POLICY_DEFAULTS),
+        ("ARENA", ARENA_DEFAULTS),
         ("ALGO OpenAI-ES", OPENAI_ES_DEFAULTS),
         ("ALGO SSS", SSS_DEFAULTS),
         ("ALGO CMA-ES", GAUSSIAN_DEFAULTS | {"diagonal": 0, "active": 1}),
@@ -475,6 +495,6 @@ def test_any_bytes_load_or_are_refused(tmp_path, data):
 def test_any_known_keys_load_or_are_refused(tmp_path, pairs):
     sections = {"EXP": "environment = CartPole-v1", "POLICY": "", "ALGO": ""}
     for section, name, _, _ in describe():
-        if name in pairs and name != "environment":
+        if name in pairs and name != "environment" and section != "ARENA":
             sections[section.split()[0]] += f"\n{name} = {pairs.pop(name)}"
     loads_or_refuses(write(tmp_path, text(sections["POLICY"], sections["ALGO"], sections["EXP"])))

@@ -246,6 +246,7 @@ LIMITS = {
     "ErDpole": 1000,
     "ErDiscrim": 500,
     "ErPredprey": 2000,
+    "ErArena": 1000,
     "PlanarBodyBrain-v0": 1000,
     **{
         f"Planar{body}-v{version}": 1000

@@ -11,6 +11,8 @@ LAYERS = (
     {"errors", "__init__"},
     {"_core", "paths", "terminal", "seeds", "inifile", "output", "sandbox"},
     {"samples", "robots", "hyperparameters", "wrappers", "linear"},
+    {"things"},
+    {"plan"},
     {"net"},
     {"policy", "arena"},
     {"pair"},

@@ -35,6 +35,7 @@ nb::object to_numpy(std::vector<T>&& values, std::vector<std::size_t> shape) {
 }
 
 void bind_evonet(nb::module_& module);
+void bind_arena(nb::module_& module);
 void bind_engine(nb::module_& module);
 void bind_planar(nb::module_& module);
 void bind_linear(nb::module_& module);

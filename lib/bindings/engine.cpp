@@ -1,30 +1,11 @@
 #include "arena/engine/engine.hpp"
 
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
-#include <nanobind/stl/vector.h>
 
-#include <optional>
-
-#include "arena/robots/plan.hpp"
-#include "bindings.hpp"
+#include "arena.hpp"
 
 namespace botschool {
 namespace {
-
-nb::dict to_dict(const RobotModel& model) {
-  nb::dict d;
-  d["name"] = model.name;
-  d["radius"] = model.radius;
-  d["axle"] = model.axle;
-  d["speed"] = model.speed;
-  nb::list directions;
-  for (const double direction : model.direction) directions.append(direction);
-  d["directions"] = directions;
-  d["range"] = model.range;
-  return d;
-}
 
 nb::dict to_dict(const Plan& plan) {
   nb::dict d;
@@ -63,36 +44,6 @@ nb::dict to_dict(const Info& info) {
   if (info.plan) d["plan"] = to_dict(*info.plan);
   return d;
 }
-
-/// A measured infrared table: `values` has the shape (distances, angles, 8).
-struct Table {
-  Table(double first, double step, nb::ndarray<const double, nb::ndim<3>, nb::c_contig> values)
-      : values(values.data(), values.data() + values.size()) {
-    if (values.shape(2) != kInfrared || values.size() == 0 || !(step > 0))
-      throw std::invalid_argument("a table has 8 sensors, distances, angles and a positive step.");
-    table = {int(values.shape(0)), int(values.shape(1)), first, step, this->values.data()};
-  }
-  std::vector<double> values;
-  InfraredTable table;
-};
-
-/// Choices about an arena; keeps its tables alive through nb::keep_alive.
-struct Options : ArenaOptions {
-  Options(const std::vector<std::string>& robots, std::optional<double> given_noise,
-          const Table* wall, const Table* round) {
-    if (robots.size() > std::size_t(kMaxRobots))
-      throw std::invalid_argument("there are at most " + std::to_string(kMaxRobots) + " robots.");
-    for (std::size_t r = 0; r < robots.size(); ++r) {
-      robot[r] = find_robot(robots[r].c_str());
-      if (!robot[r]) throw std::invalid_argument("there is no robot '" + robots[r] + "'.");
-    }
-    if (given_noise && !(*given_noise >= 0))
-      throw std::invalid_argument("noise must not be negative.");
-    noise = given_noise.value_or(-1);
-    wall_table = wall ? &wall->table : nullptr;
-    round_table = round ? &round->table : nullptr;
-  }
-};
 
 Setting setting_of(int limit, const Options* options) {
   if (limit < 1) throw std::invalid_argument("an episode needs at least one step.");
@@ -270,11 +221,6 @@ void set_objects(Stepper& stepper, Matrix<const double> rows) {
 
 void bind_engine(nb::module_& module) {
   module.def("instruction_sets", &instruction_sets);
-  module.def("robot_models", [] {
-    nb::list list;
-    for (const RobotModel& model : kRobotModels) list.append(to_dict(model));
-    return list;
-  });
   module.def("native_problems", [] {
     nb::list list;
     for (const Info& info : native_problems()) list.append(to_dict(info));
@@ -282,8 +228,14 @@ void bind_engine(nb::module_& module) {
   });
 
   nb::class_<Engine>(module, "Engine")
-      .def(nb::init<const std::string&, const Spec&, const std::string&>(), nb::arg("problem"),
-           nb::arg("spec"), nb::arg("instruction_set") = "")
+      .def(
+          "__init__",
+          [](Engine* engine, const std::string& problem, const Spec& spec,
+             const std::string& instruction_set, const Options* options) {
+            new (engine) Engine(problem, spec, instruction_set, options);
+          },
+          nb::arg("problem"), nb::arg("spec"), nb::arg("instruction_set") = "",
+          nb::arg("options").none() = nb::none())
       .def_prop_ro("nparameters", [](const Engine& e) { return e.layout().parameters; })
       .def("evaluate", &evaluate, nb::arg("genotypes"), nb::arg("normalisation").none(),
            nb::arg("candidates"), nb::arg("seeds"), nb::arg("episodes"), nb::arg("collect").none(),
@@ -292,17 +244,6 @@ void bind_engine(nb::module_& module) {
       .def("record", &record, nb::arg("genotypes"), nb::arg("normalisation").none(),
            nb::arg("seed"), nb::arg("episode"), nb::arg("limit"), nb::arg("heterogeneous") = false,
            nb::arg("options").none() = nb::none());
-
-  nb::class_<Table>(module, "Table")
-      .def(nb::init<double, double, nb::ndarray<const double, nb::ndim<3>, nb::c_contig>>(),
-           nb::arg("first"), nb::arg("step"), nb::arg("values"));
-
-  nb::class_<Options>(module, "ArenaOptions")
-      .def(nb::init<const std::vector<std::string>&, std::optional<double>, const Table*,
-                    const Table*>(),
-           nb::arg("robots") = std::vector<std::string>(), nb::arg("noise").none() = nb::none(),
-           nb::arg("wall_table").none() = nb::none(), nb::arg("round_table").none() = nb::none(),
-           nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>());
 
   nb::class_<Stepper>(module, "Stepper")
       .def(

@@ -1,4 +1,5 @@
-"""The arenas of wheeled robots, to step by hand: `make("discrim")`, `make("predprey")`.
+"""The arenas of wheeled robots, to step by hand: `make("discrim")`, `make("predprey")`, and those
+that are declared: `make(Plan(...))` (botschool.plan).
 
     arena = make("discrim")
     arena.reset(seed=1)
@@ -22,6 +23,9 @@ import numpy as np
 from botschool import _core, robots, samples
 from botschool.errors import BotschoolError
 from botschool.inifile import nearest, shown
+from botschool.plan import PROBLEM, Cylinder, Light, Plan, Robot, Wall, Zone
+
+__all__ = ["Arena", "Cylinder", "Light", "Plan", "Robot", "Wall", "Zone", "make"]
 
 _TASKS = {
     info["name"].removeprefix("Er").lower(): info
@@ -39,17 +43,21 @@ class Arena:
     """
 
     def __init__(
-        self, name: str, max_steps: int | None, noise, wall_table, round_table, models
+        self, name: str, max_steps: int | None, noise, wall_table, round_table, models, plan=None
     ) -> None:
         info = _TASKS[name]
         self.name = name
         self.problem: str = info["name"]
         """Its name in experiment files."""
-        self.max_steps = _max_steps(info["limit"] if max_steps is None else max_steps)
-        self.width, self.height = info["plan"]["width"], info["plan"]["height"]
-        self.models = robots.cast(name, info["plan"], models)
+        self.plan: Plan | None = plan
+        """What has been declared, in a declared arena."""
+        own_limit = plan.steps if plan else info["limit"]
+        self.max_steps = _max_steps(own_limit if max_steps is None else max_steps)
+        self.models = plan.models if plan else robots.cast(name, info["plan"], models)
         """What each robot is built like, botschool.robots.RobotModel."""
-        self.cylinders: int = info["plan"]["cylinders"]
+        self.width: float = plan.width if plan else info["plan"]["width"]
+        self.height: float = plan.height if plan else info["plan"]["height"]
+        self.cylinders: int = len(plan.cylinders) if plan else info["plan"]["cylinders"]
         """How many rows of `objects` are cylinders; the others are walls."""
         self.steps = 0
         """Done in this episode."""
@@ -60,18 +68,26 @@ class Arena:
         self._stepper = _core.make_stepper(self.problem)
         tables = [None if t is None else samples.load(t).core() for t in (wall_table, round_table)]
         chosen = [model.name for model in self.models]
-        self._stepper.set(self.max_steps, _core.ArenaOptions(chosen, _noise(noise), *tables))
+        core = plan.core if plan else None
+        options = _core.ArenaOptions(chosen, _noise(noise), *tables, core)
+        self._stepper.set(self.max_steps, options)
         self._seed, self._episode = 0, -1
-        self._robots = np.zeros((info["robots"], 3))
+        self._state = self._stepper.state
+        # where cylinders, lights and zones begin in the state
+        self._first = plan.firsts if plan else {"cylinder": 3 * len(self.models)}
+        self._robots = np.zeros((len(self.models), 3))
+        self._lights = np.zeros((len(plan.lights) if plan else 0, 2))
+        self._zones = np.zeros((len(plan.zones) if plan else 0, 2))
         self._objects = self._stepper.objects
-        self._observation = np.zeros(info["robots"] * info["observations"])
-        self._action = np.zeros(info["robots"] * info["outputs"])
+        self._observation = np.zeros(len(self._stepper.observation))
+        self._action = np.zeros(len(self.models) * info["outputs"])
         self.reset(seed=0)
 
     @property
     def observation(self) -> np.ndarray:
         """What the robots sense, one robot after another, float64: 8 values in "discrim", twice 24
-        in "predprey". It is renewed by reset(), step() and sense()."""
+        in "predprey", in a declared arena those of its sensors. It is renewed by reset(), step()
+        and sense()."""
         return self._observation
 
     @property
@@ -107,10 +123,40 @@ class Arena:
         self._objects[:] = _matching("objects", rows, self._objects)
 
     @property
+    def lights(self) -> np.ndarray:
+        """Where the lights of a declared arena are, float64, shape (lights, 2). Write here to move
+        one; reset() places all anew."""
+        return self._lights
+
+    @lights.setter
+    def lights(self, places) -> None:
+        self._lights[:] = _matching("lights", places, self._lights)
+
+    @property
+    def zones(self) -> np.ndarray:
+        """The same of the zones."""
+        return self._zones
+
+    @zones.setter
+    def zones(self, places) -> None:
+        self._zones[:] = _matching("zones", places, self._zones)
+
+    @property
     def state(self) -> np.ndarray:
-        """x, y, heading of each robot, x, y of each cylinder, steps done: what scenes draw."""
-        where = self._objects[: self.cylinders, :2]
-        return np.concatenate([self._robots.ravel(), where.ravel(), [self.steps]])
+        """x, y, heading of each robot, x, y of each cylinder, steps done: what scenes draw. That of
+        a declared arena is in docs/specification.md, "Declared arenas"."""
+        state = self._state.copy()
+        for first, values in self._parts():
+            state[first : first + values.size] = values.ravel()
+        state[-1] = self.steps
+        return state
+
+    def _parts(self) -> list[tuple[int, np.ndarray]]:
+        """What a user can move: where it begins in the state, and its places."""
+        parts = [(0, self._robots), (self._first["cylinder"], self._objects[: self.cylinders, :2])]
+        if self.plan:
+            parts += [(self._first["light"], self._lights), (self._first["zone"], self._zones)]
+        return parts
 
     def reset(self, seed: int | None = None, episode: int = 0) -> np.ndarray:
         """Starts an episode and returns the observation.
@@ -127,7 +173,6 @@ class Arena:
                 )
         self._seed, self._episode = int(seed), int(episode)
         self._stepper.start(self._seed, self._episode)
-        self._objects[: self.cylinders, :2] = self._stepper.objects[: self.cylinders, :2]
         self._take(self._stepper.state)
         self.done = self.terminated = False
         return self.sense()
@@ -141,8 +186,8 @@ class Arena:
     def step(self) -> float:
         """Moves the robots by `action` from the poses as they stand, and returns the reward.
 
-        In "predprey" it is the predator's. The random noise of the sensors depends on seed,
-        episode and step.
+        In "predprey" it is the predator's, in a declared arena that of all robots. The random noise
+        of the sensors depends on seed, episode and step.
         After the episode's end it moves on all the same; `done` stays True until reset().
         """
         _finite("action", self._action)
@@ -155,12 +200,16 @@ class Arena:
         return reward
 
     def _take(self, state: np.ndarray) -> None:
-        self._robots[:] = state[: self._robots.size].reshape(-1, 3)
+        self._state = state
+        for first, values in self._parts():
+            values[:] = state[first : first + values.size].reshape(values.shape)
         self.steps = int(state[-1])
 
     def _place(self) -> None:
         """Puts robots and objects where the arrays say, if that can be."""
         _finite("robots", self._robots)
+        _finite("lights", self._lights)
+        _finite("zones", self._zones)
         self._check_objects()
         self._stepper.objects = self._objects
         self._stepper.state = self.state
@@ -193,7 +242,7 @@ class Arena:
 
 
 def make(
-    name: str,
+    name: str | Plan,
     max_steps: int | None = None,
     noise: float | None = None,
     wall_table: str | os.PathLike[str] | None = None,
@@ -202,7 +251,8 @@ def make(
 ) -> Arena:
     """The arena of a task, at the start of episode 0 of seed 0.
 
-    "discrim": a Khepera, a cylinder. "predprey": two marXbots, the predator first.
+    "discrim": a Khepera, a cylinder. "predprey": two marXbots, the predator first. A Plan
+    (botschool.plan): the arena that it declares; `config.load(FILE).plan` is that of a file.
 
     max_steps: longest episode; None is the task's own (500, 2000). noise: standard deviation of
     the infrared readings; None is the task's own (0.03, 0). wall_table, round_table: `.sample`
@@ -210,6 +260,10 @@ def make(
     fitted model. models: names of other robots ("e-puck"), one for all or one each; () is the
     task's own. Raises BotschoolError.
     """
+    if isinstance(name, Plan):
+        if models:
+            raise BotschoolError("The robots of a declared arena are those of its plan.")
+        return Arena("arena", max_steps, noise, wall_table, round_table, (), name)
     if not isinstance(name, str) or name not in _TASKS:
         near = nearest(str(name), _TASKS)
         raise BotschoolError(
@@ -217,7 +271,11 @@ def make(
         )
     if isinstance(models, str):
         models = (models,)
-    return Arena(name, max_steps, noise, wall_table, round_table, tuple(models))
+    plan = Plan() if _TASKS[name]["name"] == PROBLEM else None
+    if plan and models:
+        plan = Plan(robots=tuple(models))
+        models = ()
+    return Arena(name, max_steps, noise, wall_table, round_table, tuple(models), plan)
 
 
 def _max_steps(value) -> int:

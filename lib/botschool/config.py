@@ -22,7 +22,9 @@ from botschool.evolution.algorithms.openaies import OpenAIESConfig
 from botschool.evolution.algorithms.sss import SSSConfig
 from botschool.hyperparameters import NO_YES, PolicyConfig, hyper
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
+from botschool.plan import PROBLEM, WORDS, ArenaConfig, Plan, PlanError
 from botschool.robots import MODELS, find
+from botschool.things import KINDS
 from botschool.wrappers import keywords, parse
 
 __all__ = [
@@ -73,6 +75,8 @@ class Exp:
 
 
 SECTIONS = ("EXP", "POLICY", "ALGO")
+ARENA = "ARENA"
+"""A section for experiments with a declared arena."""
 ALIASES = {
     f.metadata["alias"]: f.name.lower()
     for entry in ALGORITHMS.values()
@@ -94,6 +98,8 @@ class Experiment:
     policy: PolicyConfig
     algo: Any
     """The hyperparameters of `exp.algo`, in the dataclass that its file declares."""
+    arena: Any = None
+    """What the section [ARENA] declares (botschool.plan.ArenaConfig), None without one."""
     path: Path | None = field(default=None, compare=False)
 
     @property
@@ -101,18 +107,28 @@ class Experiment:
         """Whether two populations evolve against each other in it."""
         return ALGORITHMS[self.exp.algo].competitive
 
+    @property
+    def plan(self) -> Plan | None:
+        """The declared arena, if there is one."""
+        return None if self.arena is None else Plan.of(self.arena)
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """Its parts, named as in to_dict."""
+        return ("exp", "policy", "algo") + (("arena",) if self.arena is not None else ())
+
 
 def load(path: str | PathLike[str]) -> Experiment:
     """Read and check an experiment file.
 
     Raises BotschoolError with one sentence: the file, the line, what is wrong, what to do.
     """
-    return _experiment(read_sections(path, SECTIONS, ALIASES), path)
+    return _experiment(read_sections(path, (*SECTIONS, ARENA), ALIASES), path)
 
 
 def to_dict(experiment: Experiment) -> dict[str, dict[str, Any]]:
     """The experiment as plain numbers and strings, ready for JSON, without its path."""
-    return {part: asdict(getattr(experiment, part)) for part in ("exp", "policy", "algo")}
+    return {part: asdict(getattr(experiment, part)) for part in experiment.parts}
 
 
 def from_dict(data: dict[str, dict[str, Any]], source: str = "experiment") -> Experiment:
@@ -133,7 +149,7 @@ def defaults(experiment: Experiment) -> dict[str, dict[str, Any]]:
     """The defaults of all its hyperparameters that have one, as in to_dict."""
     return {
         part: {f.name: f.default for f in fields(getattr(experiment, part))}
-        for part in ("exp", "policy", "algo")
+        for part in experiment.parts
     }
 
 
@@ -145,10 +161,11 @@ def free(experiment: Experiment) -> set[tuple[str, str]]:
 def describe() -> list[tuple[str, str, Any, str]]:
     """Rows (section, name, default, help) of all hyperparameters of all algorithms.
 
-    Sections are `EXP`, `POLICY` and `ALGO NAME` of each algorithm. The default is
-    None where a value must be given. The help ends with the allowed values.
+    Sections are `EXP`, `POLICY`, `ARENA` and `ALGO NAME` of each algorithm. The default is
+    None where a value must be given; of robot1, robot2 and the like the first stands for all. The
+    help ends with the allowed values.
     """
-    parts = [("EXP", Exp), ("POLICY", PolicyConfig)]
+    parts = [("EXP", Exp), ("POLICY", PolicyConfig), (ARENA, ArenaConfig)]
     parts += [(f"ALGO {name}", ALGORITHMS[name].config) for name in sorted(ALGORITHMS)]
     return [
         (
@@ -159,6 +176,7 @@ def describe() -> list[tuple[str, str, Any, str]]:
         )
         for section, config in parts
         for f in fields(config)
+        if config is not ArenaConfig or not re.search("[2-9]$", f.name)
     ]
 
 
@@ -173,11 +191,33 @@ def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]
     exp = _build(Exp, "EXP", sections["EXP"], path)
     policy = _build(PolicyConfig, "POLICY", sections["POLICY"], path)
     algo = _build(ALGORITHMS[exp.algo].config, "ALGO", sections["ALGO"], path)
-    experiment = Experiment(exp, policy, algo, Path(path))
+    arena = _arena(exp, sections.get(ARENA), path)
+    experiment = Experiment(exp, policy, algo, arena, Path(path))
     lines = {key: entry.line for entries in sections.values() for key, entry in entries.items()}
     for keys, sentence in conflicts(experiment):
         raise refusal(path, max(lines.get(key.lower(), 0) for key in keys), sentence)
     return experiment
+
+
+def _arena(exp: Exp, entries: dict[str, Entry] | None, path: str | PathLike[str]) -> Any:
+    """The section [ARENA], whose plan can be; None if there is none."""
+    declared = exp.environment == PROBLEM
+    if entries is None and not declared:
+        return None
+    if not declared:
+        raise refusal(
+            path,
+            0,
+            f"section [ARENA] declares an arena, but environment is {exp.environment}: set "
+            f"environment = {PROBLEM}, or remove the section",
+        )
+    arena = _build(ArenaConfig, ARENA, entries or {}, path)
+    try:
+        Plan.of(arena)
+    except PlanError as error:
+        entry = (entries or {}).get(error.key)
+        raise refusal(path, entry.line if entry else 0, str(error).rstrip(".")) from None
+    return arena
 
 
 def _build(cls: type, section: str, entries: dict[str, Entry], path: str | PathLike[str]) -> Any:
@@ -287,7 +327,11 @@ def _also(f: Field) -> str:
 def _unknown(key: str, section: str, cls: type) -> str:
     """The sentence for a key that its section does not have."""
     name = key.lower()
-    for other, config in (("EXP", Exp), ("POLICY", PolicyConfig)):
+    if section == ARENA and (kind := re.fullmatch(r"(\D+?)s?(\d*)", name)) and kind[1] in KINDS:
+        if kind[2]:
+            return f"{key} cannot be: an arena has {kind[1]}1 to {kind[1]}{WORDS[kind[1] + 's']}"
+        return f"{key} has no number: write {kind[1]}1, and so on"
+    for other, config in (("EXP", Exp), ("POLICY", PolicyConfig), (ARENA, ArenaConfig)):
         if name in (f.name.lower() for f in fields(config)):
             return f"{key} belongs in section [{other}], not [{section}]: move the line there"
     owners = [

@@ -1,7 +1,9 @@
-// What no task uses yet: light, laser, walls inside an arena; and bodies against published numbers.
-#include <cmath>
+// What only declared arenas use: light, laser, walls inside an arena; and bodies against published numbers.
+#include "arena/problems/arena.hpp"
 
-#include "arena/robots/sensors.hpp"
+#include <cmath>
+#include <vector>
+
 #include "check.hpp"
 
 using namespace botschool;
@@ -9,8 +11,8 @@ using namespace botschool;
 namespace {
 
 // 1000 x 800, two Kheperas, a cylinder, a wall inside, a light
-constexpr Plan kYard{1000, 800, 2, {{"Khepera"}, {"Khepera"}}, 0, 1, 50, 1, {{200, 500, 260, 500}},
-                     700,  500};
+constexpr Plan kYard{1000, 800, 2, {{"Khepera"}, {"Khepera"}}, 0,
+                     1,    50,  1, {{200, 500, 260, 500}},     1};
 
 template <int L>
 struct Yard : World<L, kYard> {
@@ -20,11 +22,32 @@ struct Yard : World<L, kYard> {
       this->place(l, 0, 200, 300, heading);
       this->place(l, 1, 100, 400, 0);
       this->place_cylinder(l, 0, 500, 310);
+      this->place_light(l, 0, 700, 500);
     }
   }
 };
 
 bool near(double a, double b) { return std::fabs(a - b) < 1e-12; }
+
+/// As much as can be declared.
+Declaration largest(Pay pay) {
+  Declaration d;
+  d.width = 900, d.height = 1300, d.robots = 4;
+  for (int r = 0; r < 4; ++r)
+    d.robot[r] = {&kRobotModels[r % 3], 0, {{100, 800}, {100, 1200}}, {0, 360}};
+  d.walls = 8;
+  for (int w = 0; w < 8; ++w) d.wall[w] = {100.0 * w, 600, 100.0 * w + 20, 640};
+  d.cylinders = 8;
+  for (int c = 0; c < 8; ++c) d.cylinder[c] = {{{100, 800}, {100, 1200}}, 20};
+  d.lights = 4;
+  for (int i = 0; i < 4; ++i) d.light[i] = {{0, 900}, {0, 1300}};
+  d.zones = 4;
+  for (int z = 0; z < 4; ++z) d.zone[z] = {{{0, 900}, {0, 1300}}, 90, 0.5};
+  d.senses = 9;
+  for (int s = 0; s < 9; ++s) d.sense[s] = Sense(s);
+  d.noise = 0.1, d.sensing.beams = 32, d.pay = pay;
+  return d;
+}
 
 double seen(double distance) { return 1 - (distance - 27.5) / 500; }
 
@@ -32,7 +55,7 @@ double seen(double distance) { return 1 - (distance - 27.5) / 500; }
 
 TEST(laser_measures_to_what_comes_first) {
   const Yard<1> yard;
-  double out[Laser::size];
+  double out[8];
   Laser::read(yard, 0, out);
   const double diagonal = std::sqrt(2.0);
   CHECK(near(out[0], seen(300 - std::sqrt(50.0 * 50 - 10 * 10))));  // the cylinder
@@ -46,7 +69,7 @@ TEST(laser_measures_to_what_comes_first) {
 }
 
 TEST(laser_turns_with_the_robot) {
-  double straight[Laser::size], turned[Laser::size];
+  double straight[8], turned[8];
   Laser::read(Yard<1>(), 0, straight);
   Laser::read(Yard<1>(kPi / 2), 0, turned);
   // the ray that ended on the very end of the inner wall may miss it now
@@ -69,7 +92,7 @@ TEST(light_follows_its_law) {
 TEST(lanes_see_alike_in_single_precision) {
   const Yard<4> four(0.3);
   const Yard<1> one(0.3);
-  using Senses = Suite<Infrared, Camera, Ground, Light, Laser, Time, Bias>;
+  using Senses = Suite<Infrared, Camera, CylinderCamera, Gradient, Light, Time, Bias>;
   float many[Senses::size * 4];
   double few[Senses::size];
   Senses::read(four, 0, many);
@@ -127,4 +150,31 @@ TEST(robots_are_chosen_for_a_world) {
   yard.place(0, 1, 80, 400, 0);  // too near the wall for its size
   CHECK(yard.blocked() == 1);
   CHECK(find_robot("nobody") == nullptr);
+}
+
+TEST(the_largest_declaration_stays_within_its_memory) {
+  for (int pay = 0; pay < 8; ++pay) {
+    const Declaration d = largest(Pay(pay));
+    ArenaOptions options;
+    options.declaration = &d;
+    Arena<16> a;
+    a.set({200, &options});
+    Random random(3, 1, Stream::start);
+    for (int l = 0; l < 16; ++l) a.start(l, random);
+    std::vector<float> out(4 * observations_of(d) * 16);
+    std::vector<double> action(4 * 2 * 16, 0.7), reward(16), low(80), high(80);
+    std::vector<std::int64_t> ended(16);
+    CHECK(observations_of(d) == 77 && observations_of(d) <= kMaxObservations);
+    a.bounds(low.data(), high.data());
+    for (int t = 0; t < 200; ++t) {
+      a.observe(out.data());
+      for (int i = 0; i < int(out.size()); ++i) {
+        const int k = i / 16 % 77;
+        CHECK(out[i] >= low[k] - 1e-5 && out[i] <= high[k] + 1e-5);
+      }
+      a.step(action.data(), reward.data(), ended.data());
+      for (int l = 0; l < 16; ++l) CHECK(reward[l] >= 0 && reward[l] <= 4 && !ended[l]);
+      if (t == 150) action[3] = std::nan("");
+    }
+  }
 }

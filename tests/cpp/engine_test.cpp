@@ -280,10 +280,10 @@ TEST(a_problem_of_many_observations_and_actuators_is_recorded) {
                   &seed,           &episode,        &collect, {5}, &fitness,   &steps,
                   moments.data()};
   using Rolled = Rollout<Wide, 4>;
-  std::vector<double> workspace(Rolled::workspace(layout) / sizeof(double) + 16);
+  std::vector<double> workspace(Rolled::workspace(layout, jobs.setting) / sizeof(double) + 16);
   void* place = workspace.data();
   std::size_t room = workspace.size() * sizeof(double);
-  std::align(64, Rolled::workspace(layout), place, room);
+  std::align(64, Rolled::workspace(layout, jobs.setting), place, room);
   Last last;
   Once queue;
   Rolled::run(layout, jobs, queue, &last, place);

@@ -56,8 +56,11 @@ class ProblemStepper final : public Stepper {
     ProblemStepper::set({Problem<1>::info().limit});
     ProblemStepper::start(0, 0);
   }
-  Info info() const override { return Problem<1>::info(); }
-  void set(const Setting& setting) override { problem_.set(setting); }
+  Info info() const override { return info_; }
+  void set(const Setting& setting) override {
+    problem_.set(setting);
+    info_ = Problem<1>::given(Problem<1>::info(), setting);
+  }
   void set_body(const double* parameters) override {
     body_.assign(parameters, parameters + info().body);
   }
@@ -91,6 +94,7 @@ class ProblemStepper final : public Stepper {
 
  private:
   Problem<1> problem_{};
+  Info info_;
   std::vector<double> body_;
 };
 
@@ -121,9 +125,12 @@ std::vector<Info> native_problems() {
   return infos;
 }
 
-Engine::Engine(const std::string& problem, const Spec& spec, const std::string& instruction_set)
-    : layout_(make_layout(spec)), kernel_(find_kernel(problem, instruction_set)) {
-  const Info& info = kernel_->info;
+Engine::Engine(const std::string& problem, const Spec& spec, const std::string& instruction_set,
+               const ArenaOptions* arena)
+    : layout_(make_layout(spec)),
+      kernel_(find_kernel(problem, instruction_set)),
+      info_(kernel_->given({kernel_->info.limit, arena})) {
+  const Info& info = info_;
   if (spec.inputs != info.observations || spec.outputs != info.outputs)
     throw std::invalid_argument(std::string(info.name) + " needs a network of " +
                                 std::to_string(info.observations) + " inputs and " +
@@ -131,10 +138,13 @@ Engine::Engine(const std::string& problem, const Spec& spec, const std::string& 
 }
 
 void Engine::run(const Jobs& jobs, Queue& queue, Recorder* recorder) const {
+  const Info given = kernel_->given(jobs.setting);
+  if (given.robots != info_.robots || given.observations != info_.observations)
+    throw std::invalid_argument("these episodes are of another arena than the engine's.");
   constexpr std::align_val_t alignment{64};
   const auto release = [&](void* p) { ::operator delete(p, alignment); };
   const std::unique_ptr<void, decltype(release)> workspace(
-      ::operator new(kernel_->workspace(layout_), alignment), release);
+      ::operator new(kernel_->workspace(layout_, jobs.setting), alignment), release);
   kernel_->run(layout_, jobs, queue, recorder, workspace.get());
 }
 

@@ -20,11 +20,14 @@ std::vector<Info> native_problems();
 /// One native problem with one network layout.
 class Engine {
  public:
-  /// instruction_set: one of instruction_sets(), or "" for the best. Throws std::invalid_argument.
-  Engine(const std::string& problem, const Spec& spec, const std::string& instruction_set);
+  /// instruction_set: one of instruction_sets(), or "" for the best. arena: what is chosen about one, or
+  /// null; all jobs must have a choice with the same robots and observations. Throws
+  /// std::invalid_argument.
+  Engine(const std::string& problem, const Spec& spec, const std::string& instruction_set,
+         const ArenaOptions* arena = nullptr);
 
   const Layout& layout() const { return layout_; }
-  const Info& info() const { return kernel_->info; }
+  const Info& info() const { return info_; }
 
   /// Evaluates the jobs on up to `threads` threads; the results do not depend on how many.
   void evaluate(const Jobs& jobs, int threads) const;
@@ -36,6 +39,7 @@ class Engine {
 
   Layout layout_;
   const Kernel* kernel_;
+  Info info_;
   mutable std::atomic<double> seconds_per_job_{1.0};  ///< of one thread, in the last batch
 };
 

@@ -13,9 +13,14 @@ namespace {
 constexpr int kLanes = 16;
 
 template <template <int> class Problem>
+Info given(const Setting& setting) {
+  return Problem<1>::given(Problem<1>::info(), setting);
+}
+
+template <template <int> class Problem>
 Kernel kernel() {
   using R = Rollout<Problem, kLanes>;
-  return {Problem<1>::info(), kLanes, &R::workspace, &R::run};
+  return {Problem<1>::info(), &given<Problem>, kLanes, &R::workspace, &R::run};
 }
 
 template <template <int> class... Problem>

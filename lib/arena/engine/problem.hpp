@@ -61,6 +61,8 @@ struct ProblemBase {
   /// Whether `state` is all that an episode is, or refresh() recomputes the rest: then an episode can
   /// go on in another lane.
   static constexpr bool movable = false;
+  /// What info() becomes by what the caller has chosen: a declared arena has robots of its own.
+  static Info given(const Info& info, const Setting&) { return info; }
   /// Once, before anything else.
   void set(const Setting&) {}
   /// The body of the episode that starts next in a lane: `body` parameters, or null for all zeros.

@@ -58,8 +58,10 @@ class Recorder {
 /// One problem's episodes, built for one instruction set.
 struct Kernel {
   Info info;
-  int lanes;                                ///< episodes in lockstep
-  std::size_t (*workspace)(const Layout&);  ///< bytes that run() needs, 64-byte aligned
+  Info (*given)(const Setting&);  ///< `info` as the caller's choices make it
+  int lanes;                      ///< episodes in lockstep
+  /// Bytes that run() needs, 64-byte aligned.
+  std::size_t (*workspace)(const Layout&, const Setting&);
   void (*run)(const Layout&, const Jobs&, Queue&, Recorder*, void* workspace);
 };
 
@@ -72,16 +74,17 @@ class Rollout {
  public:
   using Memory = BrainMemory<Real, L>;
 
-  static std::size_t workspace(const Layout& layout) {
-    return kHeader + robots() * brain_bytes(layout) + observation_bytes(layout) +
-           moments_bytes(layout) + action_bytes() + (record_bytes() + 63) / 64 * 64 +
-           half_bytes(layout);
+  static std::size_t workspace(const Layout& layout, const Setting& setting) {
+    const int robots = robots_in(setting);
+    return kHeader + robots * brain_bytes(layout) + observation_bytes(layout, robots) +
+           moments_bytes(layout) + action_bytes(robots) +
+           (record_bytes(layout, robots) + 63) / 64 * 64 + half_bytes(layout, setting);
   }
 
   static void run(const Layout& layout, const Jobs& jobs, Queue& queue, Recorder* recorder,
                   void* workspace) {
     // lanes that never get a job compute too: with zeros, as leftovers may be slow (denormal)
-    std::memset(workspace, 0, Rollout::workspace(layout));
+    std::memset(workspace, 0, Rollout::workspace(layout, jobs.setting));
     auto* bytes = static_cast<unsigned char*>(workspace);
     auto& problem = *new (bytes) Problem<L>();
     problem.set(jobs.setting);
@@ -98,17 +101,19 @@ class Rollout {
   /// Fewer lanes than 8 leave registers half empty.
   static constexpr bool kHalves = Problem<L>::movable && L >= 16;
 
-  static std::size_t half_bytes(const Layout& layout) {
-    if constexpr (kHalves) return Half::workspace(layout);
+  static std::size_t half_bytes(const Layout& layout, const Setting& setting) {
+    if constexpr (kHalves) return Half::workspace(layout, setting);
     return 0;
   }
   static constexpr std::size_t kHeader = (sizeof(Problem<L>) + 63) / 64 * 64;
-  static int robots() { return Problem<L>::info().robots; }
+  static int robots_in(const Setting& setting) {
+    return Problem<L>::given(Problem<L>::info(), setting).robots;
+  }
   static std::size_t brain_bytes(const Layout& layout) {
     return (Memory::size(layout) * sizeof(Real) + 63) / 64 * 64;
   }
-  static std::size_t observation_bytes(const Layout& layout) {
-    return (robots() * layout.spec.inputs * L * sizeof(Real) + 63) / 64 * 64;
+  static std::size_t observation_bytes(const Layout& layout, int robots) {
+    return (robots * layout.spec.inputs * L * sizeof(Real) + 63) / 64 * 64;
   }
   static std::size_t moments_bytes(const Layout& layout) {
     return 2 * layout.spec.inputs * L * sizeof(double);
@@ -118,18 +123,22 @@ class Rollout {
     const Info info = Problem<L>::info();
     return info.discrete ? 1 : info.outputs;
   }
-  static std::size_t action_bytes() { return robots() * actuators() * L * sizeof(double); }
+  static std::size_t action_bytes(int robots) { return robots * actuators() * L * sizeof(double); }
   /// Observations, actions and state of one lane.
-  static std::size_t record_bytes() {
-    const Info info = Problem<L>::info();
-    return (robots() * (info.observations + actuators()) + kStates) * sizeof(double);
+  static std::size_t record_bytes(const Layout& layout, int robots) {
+    return (robots * (layout.spec.inputs + actuators()) + kStates) * sizeof(double);
   }
 
   Rollout(const Layout& layout, const Jobs& jobs, Queue& queue, Recorder* recorder,
           Problem<L>& problem, unsigned char* bytes)
-      : layout_(layout), jobs_(jobs), queue_(queue), recorder_(recorder), problem_(problem) {
+      : robots_(robots_in(jobs.setting)),
+        layout_(layout),
+        jobs_(jobs),
+        queue_(queue),
+        recorder_(recorder),
+        problem_(problem) {
     observations_ = reinterpret_cast<Real*>(bytes);
-    bytes += observation_bytes(layout);
+    bytes += observation_bytes(layout, robots_);
     for (int r = 0; r < robots_; ++r) {
       memory_[r].carve(layout, reinterpret_cast<Real*>(bytes));
       memory_[r].inputs = observations_ + std::ptrdiff_t(r) * layout.spec.inputs * L;
@@ -140,7 +149,8 @@ class Rollout {
     moments_ = reinterpret_cast<double*>(bytes);
     action_ = moments_ + 2 * layout.spec.inputs * L;
     record_ = action_ + robots_ * actions_ * L;
-    half_ = reinterpret_cast<unsigned char*>(record_) + (record_bytes() + 63) / 64 * 64;
+    half_ =
+        reinterpret_cast<unsigned char*>(record_) + (record_bytes(layout, robots_) + 63) / 64 * 64;
   }
 
   void run() {
@@ -346,7 +356,7 @@ class Rollout {
   }
 
   static constexpr int kStates = sizeof(Problem<1>::state) / sizeof(double);
-  const int robots_ = robots();
+  const int robots_;
   const int actions_ = actuators();
 
   const Layout& layout_;

@@ -9,7 +9,7 @@ inline constexpr Plan kPredprey{3000, 3000, 2, {{"marXbot", 400}, {"marXbot", 50
 
 template <int L>
 struct Predprey : World<L, kPredprey> {
-  using Senses = Suite<Infrared, Camera, Ground, Time, Bias>;
+  using Senses = Suite<Infrared, Camera, Gradient, Time, Bias>;
   static Info info() {
     Info info;
     info.name = "ErPredprey";

@@ -71,16 +71,16 @@ struct Infrared : Shares<kInfrared> {
 
     Near<W, T, W::walls> walls(world, robot, world.options.wall_table);
     alignas(64) double to_x[L], to_y[L];
-    for (const Wall& wall : world.wall) {
-      nearest_points(world, robot, wall, to_x, to_y);
+    for (int w = 0; w < world.nwalls(); ++w) {
+      world.nearest_points(robot, world.wall[w], to_x, to_y);
       walls.look(0, to_x, to_y);
     }
     walls.add(body.wall, out);
 
     Near<W, T, W::cylinders + W::robots> round(world, robot, world.options.round_table);
-    for (int c = 0; c < W::cylinders; ++c)
+    for (int c = 0; c < world.ncylinders(); ++c)
       round.look(world.radius[c], world.cylinder_x(c), world.cylinder_y(c));
-    for (int other = 0; other < W::robots; ++other)
+    for (int other = 0; other < world.nrobots(); ++other)
       if (other != robot) round.look(world.model[other]->radius, world.x(other), world.y(other));
     round.add(body.round, out);
 
@@ -163,19 +163,6 @@ struct Infrared : Shares<kInfrared> {
     T dx_[(objects + 1) * L], dy_[(objects + 1) * L], edges_[(objects + 1) * L];
   };
 
-  template <class W>
-  static void nearest_points(const W& world, int robot, const Wall& w,
-                             double* BOTSCHOOL_RESTRICT to_x, double* BOTSCHOOL_RESTRICT to_y) {
-    const double ux = w.x2 - w.x, uy = w.y2 - w.y, length2 = ux * ux + uy * uy;
-    const double inverse = length2 > 0 ? 1 / length2 : 0;
-    for (int l = 0; l < W::lanes; ++l) {
-      const double px = world.x(robot)[l] - w.x, py = world.y(robot)[l] - w.y;
-      const double t = clamp((px * ux + py * uy) * inverse, 0.0, 1.0);
-      to_x[l] = w.x + t * ux;
-      to_y[l] = w.y + t * uy;
-    }
-  }
-
   template <class T, int L>
   static void modelled(const RobotModel& body, const Response& response,
                        const T* BOTSCHOOL_RESTRICT angle, const T* BOTSCHOOL_RESTRICT gap,
@@ -219,12 +206,38 @@ struct Infrared : Shares<kInfrared> {
   }
 };
 
-/// Adds Gaussian noise, fresh in every step; its standard deviation is set for the world.
+/// Standard deviations that the noise of sensors never reaches: of 24 bits, it ends at 5.9.
+constexpr double kMaxNoise = 6;
+
+/// Adds Gaussian noise, fresh in every step, to values `first` to `first + count - 1` of a robot's,
+/// which draw from `blocks` blocks of four; its standard deviation is set for the world.
+template <class W, class T>
+void add_noise(const W& world, int robot, int blocks, int first, int count,
+               T* BOTSCHOOL_RESTRICT out) {
+  constexpr int L = W::lanes;
+  const T deviation = static_cast<T>(world.options.noise);
+  if (deviation == T(0)) return;
+  alignas(64) std::uint32_t step[L];
+  for (int l = 0; l < L; ++l) step[l] = static_cast<std::uint32_t>(world.state[W::kSteps][l]);
+  for (int b = first / 4; 4 * b < first + count; ++b) {
+    alignas(64) std::uint32_t word[4][L];
+    alignas(64) T draw[4][L];
+    philox_lanes<L>(world.key, Stream::sensor, step, static_cast<std::uint32_t>(robot * blocks + b),
+                    word);
+    for (int l = 0; l < L; ++l) {
+      gaussian_pair(word[0][l], word[1][l], draw[0][l], draw[1][l]);
+      gaussian_pair(word[2][l], word[3][l], draw[2][l], draw[3][l]);
+    }
+    const int begin = 4 * b > first ? 4 * b : first;
+    for (int i = begin; i < first + count && i < 4 * b + 4; ++i)
+      for (int l = 0; l < L; ++l) out[i * L + l] += deviation * draw[i % 4][l];
+  }
+}
+
+/// A sensor with such noise.
 template <class Sensor>
 struct Noisy {
   static constexpr int size = Sensor::size;
-  /// Standard deviations that the noise never reaches: of 24 bits, it ends at 5.9.
-  static constexpr double kMaxNoise = 6;
 
   template <class W>
   static void bounds(const W& world, int robot, double* low, double* high) {
@@ -237,25 +250,8 @@ struct Noisy {
 
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
-    constexpr int L = W::lanes;
     Sensor::read(world, robot, out);
-    const T deviation = static_cast<T>(world.options.noise);
-    if (deviation == T(0)) return;
-    constexpr int kBlocks = (size + 3) / 4;
-    alignas(64) std::uint32_t step[L];
-    for (int l = 0; l < L; ++l) step[l] = static_cast<std::uint32_t>(world.state[W::kSteps][l]);
-    for (int b = 0; b < kBlocks; ++b) {
-      alignas(64) std::uint32_t word[4][L];
-      alignas(64) T draw[4][L];
-      philox_lanes<L>(world.key, Stream::sensor, step,
-                      static_cast<std::uint32_t>(robot * kBlocks + b), word);
-      for (int l = 0; l < L; ++l) {
-        gaussian_pair(word[0][l], word[1][l], draw[0][l], draw[1][l]);
-        gaussian_pair(word[2][l], word[3][l], draw[2][l], draw[3][l]);
-      }
-      for (int i = 4 * b; i < size && i < 4 * b + 4; ++i)
-        for (int l = 0; l < L; ++l) out[i * L + l] += deviation * draw[i % 4][l];
-    }
+    add_noise(world, robot, (size + 3) / 4, 0, size, out);
   }
 };
 

@@ -87,7 +87,7 @@ struct Wall {
   double x, y, x2, y2;
 };
 
-constexpr int kMaxWalls = 12;
+constexpr int kMaxWalls = 12, kMaxCylinders = 8, kMaxLights = 4, kMaxZones = 4;
 
 /// A task's arena. Four walls enclose width x height; they come before `wall`.
 struct Plan {
@@ -99,8 +99,20 @@ struct Plan {
   double cylinder_radius = 0;
   int walls = 0;
   Wall wall[kMaxWalls - 4] = {};
-  double light_x = 0, light_y = 0;
+  int lights = 0, zones = 0;
+  /// Whether a Declaration says what there is; all numbers are then the most that there can be.
+  bool declared = false;
 };
+
+/// How light and laser sensors are made.
+struct SensorSettings {
+  double half_light = 200;  ///< mm at which a light is half as bright
+  int beams = 8;            ///< of the laser
+  double field = 360;       ///< degrees that the beams cover, around the heading
+  double reach = 500;       ///< of a beam, mm from the robot's edge
+};
+
+struct Declaration;  // an arena that a user declares: declaration.hpp
 
 /// A measured infrared table, shape (distances, angles, kInfrared): what the sensors read of an
 /// object in a direction (index 0 is straight ahead, counter-clockwise) at a distance.
@@ -116,6 +128,7 @@ struct ArenaOptions {
   double noise = -1;                           ///< of the sensors; negative: the task's own
   const InfraredTable* wall_table = nullptr;   ///< measured readings of walls, or null: the model
   const InfraredTable* round_table = nullptr;  ///< of cylinders and robots
+  const Declaration* declaration = nullptr;    ///< of a declared arena; null: the one by default
 };
 
 }  // namespace botschool

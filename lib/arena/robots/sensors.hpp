@@ -23,47 +23,116 @@ struct Suite {
   }
 };
 
-/// The other robot of two in eight sectors of 45 degrees around the robot, and its apparent size.
-struct Camera {
+/// Eight sectors of 45 degrees around a robot, and the largest apparent size of what is seen.
+struct Sectors {
   static constexpr int sectors = 8, size = sectors + 1;
 
-  /// The size is below pi / 2 for a robot no larger than the one that looks, as both keep apart.
+  /// The size is below pi, as what is seen keeps apart from the robot.
   template <class W>
   static void bounds(const W&, int, double* low, double* high) {
     for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
     high[sectors] = kPi;
   }
 
+ protected:
+  template <int L, class T>
+  static void clear(T* BOTSCHOOL_RESTRICT out) {
+    for (int i = 0; i < size * L; ++i) out[i] = T(0);
+  }
+
+  /// Something round at (x, y), one a lane.
   template <class W, class T>
-  static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
-    static_assert(W::robots == 2, "the camera looks for the other robot of two");
+  static void see(const W& world, int robot, double radius, const double* x, const double* y,
+                  T* BOTSCHOOL_RESTRICT out) {
     constexpr int L = W::lanes;
-    const int other = 1 - robot;
     Sight<T, L> sight;
-    sight.look(world, robot, world.x(other), world.y(other));
+    sight.look(world, robot, x, y);
     const T sector = static_cast<T>(radians(45));
     for (int s = 0; s < sectors; ++s)
       for (int l = 0; l < L; ++l) {
         const T off = std::fabs(wrapped(sight.angle[l] - (T(s) + T(0.5)) * sector));
         const T seen = T(1) - off / sector;
-        out[s * L + l] = seen > T(0) ? seen : T(0);
+        out[s * L + l] = seen > out[s * L + l] ? seen : out[s * L + l];
       }
-    const T radius = static_cast<T>(world.model[other]->radius);
-    for (int l = 0; l < L; ++l) out[sectors * L + l] = T(2) * arctangent(radius, sight.distance[l]);
+    for (int l = 0; l < L; ++l) {
+      const T seen = T(2) * arctangent(static_cast<T>(radius), sight.distance[l]);
+      out[sectors * L + l] = seen > out[sectors * L + l] ? seen : out[sectors * L + l];
+    }
   }
 };
 
-/// The ground's shade is its distance from the arena's centre / half the diagonal. Four sensors at
-/// 0.9 of the radius, near the heading and near its opposite, give 0.5 + 10 * (shade - mean of the
-/// four); then comes the mean.
-struct Ground {
+/// A camera for the other robots.
+struct Camera : Sectors {
+  template <class W, class T>
+  static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
+    clear<W::lanes>(out);
+    for (int other = 0; other < world.nrobots(); ++other)
+      if (other != robot)
+        see(world, robot, world.model[other]->radius, world.x(other), world.y(other), out);
+  }
+};
+
+/// A camera for the cylinders.
+struct CylinderCamera : Sectors {
+  template <class W, class T>
+  static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
+    clear<W::lanes>(out);
+    for (int c = 0; c < world.ncylinders(); ++c)
+      see(world, robot, world.radius[c], world.cylinder_x(c), world.cylinder_y(c), out);
+  }
+};
+
+/// Where a robot's four ground sensors are: 0.9 of the radius out, near the heading and near its
+/// opposite.
+template <class W>
+struct GroundSpots {
+  static constexpr int sensors = 4, L = W::lanes;
+  alignas(64) double x[sensors][L], y[sensors][L];
+
+  GroundSpots(const W& world, int robot) {
+    constexpr double at[sensors] = {-0.0872, 0.0872, kPi - 0.0872, kPi + 0.0872};
+    const double arm = 0.9 * world.model[robot]->radius;
+    for (int s = 0; s < sensors; ++s)
+      for (int l = 0; l < L; ++l) {
+        double sine, cosine;
+        sine_cosine(world.heading(robot)[l] + at[s], sine, cosine);
+        x[s][l] = world.x(robot)[l] + arm * cosine;
+        y[s][l] = world.y(robot)[l] + arm * sine;
+      }
+  }
+};
+
+/// The shade of the zone that lies below each ground sensor, the last one where several do; 0 where
+/// none does.
+struct Ground : Shares<4> {
+  template <class W, class T>
+  static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
+    constexpr int L = W::lanes;
+    const GroundSpots<W> spots(world, robot);
+    for (int i = 0; i < size * L; ++i) out[i] = T(0);
+    for (int z = 0; z < world.nzones(); ++z) {
+      const double radius = world.declared->zone[z].radius;
+      const T shade = static_cast<T>(world.declared->zone[z].shade);
+      for (int s = 0; s < size; ++s)
+        for (int l = 0; l < L; ++l) {
+          const double dx = spots.x[s][l] - world.zone_x(z)[l];
+          const double dy = spots.y[s][l] - world.zone_y(z)[l];
+          const bool on = dx * dx + dy * dy < radius * radius;
+          out[s * L + l] = on ? shade : out[s * L + l];
+        }
+    }
+  }
+};
+
+/// A floor whose shade is its distance from the arena's centre / half the diagonal. Four ground
+/// sensors give 0.5 + 10 * (shade - mean of the four); then comes the mean.
+struct Gradient {
   static constexpr int sensors = 4, size = sensors + 1;
 
   /// Two points less than a robot's diameter apart differ by less than its share of half the diagonal.
   template <class W>
   static void bounds(const W& world, int robot, double* low, double* high) {
-    const double half =
-        std::sqrt(W::plan.width * W::plan.width + W::plan.height * W::plan.height) / 2;
+    const double half = std::sqrt(world.width * world.width + world.height * world.height) / 2;
     const double most = 10 * 2 * world.model[robot]->radius / half;
     for (int i = 0; i < sensors; ++i) low[i] = 0.5 - most, high[i] = 0.5 + most;
     low[sensors] = 0, high[sensors] = 1;
@@ -72,17 +141,13 @@ struct Ground {
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
     constexpr int L = W::lanes;
-    constexpr double at[sensors] = {-0.0872, 0.0872, kPi - 0.0872, kPi + 0.0872};
-    const double arm = 0.9 * world.model[robot]->radius;
-    const double centre_x = W::plan.width / 2, centre_y = W::plan.height / 2;
+    const GroundSpots<W> spots(world, robot);
+    const double centre_x = world.width / 2, centre_y = world.height / 2;
     const double half = std::sqrt(centre_x * centre_x + centre_y * centre_y);
     alignas(64) double shade[sensors][L];
     for (int s = 0; s < sensors; ++s)
       for (int l = 0; l < L; ++l) {
-        double sine, cosine;
-        sine_cosine(world.heading(robot)[l] + at[s], sine, cosine);
-        const double dx = world.x(robot)[l] + arm * cosine - centre_x;
-        const double dy = world.y(robot)[l] + arm * sine - centre_y;
+        const double dx = spots.x[s][l] - centre_x, dy = spots.y[s][l] - centre_y;
         shade[s][l] = std::sqrt(dx * dx + dy * dy) / half;
       }
     for (int l = 0; l < L; ++l) {
@@ -111,57 +176,70 @@ struct Bias : Shares<1> {
   }
 };
 
-/// Eight light sensors around the robot: a light gives each max(0, cos(angle off its axis)) *
-/// 1 / (1 + (distance / 200 mm)^2). Walls and objects cast no shadow.
+/// Eight light sensors around the robot: each light gives max(0, cos(angle off the axis)) /
+/// (1 + (distance / half_light)^2), and the sum is capped at 1. Nothing casts a shadow.
 struct Light : Shares<8> {
-  static constexpr int sensors = size;
-  static constexpr double kHalf = 200;  ///< mm at which the light is half as bright
-
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
     constexpr int L = W::lanes;
-    alignas(64) double to_x[L], to_y[L];
-    for (int l = 0; l < L; ++l) to_x[l] = W::plan.light_x, to_y[l] = W::plan.light_y;
-    Sight<T, L> sight;
-    sight.look(world, robot, to_x, to_y);
-    for (int s = 0; s < sensors; ++s)
-      for (int l = 0; l < L; ++l) {
-        double sine, cosine;
-        sine_cosine(sight.angle[l] - radians(45) * s, sine, cosine);
-        const T ratio = sight.distance[l] / T(kHalf);
-        const T bright = static_cast<T>(cosine > 0 ? cosine : 0);
-        out[s * L + l] = bright / (T(1) + ratio * ratio);
-      }
+    for (int i = 0; i < size * L; ++i) out[i] = T(0);
+    const T half = static_cast<T>(world.sensing.half_light);
+    for (int i = 0; i < world.nlights(); ++i) {
+      Sight<T, L> sight;
+      sight.look(world, robot, world.light_x(i), world.light_y(i));
+      for (int s = 0; s < size; ++s)
+        for (int l = 0; l < L; ++l) {
+          T sine, cosine;
+          sine_cosine(sight.angle[l] - static_cast<T>(radians(45) * s), sine, cosine);
+          const T ratio = sight.distance[l] / half;
+          const T bright = cosine > T(0) ? cosine : T(0);
+          out[s * L + l] += bright / (T(1) + ratio * ratio);
+        }
+    }
+    for (int i = 0; i < size * L; ++i) out[i] = out[i] < T(1) ? out[i] : T(1);
   }
 };
 
-/// A laser range finder: eight rays from the robot's edge, the first straight ahead, then every 45
-/// degrees; 1 - distance / 500 mm to what each hits first (walls, cylinders, robots), 0 beyond.
-struct Laser : Shares<8> {
-  static constexpr int rays = size;
-  static constexpr double kRange = 500;
+/// A laser range finder: beams from the robot's edge, the first straight ahead if they go all round,
+/// else from the right end of their field to the left one; 1 - distance / reach to what each hits
+/// first (walls, cylinders, robots), 0 beyond.
+struct Laser {
+  template <class W>
+  static void bounds(const W& world, int, double* low, double* high) {
+    for (int i = 0; i < world.sensing.beams; ++i) low[i] = 0, high[i] = 1;
+  }
+
+  /// Of a beam, radians from the heading.
+  static double direction(const SensorSettings& sensing, int beam) {
+    const bool round = sensing.field >= 360;
+    const int gaps = round || sensing.beams == 1 ? sensing.beams : sensing.beams - 1;
+    const double first = round || sensing.beams == 1 ? 0 : -sensing.field / 2;
+    return radians(first + sensing.field * beam / gaps);
+  }
 
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
     constexpr int L = W::lanes;
-    const double edge = world.model[robot]->radius;
-    for (int r = 0; r < rays; ++r) {
+    const double edge = world.model[robot]->radius, reach = world.sensing.reach;
+    for (int r = 0; r < world.sensing.beams; ++r) {
+      const double turned = direction(world.sensing, r);
       alignas(64) double way_x[L], way_y[L], first[L];
       for (int l = 0; l < L; ++l) {
-        sine_cosine(world.heading(robot)[l] + radians(45) * r, way_y[l], way_x[l]);
-        first[l] = edge + kRange;
+        sine_cosine(world.heading(robot)[l] + turned, way_y[l], way_x[l]);
+        first[l] = edge + reach;
       }
-      for (const Wall& wall : world.wall) meet_wall(world, robot, wall, way_x, way_y, first);
-      for (int c = 0; c < W::cylinders; ++c)
+      for (int w = 0; w < world.nwalls(); ++w)
+        meet_wall(world, robot, world.wall[w], way_x, way_y, first);
+      for (int c = 0; c < world.ncylinders(); ++c)
         meet_round(world, robot, world.radius[c], world.cylinder_x(c), world.cylinder_y(c), way_x,
                    way_y, first);
-      for (int other = 0; other < W::robots; ++other)
+      for (int other = 0; other < world.nrobots(); ++other)
         if (other != robot)
           meet_round(world, robot, world.model[other]->radius, world.x(other), world.y(other),
                      way_x, way_y, first);
       for (int l = 0; l < L; ++l) {
         const double gap = first[l] > edge ? first[l] - edge : 0;
-        out[r * L + l] = static_cast<T>(1 - gap / kRange);
+        out[r * L + l] = static_cast<T>(1 - gap / reach);
       }
     }
   }

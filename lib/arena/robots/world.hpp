@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "plan.hpp"
+#include "declaration.hpp"
 
 BOTSCHOOL_BEGIN
 
@@ -22,40 +22,58 @@ struct Bump {
 template <int L, const Plan& P>
 struct World : ProblemBase {
   static constexpr int lanes = L, robots = P.robots, cylinders = P.cylinders, walls = 4 + P.walls;
-  static constexpr const Plan& plan = P;
-  /// Rows: x, y, heading of each robot; x, y of each cylinder; steps done.
-  static constexpr int kCylinder = 3 * robots, kSteps = kCylinder + 2 * cylinders;
+  /// Rows: x, y, heading of each robot; x, y of each cylinder, light and zone; which cells have been
+  /// visited, in a declared arena (64 bits in two whole numbers); steps done.
+  static constexpr int kCylinder = 3 * robots, kLight = kCylinder + 2 * cylinders;
+  static constexpr int kZone = kLight + 2 * P.lights, kVisited = kZone + 2 * P.zones;
+  static constexpr int kSteps = kVisited + (P.declared ? 2 : 0);
   static constexpr int kRows = kSteps + 1;
 
   double state[kRows][L] = {};
   NoiseKey key[L] = {};
-  int limit;                        ///< longest episode, in steps
-  ArenaOptions options;             ///< noise is never negative
+  int limit;                                           ///< longest episode, in steps
+  ArenaOptions options;                                ///< noise is never negative
+  const Declaration* declared = &kDefaultDeclaration;  ///< what there is, if P.declared
+  double width, height;
   const RobotModel* model[robots];  ///< of each robot
   double speed[robots];             ///< mm/s at an action of 1
   double radius[cylinders + 1];     ///< of the cylinders
   Wall wall[walls];
+  SensorSettings sensing;
 
-  World() {
-    set({1});
-    wall[0] = {0, 0, P.width, 0};
-    wall[1] = {P.width, 0, P.width, P.height};
-    wall[2] = {P.width, P.height, 0, P.height};
-    wall[3] = {0, P.height, 0, 0};
-    for (int w = 4; w < walls; ++w) wall[w] = P.wall[w - 4];
-    for (int c = 0; c < cylinders; ++c) radius[c] = P.cylinder_radius;
-  }
+  World() { set({1}); }
 
   void set(const Setting& given) {
     limit = given.limit;
     options = given.arena ? *given.arena : ArenaOptions{};
-    if (options.noise < 0) options.noise = P.noise;
-    for (int r = 0; r < robots; ++r) {
-      const RobotModel* own = find_robot(P.role[r].model);
-      model[r] = options.robot[r] ? options.robot[r] : own;
-      speed[r] = model[r] == own && P.role[r].speed > 0 ? P.role[r].speed : model[r]->speed;
+    if constexpr (P.declared) {
+      declared = options.declaration ? options.declaration : &kDefaultDeclaration;
+      sensing = declared->sensing;
     }
+    if (options.noise < 0) options.noise = P.declared ? declared->noise : P.noise;
+    width = P.declared ? declared->width : P.width;
+    height = P.declared ? declared->height : P.height;
+    for (int r = 0; r < robots; ++r) {
+      const RobotModel* own = P.declared ? declared->robot[r].model : find_robot(P.role[r].model);
+      const double own_speed = P.declared ? declared->robot[r].speed : P.role[r].speed;
+      model[r] = options.robot[r] ? options.robot[r] : own;
+      speed[r] = model[r] == own && own_speed > 0 ? own_speed : model[r]->speed;
+    }
+    wall[0] = {0, 0, width, 0};
+    wall[1] = {width, 0, width, height};
+    wall[2] = {width, height, 0, height};
+    wall[3] = {0, height, 0, 0};
+    for (int w = 4; w < nwalls(); ++w) wall[w] = P.declared ? declared->wall[w - 4] : P.wall[w - 4];
+    for (int c = 0; c < ncylinders(); ++c)
+      radius[c] = P.declared ? declared->cylinder[c].radius : P.cylinder_radius;
   }
+
+  // how many there are: known to the compiler unless the arena is declared
+  int nrobots() const { return P.declared ? declared->robots : robots; }
+  int nwalls() const { return P.declared ? 4 + declared->walls : walls; }
+  int ncylinders() const { return P.declared ? declared->cylinders : cylinders; }
+  int nlights() const { return P.declared ? declared->lights : P.lights; }
+  int nzones() const { return P.declared ? declared->zones : P.zones; }
 
   /// Begins an episode in a lane.
   void begin(int lane, const Random& random) {
@@ -72,11 +90,24 @@ struct World : ProblemBase {
     state[kCylinder + 2 * cylinder + 1][lane] = y;
   }
 
+  void place_light(int lane, int light, double x, double y) {
+    state[kLight + 2 * light][lane] = x;
+    state[kLight + 2 * light + 1][lane] = y;
+  }
+  void place_zone(int lane, int zone, double x, double y) {
+    state[kZone + 2 * zone][lane] = x;
+    state[kZone + 2 * zone + 1][lane] = y;
+  }
+
   const double* x(int robot) const { return state[3 * robot]; }
   const double* y(int robot) const { return state[3 * robot + 1]; }
   const double* heading(int robot) const { return state[3 * robot + 2]; }
   const double* cylinder_x(int c) const { return state[kCylinder + 2 * c]; }
   const double* cylinder_y(int c) const { return state[kCylinder + 2 * c + 1]; }
+  const double* light_x(int i) const { return state[kLight + 2 * i]; }
+  const double* light_y(int i) const { return state[kLight + 2 * i + 1]; }
+  const double* zone_x(int z) const { return state[kZone + 2 * z]; }
+  const double* zone_y(int z) const { return state[kZone + 2 * z + 1]; }
 
   /// Counts a step.
   void tick() {
@@ -121,7 +152,8 @@ struct World : ProblemBase {
                   const double* BOTSCHOOL_RESTRICT to_y, Bump<L>& bump) const {
     const double own = model[robot]->radius;
     for (int l = 0; l < L; ++l) bump.wall[l] = bump.cylinder[l] = bump.robot[l] = 0;
-    for (const Wall& w : wall) {
+    for (int i = 0; i < nwalls(); ++i) {
+      const Wall& w = wall[i];
       const double ux = w.x2 - w.x, uy = w.y2 - w.y, length2 = ux * ux + uy * uy;
       const double inverse = length2 > 0 ? 1 / length2 : 0;
       for (int l = 0; l < L; ++l) {
@@ -138,14 +170,14 @@ struct World : ProblemBase {
         bump.wall[l] |= !apart | crosses;
       }
     }
-    for (int c = 0; c < cylinders; ++c) {
+    for (int c = 0; c < ncylinders(); ++c) {
       const double sum = own + radius[c];
       for (int l = 0; l < L; ++l) {
         const double dx = to_x[l] - cylinder_x(c)[l], dy = to_y[l] - cylinder_y(c)[l];
         bump.cylinder[l] |= dx * dx + dy * dy < sum * sum;
       }
     }
-    for (int other = 0; other < robots; ++other) {
+    for (int other = 0; other < nrobots(); ++other) {
       if (other == robot) continue;
       const double sum = own + model[other]->radius;
       for (int l = 0; l < L; ++l) {
@@ -155,8 +187,21 @@ struct World : ProblemBase {
     }
   }
 
+  /// The point of a wall that is nearest to a robot, in every lane.
+  void nearest_points(int robot, const Wall& w, double* BOTSCHOOL_RESTRICT to_x,
+                      double* BOTSCHOOL_RESTRICT to_y) const {
+    const double ux = w.x2 - w.x, uy = w.y2 - w.y, length2 = ux * ux + uy * uy;
+    const double inverse = length2 > 0 ? 1 / length2 : 0;
+    for (int l = 0; l < L; ++l) {
+      const double px = x(robot)[l] - w.x, py = y(robot)[l] - w.y;
+      const double t = clamp((px * ux + py * uy) * inverse, 0.0, 1.0);
+      to_x[l] = w.x + t * ux;
+      to_y[l] = w.y + t * uy;
+    }
+  }
+
   int blocked() const {
-    for (int robot = 0; robot < robots; ++robot) {
+    for (int robot = 0; robot < nrobots(); ++robot) {
       Bump<L> bump;
       find_bumps(robot, x(robot), y(robot), bump);
       if (bump.wall[0] | bump.cylinder[0] | bump.robot[0]) return robot;
@@ -165,21 +210,19 @@ struct World : ProblemBase {
   }
 
   /// Cylinders, then walls; where the cylinders are is part of the state, too.
-  int objects() const { return cylinders + walls; }
+  int objects() const { return ncylinders() + nwalls(); }
   void get_objects(double* row) const {
-    for (int c = 0; c < cylinders; ++c, row += kObject)
+    for (int c = 0; c < ncylinders(); ++c, row += kObject)
       put_object(row, cylinder_x(c)[0], cylinder_y(c)[0], 0, 0, radius[c]);
-    for (const Wall& w : wall) put_object(row, w.x, w.y, w.x2, w.y2, 0), row += kObject;
+    for (int i = 0; i < nwalls(); ++i, row += kObject)
+      put_object(row, wall[i].x, wall[i].y, wall[i].x2, wall[i].y2, 0);
   }
   void set_objects(const double* row) {
-    for (int c = 0; c < cylinders; ++c, row += kObject) {
+    for (int c = 0; c < ncylinders(); ++c, row += kObject) {
       place_cylinder(0, c, row[0], row[1]);
       radius[c] = row[4];
     }
-    for (Wall& w : wall) {
-      w = {row[0], row[1], row[2], row[3]};
-      row += kObject;
-    }
+    for (int i = 0; i < nwalls(); ++i, row += kObject) wall[i] = {row[0], row[1], row[2], row[3]};
   }
 
  private:

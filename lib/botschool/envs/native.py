@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from typing import ClassVar
 
@@ -9,8 +10,10 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
+from botschool import config
 from botschool.envs.simulation import RENDER_MODES, Simulation
 from botschool.errors import BotschoolError
+from botschool.plan import Plan
 from botschool.problems.native import INFOS
 
 
@@ -24,8 +27,9 @@ class NativeEnv(gymnasium.Env):
 
     problem: its name in experiment files, such as ErDiscrim. noise: standard deviation of an
     arena's infrared readings; None is the problem's own. robots: kinds of its wheeled robots, () is
-    the problem's own. morphology: parameters of a body that evolves, None for zeros. Raises
-    BotschoolError.
+    the problem's own. morphology: parameters of a body that evolves, None for zeros. arena: of
+    ErArena, a botschool.plan.Plan with one robot, or an experiment file with a section [ARENA];
+    None is the default plan. Raises BotschoolError.
     """
 
     metadata: ClassVar[dict] = {"render_modes": RENDER_MODES}
@@ -37,9 +41,17 @@ class NativeEnv(gymnasium.Env):
         noise: float | None = None,
         robots: Sequence[str] = (),
         morphology: np.ndarray | None = None,
+        arena: Plan | str | os.PathLike[str] | None = None,
     ) -> None:
         self.render_mode = render_mode
-        self._simulation = Simulation(problem, render_mode, noise=noise, robots=robots)
+        plan = arena if isinstance(arena, Plan) or arena is None else config.load(arena).plan
+        if plan is None and arena is not None:
+            raise BotschoolError(f"{os.fspath(arena)} has no section [ARENA].")
+        self._simulation = Simulation(problem, render_mode, noise=noise, robots=robots, plan=plan)
+        if self._simulation.interface.robots > 1:
+            raise BotschoolError(
+                f"A Gymnasium environment has one robot, but this arena has {len(plan.robots)}."
+            )
         info = INFOS[problem]
         self.metadata = self.metadata | {"render_fps": round(1 / info["seconds"])}
         far = np.finfo(np.float32).max

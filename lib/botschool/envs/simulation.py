@@ -9,6 +9,7 @@ import numpy as np
 
 from botschool import _core
 from botschool.errors import BotschoolError
+from botschool.plan import Plan
 from botschool.problems.native import INFOS, NativeProblem
 from botschool.problems.transition import Transition
 from botschool.render.scenes import scene_of, with_frames
@@ -21,7 +22,7 @@ class Simulation:
 
     problem: its name in C++. limit: longest episode in steps, None is the problem's own. noise:
     standard deviation of an arena's infrared readings, None is the problem's own. robots: kinds of
-    its wheeled robots, one for all or one each; () is the problem's own.
+    its wheeled robots, one for all or one each; () is the problem's own. plan: a declared arena.
     """
 
     def __init__(
@@ -31,19 +32,20 @@ class Simulation:
         limit: int | None = None,
         noise: float | None = None,
         robots: Sequence[str] = (),
+        plan: Plan | None = None,
     ) -> None:
         if render_mode not in (None, *RENDER_MODES):
             raise BotschoolError(
                 f"render_mode is one of {', '.join(RENDER_MODES)} or None, not {render_mode!r}."
             )
         self.info = INFOS[problem]
-        self.limit = self.info["limit"] if limit is None else limit
+        self._problem = NativeProblem(problem, robots, plan=plan)
+        self.interface = self._problem.interface
+        self.limit = self._problem.limit if limit is None else limit
         self.steps = 0
-        self._problem = NativeProblem(problem, robots)
         self._stepper = _core.make_stepper(problem)
-        chosen = [model.name for model in self._problem.robots]
         try:
-            self._stepper.set(self.limit, _core.ArenaOptions(chosen, noise))
+            self._stepper.set(self.limit, self._problem.options(noise))
         except (TypeError, ValueError):
             raise BotschoolError(
                 f"An episode has at least 1 step and noise is not negative: max_steps = {limit!r} "

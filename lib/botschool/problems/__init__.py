@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from botschool.errors import BotschoolError
+from botschool.plan import PROBLEM, Plan
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.native import NATIVE, NativeProblem
 
@@ -24,8 +25,10 @@ def make(
     wrappers: str = "",
     options: str = "",
     competitive: bool = False,
+    plan: Plan | None = None,
 ) -> Problem:
-    """The problem of that name; robots: kinds of its wheeled robots, () for its own.
+    """The problem of that name; robots: kinds of its wheeled robots, () for its own; plan: a
+    declared arena, for ErArena.
 
     wrappers: those around its environment (botschool.wrappers); a native problem is then played as
     a Gymnasium environment. options: keywords of the environment's constructor. competitive: two
@@ -35,7 +38,9 @@ def make(
     if name in NATIVE and not wrappers:
         if options:
             raise BotschoolError(f"{name} takes no options: remove the line options = {options}.")
-        return NativeProblem(name, robots)
+        return NativeProblem(name, robots, plan=plan)
+    if plan is not None and name == PROBLEM:
+        raise BotschoolError(f"A declared arena takes no wrappers: remove wrappers = {wrappers}.")
     if name in NATIVE and NativeProblem(name).interface.robots > 1:
         raise BotschoolError(
             f"{name} has several robots, which no wrapper fits: remove the line wrappers = "
@@ -73,7 +78,7 @@ def of(experiment) -> Problem:
     exp = experiment.exp
     robots = [name.strip() for name in exp.robots.split(",") if name.strip()]
     chosen = {"options": exp.options, "competitive": experiment.competitive}
-    return make(exp.environment, robots, exp.wrappers, **chosen)
+    return make(exp.environment, robots, exp.wrappers, **chosen, plan=experiment.plan)
 
 
 def names() -> list[str]:

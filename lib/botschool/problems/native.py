@@ -9,6 +9,7 @@ import numpy as np
 
 from botschool import _core
 from botschool.errors import BotschoolError
+from botschool.plan import PROBLEM, Plan
 from botschool.policy import Interface, Policy
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.transition import Transition
@@ -30,22 +31,33 @@ class NativeProblem(Problem):
     """A problem whose dynamics are in C++.
 
     robots: kinds of its wheeled robots (botschool.robots), one for all or one each; () is the
-    problem's own. instruction_set: one of `_core.instruction_sets()`; "" is the best (all give the
-    same bits). Raises BotschoolError.
+    problem's own. plan: what is declared for ErArena, None for the default. instruction_set: one of
+    `_core.instruction_sets()`; "" is the best (all give the same bits). Raises BotschoolError.
     """
 
     native = True
 
-    def __init__(self, name: str, robots: Sequence[str] = (), instruction_set: str = "") -> None:
+    def __init__(
+        self,
+        name: str,
+        robots: Sequence[str] = (),
+        instruction_set: str = "",
+        plan: Plan | None = None,
+    ) -> None:
         self.name = name
         self.dynamics, self.limit = NATIVE[name]
+        self.plan = Plan() if plan is None and name == PROBLEM else plan
+        """A declared arena; None for other problems."""
         self._instruction_set = instruction_set
         self._engine: tuple[Policy, _core.Engine] | None = None
         info = INFOS[self.dynamics]
-        self.robots = _cast(name, info, robots)
+        if self.plan:
+            info = info | {"robots": len(self.plan.robots)}
+            info["observations"] = self.plan.core.observations
+            self.limit = self.plan.steps
+        self.robots = _cast(name, info, robots, self.plan)
         """What its wheeled robots are built like; () for other problems."""
-        chosen = [model.name for model in self.robots]
-        self._options = _core.ArenaOptions(chosen) if chosen else None
+        self._options = self.options() if self.robots else None
         self.fps = 1 / info["seconds"]
         self.interface = Interface(
             info["observations"],
@@ -57,10 +69,17 @@ class NativeProblem(Problem):
             robots=info["robots"],
         )
 
+    def options(self, noise: float | None = None) -> _core.ArenaOptions:
+        """What C++ is told about its arena; noise: of its sensors, None for its own."""
+        core = self.plan.core if self.plan else None
+        return _core.ArenaOptions([model.name for model in self.robots], noise, declaration=core)
+
     def engine(self, policy: Policy) -> _core.Engine:
         """The C++ engine for this problem and the policy's network."""
         if self._engine is None or self._engine[0] is not policy:
-            engine = _core.Engine(self.dynamics, policy.spec.core(), self._instruction_set)
+            engine = _core.Engine(
+                self.dynamics, policy.spec.core(), self._instruction_set, self._options
+            )
             self._engine = (policy, engine)
         return self._engine[1]
 
@@ -143,7 +162,14 @@ def _concatenated(parts: list[tuple]) -> tuple:
     return np.concatenate(fitness), np.concatenate(steps), joined
 
 
-def _cast(name: str, info: dict, robots: Sequence[str]) -> tuple[RobotModel, ...]:
+def _cast(
+    name: str, info: dict, robots: Sequence[str], plan: Plan | None
+) -> tuple[RobotModel, ...]:
+    if plan and (name != PROBLEM or robots):
+        what = f"a plan is for {PROBLEM}" if name != PROBLEM else "its plan says which robots"
+        raise BotschoolError(f"{name} takes no such choice: {what}.")
+    if plan:
+        return plan.models
     if "plan" in info:
         return cast(name, info["plan"], robots)
     if robots:

@@ -14,7 +14,6 @@ from botschool.errors import BotschoolError
 from botschool.problems.transition import Transition
 from botschool.render.canvas import Painter, draw_offscreen
 from botschool.render.shapes import Shape
-from botschool.robots import RobotModel
 
 
 class Scene(ABC):
@@ -123,8 +122,8 @@ class Scene(ABC):
         return False
 
 
-Maker = Callable[[tuple[RobotModel, ...]], Scene]
-"""Makes a scene for the problem's wheeled robots (none for most)."""
+Maker = Callable[..., Scene]
+"""Makes a scene for the problem's wheeled robots (none for most), and its plan if it has one."""
 
 SCENES: dict[str, Maker] = {}
 """By the problem's name in C++; filled when botschool.render.scenes is imported."""

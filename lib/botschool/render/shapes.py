@@ -40,6 +40,7 @@ PALETTE: dict[str, tuple[Colour, Colour]] = {
     "object": ((120, 94, 160), (168, 142, 214)),
     "infrared": ((230, 60, 60), (255, 92, 80)),
     "camera": ((0, 150, 120), (52, 211, 170)),
+    "light": ((238, 178, 17), (255, 205, 70)),
 }
 """Name -> colour on white (films) and on a dark page."""
 

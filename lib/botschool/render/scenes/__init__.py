@@ -10,6 +10,7 @@ import gymnasium
 import numpy as np
 
 from botschool.errors import BotschoolError
+from botschool.plan import Plan
 from botschool.problems import Problem
 from botschool.problems.native import INFOS, NATIVE
 from botschool.problems.transition import Transition
@@ -21,10 +22,11 @@ for _module in pkgutil.iter_modules(__path__):
     import_module(f"{__name__}.{_module.name}")
 
 
-def make_scene(name: str, robots: tuple[RobotModel, ...] = ()) -> Scene:
+def make_scene(name: str, robots: tuple[RobotModel, ...] = (), plan: Plan | None = None) -> Scene:
     """The scene of a native problem: its own, or meters where nobody has drawn it.
 
-    robots: its wheeled robots, () for its own. Raises BotschoolError for another problem.
+    robots: its wheeled robots, () for its own. plan: a declared arena. Raises BotschoolError for
+    another problem.
     """
     if name not in NATIVE:
         raise BotschoolError(
@@ -35,14 +37,14 @@ def make_scene(name: str, robots: tuple[RobotModel, ...] = ()) -> Scene:
         return MeterScene(info)
     if "plan" in info and not robots:
         robots = cast(name, info["plan"])
-    return SCENES[info["name"]](robots)
+    return SCENES[info["name"]](robots, plan) if plan else SCENES[info["name"]](robots)
 
 
 def scene_of(problem: Problem) -> Scene | None:
     """The scene that a problem's steps are drawn by; None where they bring their own pictures."""
     if not problem.native or drawn_by_gymnasium(problem):
         return None
-    return make_scene(problem.dynamics, problem.robots)
+    return make_scene(problem.dynamics, problem.robots, problem.plan)
 
 
 def drawn_by_gymnasium(problem: Problem) -> bool:

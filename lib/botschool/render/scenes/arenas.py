@@ -25,7 +25,7 @@ class Look:
 
 
 class ArenaScene(Scene):
-    """A square arena with walls and robots: trails, infrared, camera and wheels.
+    """An arena with walls and robots: trails, infrared, camera and wheels.
 
     An infrared reading glows as a wedge that grows with it; a camera sector is a piece of a ring
     around the robot. The state starts with x, y and heading of every robot and ends with the
@@ -34,6 +34,8 @@ class ArenaScene(Scene):
 
     fps = 10.0
     side: float
+    """The arena's width, and its height unless `tall` says otherwise."""
+    tall: float = 0.0
     looks: tuple[Look, ...]
     trail: int
     """Steps that trails last."""
@@ -43,10 +45,12 @@ class ArenaScene(Scene):
         super().__init__()
         self.models = robots
         self._step = 0.0
-        margin = 0.04 * self.side
-        self.view = (-margin, -2.6 * margin, self.side + margin, self.side + margin)
-        self.scale = 600 / (self.side + 2 * margin)
-        self.add("polygon", rectangle(0.0, 0.0, self.side, self.side), "floor")
+        self.tall = self.tall or self.side
+        longer = max(self.side, self.tall)
+        margin = 0.04 * longer
+        self.view = (-margin, -2.6 * margin, self.side + margin, self.tall + margin)
+        self.scale = 600 / (longer + 2 * margin)
+        self.add("polygon", rectangle(0.0, 0.0, self.side, self.tall), "floor")
         self._add_ground()
         self._add_walls(0.2 * margin)
         self._add_scale_bar(-1.2 * margin)
@@ -58,9 +62,7 @@ class ArenaScene(Scene):
             )
         self._add_objects(poses)
         for look, model, pose in cast:
-            self._add_infrared(model, pose)
-            if look.camera:
-                self._add_camera(model, pose)
+            self._add_sensors(look, model, pose)
         for look, model, pose in cast:
             self._add_robot(look, model, pose)
         self.closeups = tuple((look.name, pose, 10 * model.radius) for look, model, pose in cast)
@@ -71,9 +73,19 @@ class ArenaScene(Scene):
     def _add_objects(self, poses: list[int]) -> None:
         """What stands in the arena; `poses` are the robots'."""
 
+    def _add_sensors(self, look: Look, model: RobotModel, pose: int) -> None:
+        self._add_infrared(model, pose)
+        if look.camera:
+            self._add_camera(pose, 1.55 * model.radius, 1.85 * model.radius, "camera")
+
+    def _sensed(self, look: Look, model: RobotModel, readings: np.ndarray) -> list[float]:
+        """The numbers of what `_add_sensors` added; readings: of this robot, 0 to 1."""
+        nrays = len(model.directions)
+        numbers = infrared_numbers(model, readings[:nrays])
+        return numbers + list(readings[nrays : nrays + CAMERA_SECTORS] if look.camera else [])
+
     def _add_walls(self, half: float) -> None:
-        end = self.side + half
-        corners = rectangle(-half, -half, end, end)
+        corners = rectangle(-half, -half, self.side + half, self.tall + half)
         self.add("line", [*corners, corners[0], corners[1]], "wall", radius=half)
 
     def _add_scale_bar(self, y: float) -> None:
@@ -95,13 +107,12 @@ class ArenaScene(Scene):
             wedge = [(0.0, 0.0), *arc(angle - half, angle + half, 1.0)]
             self.add("polygon", wedge, "infrared", pose=pose, size=size, level=level, opacity=0.75)
 
-    def _add_camera(self, model: RobotModel, pose: int) -> None:
-        inner, outer = 1.55 * model.radius, 1.85 * model.radius
+    def _add_camera(self, pose: int, inner: float, outer: float, colour: str) -> None:
         width = 2 * pi / CAMERA_SECTORS
         for sector in range(CAMERA_SECTORS):
             piece = ring((sector + 0.03) * width, (sector + 0.97) * width, inner, outer)
             self.add("polygon", piece, "muted", pose=pose, opacity=0.14)
-            self.add("polygon", piece, "camera", pose=pose, level=self.value())
+            self.add("polygon", piece, colour, pose=pose, level=self.value())
 
     def _add_robot(self, look: Look, model: RobotModel, pose: int) -> None:
         radius = model.radius
@@ -139,14 +150,15 @@ class ArenaScene(Scene):
         first = 0
         for look, model in zip(self.looks, self.models, strict=True):
             readings = np.clip(observation[first : first + look.observations], 0.0, 1.0)
-            nrays = len(model.directions)
-            for reading in readings[:nrays]:
-                numbers += [model.radius + model.range * reading, reading]
-            if look.camera:
-                numbers += list(readings[nrays : nrays + CAMERA_SECTORS])
+            numbers += self._sensed(look, model, readings)
             first += look.observations
         return [*numbers, *action]
 
     def _objects(self, state: np.ndarray, reward: float) -> list[float]:
         """The numbers of what `_add_objects` added."""
         return []
+
+
+def infrared_numbers(model: RobotModel, readings: np.ndarray) -> list[float]:
+    """Length and strength of each wedge."""
+    return [n for reading in readings for n in (model.radius + model.range * reading, reading)]
