@@ -260,11 +260,11 @@ REFUSED = {
     "no episodes": (text("episodes = 0"), "episodes = 0 is out of range", "from 1"),
     "zero that must be above": (text(algo="stepsize = 0"), "out of range", "a number above 0"),
     "choice": (
-        text("architecture = 4"),
-        "line 4: architecture = 4 is out of range",
-        "0 (feed-forward), 1 (recurrent), 2 (fully recurrent) or 3 (LSTM)",
+        text("architecture = 5"),
+        "line 4: architecture = 5 is out of range",
+        "0 (feed-forward), 1 (recurrent), 2 (fully recurrent), 3 (LSTM) or 4 (convolutional)",
     ),
-    "hidden binary": (text("afunction = 4"), "1 (logistic), 2 (tanh) or 3 (linear)"),
+    "hidden binary": (text("afunction = 4"), "1 (logistic), 2 (tanh), 3 (linear) or 5 (relu)"),
     "fraction of a generation": (
         text(algo="saveeach = 0.5", exp="environment = X\nalgo = coevo2"),
         "line 7",

@@ -115,9 +115,8 @@ class PostEvaluation:
 
     @property
     def neurons(self) -> tuple[int, int]:
-        """Inputs and outputs of one robot's network."""
-        spec = self.policy.spec
-        return spec.inputs, spec.outputs * spec.nbins
+        """Inputs (or features of images) and outputs of one robot's network."""
+        return self.policy.network.neurons
 
     def write_replay(self, path: Path, episodes: int) -> None:
         """A page that plays the first episodes; see botschool.render.replay."""
