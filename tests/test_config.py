@@ -49,6 +49,9 @@ POLICY_DEFAULTS = {
     "normalize": 0,
     "clip": 0,
     "wrange": 1.0,
+    "filters": "16, 32",
+    "kernels": "8, 4",
+    "strides": "4, 2",
 }
 OPENAI_ES_DEFAULTS = {
     "maxmsteps": 1,
@@ -385,7 +388,7 @@ def test_refused_dict(data, part):
 def test_describe_lists_every_hyperparameter_with_default_and_help():
     rows = describe()
     listed = {(section, name): default for section, name, default, _ in rows}
-    assert len(listed) == len(rows) == 4 + 20 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12
+    assert len(listed) == len(rows) == 4 + 23 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12
     for section, defaults in (
         ("EXP", {"environment": None, "algo": "OpenAI-ES", "robots": "", "wrappers": ""}),
         ("POLICY", POLICY_DEFAULTS),

@@ -332,7 +332,8 @@ def _of_convolutions(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
                 yield (
                     (f.name,),
                     f"{f.name} = {getattr(p, f.name)} needs architecture = {CONVOLUTIONAL} "
-                    f"(convolutional), but architecture is {p.architecture}",
+                    f"(convolutional), but architecture is {p.architecture}: set it, or remove "
+                    "the line",
                 )
         return
     if len({len(numbers(getattr(p, name))) for name in lists}) > 1:
