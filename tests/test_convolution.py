@@ -14,6 +14,7 @@ from botschool.net import Network, NetworkSpec
 from botschool.policy import Image, Policy
 from botschool.problems import Episodes
 from botschool.problems.spaces import Flattener
+from botschool.rl import environments
 from reference_network import ReferenceNetwork, genotype_length, kernels, parse, planes, read
 from running import TESTS, experiment, run_seeds, same, write_experiment
 from strategies import REPEATABLE, convolutional_specs, random_genotype
@@ -320,6 +321,7 @@ def test_pong_is_preprocessed_and_stacked(pong):
     assert pong.interface.outputs == 6
     assert pong._env.unwrapped._frameskip == 1
     assert problems.make("ALE/Pong-v5")._env.unwrapped._frameskip == 4
+    assert environments.make("ALE/Pong-v5", "AtariPreprocessing").unwrapped._frameskip == 1
 
 
 def test_an_episode_of_pong_does_not_depend_on_those_before(pong):
