@@ -7,7 +7,7 @@ names of the hyperparameters (any object with the attributes of a NetworkSpec wi
 
 import numpy as np
 
-FEEDFORWARD, RECURRENT, FULLY_RECURRENT, LSTM = range(4)
+FEEDFORWARD, RECURRENT, FULLY_RECURRENT, LSTM, CONVOLUTIONAL = range(5)
 
 
 def logistic(x):
@@ -20,6 +20,7 @@ ACTIVATIONS = {
     2: np.tanh,
     3: lambda x: x,
     4: lambda x: np.where(x >= 0.5, 1.0, -1.0),
+    5: lambda x: np.where(x < 0, 0.0, x),
 }
 
 
@@ -38,13 +39,37 @@ def output_count(spec) -> int:
 
 
 def architecture_of(spec) -> int:
-    """An LSTM without units is a perceptron."""
-    return FEEDFORWARD if spec.architecture == LSTM and spec.nhiddens == 0 else spec.architecture
+    """An LSTM without units is a perceptron, and so is what reads the features of an image."""
+    alike = spec.architecture == CONVOLUTIONAL or (spec.architecture == LSTM and not spec.nhiddens)
+    return FEEDFORWARD if alike else spec.architecture
+
+
+def planes(spec) -> list[tuple[int, int, int]]:
+    """(filters, height, width) of the image and of what each convolutional layer gives."""
+    shapes = [spec.image]
+    for filters, kernel, stride in zip(spec.filters, spec.kernels, spec.strides, strict=True):
+        _, height, width = shapes[-1]
+        places = [len(range(0, side - kernel + 1, stride)) for side in (height, width)]
+        shapes.append((filters, *places))
+    return shapes
+
+
+def read(spec) -> int:
+    """Inputs, or features of a convolutional network."""
+    return int(np.prod(planes(spec)[-1])) if spec.architecture == CONVOLUTIONAL else spec.inputs
+
+
+def kernels(spec) -> list[tuple[int, int, int, int]]:
+    """The shape of the weights of each convolutional layer."""
+    if spec.architecture != CONVOLUTIONAL:
+        return []
+    channels = [shape[0] for shape in planes(spec)]
+    return [(f, c, k, k) for f, c, k in zip(spec.filters, channels, spec.kernels, strict=False)]
 
 
 def matrices(spec) -> list[tuple[str, int, int]]:
     """(name, receivers, senders) of each block of connections, in the order of the genotype."""
-    inputs, sizes, outputs = spec.inputs, hidden_sizes(spec), output_count(spec)
+    inputs, sizes, outputs = read(spec), hidden_sizes(spec), output_count(spec)
     hidden = sum(sizes)
     architecture = architecture_of(spec)
     if architecture == FULLY_RECURRENT:
@@ -67,15 +92,18 @@ def matrices(spec) -> list[tuple[str, int, int]]:
 def genotype_length(spec) -> int:
     """Parameters of one network."""
     count = sum(receivers * senders for _, receivers, senders in matrices(spec))
+    count += sum(int(np.prod(shape)) for shape in kernels(spec))
     if spec.bias:
         count += sum(hidden_sizes(spec)) + output_count(spec)
+        count += sum(shape[0] for shape in kernels(spec))
     if spec.action_noise == 2:
         count += spec.outputs
     return count
 
 
 def parse(spec, genotype) -> dict[str, np.ndarray]:
-    """Biases ("hidden bias", "output bias"), matrices by name and "log deviation"."""
+    """Biases ("hidden bias", "output bias"), matrices by name and "log deviation"; "filters0" and
+    "filters0 bias" of a convolutional layer."""
     genotype = np.asarray(genotype, dtype=np.float64)
     assert genotype.shape == (genotype_length(spec),)
     hidden, outputs = sum(hidden_sizes(spec)), output_count(spec)
@@ -88,6 +116,9 @@ def parse(spec, genotype) -> dict[str, np.ndarray]:
         place += size
         return genotype[place - size : place].reshape(shape)
 
+    for i, shape in enumerate(kernels(spec)):
+        parts[f"filters{i} bias"] = take(shape[0]) if spec.bias else np.zeros(shape[0])
+        parts[f"filters{i}"] = take(*shape)
     if spec.bias:
         parts["hidden bias"] = take(hidden)
         parts["output bias"] = take(outputs)
@@ -120,11 +151,23 @@ class ReferenceNetwork:
             inputs = (inputs - self.mean) / self.deviation
         if self.spec.clip:
             inputs = np.clip(inputs, -5, 5)
+        if self.spec.architecture == CONVOLUTIONAL:
+            inputs = self.features(inputs.reshape(self.spec.image))
         update = (self.layered, self.layered, self.all_at_once, self.lstm)
         self.hidden, net_output = update[architecture_of(self.spec)](inputs)
         self.net_output = net_output
         self.output = ACTIVATIONS[self.spec.out_type](net_output)
         return self.action(), np.concatenate([inputs, self.hidden, self.output])
+
+    def features(self, image):
+        for i, stride in enumerate(self.spec.strides):
+            weights, bias = self.parts[f"filters{i}"], self.parts[f"filters{i} bias"]
+            side = weights.shape[-1]
+            windows = np.lib.stride_tricks.sliding_window_view(image, (side, side), axis=(1, 2))
+            windows = windows[:, ::stride, ::stride]
+            net = np.einsum("fcij,cyxij->fyx", weights, windows) + bias[:, None, None]
+            image = ACTIVATIONS[self.spec.afunction](net)
+        return image.ravel()
 
     def layered(self, senders):
         parts, sizes = self.parts, hidden_sizes(self.spec)

@@ -68,6 +68,9 @@ POLICY_DEFAULTS = {
     "normalize": 0,
     "clip": 0,
     "wrange": 1.0,
+    "filters": "16, 32",
+    "kernels": "8, 4",
+    "strides": "4, 2",
 }
 OPENAI_ES_DEFAULTS = {
     "maxmsteps": 1,
@@ -286,11 +289,11 @@ REFUSED = {
     "no episodes": (text("episodes = 0"), "episodes = 0 is out of range", "from 1"),
     "zero that must be above": (text(algo="stepsize = 0"), "out of range", "a number above 0"),
     "choice": (
-        text("architecture = 4"),
-        "line 4: architecture = 4 is out of range",
-        "0 (feed-forward), 1 (recurrent), 2 (fully recurrent) or 3 (LSTM)",
+        text("architecture = 5"),
+        "line 4: architecture = 5 is out of range",
+        "0 (feed-forward), 1 (recurrent), 2 (fully recurrent), 3 (LSTM) or 4 (convolutional)",
     ),
-    "hidden binary": (text("afunction = 4"), "1 (logistic), 2 (tanh) or 3 (linear)"),
+    "hidden binary": (text("afunction = 4"), "1 (logistic), 2 (tanh), 3 (linear) or 5 (relu)"),
     "fraction of a generation": (
         text(algo="saveeach = 0.5", exp="environment = X\nalgo = coevo2"),
         "line 7",
@@ -411,7 +414,7 @@ def test_refused_dict(data, part):
 def test_describe_lists_every_hyperparameter_with_default_and_help():
     rows = describe()
     listed = {(section, name): default for section, name, default, _ in rows}
-    assert len(listed) == len(rows) == 5 + 20 + 17 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12
+    assert len(listed) == len(rows) == 5 + 23 + 17 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12
     for section, defaults in (
         (
             "EXP",

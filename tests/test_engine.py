@@ -23,6 +23,7 @@ POLICIES = {
     "recurrent": {"nhiddens": 5, "architecture": 1, "normalize": 1, "clip": 1},
     "fully recurrent": {"nhiddens": 5, "architecture": 2, "action_noise": 1},
     "LSTM": {"nhiddens": 5, "architecture": 3, "normalize": 1, "action_noise": 2},
+    "relu": {"nhiddens": 40, "nlayers": 2, "bias": 1, "afunction": 5, "out_type": 5},
     "large actions": {"nhiddens": 3, "out_type": 3, "winit": 2, "wrange": 4},
 }
 

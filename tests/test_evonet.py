@@ -165,6 +165,16 @@ def test_activations_at_their_edges(kind):
         assert network.step()[0] == pytest.approx(expected, rel=1e-14, abs=1e-300)
 
 
+def test_relu_of_what_is_no_number():
+    """NaN stays NaN, as with other activations, and infinity is not limited."""
+    network = Network(NetworkSpec(inputs=1, outputs=1, nhiddens=1, afunction=5, out_type=5))
+    for x, expected in ((np.nan, np.nan), (np.inf, np.inf), (-np.inf, 0.0), (-0.0, 0.0)):
+        network.parameters[:] = 1
+        network.observation[:] = x
+        network.step()
+        assert network.activations[1:].tolist() == pytest.approx([expected] * 2, nan_ok=True)
+
+
 def test_the_first_bin_wins_ties():
     spec = NetworkSpec(inputs=1, outputs=2, nhiddens=0, nbins=3, low=-2, high=4, bias=1, out_type=3)
     network = Network(spec)
@@ -206,7 +216,7 @@ def test_clip_without_normalisation():
 
 
 # Every architecture with every activation of outputs, and inputs as they come, clipped, normalised.
-COMBINATIONS = list(itertools.product(range(4), range(1, 5), range(2), range(2)))
+COMBINATIONS = list(itertools.product(range(4), range(1, 6), range(2), range(2)))
 
 
 @pytest.mark.parametrize(("architecture", "out_type", "clip", "normalize"), COMBINATIONS)

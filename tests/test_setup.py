@@ -84,7 +84,7 @@ def test_torch_without_cuda_is_a_switch(setup):
 def test_what_has_no_wheel_is_left_out_with_one_notice(setup):
     code, out, errors, calls, stamps = setup("tests", WITHOUT="pybullet")
     assert (code, errors) == (0, "")
-    assert stamps == [".extra-box2d", ".extra-rl", ".tests"]
+    assert stamps == [".extra-atari", ".extra-box2d", ".extra-rl", ".tests"]
     assert out.count("Notice") == 1 and "PyBullet (exercise 10)" in out
     assert "PYTHON=python3.11 make test" in out and "pip install 'botschool[pybullet]'" in out
     assert not any("compare" in call for call in calls)
@@ -96,7 +96,7 @@ def test_what_has_no_wheel_is_left_out_with_one_notice(setup):
 def test_with_all_wheels_there_is_no_notice(setup):
     code, out, _, calls, stamps = setup("tests")
     assert code == 0 and "Notice" not in out and any("compare" in call for call in calls)
-    assert stamps == [".extra-box2d", ".extra-pybullet", ".extra-rl", ".tests"]
+    assert stamps == [".extra-atari", ".extra-box2d", ".extra-pybullet", ".extra-rl", ".tests"]
 
 
 def test_an_exercise_without_wheels_says_how_to_get_them(setup):

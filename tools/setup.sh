@@ -174,6 +174,7 @@ package_of() {
     case $1 in
         rl) say torch ;;
         notebook) say jupyterlab ;;
+        atari) say ale-py ;;
         *) say "$1" ;;
     esac
 }
@@ -183,6 +184,7 @@ title() {
         pybullet) say "PyBullet" ;;
         rl) say "PyTorch and Stable-Baselines3" ;;
         notebook) say "JupyterLab and jupytext" ;;
+        atari) say "Atari's games and OpenCV" ;;
         *) say "$1" ;;
     esac
 }
@@ -233,7 +235,7 @@ install_tests() {
     say "Installing what the tests need (one to three minutes)"
     pip_install 'botschool[test]'
     left=
-    for extra in box2d pybullet rl; do
+    for extra in box2d pybullet atari rl; do
         if try_extra "$extra"; then touch ".venv/.extra-$extra"; else left="$left $extra"; fi
     done
     case $left in *pybullet*) ;; *) pip_install 'botschool[compare]' ;; esac

@@ -1,5 +1,7 @@
 #include "evonet/evonet.hpp"
 
+#include <nanobind/stl/vector.h>
+
 #include "bindings.hpp"
 
 namespace botschool {
@@ -97,9 +99,18 @@ void bind_evonet(nb::module_& module) {
       .def("vectors", &vectors)
       .def_prop_rw("state", &moments_state, &set_moments_state);
 
+  nb::class_<Vision>(module, "Vision")
+      .def(nb::init<>())
+      .def_rw("channels", &Vision::channels)
+      .def_rw("height", &Vision::height)
+      .def_rw("width", &Vision::width)
+      .def_rw("filters", &Vision::filters)
+      .def_rw("kernels", &Vision::kernels)
+      .def_rw("strides", &Vision::strides);
+
   nb::class_<Evonet>(module, "Evonet")
-      .def(nb::init<const Spec&, int, bool>(), nb::arg("spec"), nb::arg("networks") = 1,
-           nb::arg("heterogeneous") = false)
+      .def(nb::init<const Spec&, int, bool, const Vision&>(), nb::arg("spec"),
+           nb::arg("networks") = 1, nb::arg("heterogeneous") = false, nb::arg("vision") = Vision())
       .def_prop_ro("nparameters", &Evonet::parameters)
       .def_prop_ro("ninputs", &Evonet::inputs)
       .def_prop_ro("nactions", &Evonet::actions)

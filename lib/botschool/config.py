@@ -20,7 +20,7 @@ from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.algorithms.coevo2 import Coevo2Config
 from botschool.evolution.algorithms.openaies import OpenAIESConfig
 from botschool.evolution.algorithms.sss import SSSConfig
-from botschool.hyperparameters import NO_YES, PolicyConfig, hyper
+from botschool.hyperparameters import CONVOLUTIONAL, NO_YES, PolicyConfig, hyper, numbers
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
 from botschool.plan import PROBLEM, WORDS, ArenaConfig, Plan, PlanError
 from botschool.robots import MODELS, find
@@ -366,10 +366,38 @@ def conflicts(experiment: Experiment) -> Iterator[tuple[tuple[str, ...], str]]:
             f"nhiddens2 = {p.nhiddens2} leaves no neuron to the first layer: "
             f"it must be below 2 x nhiddens = {2 * p.nhiddens}",
         )
-    if p.architecture and p.nhiddens and p.nlayers != 1:
+    if p.architecture in (1, 2, 3) and p.nhiddens and p.nlayers != 1:
         yield (
             ("architecture",),
             f"architecture = {p.architecture} is recurrent and has one hidden layer, "
             f"but nlayers is {p.nlayers}: set nlayers = 1 or architecture = 0",
         )
+    yield from _of_convolutions(p)
     yield from ALGORITHMS[experiment.exp.algo].conflicts(experiment.algo)
+
+
+def _of_convolutions(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
+    lists = ("filters", "kernels", "strides")
+    if p.architecture != CONVOLUTIONAL:
+        for f in fields(p):
+            if f.name in lists and getattr(p, f.name) != f.default:
+                yield (
+                    (f.name,),
+                    f"{f.name} = {getattr(p, f.name)} needs architecture = {CONVOLUTIONAL} "
+                    f"(convolutional), but architecture is {p.architecture}: set it, or remove "
+                    "the line",
+                )
+        return
+    if len({len(numbers(getattr(p, name))) for name in lists}) > 1:
+        said = [f"{name} = {getattr(p, name)}" for name in lists]
+        yield (
+            lists,
+            f"{said[0]}; {said[1]}; {said[2]}: give as many numbers in each, one for every "
+            "convolutional layer",
+        )
+    if p.normalize:
+        yield (
+            ("architecture", "normalize"),
+            "normalize = 1 does not go with architecture = 4 (convolutional), whose pixels are "
+            "divided by 255: set normalize = 0",
+        )

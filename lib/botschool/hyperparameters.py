@@ -7,12 +7,16 @@ algorithm stand in its file (botschool.evolution.algorithms).
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field, make_dataclass
 from typing import Any
 
 from botschool import _core
+from botschool.inifile import shown
 
 NO_YES = {0: "no", 1: "yes"}
+CONVOLUTIONAL = 4
+"""The `architecture` that reads images."""
 WEIGHT_DECAY = {0: "none", 1: "by 0.005 x centre", 2: "by 0.005 x sign(centre)"}
 
 
@@ -29,6 +33,17 @@ def hyper(default: Any, help: str, **limits: Any) -> Any:
     return field(default=default, metadata={"help": help, **limits})
 
 
+def numbers(text: str) -> tuple[int, ...]:
+    """The whole numbers above 0 that a text lists. Raises ValueError."""
+    listed = [part.strip() for part in text.split(",")]
+    if not all(re.fullmatch(r"0*([1-9][0-9]{0,2}|1000)", part, re.ASCII) for part in listed):
+        raise ValueError(
+            f"{shown(text)} is no list of whole numbers from 1 to 1000: write them with commas "
+            "between, as in 16, 32"
+        )
+    return tuple(map(int, listed))
+
+
 def _of_networks() -> list[tuple[str, type, Any]]:
     """Name, type and declaration of each hyperparameter of a policy network."""
     declared = []
@@ -41,8 +56,23 @@ def _of_networks() -> list[tuple[str, type, Any]]:
     return declared
 
 
+def _of_convolutions() -> list[tuple[str, type, Any]]:
+    """The same of those that have a number for each convolutional layer."""
+    form = "whole numbers from 1 to 1000 separated by commas, one for each convolutional layer"
+    return [
+        (name, str, hyper(default, f"{help} (architecture = 4)", check=numbers, form=form))
+        for name, default, help in (
+            ("filters", "16, 32", "filters of the convolutional layers"),
+            ("kernels", "8, 4", "sides of their square kernels, in pixels"),
+            ("strides", "4, 2", "pixels from one place of a kernel to the next"),
+        )
+    ]
+
+
 NETWORK = tuple(name for name, _, _ in _of_networks())
-"""Names of those of a policy network; lib/evonet/hyperparameters.hpp declares them."""
+"""Names of those of every policy network; lib/evonet/hyperparameters.hpp declares them."""
+CONVOLUTIONS = tuple(name for name, _, _ in _of_convolutions())
+"""Names of those of convolutional layers."""
 
 
 @dataclass
@@ -63,6 +93,9 @@ class _Evaluation:
 
 
 PolicyConfig = make_dataclass(
-    "PolicyConfig", _of_networks(), bases=(_Evaluation,), namespace={"__module__": __name__}
+    "PolicyConfig",
+    [*_of_networks(), *_of_convolutions()],
+    bases=(_Evaluation,),
+    namespace={"__module__": __name__},
 )
 PolicyConfig.__doc__ = """Section [POLICY]: the network and how its robot is evaluated."""

@@ -18,22 +18,37 @@ from botschool.hyperparameters import NETWORK, PolicyConfig
 
 class _Spec:
     def __post_init__(self) -> None:
-        self.core()
+        self.evonet()
 
     def core(self) -> _core.Spec:
-        """The checked C++ counterpart."""
+        """The C++ counterpart of all but convolutional layers."""
         spec = _core.Spec()
         for field in fields(self):
-            value = getattr(self, field.name)
-            setattr(spec, field.name, _number(field.name, value, field.type is int))
-        _core.Evonet(spec)
+            if field.type is not tuple:
+                value = getattr(self, field.name)
+                setattr(spec, field.name, _number(field.name, value, field.type is int))
         return spec
+
+    def evonet(self, networks: int = 1, heterogeneous: bool = False) -> _core.Evonet:
+        """Networks like this; checks everything."""
+        vision = _core.Vision()
+        if self.image:
+            shape = _numbers("image", self.image)
+            if len(shape) != 3:
+                raise ValueError(
+                    f"image has {len(shape)} numbers, but needs channels, height and width."
+                )
+            vision.channels, vision.height, vision.width = shape
+        for name in ("filters", "kernels", "strides"):
+            setattr(vision, name, _numbers(name, getattr(self, name)))
+        return _core.Evonet(self.core(), networks, heterogeneous, vision)
 
 
 def _fields() -> list[tuple]:
     plain = [(name, int) for name in ("inputs", "outputs")]
     network = [(f.name, f.type, f.default) for f in fields(PolicyConfig) if f.name in NETWORK]
-    return [*plain, *network, ("low", float, -1.0), ("high", float, 1.0)]
+    layers = [(name, tuple, ()) for name in ("image", "filters", "kernels", "strides")]
+    return [*plain, *network, ("low", float, -1.0), ("high", float, 1.0), *layers]
 
 
 NetworkSpec = make_dataclass(
@@ -42,8 +57,10 @@ NetworkSpec = make_dataclass(
 NetworkSpec.__doc__ = f"""What a policy network looks like. Raises ValueError or TypeError.
 
 inputs: values of an observation. outputs: actuators, or the actions of a discrete problem. low,
-high: smallest and largest action, for bins. The others are the hyperparameters of networks in
-experiment files, with their defaults: {", ".join(NETWORK)}.
+high: smallest and largest action, for bins. image, filters, kernels, strides: for architecture 4
+(convolutional), the image's channels, height and width (`inputs` is their product), and a number
+for each convolutional layer. The others are the hyperparameters of networks in experiment files,
+with their defaults: {", ".join(NETWORK)}.
 """
 
 
@@ -63,7 +80,7 @@ class Network:
 
     def __init__(self, spec: NetworkSpec) -> None:
         self.spec = spec
-        self._core = _core.Evonet(spec.core())
+        self._core = spec.evonet()
         self._parameters = np.zeros(self._core.nparameters)
         self._observation = np.zeros(self._core.ninputs)
         self._action = np.zeros(self._core.nactions)
@@ -82,7 +99,8 @@ class Network:
 
     @property
     def observation(self) -> np.ndarray:
-        """Shape (inputs,): the raw observation that `step()` reads."""
+        """Shape (inputs,): the raw observation that `step()` reads. That of a convolutional network
+        comes channel by channel, row by row, from 0 to 1."""
         return self._observation
 
     @observation.setter
@@ -96,8 +114,17 @@ class Network:
 
     @property
     def activations(self) -> np.ndarray:
-        """Shape (neurons,): inputs (normalised and clipped), hidden neurons, outputs."""
+        """Shape (neurons,): inputs (normalised and clipped), hidden neurons, outputs. Of a
+        convolutional network they begin with the features instead, as the last of its convolutional
+        layers gives them."""
         return self._activations
+
+    @property
+    def neurons(self) -> tuple[int, int]:
+        """How many of the activations are inputs (or features), and how many are outputs."""
+        hidden = self.spec.nhiddens * self.spec.nlayers if self.spec.nhiddens else 0
+        outputs = self.spec.outputs * self.spec.nbins
+        return len(self._activations) - hidden - outputs, outputs
 
     @property
     def normalisation(self) -> np.ndarray:
@@ -197,7 +224,7 @@ class PyEvonet:
             high=high,
         )
         nnetworks = _number("nnetworks", nnetworks, True)
-        self._core = _core.Evonet(self.spec.core(), nnetworks, bool(heterogeneous))
+        self._core = self.spec.evonet(nnetworks, bool(heterogeneous))
         self._arrays: dict[str, np.ndarray] = {}
 
     def computeParameters(self) -> int:
@@ -304,6 +331,13 @@ def _number(name: str, value, integral: bool):
         return float(value)
     kind = "a whole number" if integral else "a number"
     raise TypeError(f"{name} is {value!r}, but must be {kind}.")
+
+
+def _numbers(name: str, values) -> list[int]:
+    try:
+        return [_number(name, value, True) for value in values]
+    except TypeError:
+        raise TypeError(f"{name} is {values!r}, but must be whole numbers.") from None
 
 
 def _seed(seed: int) -> int:

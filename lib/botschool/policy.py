@@ -7,8 +7,47 @@ from dataclasses import dataclass
 import numpy as np
 
 from botschool.errors import BotschoolError
-from botschool.hyperparameters import NETWORK, PolicyConfig
+from botschool.hyperparameters import (
+    CONVOLUTIONAL,
+    CONVOLUTIONS,
+    NETWORK,
+    PolicyConfig,
+    numbers,
+)
 from botschool.net import Network, NetworkSpec
+
+LARGEST = 30_000
+"""Values of an observation; a network without convolutional layers reads no more."""
+
+
+@dataclass(frozen=True)
+class Image:
+    """How an observation is an image (docs/specification.md, "Convolutional networks")."""
+
+    shape: tuple[int, ...]
+    """(height, width), with the channels last or first; or several of them, one after another."""
+    white: float = 1.0
+    """The value of a white pixel."""
+
+    @property
+    def axes(self) -> tuple[int, ...]:
+        """The axes in the order frames, channels, height, width, as far as there are any."""
+        every = tuple(range(len(self.shape)))
+        frames, frame = every[:-3], every[-3:]
+        if len(frame) == 3 and self.shape[frame[0]] >= self.shape[frame[2]]:
+            frame = (frame[2], *frame[:2])
+        return frames + frame
+
+    @property
+    def planes(self) -> tuple[int, int, int]:
+        """Channels of all frames, height and width."""
+        *channels, height, width = (self.shape[axis] for axis in self.axes)
+        return int(np.prod(channels)), height, width
+
+    def write(self, observation: np.ndarray, planes: np.ndarray) -> None:
+        """Writes an observation (flat) to `planes` (flat): channel by channel, 0 to 1."""
+        turned = observation.reshape(self.shape).transpose(self.axes)
+        np.divide(turned, self.white, out=planes.reshape(turned.shape))
 
 
 @dataclass(frozen=True)
@@ -31,6 +70,8 @@ class Interface:
     groups: tuple[int, ...] = ()
     """Sizes of the groups of outputs of which each chooses an index, where a discrete action has
     several; () where it is one index."""
+    image: Image | None = None
+    """How the observation is an image, if it is one."""
 
 
 class Policy:
@@ -58,11 +99,25 @@ class Policy:
             )
         self.interface = interface
         self.config = config
+        self._image = interface.image if config.architecture == CONVOLUTIONAL else None
+        if config.architecture == CONVOLUTIONAL and self._image is None:
+            raise BotschoolError(
+                f"architecture = {CONVOLUTIONAL} (convolutional) reads images, but observations "
+                f"of {problem} are none: set architecture = 0."
+            )
+        if self._image is None and interface.observations > LARGEST:
+            raise BotschoolError(
+                f"{problem} cannot be evolved: its observations have {interface.observations} "
+                f"values, but a flat network reads at most {LARGEST}: set architecture = "
+                f"{CONVOLUTIONAL} (convolutional) if they are images, or make them smaller, as "
+                "with wrappers = GrayscaleObservation, ResizeObservation(shape=(32, 32))."
+            )
         try:
             self.spec = NetworkSpec(
                 inputs=interface.observations,
                 outputs=interface.outputs,
                 **{name: getattr(config, name) for name in NETWORK},
+                **self._convolutions(),
                 low=-1.0 if interface.low is None else interface.low,
                 high=1.0 if interface.high is None else interface.high,
             )
@@ -76,10 +131,16 @@ class Policy:
         self.morphology = np.zeros(interface.morphology)
         """Parameters of the body, from the genotype that is loaded; often none."""
 
+    def _convolutions(self) -> dict[str, tuple[int, ...]]:
+        if self._image is None:
+            return {}
+        lists = {name: numbers(getattr(self.config, name)) for name in CONVOLUTIONS}
+        return {"image": self._image.planes, **lists}
+
     @property
     def neurons(self) -> tuple[int, int]:
-        """Inputs and outputs of one network."""
-        return self.spec.inputs, self.spec.outputs * self.spec.nbins
+        """Inputs (or features of images) and outputs of one network."""
+        return self.network.neurons
 
     @property
     def genotype_size(self) -> int:
@@ -136,7 +197,10 @@ class Policy:
     def act(self, observation: np.ndarray) -> np.ndarray | int:
         """The action: an index for a discrete problem (int64 of shape (groups,) where it has
         several), else float32 of shape (outputs,)."""
-        self.network.observation[:] = observation
+        if self._image is None:
+            self.network.observation[:] = observation
+        else:
+            self._image.write(observation, self.network.observation)
         action = self.network.step()
         if self.interface.groups:
             edges = np.cumsum(self.interface.groups)[:-1]

@@ -221,6 +221,8 @@ class Brain {
     for (; r < layer.neurons; ++r) sum<1, 1>(layer, r, out + r * L);
   }
 
+ public:
+  /// The activations of n neurons, in the place of their net inputs.
   static void activate(int activation, T* BOTSCHOOL_RESTRICT x, int n) {
     switch (activation) {
       case logistic_unit:
@@ -232,11 +234,15 @@ class Brain {
       case binary_unit:
         for (int i = 0; i < n; ++i) x[i] = x[i] >= T(0.5) ? T(1) : T(-1);
         break;
+      case relu_unit:
+        for (int i = 0; i < n; ++i) x[i] = x[i] < T(0) ? T(0) : x[i];  // NaN stays
+        break;
       default:
         break;
     }
   }
 
+ private:
   using Vector = VectorOf<T, kWidth>;
   static constexpr int kVector = sizeof(Vector) / sizeof(T);
 

@@ -36,15 +36,41 @@ void Moments::vectors(double* out) const {
   }
 }
 
-Evonet::Evonet(const Spec& spec, int networks, bool heterogeneous)
-    : moments(make_layout(spec).spec.inputs),  // checked before anything is allocated
-      layout_(make_layout(spec)),
+namespace {
+
+std::optional<Convolutions> convolutions_of(const Spec& spec, const Vision& vision) {
+  if (spec.architecture != convolutional) return {};
+  if (vision.channels == 0) make_layout(spec);  // refuses it
+  if (spec.normalize)
+    throw std::invalid_argument(
+        "normalize is 1, but pixels are divided by 255 instead: set normalize = 0.");
+  return Convolutions(spec, vision);
+}
+
+/// The network that reads the inputs, or the features of convolutional layers.
+Layout layout_of(Spec spec, const std::optional<Convolutions>& convolutions) {
+  if (convolutions) {
+    spec.architecture = feedforward;
+    spec.inputs = convolutions->features();
+    spec.clip = 0;
+  }
+  return make_layout(spec);
+}
+
+}  // namespace
+
+Evonet::Evonet(const Spec& spec, int networks, bool heterogeneous, const Vision& vision)
+    : moments(0),
+      convolutions_(convolutions_of(spec, vision)),
+      layout_(layout_of(spec, convolutions_)),
       networks_(networks),
       heterogeneous_(heterogeneous) {
   if (networks < 1 || networks > 1000)
     throw std::invalid_argument("the number of networks must be from 1 to 1000.");
-  normalisation.assign(2 * spec.inputs, 0.0);
-  std::fill(normalisation.begin() + spec.inputs, normalisation.end(), 1.0);
+  const int inputs = own_inputs();
+  moments = Moments(inputs);
+  normalisation.assign(2 * inputs, 0.0);
+  std::fill(normalisation.begin() + inputs, normalisation.end(), 1.0);
   const std::size_t size = BrainMemory<double, 1>::size(layout_);
   buffer_.assign(size * networks, 0.0);
   memory_.resize(networks);
@@ -58,9 +84,12 @@ void Evonet::seed(std::uint64_t seed, std::uint32_t episode) {
 }
 
 void Evonet::initialise(double* parameters) const {
-  for (int n = 0; n < (heterogeneous_ ? networks_ : 1); ++n)
-    initial_parameters(layout_, seed_, episode_ * networks_ + n,
-                       parameters + n * layout_.parameters);
+  for (int n = 0; n < (heterogeneous_ ? networks_ : 1); ++n, parameters += own_parameters()) {
+    Random random(seed_, episode_ * networks_ + n, Stream::weights);
+    if (convolutions_) convolutions_->initialise(random, parameters);
+    initial_parameters(layout_, random,
+                       parameters + (convolutions_ ? convolutions_->parameters() : 0));
+  }
 }
 
 void Evonet::reset() {
@@ -71,11 +100,17 @@ void Evonet::step(const double* parameters, const double* inputs, double* action
                   double* activations) {
   for (int n = 0; n < networks_; ++n) {
     const auto& memory = memory_[n];
-    const double* raw = inputs + n * layout_.spec.inputs;
+    const double* raw = inputs + n * own_inputs();
+    const double* genotype = parameters + (heterogeneous_ ? n * own_parameters() : 0);
     if (collecting) moments.add(raw);
     Brain<double, 1> brain(layout_, memory);
-    brain.load(0, parameters + (heterogeneous_ ? n * layout_.parameters : 0), normalisation.data());
-    std::copy(raw, raw + layout_.spec.inputs, memory.inputs);
+    if (convolutions_) {
+      convolutions_->step(genotype, raw, memory.inputs);
+      brain.load(0, genotype + convolutions_->parameters(), nullptr);
+    } else {
+      std::copy(raw, raw + layout_.spec.inputs, memory.inputs);
+      brain.load(0, genotype, normalisation.data());
+    }
     const NoiseKey key = robot_key({seed_, episode_}, n);
     brain.step(&key, &steps_);
     std::copy(memory.actions, memory.actions + layout_.spec.outputs,

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "brain.hpp"
+#include "convolution.hpp"
 
 namespace botschool {
 
@@ -31,13 +33,13 @@ class Moments {
 
 class Evonet {
  public:
-  Evonet(const Spec& spec, int networks, bool heterogeneous);
+  /// vision: what a convolutional network has in front; spec.inputs then does not count.
+  Evonet(const Spec& spec, int networks, bool heterogeneous, const Vision& vision = {});
 
-  const Layout& layout() const { return layout_; }
   int networks() const { return networks_; }
   /// Length of the whole genotype, morphology apart.
-  int parameters() const { return layout_.parameters * (heterogeneous_ ? networks_ : 1); }
-  int inputs() const { return layout_.spec.inputs * networks_; }
+  int parameters() const { return own_parameters() * (heterogeneous_ ? networks_ : 1); }
+  int inputs() const { return own_inputs() * networks_; }
   int actions() const { return layout_.spec.outputs * networks_; }
   int neurons() const { return layout_.neurons * networks_; }
 
@@ -48,7 +50,7 @@ class Evonet {
   /// Start of an episode; the action noise goes on.
   void reset();
   /// One update of every network: reads `parameters` and `inputs`, writes `actions` and
-  /// `activations`.
+  /// `activations`, which begin with the features where there are convolutional layers.
   void step(const double* parameters, const double* inputs, double* actions, double* activations);
 
   bool collecting = false;  ///< whether step() adds what it sees to `moments`
@@ -56,6 +58,12 @@ class Evonet {
   std::vector<double> normalisation;  ///< in use: all means, then all standard deviations
 
  private:
+  int own_parameters() const {
+    return (convolutions_ ? convolutions_->parameters() : 0) + layout_.parameters;
+  }
+  int own_inputs() const { return convolutions_ ? convolutions_->inputs() : layout_.spec.inputs; }
+
+  std::optional<Convolutions> convolutions_;
   Layout layout_;
   int networks_;
   bool heterogeneous_;

@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "philox.hpp"
-
 namespace botschool {
 namespace {
 
@@ -43,6 +41,11 @@ void check_spec(const Spec& s) {
   if (s.architecture != feedforward && s.nhiddens > 0 && s.nlayers > 1)
     throw std::invalid_argument(
         "recurrent and LSTM networks have one hidden layer: set nlayers = 1.");
+  if (s.afunction == binary_unit)
+    throw std::invalid_argument("afunction is 4 (binary), which is for outputs only.");
+  if (s.architecture == convolutional)
+    throw std::invalid_argument(
+        "architecture is 4 (convolutional), which reads images, and here are none.");
   const double computed = double(s.nhiddens) * s.nlayers + double(s.outputs) * s.nbins;
   const double receivers = s.architecture == lstm ? 4 * computed : computed;
   if ((s.inputs + computed) * receivers > 1e8)
@@ -131,7 +134,9 @@ void scale_incoming(const Layer& layer, int receiver, double length, double* par
   }
 }
 
-void initial_layer(const Layout& l, const Layer& layer, int fan_out, bool output, Random& random,
+}  // namespace
+
+void initial_layer(const Spec& spec, const Layer& layer, int fan_out, bool output, Random& random,
                    double* parameters) {
   int fan_in = 0;
   for (int b = 0; b < layer.blocks; ++b) fan_in += layer.block[b].senders;
@@ -141,18 +146,16 @@ void initial_layer(const Layout& l, const Layer& layer, int fan_out, bool output
       const Connections& c = layer.block[b];
       double* row = parameters + c.weights + r * c.stride + c.offset;
       for (int s = 0; s < c.senders; ++s) {
-        if (l.spec.winit == uniform_weights)
-          row[s] = random.uniform(-l.spec.wrange, l.spec.wrange);
+        if (spec.winit == uniform_weights)
+          row[s] = random.uniform(-spec.wrange, spec.wrange);
         else
-          row[s] = random.gaussian() * (l.spec.winit == xavier ? deviation : 1.0);
+          row[s] = random.gaussian() * (spec.winit == xavier ? deviation : 1.0);
       }
     }
-    if (l.spec.winit == norm_incoming)
+    if (spec.winit == norm_incoming)
       scale_incoming(layer, r, output && layer.activation == linear_unit ? 0.01 : 1.0, parameters);
   }
 }
-
-}  // namespace
 
 Layout make_layout(const Spec& spec) {
   check_spec(spec);
@@ -188,15 +191,19 @@ Layout make_layout(const Spec& spec) {
 
 void initial_parameters(const Layout& l, std::uint64_t seed, std::uint32_t index,
                         double* parameters) {
-  for (int i = 0; i < l.parameters; ++i) parameters[i] = 0;
   Random random(seed, index, Stream::weights);
-  if (l.cells > 0) initial_layer(l, l.gates, l.cells, false, random, parameters);
+  initial_parameters(l, random, parameters);
+}
+
+void initial_parameters(const Layout& l, Random& random, double* parameters) {
+  for (int i = 0; i < l.parameters; ++i) parameters[i] = 0;
+  if (l.cells > 0) initial_layer(l.spec, l.gates, l.cells, false, random, parameters);
   for (int i = 0; i < l.layers; ++i) {
     const bool output = i == l.layers - 1;
     // one block of a fully recurrent network has all its neurons as receivers
     const int fan_out =
         l.spec.architecture == fully_recurrent ? l.hiddens + l.outputs : l.layer[i].neurons;
-    initial_layer(l, l.layer[i], fan_out, output, random, parameters);
+    initial_layer(l.spec, l.layer[i], fan_out, output, random, parameters);
   }
 }
 

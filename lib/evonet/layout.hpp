@@ -5,11 +5,24 @@
 #include <cstdint>
 
 #include "hyperparameters.hpp"
+#include "philox.hpp"
 
 namespace botschool {
 
-enum Architecture { feedforward = 0, recurrent = 1, fully_recurrent = 2, lstm = 3 };
-enum Activation { logistic_unit = 1, tanh_unit = 2, linear_unit = 3, binary_unit = 4 };
+enum Architecture {
+  feedforward = 0,
+  recurrent = 1,
+  fully_recurrent = 2,
+  lstm = 3,
+  convolutional = 4
+};
+enum Activation {
+  logistic_unit = 1,
+  tanh_unit = 2,
+  linear_unit = 3,
+  binary_unit = 4,
+  relu_unit = 5
+};
 enum ActionNoise { no_noise = 0, gaussian_noise = 1, diagonal_gaussian_noise = 2 };
 enum InitialWeights { xavier = 0, norm_incoming = 1, uniform_weights = 2 };
 
@@ -58,12 +71,18 @@ struct Layout {
   Layer layer[kMaxLayers + 1];
 };
 
-/// Throws std::invalid_argument with a sentence when the spec makes no sense.
+/// Throws std::invalid_argument with a sentence when the spec makes no sense. What reads the features
+/// of convolutional layers is feed-forward (convolution.hpp).
 Layout make_layout(const Spec& spec);
 
 /// Fills `parameters` (layout.parameters values) with the initial weights of spec.winit; biases and
 /// log standard deviations are 0. Each (seed, index) gives another draw.
 void initial_parameters(const Layout& layout, std::uint64_t seed, std::uint32_t index,
                         double* parameters);
+/// The same, with draws that go on.
+void initial_parameters(const Layout& layout, Random& random, double* parameters);
+/// Draws the weights into a layer's neurons.
+void initial_layer(const Spec& spec, const Layer& layer, int fan_out, bool output, Random& random,
+                   double* parameters);
 
 }  // namespace botschool

@@ -35,7 +35,9 @@ class GymProblem(PythonProblem):
         body = int(getattr(self._env.unwrapped, "morphology_size", 0))
         try:
             self._flattener = Flattener(self._env.observation_space, name)
-            self.interface = interface(self._flattener.size, self._env.action_space, body)
+            self.interface = interface(
+                self._flattener.size, self._env.action_space, body, self._flattener.image
+            )
         except Unsupported as error:
             raise BotschoolError(f"{name} cannot be evolved: its {error}.") from None
 

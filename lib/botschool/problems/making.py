@@ -25,12 +25,12 @@ PACKAGES = {"BalanceBotBulletEnv-v0": "balance_bot"}
 """Environments of the course in packages of their own, which register them on import."""
 
 FAMILIES = (
-    (r"ALE/.*|.*(NoFrameskip|Deterministic)-v\d+", "ale_py", "ale-py"),
-    (r"(MiniGrid|BabyAI)-.*", "minigrid", "minigrid"),
+    (r"ALE/.*|.*(NoFrameskip|Deterministic)-v\d+", "ale_py", "ale-py", "'botschool[atari]'"),
+    (r"(MiniGrid|BabyAI)-.*", "minigrid", "minigrid", "minigrid"),
     (r"(Fetch|HandReach|HandManipulate|AdroitHand|PointMaze_|AntMaze_|FrankaKitchen-).*",
-     "gymnasium_robotics", "gymnasium-robotics"),
+     "gymnasium_robotics", "gymnasium-robotics", "gymnasium-robotics"),
 )  # fmt: skip
-"""Ids of well-known packages: pattern, the module that registers them, what to install."""
+"""Ids of well-known packages: pattern, module that registers them, package, what to install."""
 
 DRAWING = (("egl", "libEGL.so.1"), ("osmesa", "libOSMesa.so"), ("osmesa", "libOSMesa.so.8"))
 """How MuJoCo draws without a display: a value of MUJOCO_GL, and the library that it needs."""
@@ -42,10 +42,16 @@ def make_env(name: str, wrappers: Sequence[Wrapper] = (), **options) -> gymnasiu
     A `module:` before the id may lie in the present folder. Options go to gymnasium.make. Raises
     BotschoolError.
     """
-    env = _make(name, **options)
+    env = _make(name, **(skipping(name, wrappers) | options))
     for wrapper in wrappers:
         env = wrapper.around(env, name)
     return env
+
+
+def skipping(name: str, wrappers: Sequence[Wrapper]) -> dict[str, int]:
+    """Options of an Atari game inside these wrappers: AtariPreprocessing skips frames itself."""
+    preprocessed = any(wrapper.name == "AtariPreprocessing" for wrapper in wrappers)
+    return {"frameskip": 1} if preprocessed and re.fullmatch(FAMILIES[0][0], name) else {}
 
 
 def _make(name: str, **options) -> gymnasium.Env:
@@ -117,10 +123,12 @@ def _import_package(name: str) -> None:
         found = [row for row in FAMILIES if re.fullmatch(row[0], name)]
         if not found:
             return
-        _, package, install = found[0]
-        remedy = f"comes with the package {install}: install it with 'pip install {install}'."
+        _, package, called, install = found[0]
+        remedy = f"comes with the package {called}: install it with pip install {install}."
     try:
-        importlib.import_module(package)
+        module = importlib.import_module(package)
+        if package == "ale_py":  # which greets every process and every game
+            module.ALEInterface.setLoggerMode(module.LoggerMode.Error)
     except ModuleNotFoundError as error:
         if error.name != package:
             raise BotschoolError(f"{name} cannot be made: {sentence(error)}") from None

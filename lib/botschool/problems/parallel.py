@@ -71,10 +71,11 @@ class ParallelProblem(PythonProblem):
         seen = self._call(self._env.observation_space, f"observation_space({agent!r})", agent)
         acted = self._call(self._env.action_space, f"action_space({agent!r})", agent)
         try:
-            self._flatteners[agent] = Flattener(seen, f"{self.name}, {agent}")
-            self.interfaces.append(interface(self._flatteners[agent].size, acted, 0))
+            flattener = Flattener(seen, f"{self.name}, {agent}")
+            self.interfaces.append(interface(flattener.size, acted, 0, flattener.image))
         except Unsupported as error:
             raise BotschoolError(f"{self.name} cannot be evolved: of {agent}, {error}.") from None
+        self._flatteners[agent] = flattener
         self._spaces[agent] = acted
 
     def _try_seeds(self) -> None:

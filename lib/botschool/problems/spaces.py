@@ -14,11 +14,9 @@ from typing import Any
 import numpy as np
 from gymnasium import spaces
 
-from botschool.policy import Interface
+from botschool.policy import Image, Interface
 
 CHOICES = (spaces.Discrete, spaces.MultiDiscrete, spaces.MultiBinary)
-LARGEST = 30_000
-"""Values of an observation; a flat network reads no more."""
 
 OBSERVED = (
     "policies read numbers (a Box, Discrete, MultiDiscrete or MultiBinary, or a Dict or Tuple of "
@@ -48,14 +46,10 @@ class Flattener:
             if not _numbers(leaf):
                 _say_left_out(name, ".".join(map(str, path)), type(leaf).__name__)
         self.size = sum(spaces.flatdim(leaf) for _, leaf in self._parts)
-        if self.size > LARGEST:
-            raise Unsupported(
-                f"observations have {self.size} values, but a flat network reads at most "
-                f"{LARGEST}: make pictures smaller, as with wrappers = GrayscaleObservation, "
-                "ResizeObservation(shape=(32, 32))"
-            )
         [(path, leaf), *others] = self._parts
         self._vector = not path and not others and isinstance(leaf, spaces.Box)
+        self.image = _image(leaf) if self._vector else None
+        """How the observation is an image, if it is one."""
 
     def __call__(self, raw: Any) -> np.ndarray:
         """float64, shape (size,), rounded to single precision.
@@ -103,6 +97,12 @@ def _values(space: spaces.Space, raw: Any) -> np.ndarray:
     return values.astype(np.float64).ravel()
 
 
+def _image(space: spaces.Box) -> Image | None:
+    if not 2 <= len(space.shape) <= 4:
+        return None
+    return Image(space.shape, 255.0 if space.dtype == np.uint8 else 1.0)
+
+
 def _short(space: spaces.Space) -> str:
     if isinstance(space, spaces.Box):
         return f"{space.dtype} values"
@@ -118,15 +118,18 @@ def _say_left_out(name: str, part: str, kind: str) -> None:
         )
 
 
-def interface(size: int, acted: spaces.Space, morphology: int) -> Interface:
+def interface(
+    size: int, acted: spaces.Space, morphology: int, image: Image | None = None
+) -> Interface:
     """What a policy needs for observations of that size and these actions. Raises Unsupported."""
+    seen = {"morphology": morphology, "image": image}
     if isinstance(acted, spaces.Discrete):
-        return Interface(size, int(acted.n), discrete=True, morphology=morphology)
+        return Interface(size, int(acted.n), discrete=True, **seen)
     if isinstance(acted, (spaces.MultiDiscrete, spaces.MultiBinary)):
         binary = isinstance(acted, spaces.MultiBinary)
         groups = (2,) * int(np.prod(acted.shape)) if binary else map(int, acted.nvec.ravel())
         groups = tuple(groups)
-        return Interface(size, sum(groups), discrete=True, morphology=morphology, groups=groups)
+        return Interface(size, sum(groups), discrete=True, groups=groups, **seen)
     if not isinstance(acted, spaces.Box) or acted.dtype.kind not in "fiub":
         raise Unsupported(f"actions are {_short(acted)}, but {ACTED}")
     low, high = np.unique(acted.low), np.unique(acted.high)
@@ -137,7 +140,7 @@ def interface(size: int, acted: spaces.Space, morphology: int) -> Interface:
         discrete=False,
         low=float(low[0]) if common else None,
         high=float(high[0]) if common else None,
-        morphology=morphology,
+        **seen,
     )
 
 

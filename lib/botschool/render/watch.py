@@ -121,7 +121,7 @@ class PostEvaluation:
 
     @property
     def neurons(self) -> tuple[int, int]:
-        """Inputs and outputs of one robot's network, or of each robot's."""
+        """Inputs (or features of images) and outputs of one robot's network, or of each robot's."""
         return self.policy.neurons
 
     def _robots(self, scene) -> tuple[str, ...]:

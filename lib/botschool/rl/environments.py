@@ -8,7 +8,7 @@ from gymnasium import spaces
 
 from botschool.errors import BotschoolError
 from botschool.inifile import shown
-from botschool.problems.making import make_env
+from botschool.problems.making import make_env, skipping
 from botschool.wrappers import parse
 
 LONGEST_EPISODE = 10_000
@@ -21,7 +21,7 @@ def make(name: str, wrapped: str = "", **options: object) -> gymnasium.Env:
     Raises BotschoolError.
     """
     wrappers = parse(wrapped)
-    env = make_env(name, **options)
+    env = make_env(name, **skipping(name, wrappers), **options)
     if env.spec is not None and env.spec.max_episode_steps is None:
         env = gymnasium.wrappers.TimeLimit(env, LONGEST_EPISODE)
     for wrapper in wrappers:

@@ -1,0 +1,360 @@
+"""Convolutional networks (docs/specification.md, "Convolutional networks")."""
+
+import re
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium import spaces
+from hypothesis import given
+from hypothesis import strategies as st
+
+from botschool import config, problems
+from botschool.net import Network, NetworkSpec
+from botschool.policy import Image, Policy
+from botschool.problems import Episodes
+from botschool.problems.spaces import Flattener
+from botschool.rl import environments
+from reference_network import ReferenceNetwork, genotype_length, kernels, parse, planes, read
+from running import TESTS, experiment, run_seeds, same, write_experiment
+from strategies import REPEATABLE, convolutional_specs, random_genotype
+
+POLICY = {
+    "architecture": 4, "afunction": 5, "filters": "4, 6", "kernels": "8, 3", "strides": "4, 2",
+    "bias": 1, "nhiddens": 5,
+}  # fmt: skip
+
+
+@pytest.fixture(autouse=True)
+def own_environments(monkeypatch):
+    monkeypatch.syspath_prepend(TESTS)
+
+
+def spec_of(image=(2, 7, 6), filters=(3, 2), kernels=(3, 2), strides=(2, 1), **changes):
+    given = {"inputs": int(np.prod(image)), "outputs": 2, "nhiddens": 4, "architecture": 4}
+    lists = {"image": image, "filters": filters, "kernels": kernels, "strides": strides}
+    return NetworkSpec(**(given | lists | changes))
+
+
+# the network
+
+
+@REPEATABLE
+@given(convolutional_specs(), st.integers(0, 2**32))
+def test_network_agrees_with_the_reference(spec, seed):
+    rng = np.random.default_rng(seed)
+    genotype = random_genotype(spec, rng, 2.0)
+    network, reference = Network(spec), ReferenceNetwork(spec, genotype)
+    assert len(network.parameters) == genotype_length(spec)
+    network.parameters[:] = genotype
+    for _ in range(3):
+        observation = 4 * rng.standard_normal(spec.inputs)
+        network.observation = observation
+        action, activations = reference.step(observation)
+        assert network.step() == pytest.approx(action, rel=1e-12, abs=1e-12)
+        assert network.activations == pytest.approx(activations, rel=1e-12, abs=1e-12)
+    assert network.neurons == (read(spec), spec.outputs * spec.nbins)
+
+
+@REPEATABLE
+@given(convolutional_specs(), st.integers(0, 2**32))
+def test_convolutions_are_those_of_torch(spec, seed):
+    torch = pytest.importorskip("torch")
+    rng = np.random.default_rng(seed)
+    genotype = random_genotype(spec, rng, 2.0)
+    parts = parse(spec, genotype)
+    network = Network(spec)
+    network.parameters[:] = genotype
+    network.observation[:] = observation = rng.uniform(0, 1, spec.inputs)
+    network.step()
+    x = torch.tensor(observation.reshape(1, *spec.image))
+    activation = {1: torch.sigmoid, 2: torch.tanh, 3: lambda x: x, 5: torch.relu}[spec.afunction]
+    for i, stride in enumerate(spec.strides):
+        weights, bias = (torch.tensor(parts[f"filters{i}{end}"]) for end in ("", " bias"))
+        x = activation(torch.nn.functional.conv2d(x, weights, bias, stride))
+    assert x.shape[1:] == planes(spec)[-1]
+    features = network.activations[: network.neurons[0]]
+    np.testing.assert_allclose(features, x.numpy().ravel(), rtol=1e-5, atol=1e-12)
+
+
+def test_sums_have_the_order_of_the_row():
+    """Bias, then one product after another, channel by channel and row by row: bit for bit."""
+    spec = spec_of((3, 8, 9), (5,), (4,), (2,), bias=1, afunction=3, nhiddens=0, out_type=3)
+    rng = np.random.default_rng(1)
+    network = Network(spec)
+    network.parameters[:] = genotype = random_genotype(spec, rng, 3.0)
+    network.observation[:] = observation = rng.uniform(-1, 1, spec.inputs)
+    network.step()
+    parts, image, features = parse(spec, genotype), observation.reshape(spec.image), []
+    for f in range(5):
+        for y in range(3):
+            for x in range(3):
+                under = image[:, 2 * y : 2 * y + 4, 2 * x : 2 * x + 4].ravel()
+                total = float(parts["filters0 bias"][f])
+                for weight, value in zip(parts["filters0"][f].ravel(), under, strict=True):
+                    total += float(weight) * float(value)
+                features.append(total)
+    assert network.activations[:45].tolist() == features
+    shuffled = sum(float(w) * float(v) for w, v in zip(parts["filters0"][4].ravel(), under))  # noqa: B905
+    assert shuffled + float(parts["filters0 bias"][4]) != features[-1]  # so the order tells
+
+
+@pytest.mark.parametrize("bias", [0, 1])
+def test_the_genotype_begins_with_the_convolutional_layers(bias):
+    network = Network(spec_of(bias=bias, afunction=3, out_type=3, nhiddens=0, outputs=1))
+    count = 3 * 2 * 9 + 2 * 3 * 4 + 2 * 2 * 1 + bias * (3 + 2 + 1)
+    assert len(network.parameters) == count
+    network.observation[:] = np.arange(2 * 7 * 6)
+    if bias:  # of the first layer's filters, then their weights
+        network.parameters[:3] = 1, 10, 100
+        second = 3 + 3 * 2 * 9
+        network.parameters[second + 2 + 4] = 1  # of the second layer's first filter: 10, upper left
+        network.parameters[second] = 0.5
+        network.step()
+        assert network.activations.tolist() == [10.5, 10.5, 0, 0, 0]
+    else:
+        network.parameters[9] = 1  # first filter, second channel, upper left
+        network.parameters[3 * 2 * 9 + 3] = 1  # first filter, lower right of the first filter's
+        network.step()
+        below = [42 + 12 + 2, 42 + 24 + 2]  # rows 2 and 4, column 2
+        assert network.activations.tolist() == [*below, 0, 0, 0]
+
+
+@pytest.mark.parametrize("winit", [0, 1, 2])
+def test_initial_weights(winit):
+    spec = spec_of((4, 20, 20), (40, 60), (5, 3), (2, 1), winit=winit, wrange=0.7, bias=1)
+    parts = parse(spec, Network(spec).initialise(seed=3))
+    for i, shape in enumerate(kernels(spec)):
+        filters, channels, side, _ = shape
+        assert not parts[f"filters{i} bias"].any()
+        weights = parts[f"filters{i}"].reshape(filters, -1)
+        if winit == 0:
+            expected = np.sqrt(2 / ((channels + filters) * side**2))
+            n = weights.size
+            assert abs(weights.std() / expected - 1) < 5 / np.sqrt(2 * n)
+            assert abs(weights.mean()) < 5 * expected / np.sqrt(n)
+        elif winit == 1:
+            assert np.linalg.norm(weights, axis=1) == pytest.approx(1)
+        else:
+            assert -0.7 <= weights.min() < -0.69 and 0.69 < weights.max() <= 0.7
+        assert np.all(weights)
+    assert np.all(parts["hidden0"]) and not parts["hidden bias"].any()
+    again, other = Network(spec), Network(spec)
+    assert np.array_equal(again.initialise(seed=3), other.initialise(seed=3))
+    assert not np.array_equal(again.initialise(seed=3), other.initialise(seed=4))
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"image": ()}, "architecture is 4 .* images"),
+        ({"image": (1, 2)}, "channels, height and width"),
+        ({"image": (1, 2, 0)}, "from 1 to"),
+        ({"image": (100, 1000, 1000)}, "a million"),
+        ({"filters": (3,)}, "number each"),
+        ({"filters": (), "kernels": (), "strides": ()}, "number each"),
+        ({"filters": (1,) * 17, "kernels": (1,) * 17, "strides": (1,) * 17}, "at most 16"),
+        ({"kernels": (3, 4)}, "kernel of convolutional layer 2 is 4 x 4, .* 3 x 2 only"),
+        ({"kernels": (8, 1)}, "kernel of convolutional layer 1 is 8 x 8, .* 7 x 6 only"),
+        ({"strides": (0, 1)}, "from 1 to 1000"),
+        ({"filters": (1001, 1)}, "from 1 to 1000"),
+        ({"normalize": 1}, "normalize is 1.*set normalize = 0"),
+        ({"image": (1, 900, 900), "kernels": (1, 1), "strides": (1, 1)}, "too large"),
+        ({"afunction": 4}, "afunction is 4"),
+        ({"nhiddens": 10000, "nlayers": 3}, "too large"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_built(changes, words):
+    with pytest.raises(ValueError, match=words) as error:
+        spec_of(**changes)
+    assert re.fullmatch(r"\S[^\n]*\.", str(error.value))
+
+
+@pytest.mark.parametrize("wrong", [{"filters": ("a", "b")}, {"image": 7}, {"kernels": (3.5, 2)}])
+def test_lists_are_of_whole_numbers(wrong):
+    with pytest.raises(TypeError, match=f"{next(iter(wrong))} is .* whole numbers"):
+        spec_of(**wrong)
+
+
+# images
+
+
+@pytest.mark.parametrize(
+    ("shape", "planes", "place"),
+    [
+        ((5, 6), (1, 5, 6), lambda c, y, x: (y, x)),
+        ((5, 6, 3), (3, 5, 6), lambda c, y, x: (y, x, c)),
+        ((4, 5, 6), (4, 5, 6), lambda c, y, x: (c, y, x)),
+        ((4, 4, 4), (4, 4, 4), lambda c, y, x: (y, x, c)),
+        ((2, 5, 6, 3), (6, 5, 6), lambda c, y, x: (c // 3, y, x, c % 3)),
+        ((2, 3, 5, 6), (6, 5, 6), lambda c, y, x: (c // 3, c % 3, y, x)),
+    ],
+)
+def test_where_the_channels_are(shape, planes, place):
+    observation = np.arange(np.prod(shape), dtype=float)
+    image, written = Image(shape, 255.0), np.zeros(observation.size)
+    assert image.planes == planes
+    image.write(observation, written)
+    written = written.reshape(planes)
+    for c, y, x in np.ndindex(planes):
+        assert written[c, y, x] == observation.reshape(shape)[place(c, y, x)] / 255
+
+
+def test_which_observations_are_images():
+    def image(space):
+        return Flattener(space, "any").image
+
+    assert image(spaces.Box(0, 255, (9, 8, 3), np.uint8)) == Image((9, 8, 3), 255.0)
+    assert image(spaces.Box(0, 1, (4, 9, 8), np.float32)) == Image((4, 9, 8), 1.0)
+    for other in (
+        spaces.Box(0, 1, (4,)),
+        spaces.Box(0, 1, (2, 2, 2, 2, 2)),
+        spaces.Dict(image=spaces.Box(0, 255, (9, 8, 3), np.uint8)),
+        spaces.MultiBinary((3, 4)),
+    ):
+        assert image(other) is None
+
+
+def test_a_policy_sees_the_picture():
+    name = "tiny_envs:Picture-v0"
+    problem = problems.make(name)
+    policy = Policy(name, problem.interface, config.PolicyConfig(**POLICY))
+    spec = policy.spec
+    assert (spec.image, spec.filters, spec.kernels, spec.strides) == (
+        (3, 40, 40), (4, 6), (8, 3), (4, 2)
+    )  # fmt: skip
+    genotype = policy.initial(1)
+    reference = ReferenceNetwork(spec, genotype)
+    [*moments] = problem.play(policy, genotype, None, 3, 0, 10)
+    assert len(moments) > 3
+    for moment in moments:
+        picture = moment.observation.reshape(40, 40, 3)
+        assert picture.max() == 255
+        action, _ = reference.step(picture.transpose(2, 0, 1).ravel() / 255)
+        assert moment.action == pytest.approx(action, abs=1e-6)
+
+
+# evolution
+
+
+@pytest.mark.parametrize("algo", ["SSS", "OpenAI-ES", "sNES"])
+def test_they_evolve_alike_with_workers_and_resumed(algo, tmp_path):
+    own = experiment(tmp_path, "tiny_envs:Picture-v0", algo, POLICY, maxmsteps=0.0006)
+    assert run_seeds(own, tmp_path / "whole")
+    assert run_seeds(own, tmp_path / "parts", steps=300)
+    workers = 2 if algo == "SSS" else 1
+    assert run_seeds(own, tmp_path / "parts", workers=workers, resume=True)
+    assert same(tmp_path / "whole", tmp_path / "parts")
+
+
+def test_large_pictures_are_read_by_convolutional_networks_only(tmp_path, command, refused):
+    policy = POLICY | {"maxsteps": 3, "episodes": 1, "pepisodes": 1}
+    large = "tiny_envs:Tinylarge-v0"
+    problem = problems.make(large)
+    spec = Policy(large, problem.interface, config.PolicyConfig(**policy)).spec
+    assert spec.image == (3, 101, 101)
+    ini = write_experiment(tmp_path, large, policy={"maxsteps": 3})
+    says = ["30603 values", "at most 30000", "architecture = 4"]
+    refused("es", "-f", ini, "-o", tmp_path / "run", says=says)
+
+
+def test_they_are_watched_and_filmed(command, tmp_path):
+    ini = write_experiment(tmp_path, "tiny_envs:Picture-v0", policy=POLICY, maxmsteps=0.0003)
+    assert command("es", "-f", ini, "-o", tmp_path)[0] == 0
+    shown = ("es", "-f", ini, "-p", "-g", tmp_path / "bestgS1.npy", "--episodes", 1)
+    code, out, _ = command(*shown, "-d", "--video", tmp_path / "film.mp4")
+    assert code == 0 and (tmp_path / "film.mp4").stat().st_size > 0
+    code, out, _ = command(*shown, "--replay", tmp_path / "page.html")
+    assert code == 0 and '["inputs",96]' in (tmp_path / "page.html").read_text()
+    code, out, _ = command(*shown, "-d")
+    assert len(out.splitlines()[0].split("activations")[1].split()) == 96 + 5 + 1
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"kernels": "8, 4"}, None),
+        ({"kernels": "41, 3"}, ["convolutional layer 1 is 41 x 41", "40 x 40 only"]),
+        ({"kernels": "8"}, ["filters = 4, 6; kernels = 8; strides = 4, 2", "as many numbers"]),
+        ({"kernels": "8, x"}, ["8, x is no list of whole numbers", "16, 32"]),
+        ({"kernels": "8, 1001"}, "8, 1001 is no list of whole numbers from 1 to 1000"),
+        ({"strides": "4,"}, "4, is no list"),
+        ({"filters": "0, 3"}, "0, 3 is no list"),
+        ({"filters": ""}, "filters has no value: it needs whole numbers"),
+        ({"normalize": 1}, ["normalize = 1 does not go with architecture = 4", "normalize = 0"]),
+        ({"architecture": 0}, "filters = 4, 6 needs architecture = 4"),
+        ({"afunction": 4}, "5 (relu)"),
+        ({"nbins": 2, "nlayers": 2}, None),
+    ],
+)
+def test_experiment_files(changes, says, tmp_path, refused, command):
+    policy = POLICY | {"maxsteps": 3, "episodes": 1, "pepisodes": 1} | changes
+    ini = write_experiment(tmp_path, "tiny_envs:Picture-v0", policy=policy, maxmsteps=0.00001)
+    if says is None:
+        code, _, errors = command("es", "-f", ini, "-o", tmp_path / "run")
+        assert (code, errors) == (0, "")
+    else:
+        refused("es", "-f", ini, "-o", tmp_path / "run", says=says)
+        assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize("name", ["CartPole-v1", "tiny_envs:Tiny-v0", "Blackjack-v1"])
+def test_a_vector_is_no_image(name, tmp_path, refused):
+    ini = write_experiment(tmp_path, name, policy=POLICY)
+    says = ["architecture = 4 (convolutional) reads images", f"of {name} are none", "= 0"]
+    refused("es", "-f", ini, "-o", tmp_path / "run", says=says)
+
+
+# Atari's games
+
+
+@pytest.fixture
+def pong():
+    pytest.importorskip("ale_py")
+    pytest.importorskip("cv2")
+    around = "AtariPreprocessing(screen_size=42), FrameStackObservation(stack_size=2)"
+    return problems.make("ALE/Pong-v5", wrappers=around)
+
+
+def test_pong_is_preprocessed_and_stacked(pong):
+    assert pong.interface.image == Image((2, 42, 42), 255.0)
+    assert pong.interface.outputs == 6
+    assert pong._env.unwrapped._frameskip == 1
+    assert problems.make("ALE/Pong-v5")._env.unwrapped._frameskip == 4
+    assert environments.make("ALE/Pong-v5", "AtariPreprocessing").unwrapped._frameskip == 1
+
+
+def test_an_episode_of_pong_does_not_depend_on_those_before(pong):
+    policy = Policy("Pong", pong.interface, config.PolicyConfig(**POLICY))
+    genotypes = np.array([policy.initial(1, i) for i in range(2)])
+    episodes = Episodes.of(np.array([7, 7], dtype=np.uint64), 2)
+
+    def fitness(chosen):
+        return pong.evaluate(policy, genotypes, None, episodes.select(chosen), 120).fitness
+
+    whole = fitness(slice(None))
+    assert (fitness(slice(2, 4)) == whole[2:]).all() and (fitness(slice(0, 1)) == whole[0]).all()
+    assert (whole <= -1).all()
+    pong.close()
+
+
+def test_pong_evolves(tmp_path, command):
+    pytest.importorskip("ale_py")
+    pytest.importorskip("cv2")
+    policy = POLICY | {"maxsteps": 4, "episodes": 1, "pepisodes": 1}
+    ini = write_experiment(tmp_path, "ALE/Pong-v5", policy=policy, popsize=2, maxmsteps=2e-5)
+    around = "wrappers = AtariPreprocessing, FrameStackObservation(stack_size=4)\nalgo ="
+    ini.write_text(ini.read_text().replace("algo =", around))
+    code, _, errors = command("es", "-f", ini, "-o", tmp_path)
+    assert (code, errors) == (0, "")
+
+
+def test_what_atari_needs(tmp_path, refused, monkeypatch):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "cv2", None)
+    ini = write_experiment(tmp_path, "ALE/Pong-v5")
+    ini.write_text(ini.read_text().replace("algo =", "wrappers = AtariPreprocessing\nalgo ="))
+    if "ALE/Pong-v5" in gymnasium.registry or pytest.importorskip("ale_py"):
+        says = ["AtariPreprocessing needs a package that is not installed", "opencv"]
+        refused("es", "-f", ini, "-o", tmp_path / "run", says=says)
