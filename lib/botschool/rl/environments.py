@@ -21,7 +21,7 @@ def make(name: str, wrapped: str = "", **options: object) -> gymnasium.Env:
     Raises BotschoolError.
     """
     wrappers = parse(wrapped)
-    env = make_env(name, **skipping(name, wrappers), **options)
+    env = make_env(name, **(skipping(name, wrappers) | options))
     if env.spec is not None and env.spec.max_episode_steps is None:
         env = gymnasium.wrappers.TimeLimit(env, LONGEST_EPISODE)
     for wrapper in wrappers:
