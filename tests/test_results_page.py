@@ -41,6 +41,28 @@ def test_the_page_of_algorithms_is_made_from_its_data():
     assert page.seeds(done) == len(algorithms.SEEDS)
 
 
+def test_what_tuning_gives_is_told_from_its_data():
+    import json
+
+    import tuned
+
+    measured = json.loads(tuned.DATA.read_text(encoding="utf-8"))
+    text = tuned.PAGE.read_text(encoding="utf-8")
+    assert tuned.filled(text, measured) == text, "run tests/bench/tuned.py page"
+    assert [run["seed"] for run in measured["runs"]] == list(tuned.SEEDS)
+
+
+def test_an_interval_of_differences():
+    import tuned
+
+    low, high = tuned.interval(np.full(20, 5.0))
+    assert low == high == 5.0
+    values = np.random.default_rng(3).normal(1.0, 2.0, 400)
+    low, high = tuned.interval(values)
+    assert abs((high - low) / 2 - 1.96 * values.std() / 20) < 0.02
+    assert low < values.mean() < high
+
+
 def test_a_block_without_data_stays():
     import page
 

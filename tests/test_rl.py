@@ -18,6 +18,7 @@ from botschool.rl.folder import RunFolder, find_runs
 from botschool.rl.parameters import complete
 from botschool.rl.training import train
 from botschool.seeds import POST_EVALUATION_SEED
+from botschool.wrappers import parse
 from running import TESTS, call, finish, one_sentence, start
 
 pytest.importorskip("stable_baselines3")
@@ -195,6 +196,8 @@ def test_defaults_are_hyperparameters_of_their_algorithm(algo):
         entry = dict(entry)
         assert entry.pop("steps") > 0 and entry.pop("envs") > 0, problem
         assert isinstance(entry.pop("normalize", False), bool)
+        around = [parse(entry.pop(name, "")) for name in ("wrappers", "training_wrappers")]
+        assert all(isinstance(each._find(), type) for wrappers in around for each in wrappers)
         complete(model_class, model_class.policy_aliases["MlpPolicy"], entry)
 
 

@@ -90,6 +90,8 @@ def test_translations(items, parameters, options):
     [
         ("--algo acer", "no acer any more: use --algo a2c or ppo instead"),
         ("--algo actkr", "no actkr any more"),
+        ("--algo acktr", "no acktr any more: use --algo trpo or ppo instead"),
+        ("--algo gail", "no gail any more: it imitates an expert, as the package imitation does"),
         ("--algo ppo -params lam:0.9 gae_lambda:0.8", "lam means gae_lambda: give one of them"),
         ("--algo ppo -params nminibatches:3 n_steps:32", "must divide n_steps times envs, 32 x 8"),
         ("--algo a2c -params nminibatches:4", "nminibatches is for ppo, not for A2C"),
@@ -108,5 +110,5 @@ def test_what_cannot_be_translated(flags, says, tmp_path, refused):
 
 def test_trainings_that_are_not_there(tmp_path, refused):
     own = ("rl", "enjoy", "-f", tmp_path, "--algo", "ppo2")
-    refused(*own, "--env", "CartPole-v1", says=["no training of ppo on CartPole-v1", "rl train"])
+    refused(*own, "--env", "Taxi-v3", says=["no training of ppo on Taxi-v3", "rl train"])
     refused(*own, says="--algo ppo --env CartPole-v1")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import multiprocessing
 import os
 import sys
 from functools import cache
 from pathlib import Path
+from types import ModuleType
 
 from botschool.errors import BotschoolError
 
@@ -30,6 +32,28 @@ def look_here(module: str) -> None:
     if os.getcwd() not in sys.path:
         sys.path.insert(0, os.getcwd())
     _say_if_here(module)
+
+
+def import_here(module: str, purpose: str) -> ModuleType:
+    """The module, installed or in the present folder.
+
+    purpose: what is wanted of it, as "take the wrapper Doubled from". Raises BotschoolError.
+    """
+    look_here(module)
+    try:
+        return importlib.import_module(module)
+    except ModuleNotFoundError as error:
+        if error.name and not f"{module}.".startswith(f"{error.name}."):
+            reason = f"it needs {error.name}, which is not installed"
+        else:
+            reason = "is its package installed, or are you in its folder"
+        raise BotschoolError(f"There is no module {module} to {purpose}; {reason}?") from None
+    except Exception as error:
+        reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+        raise BotschoolError(
+            f"The module {module}, to {purpose}, cannot be imported "
+            f"({type(error).__name__}: {reason[:300]}): mend it."
+        ) from error
 
 
 @cache

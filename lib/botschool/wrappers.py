@@ -9,14 +9,13 @@ The options of the environment itself are read here too (`keywords`).
 from __future__ import annotations
 
 import ast
-import importlib
 import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from botschool.errors import BotschoolError
 from botschool.inifile import nearest, shown
-from botschool.paths import look_here
+from botschool.paths import import_here
 
 if TYPE_CHECKING:
     import gymnasium
@@ -70,7 +69,7 @@ class Wrapper:
         if not self.module:
             import gymnasium.wrappers as module
         else:
-            module = self._import()
+            module = import_here(self.module, f"take the wrapper {self.name} from")
         try:
             found = getattr(module, self.name)
         except (AttributeError, ImportError):
@@ -78,23 +77,6 @@ class Wrapper:
         if not callable(found):
             raise BotschoolError(f"{self.name} is no wrapper, but a {type(found).__name__}.")
         return found
-
-    def _import(self) -> Any:
-        look_here(self.module)
-        try:
-            return importlib.import_module(self.module)
-        except ModuleNotFoundError as error:
-            if error.name and not f"{self.module}.".startswith(f"{error.name}."):
-                reason = f"it needs {error.name}, which is not installed"
-            else:
-                reason = "is its package installed, or are you in its folder"
-            raise BotschoolError(
-                f"There is no module {self.module} to take the wrapper {self.name} from; {reason}?"
-            ) from None
-        except Exception as error:
-            raise BotschoolError(
-                f"The wrapper {self.name} cannot be taken from {self.module}: {_sentence(error)}."
-            ) from error
 
     def _missing(self, module: Any) -> str:
         import gymnasium

@@ -44,6 +44,14 @@ RlEpisodes = Annotated[int, typer.Option(min=1, max=1_000_000, help="Episodes to
 RlSeed = Annotated[int, typer.Option("-s", "--seed", min=0, max=2**31, help="Seed.")]
 RlLast = Annotated[bool, typer.Option("--last", help="The last model instead of the best one.")]
 
+RlPolicy = Annotated[
+    str | None,
+    typer.Option(
+        help="The agent's policy, if it is a class of your own: its code is run.",
+        metavar="MODULE:CLASS",
+    ),
+]
+
 
 @app.command(
     "train",
@@ -72,7 +80,9 @@ def rl_train(
     policy: Annotated[
         str | None,
         typer.Option(
-            help="mlp, lstm, cnn or cnnlstm.", metavar="NAME", show_default="cnn for images"
+            help="mlp, lstm, cnn, cnnlstm, or module:Class of your own.",
+            metavar="NAME",
+            show_default="cnn for images",
         ),
     ] = None,
     envs: Annotated[
@@ -86,7 +96,7 @@ def rl_train(
         list[str] | None,
         typer.Option(
             help="A wrapper around the environment, as FlattenObservation or module:Class; may be "
-            "given several times.",
+            "given several times (none: not those that Atari's games have by default).",
             metavar="NAME",
         ),
     ] = None,
@@ -181,11 +191,15 @@ def rl_enjoy(
     algo: RlAlgo = None,
     exp_id: RlNumber = 0,
     load_best: RlBest = False,
+    policy: RlPolicy = None,
 ) -> None:
-    """Play new episodes with a trained agent: returns, mean and standard deviation."""
+    """Play new episodes with a trained agent: returns, mean and standard deviation.
+
+    With --algo and --env one that comes with botschool is taken where you have trained none.
+    """
     from botschool.rl.watch import Asked, enjoy_command
 
-    asked = Asked(run, output, env, algo, exp_id, last and not load_best)
+    asked = Asked(run, output, env, algo, exp_id, last and not load_best, policy)
     enjoy_command(asked, episodes, seed, render)
 
 
@@ -206,21 +220,28 @@ def rl_video(
     steps: Annotated[
         int | None, typer.Option("--steps", "-n", min=1, help="Steps to film at most.")
     ] = None,
+    policy: RlPolicy = None,
 ) -> None:
     """Film new episodes of a trained agent."""
     from botschool.rl.watch import Asked, video_command
 
     if algo is not None and file.is_dir():  # as the chapter has it: -f logs
         output, file = file, Path("agent.mp4")
-    asked = Asked(run, output, env, algo, exp_id, last and not load_best)
+    asked = Asked(run, output, env, algo, exp_id, last and not load_best, policy)
     video_command(asked, episodes, seed, file, steps)
 
 
 @app.command("list", epilog="Example: botschool rl list results/rl")
 def rl_list(
     folder: Annotated[Path, typer.Argument(metavar="FOLDER")] = Path("results/rl"),
+    ours: Annotated[
+        bool, typer.Option("--ours", help="The trained agents that come with botschool.")
+    ] = False,
 ) -> None:
     """Show the trainings in a folder and what they reached."""
-    from botschool.rl.watch import list_command
+    from botschool.rl.watch import list_command, list_ours
 
-    list_command(folder)
+    if ours:
+        list_ours()
+    else:
+        list_command(folder)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,17 +14,18 @@ from gymnasium import spaces
 
 from botschool.errors import BotschoolError
 from botschool.output import save_bytes
+from botschool.rl import weights
 from botschool.rl.environments import described, make
 from botschool.rl.folder import RunFolder
 from botschool.rl.model import build
+from botschool.rl.policies import check_trusted
+from botschool.rl.weights import Normalise
 
 if TYPE_CHECKING:
     from stable_baselines3.common.base_class import BaseAlgorithm
 
 NORMALISATION = "normalisation.npz"
 """Member of a model's zip file: mean and variance of the observations, clip and epsilon."""
-
-Normalise = Callable[[np.ndarray], np.ndarray]
 
 
 def save_model(model: BaseAlgorithm, path: Path) -> None:
@@ -33,21 +34,17 @@ def save_model(model: BaseAlgorithm, path: Path) -> None:
     model.save(content)
     scaling = model.get_vec_normalize_env()
     if scaling is not None:
+        arrays = {"mean": scaling.obs_rms.mean, "variance": scaling.obs_rms.var}
+        arrays |= {"clip": scaling.clip_obs, "epsilon": scaling.epsilon}
         with ZipFile(content, "a") as archive:
-            archive.writestr(NORMALISATION, _scaling_bytes(scaling))
+            archive.writestr(NORMALISATION, weights.scaling_bytes(arrays))
     save_bytes(path, content.getvalue())
 
 
-def _scaling_bytes(scaling) -> bytes:
-    content = BytesIO()
-    np.savez(
-        content,
-        mean=scaling.obs_rms.mean,
-        variance=scaling.obs_rms.var,
-        clip=scaling.clip_obs,
-        epsilon=scaling.epsilon,
-    )
-    return content.getvalue()
+def save_weights(model: Path, path: Path) -> None:
+    """Writes the weights alone of a training's model. Raises BotschoolError."""
+    agent = Agent.load(model)
+    weights.save(path, agent.model.policy, agent.scaling)
 
 
 class Agent:
@@ -55,17 +52,21 @@ class Agent:
 
     def __init__(self, model: BaseAlgorithm, normalise: Normalise | None = None) -> None:
         self.model = model
+        self.scaling: dict[str, np.ndarray] | None = None
         self._normalise = normalise
 
     @classmethod
-    def load(cls, path: Path | str, env: str | None = None) -> Agent:
-        """The model in a zip file of a run's folder, for its environment or for `env`.
+    def load(cls, path: Path | str, env: str | None = None, policy: str | None = None) -> Agent:
+        """The model in a file of a run's folder, for its environment or for `env`.
 
-        Only weights are read: no Python object in the file is ever loaded. Raises BotschoolError
-        for a file that is missing or damaged, or a model of another environment.
+        The file is a model of Stable-Baselines3 (.zip) or weights alone (.npz). Only weights are
+        read: no Python object in the file is ever loaded, and a class of one's own that the
+        settings name is imported only if `policy` names it, too. Raises BotschoolError for a file
+        that is missing or damaged, or a model of another environment or policy.
         """
         path = Path(path)
         settings = RunFolder(path.parent).settings()
+        check_trusted(path, settings.policy, policy)
         own = make(settings.env, settings.wrappers)
         if env is not None and env != settings.env:
             _check_same(settings.env, own, env, make(env, settings.wrappers))
@@ -73,14 +74,15 @@ class Agent:
             raise BotschoolError(f"There is no model {path}: train one with `botschool rl train`.")
         model = build(settings, own, small=True)
         try:
-            model.set_parameters(str(path), device=model.device)
-            normalise = _read_normalisation(path) if settings.normalize else None
+            scaling = _fill(model, path, settings.normalize)
         except Exception as error:  # a damaged file can fail in any way
             raise BotschoolError(
                 f"{path} is damaged, or no model of this training: take the other model of its "
                 "folder, or train again."
             ) from error
-        return cls(model, normalise)
+        agent = cls(model, None if scaling is None else weights.normaliser(scaling))
+        agent.scaling = scaling
+        return agent
 
     def act(
         self, observations: Any, state: Any = None, starts: np.ndarray | None = None
@@ -111,19 +113,15 @@ def _n(space: spaces.Space) -> Any:
     return getattr(space, "n", None)
 
 
-def _read_normalisation(path: Path) -> Normalise:
+def _fill(model: BaseAlgorithm, path: Path, normalised: bool) -> dict[str, np.ndarray] | None:
+    """Puts the weights of a file into the model; gives the scaling of observations."""
+    if path.suffix == ".npz":
+        return weights.fill(path, model.policy, normalised)
+    model.set_parameters(str(path), device=model.device)
+    if not normalised:
+        return None
     with ZipFile(path) as archive:
-        content = BytesIO(archive.read(NORMALISATION))
-    with np.load(content, allow_pickle=False) as arrays:
-        mean, variance, clip, epsilon = (
-            arrays[name] for name in ("mean", "variance", "clip", "epsilon")
-        )
-    deviation = np.sqrt(variance + epsilon)
-
-    def normalise(observations: np.ndarray) -> np.ndarray:
-        return np.clip((observations - mean) / deviation, -clip, clip).astype(np.float32)
-
-    return normalise
+        return weights.read_scaling(archive.read(NORMALISATION))
 
 
 def play(

@@ -174,22 +174,27 @@ def next_folder(base: Path, algo: str, env: str) -> RunFolder:
         raise cannot_write(parent, error.strerror or str(error)) from error
 
 
-def run_of(folder: Path | str, algo: str, env: str, number: int = 0) -> RunFolder:
-    """The training `number` of an algorithm on an environment; 0 is the newest one.
-
-    Raises BotschoolError.
-    """
+def runs_of(folder: Path | str, algo: str, env: str) -> dict[int, RunFolder]:
+    """The trainings of an algorithm on an environment, by their numbers."""
     parent, name = Path(folder) / algo, name_of(env)
-    numbered = {
+    return {
         run.number: run
         for run in find_runs(parent)
         if run.path.name == f"{name}_{run.number}" and run.path.parent == parent
     }
+
+
+def run_of(folder: Path | str, algo: str, env: str, number: int = 0, hint: str = "") -> RunFolder:
+    """The training `number` of an algorithm on an environment; 0 is the newest one.
+
+    hint: what else one can do where there is none at all. Raises BotschoolError.
+    """
+    numbered = runs_of(folder, algo, env)
     if not numbered or number not in (0, *numbered):
         there = (
             f"numbers there: {', '.join(map(str, sorted(numbered)))}"
             if numbered
-            else (f"train one with `botschool rl train --algo {algo} --env {env} -o {folder}`")
+            else f"train one with `botschool rl train --algo {algo} --env {env} -o {folder}`{hint}"
         )
         which = f" number {number}" if number else ""
         raise BotschoolError(

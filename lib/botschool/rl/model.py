@@ -19,14 +19,8 @@ from botschool.inifile import shown
 from botschool.rl import spellings
 from botschool.rl.environments import described, make
 from botschool.rl.parameters import ACTIVATIONS, OF_GOALS, OF_POLICY, complete, linear
-from botschool.rl.settings import (
-    VEC_ENVS,
-    WITH_MEMORY,
-    Settings,
-    check_algorithm,
-    check_policy,
-    defaults,
-)
+from botschool.rl.policies import WITH_IMAGES, check_policy, has_memory, is_own, policy_of
+from botschool.rl.settings import VEC_ENVS, Settings, check_algorithm, defaults
 
 if TYPE_CHECKING:
     from stable_baselines3.common.base_class import BaseAlgorithm
@@ -74,7 +68,11 @@ def choose(
     wrappers: str = "",
     vec_env: str = "dummy",
 ) -> Settings:
-    """Settings of a training: what is given, then defaults.yaml. Raises BotschoolError."""
+    """Settings of a training: what is given, then defaults.yaml and benchmarks.yaml.
+
+    wrappers: in place of those that the files have for the environment; "none" for none at all.
+    Raises BotschoolError.
+    """
     algo = check_algorithm(algo)
     given, options = spellings.translated(params or {})
     steps, envs = steps or options.get("steps"), envs or options.get("envs")
@@ -82,16 +80,19 @@ def choose(
     policy = None if policy is None else check_policy(policy, algo)
     if vec_env not in VEC_ENVS:
         raise BotschoolError(f"--vec-env is '{shown(vec_env)}', but must be dummy or subproc.")
+    entry = defaults(algo, env)
+    usual = [entry.pop(name, "") for name in ("wrappers", "training_wrappers")]
+    wrappers, training_wrappers = usual if not wrappers else [wrappers, ""]
+    wrappers = "" if wrappers == "none" else wrappers
     env_made = make(env, wrappers)
     _check_spaces(algo, env, env_made)
     require("torch", "stable_baselines3")
     policy = policy or ("cnn" if _sees_images(env_made) else "mlp")
-    if "cnn" in policy and not _sees_images(env_made):
+    if policy in WITH_IMAGES and not _sees_images(env_made):
         raise BotschoolError(
             f"{env} shows no images, so it cannot be trained with a {policy} policy (its "
             f"observations are {described(env_made.observation_space)}): leave out --policy."
         )
-    entry = defaults(algo, env)
     length, width = entry.pop("steps"), entry.pop("envs")
     normalize = _normalize(given, entry.pop("normalize", False), env_made, policy)
     width = width if envs is None else envs
@@ -99,7 +100,7 @@ def choose(
     model_class = algorithm_class(algo, policy, isinstance(env_made.action_space, spaces.Discrete))
     if "nminibatches" in entry:
         _share_batches(entry, model_class, width)
-    policy_class = model_class.policy_aliases.get(_policy_name(policy, env_made))
+    policy_class = policy_of(model_class, policy, env_made)
     if policy_class is None:
         raise BotschoolError(
             f"{algo} reads vectors only, but the observations of {env} are "
@@ -122,6 +123,7 @@ def choose(
         versions={package: version(package) for package in packages},
         wrappers=wrappers,
         vec_env=vec_env,
+        training_wrappers=training_wrappers,
     )
 
 
@@ -136,7 +138,8 @@ def _share_batches(entry: dict[str, Any], model_class: type[BaseAlgorithm], envs
 
 
 def _normalize(given: dict[str, Any], usual: bool, env: gymnasium.Env, policy: str) -> bool:
-    possible = isinstance(env.observation_space, spaces.Box) and "cnn" not in policy
+    images = policy in WITH_IMAGES or (is_own(policy) and _sees_images(env))
+    possible = isinstance(env.observation_space, spaces.Box) and not images
     wanted = given.get("normalize", usual and possible)
     if not isinstance(wanted, bool):
         raise BotschoolError(f"normalize is {wanted}, but must be true or false.")
@@ -193,23 +196,18 @@ def algorithm_class(algo: str, policy: str, discrete: bool = False) -> type[Base
 
     Hindsight experience replay is SAC with goals, or DQN where actions are discrete.
     """
-    if policy in WITH_MEMORY or algo in CONTRIB:
-        require("torch", "stable_baselines3", "sb3_contrib")
-        return getattr(importlib.import_module("sb3_contrib"), CONTRIB.get(algo, "RecurrentPPO"))
     require("torch", "stable_baselines3")
+    if algo in CONTRIB or (algo == "ppo" and has_memory(policy)):
+        require("sb3_contrib")
+        return getattr(importlib.import_module("sb3_contrib"), CONTRIB.get(algo, "RecurrentPPO"))
     if algo == "her":
         algo = "dqn" if discrete else "sac"
     return getattr(importlib.import_module("stable_baselines3"), algo.upper())
 
 
-def _policy_name(policy: str, env: gymnasium.Env | VecEnv) -> str:
-    several = isinstance(env.observation_space, spaces.Dict)
-    kind = "MultiInput" if several else "Cnn" if "cnn" in policy else "Mlp"
-    return f"{kind}{'Lstm' if policy in WITH_MEMORY else ''}Policy"
-
-
 def build(settings: Settings, env: VecEnv | gymnasium.Env, small: bool = False) -> BaseAlgorithm:
     """An untrained model. `small`: one that only acts. Raises BotschoolError."""
+    require("torch", "stable_baselines3")
     import torch
 
     chosen = dict(settings.parameters)
@@ -224,16 +222,18 @@ def build(settings: Settings, env: VecEnv | gymnasium.Env, small: bool = False) 
         chosen |= {"replay_buffer_class": HerReplayBuffer, "replay_buffer_kwargs": goals}
     if small and "buffer_size" in chosen:
         chosen["buffer_size"] = 1
-    chosen.setdefault("device", "auto" if "cnn" in settings.policy else "cpu")
-    if small:
-        chosen["device"] = "cpu"
+    chosen.setdefault("device", "auto" if settings.policy in WITH_IMAGES else "cpu")
     discrete = isinstance(env.action_space, spaces.Discrete)
     model_class = algorithm_class(settings.algo, settings.policy, discrete)
+    if small:  # it may be of another version of the library, whose learning has other parameters
+        known = inspect.signature(model_class.__init__).parameters
+        chosen = {name: value for name, value in chosen.items() if name in known}
+        chosen["device"] = "cpu"
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", UserWarning)
             model = model_class(
-                _policy_name(settings.policy, env),
+                policy_of(model_class, settings.policy, env),
                 env,
                 seed=settings.seed,
                 policy_kwargs=policy or None,

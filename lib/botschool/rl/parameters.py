@@ -131,7 +131,12 @@ def accepted(model_class: type, policy_class: type, goals: bool = False) -> dict
             found[name] = parameter.annotation
     if "action_noise" in found:
         found["action_noise"] = float | None
-    of_policy = inspect.signature(policy_class.__init__).parameters
+    of_policy = set()
+    for each in policy_class.__mro__:  # a class of one's own may hand what is named to its base
+        of_each = inspect.signature(each.__init__).parameters.values()
+        of_policy |= {parameter.name for parameter in of_each}
+        if not any(parameter.kind is parameter.VAR_KEYWORD for parameter in of_each):
+            break
     return found | {name: words for name, words in OF_POLICY.items() if name in of_policy}
 
 

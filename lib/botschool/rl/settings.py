@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import asdict, dataclass, field, fields
+from fnmatch import fnmatchcase
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -15,15 +16,14 @@ from botschool.errors import BotschoolError
 from botschool.inifile import nearest, shown
 from botschool.output import save_bytes
 from botschool.rl import spellings
+from botschool.rl.policies import WITH_MEMORY, is_own
 
 ALGORITHMS = ("ppo", "a2c", "trpo", "ars", "sac", "td3", "ddpg", "tqc", "her", "dqn", "qrdqn")
-POLICIES = ("mlp", "lstm", "cnn", "cnnlstm")
-WITH_MEMORY = ("lstm", "cnnlstm")
 VEC_ENVS = ("dummy", "subproc")
 """Where environments side by side run: all in this process, or each in one of its own."""
 
 
-LATER = {"wrappers", "vec_env"}
+LATER = {"wrappers", "vec_env", "training_wrappers"}
 """Settings that trainings of older versions did not have."""
 
 
@@ -36,7 +36,7 @@ class Settings:
     env: str
     """A Gymnasium id."""
     policy: str
-    """One of POLICIES."""
+    """One of policies.POLICIES, or module:Class."""
     seed: int
     steps: int
     """Length of the training, post-evaluations not counted."""
@@ -58,13 +58,17 @@ class Settings:
     """Around the environment, as botschool.wrappers reads them."""
     vec_env: str = "dummy"
     """One of VEC_ENVS; the results are the same."""
+    training_wrappers: str = ""
+    """Around these while it trains, but not when it is measured: rewards of Atari's games cut."""
 
     @property
     def variant(self) -> str:
         """What sets it apart from a training with defaults, as `lstm learning_rate=0.001`."""
-        policy = [self.policy] if self.policy in WITH_MEMORY else []
+        policy = [self.policy] if self.policy in WITH_MEMORY or is_own(self.policy) else []
         given = [f"{name}={value}" for name, value in self.given.items()]
-        return " ".join([*policy, *given, *filter(None, [self.wrappers])])
+        usual = defaults(self.algo, self.env).get("wrappers") if self.algo in ALGORITHMS else ""
+        wrappers = [self.wrappers] if self.wrappers != usual else []
+        return " ".join([*policy, *given, *filter(None, wrappers)])
 
     def save(self, path: Path) -> None:
         """Writes a YAML file. Raises BotschoolError."""
@@ -86,7 +90,12 @@ class Settings:
                 f"{path} cannot be read: {' '.join(str(error).split())}."
             ) from None
         needed, known = {f.name for f in fields(cls)} - LATER, {f.name for f in fields(cls)}
-        if not isinstance(found, dict) or not needed <= found.keys() <= known:
+        words = ("algo", "env", "policy", "wrappers", "training_wrappers")
+        if (
+            not isinstance(found, dict)
+            or not needed <= found.keys() <= known
+            or not all(isinstance(found.get(name, ""), str) for name in words)
+        ):
             raise BotschoolError(
                 f"{path} does not describe a training: restore it, or train again with "
                 "`botschool rl train`."
@@ -112,33 +121,24 @@ def check_algorithm(algo: str) -> str:
     return name
 
 
-def check_policy(policy: str, algo: str) -> str:
-    """The name of a policy that the algorithm has, in lower case. Raises BotschoolError."""
-    policy = spellings.POLICIES.get(policy.lower(), policy)
-    if policy.lower() not in POLICIES:
-        hint = nearest(policy, POLICIES)
-        raise BotschoolError(f"There is no policy '{shown(policy)}'; {_ended(hint)}")
-    policy = policy.lower()
-    if policy in WITH_MEMORY and algo != "ppo":
-        raise BotschoolError(
-            f"{algo} has no {policy} policy: use --algo ppo with --policy {policy}."
-        )
-    if policy == "cnn" and algo == "ars":
-        raise BotschoolError("ars has no cnn policy: use --algo ppo, or a wrapper that flattens.")
-    return policy
-
-
 def defaults(algo: str, env: str) -> dict[str, Any]:
-    """The entry of defaults.yaml for an algorithm and a Gymnasium id."""
+    """The entry of defaults.yaml or benchmarks.yaml for an algorithm and a Gymnasium id."""
     entries = _defaults()[algo]
     name = env.rpartition(":")[2].removeprefix("botschool/")
     unversioned = re.sub(r"-v\d+$", "", name)
-    return dict(entries.get(name, entries.get(unversioned, entries["default"])))
+    patterns = [key for key in entries if "*" in key and fnmatchcase(name, key)]
+    key = next(key for key in (name, unversioned, *patterns, "default") if key in entries)
+    return dict(entries[key])
 
 
 @cache
 def _defaults() -> dict[str, dict[str, dict[str, Any]]]:
-    return yaml.safe_load(files("botschool.rl").joinpath("defaults.yaml").read_text("utf-8"))
+    entries: dict[str, dict[str, dict[str, Any]]] = {}
+    for file in ("defaults.yaml", "benchmarks.yaml"):
+        text = files("botschool.rl").joinpath(file).read_text("utf-8")
+        for algo, those in yaml.safe_load(text).items():
+            entries.setdefault(algo, {}).update(those)
+    return entries
 
 
 def _ended(sentence: str) -> str:

@@ -10,8 +10,14 @@ from botschool.errors import BotschoolError
 from botschool.inifile import shown
 
 ALGORITHMS = {"ppo1": "ppo", "ppo2": "ppo"}
-GONE = {"acer": "a2c or ppo", "acktr": "trpo or ppo", "actkr": "trpo or ppo", "gail": "sac"}
-"""Algorithms that Stable-Baselines3 no longer has, and what to use instead."""
+GONE = {
+    "acer": "use --algo a2c or ppo instead",
+    "acktr": "use --algo trpo or ppo instead",
+    "actkr": "use --algo trpo or ppo instead",
+    "gail": "it imitates an expert, as the package imitation does, and to learn from rewards there "
+    "is --algo ppo or sac",
+}
+"""Algorithms that Stable-Baselines3 no longer has, and what to do instead."""
 
 POLICIES = {
     "mlppolicy": "mlp",
@@ -39,9 +45,7 @@ def algorithm(name: str) -> str:
     """The name of the algorithm here. Raises BotschoolError for one that is gone."""
     word = name.lower()
     if word in GONE:
-        raise BotschoolError(
-            f"Stable-Baselines3 has no {word} any more: use --algo {GONE[word]} instead."
-        )
+        raise BotschoolError(f"Stable-Baselines3 has no {word} any more: {GONE[word]}.")
     return ALGORITHMS.get(word, word)
 
 

@@ -13,6 +13,7 @@ from botschool.output import cannot_write
 from botschool.rl.folder import Evaluations, RunFolder, next_folder
 from botschool.rl.model import build, choose
 from botschool.rl.parameters import parse, read_settings
+from botschool.rl.policies import WITH_IMAGES
 from botschool.rl.progress import reporting
 from botschool.rl.settings import Settings
 from botschool.terminal import readable, stoppable
@@ -44,7 +45,8 @@ def train(
     """Trains an agent in folder/algo/env_N and gives that folder.
 
     algo: one of botschool.rl.settings.ALGORITHMS; env: a Gymnasium id; params: hyperparameters by
-    name; wrappers: around the environment (botschool.wrappers); vec_env: subproc for a process for
+    name; policy: mlp, lstm, cnn, cnnlstm or module:Class of one's own; wrappers: around the
+    environment (botschool.wrappers); vec_env: subproc for a process for
     each environment (in a script then under `if __name__ == "__main__":`). What is None comes from
     defaults.yaml. The policy is post-evaluated `evaluations` times, each time on the same
     `episodes` fresh seeds; `report` is called with the steps and the post-evaluations so far. The
@@ -125,7 +127,8 @@ def _training_env(settings: Settings) -> Iterator[VecEnv]:
     from botschool.rl.processes import ProcessVecEnv
 
     kind = DummyVecEnv if settings.vec_env == "dummy" else ProcessVecEnv
-    env = kind([partial(_monitored, settings.env, settings.wrappers)] * settings.envs)
+    names = (settings.env, settings.wrappers, settings.training_wrappers)
+    env = kind([partial(_monitored, *names)] * settings.envs)
     env.seed(settings.seed)
     if settings.normalize:
         env = VecNormalize(env, gamma=settings.parameters.get("gamma", 0.99))
@@ -135,12 +138,16 @@ def _training_env(settings: Settings) -> Iterator[VecEnv]:
         env.close()
 
 
-def _monitored(env: str, wrappers: str) -> gymnasium.Env:
+def _monitored(name: str, wrappers: str, training_wrappers: str) -> gymnasium.Env:
     from stable_baselines3.common.monitor import Monitor
 
     from botschool.rl.environments import make
+    from botschool.wrappers import parse
 
-    return Monitor(make(env, wrappers))
+    env = Monitor(make(name, wrappers))
+    for wrapper in parse(training_wrappers):
+        env = wrapper.around(env, name)
+    return env
 
 
 @contextmanager
@@ -149,7 +156,7 @@ def _one_thread(settings: Settings) -> Iterator[None]:
     import torch
 
     before = torch.get_num_threads()
-    if "cnn" not in settings.policy:
+    if settings.policy not in WITH_IMAGES:
         torch.set_num_threads(1)
     try:
         yield

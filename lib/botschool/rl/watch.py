@@ -3,36 +3,46 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import gymnasium
 import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.problems.transition import Transition
+from botschool.rl import shipped
 from botschool.rl.agent import Agent, play, stacked
 from botschool.rl.environments import make
-from botschool.rl.folder import RunFolder, find_runs, run_of
+from botschool.rl.folder import RunFolder, find_runs, run_of, runs_of
 from botschool.rl.settings import check_algorithm
+from botschool.rl.weights import WEIGHTS
 from botschool.terminal import has_display, readable
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 NEW_EPISODES_SEED = 200_000
 """Added to the seed: these episodes had no part in training, nor in choosing the best model."""
+
+OURS = ", or watch one that comes with botschool (`botschool rl list --ours`)"
 
 BATCH = 16
 """Episodes that are played side by side where none is shown."""
 
 
 class Player:
-    """Episodes of the agent in a model file, on new seeds."""
+    """Episodes of the agent in a model file, on new seeds; policy: its class of one's own."""
 
-    def __init__(self, model: Path, seed: int = 1, env: str | None = None) -> None:
+    def __init__(
+        self, model: Path, seed: int = 1, env: str | None = None, policy: str | None = None
+    ) -> None:
         self.settings = RunFolder(model.parent).settings()
         self.env = env or self.settings.env
-        self.agent = Agent.load(model, env)
+        self.agent = Agent.load(model, env, policy)
         self.seed = seed
         self.returns: list[float] = []
         self.lengths: list[int] = []
@@ -130,39 +140,55 @@ class Asked:
     """With `algo`: which training; 0 is the newest."""
     last: bool = False
     """The last model instead of the best one."""
+    policy: str | None = None
+    """The agent's policy, where it is a class of one's own (module:Class)."""
 
     def player(self, seed: int) -> Player:
         """Raises BotschoolError."""
         if self.algo is None:
-            return Player(model_of(self.run, self.folder, self.last), seed, self.env)
+            model = model_of(self.run, self.folder, self.last)
+            return Player(model, seed, self.env, self.policy)
         if self.env is None or self.run is not None:
             raise BotschoolError(
                 "--algo says which training together with --env, as --algo ppo --env CartPole-v1; "
                 "leave it out if you name the training's folder."
             )
+        return Player(self._trained(), seed, policy=self.policy)
+
+    def _trained(self) -> Path:
+        """The model of that algorithm on that environment: the user's own, else one of ours."""
         algo = check_algorithm(self.algo)
-        chosen = run_of(self.folder, algo, self.env, self.number)
+        ours = shipped.find(algo, self.env)
+        if ours is not None and not self.number and not runs_of(self.folder, algo, self.env):
+            print(
+                f"agent: the one that comes with botschool, as {self.folder} has none: {algo} on "
+                f"{self.env}, {ours.steps} steps ({ours.told})"
+            )
+            return ours.path
+        chosen = run_of(self.folder, algo, self.env, self.number, OURS)
         print(f"agent: {chosen.path}")
-        return Player(chosen.last if self.last else chosen.best, seed)
+        return chosen.last if self.last else chosen.best
 
 
 def model_of(run: Path | None, folder: Path, last: bool) -> Path:
-    """The model file that a user means: a zip file, or the best or last one of a folder.
+    """The model file that a user means: a file, or the best or last one of a folder.
 
     Without `run`, the training of `folder` that was started last. Raises BotschoolError.
     """
-    if run is not None and run.suffix == ".zip":
+    if run is not None and run.suffix in (".zip", ".npz"):
         return run
     if run is None:
         runs = find_runs(folder)
         if not runs:
             raise BotschoolError(
                 f"There are no trainings in {folder}: train an agent with `botschool rl train "
-                "--algo ppo --env CartPole-v1`, or name the folder of one."
+                f"--algo ppo --env CartPole-v1`, name the folder of one{OURS}."
             )
         chosen = max(runs, key=lambda run: run.config.stat().st_mtime)
         print(f"agent: {chosen.path}")
         return chosen.last if last else chosen.best
+    if (run / WEIGHTS).is_file():
+        return run / WEIGHTS
     return RunFolder(run).last if last else RunFolder(run).best
 
 
@@ -201,24 +227,45 @@ def video_command(
 
 def list_command(folder: Path) -> None:
     """`botschool rl list`: a table of the trainings in a folder."""
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
-
     runs = find_runs(folder)
     if not runs:
         raise BotschoolError(
             f"There are no trainings in {folder}: start one with `botschool rl train --algo ppo "
             "--env CartPole-v1`, or name another folder."
         )
-    table = Table(title=f"trainings in {folder}", box=box.SIMPLE, title_justify="left")
-    table.add_column("run", no_wrap=True)
-    for column in ("seed", "steps", "best", "last"):
-        table.add_column(column, justify="right", no_wrap=True)
+    table = _table(f"trainings in {folder}", "run", ("seed", "steps", "best", "last"))
     table.add_column("changed", overflow="fold")
     for run in runs:
         name = run.path.relative_to(folder) if run.path != folder else run.path
         table.add_row(str(name), *_row(run))
+    _show(table)
+
+
+def list_ours() -> None:
+    """`botschool rl list --ours`: a table of the trained agents that come with botschool."""
+    table = _table(
+        "trained agents that come with botschool", "agent", ("steps", "return", "sd", "episodes")
+    )
+    for each in shipped.agents():
+        row = (str(each.steps), f"{each.mean:.1f}", f"{each.deviation:.1f}", str(each.episodes))
+        table.add_row(f"--algo {each.algo} --env {each.env}", *row)
+    _show(table)
+
+
+def _table(title: str, first: str, numbers: Sequence[str]) -> Table:
+    from rich import box
+    from rich.table import Table
+
+    table = Table(title=title, box=box.SIMPLE, title_justify="left")
+    table.add_column(first, no_wrap=True)
+    for column in numbers:
+        table.add_column(column, justify="right", no_wrap=True)
+    return table
+
+
+def _show(table: Table) -> None:
+    from rich.console import Console
+
     Console(highlight=False, width=None if sys.stdout.isatty() else 120).print(table)
 
 

@@ -1,0 +1,178 @@
+"""The trained agents in data/agents: trained, measured in new episodes, told on a page.
+
+    python tests/bench/agents.py train [ENV ...]     into results/agents; what is there stays
+    python tests/bench/agents.py keep [ENV ...]      their weights into data/agents, measured
+    python tests/bench/agents.py page                data/agents/README.md from what was measured
+
+Without a name: all of PLAN that were trained.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import math
+import re
+import shlex
+import shutil
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+REPOSITORY = Path(__file__).parents[2]
+TRAINED = REPOSITORY / "results" / "agents"
+AGENTS = REPOSITORY / "data" / "agents"
+PAGE = AGENTS / "README.md"
+DONE = "done.json"
+"""In the folder of a training that has ended: the seconds that it took."""
+
+EPISODES = 100
+SOLVED = {
+    "CartPole-v1": "475", "Acrobot-v1": "-100", "MountainCarContinuous-v0": "90",
+    "InvertedPendulum-v5": "950", "InvertedDoublePendulum-v5": "9100", "Reacher-v5": "-3.75",
+    "Pendulum-v1": "-200 (*)", "BalanceBotBulletEnv-v0": "450 (*)",
+}  # fmt: skip
+"""Gymnasium's reward_threshold; (*): it has none, and the page says where the number is from."""
+
+SMALL = {"evaluations": 10, "episodes": 10}
+QUICK = {"n_steps": 256, "batch_size": 256, "learning_rate": "linear 0.001"}
+EIGHT = {"envs": 8} | SMALL
+PLAN = (
+    ("ppo", "CartPole-v1", {"steps": 50_000} | SMALL),
+    ("ppo", "InvertedPendulum-v5", {
+        "steps": 100_000, "params": QUICK, "envs": 8, "evaluations": 10, "episodes": 5}),
+    ("ppo", "BalanceBotBulletEnv-v0", {
+        "steps": 16_384, "envs": 1, "params": {"normalize": False, "n_steps": 512, "batch_size": 64,
+        "learning_rate": 0.001, "gamma": 0.98, "gae_lambda": 0.9}} | SMALL),
+    ("ppo", "MountainCarContinuous-v0", {"steps": 20_000} | SMALL),
+    ("ppo", "Acrobot-v1", {"steps": 100_000} | SMALL),
+    ("ppo", "Pendulum-v1", SMALL),
+    ("ppo", "InvertedDoublePendulum-v5", {
+        "steps": 300_000, "params": QUICK | {"gamma": 0.98, "gae_lambda": 0.9}} | EIGHT),
+    ("ppo", "Reacher-v5", {
+        "steps": 300_000, "params": QUICK | {"gamma": 0.95, "gae_lambda": 0.9}} | EIGHT),
+)  # fmt: skip
+"""Algorithm, environment, and what the training has in place of the defaults."""
+
+
+def train(only: list[str]) -> None:
+    """Trains what was not trained yet."""
+    from botschool.rl.training import train
+
+    for algo, env, options in chosen(only):
+        if newest(algo, env) is not None:
+            continue
+        before = time.process_time()
+        run = train(algo, env, TRAINED, **options)
+        seconds = round(time.process_time() - before)
+        (run.path / DONE).write_text(json.dumps({"seconds": seconds}))
+        curve = " ".join(f"{each:.1f}" for each in run.evaluations().returns.mean(axis=1))
+        print(f"{run.path}: {seconds} s, {curve}", flush=True)
+
+
+def chosen(only: list[str]) -> list[tuple[str, str, dict]]:
+    """The rows of the plan on these environments; on all of them if none is named."""
+    return [row for row in PLAN if not only or row[1] in only]
+
+
+def newest(algo: str, env: str):
+    """Its last training that has ended, None if there is none."""
+    from botschool.rl.folder import runs_of
+
+    ended = {n: run for n, run in runs_of(TRAINED, algo, env).items() if (run.path / DONE).exists()}
+    return ended[max(ended)] if ended else None
+
+
+def keep(only: list[str]) -> None:
+    """Writes the weights and settings of the trainings, and measures them in new episodes."""
+    from botschool.rl import shipped
+    from botschool.rl.agent import save_weights
+    from botschool.rl.watch import Player
+
+    order = {(algo, env): i for i, (algo, env, _) in enumerate(PLAN)}
+    rows = {(each.algo, each.env): row_of(each) for each in shipped.agents()}
+    for algo, env, _ in chosen(only):
+        run = newest(algo, env)
+        if run is None:
+            continue
+        path = shipped.place(AGENTS, algo, env)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        save_weights(run.best, path)
+        shutil.copy(run.config, path.parent)
+        player = Player(path)
+        with contextlib.redirect_stdout(io.StringIO()):
+            player.play(EPISODES)
+        rows[algo, env] = {
+            "algo": algo,
+            "env": env,
+            "steps": run.settings().steps,
+            "mean": round(float(np.mean(player.returns)), 2),
+            "deviation": round(float(np.std(player.returns)), 2),
+            "episodes": EPISODES,
+            "command": command(run.settings()),
+            "seconds": json.loads((run.path / DONE).read_text())["seconds"],
+        }
+        print(rows[algo, env], flush=True)
+    kept = sorted(rows.values(), key=lambda row: order.get((row["algo"], row["env"]), len(order)))
+    (AGENTS / shipped.TABLE).write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
+
+
+def row_of(trained) -> dict:
+    """What the table holds of an agent."""
+    return {name: value for name, value in vars(trained).items() if name != "path"}
+
+
+def command(used) -> str:
+    """The command that trains with these settings."""
+    from botschool.rl.settings import defaults
+
+    words = ["botschool", "rl", "train", "--algo", used.algo, "--env", used.env]
+    usual = defaults(used.algo, used.env)
+    options = (
+        ("-n", used.steps, usual["steps"]),
+        ("--envs", used.envs, usual["envs"]),
+        ("-s", used.seed, 1),
+        ("--evaluations", used.evaluations, 20),
+        ("--episodes", used.episodes, 20),
+    )
+    for flag, value, default in options:
+        words += [flag, str(value)] if value != default else []
+    if used.given:
+        given = [f"{name}={spelled(value)}" for name, value in used.given.items()]
+        words += ["--params", *given]
+    return shlex.join(words)
+
+
+def spelled(value) -> str:
+    """A hyperparameter's value as the command reads it."""
+    return json.dumps(value).strip('"').replace(" ", "") if not isinstance(value, str) else value
+
+
+def filled(text: str, trained) -> str:
+    """The page with its table made from these agents."""
+    rows = [
+        "| problem | algorithm | steps | time | return | solved from | kB | command |",
+        "|---|---|---:|---:|---:|---:|---:|---|",
+    ]
+    for each in trained:
+        rows.append(
+            f"| {each.env} | {each.algo} | {each.steps:,} | {each.seconds} s | "
+            f"{each.mean:.1f} +- {each.deviation:.1f} | {SOLVED.get(each.env, '-')} | "
+            f"{math.ceil(each.path.stat().st_size / 1000)} | `{each.command}` |"
+        )
+    table = "\n".join(rows)
+    return re.sub(r"(<!-- agents -->\n).*?(<!-- end -->)", rf"\g<1>{table}\n\2", text, flags=re.S)
+
+
+def page(_: list[str]) -> None:
+    """Writes the table of the page."""
+    from botschool.rl import shipped
+
+    PAGE.write_text(filled(PAGE.read_text(encoding="utf-8"), shipped.agents()), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    {"train": train, "keep": keep, "page": page}[sys.argv[1]](sys.argv[2:])
