@@ -14,10 +14,11 @@ import botschool.envs.native
 from botschool import _core, arena, config, problems
 from botschool.config import PolicyConfig
 from botschool.evolution.run import Run, evolve
-from botschool.plan import REWARDS, WORDS, Cylinder, Light, Plan, Robot, Wall, Zone
+from botschool.plan import Cylinder, Light, Plan, Robot, Wall, Zone
 from botschool.policy import Policy
 from botschool.problems.native import NativeProblem
 from botschool.render.scenes import make_scene, scene_of
+from botschool.section import REWARDS, WORDS
 from reference_arena import KHEPERA, MARXBOT, World
 from reference_sensors import Declared
 from running import run_seeds, same, write_experiment

@@ -12,6 +12,7 @@ LAYERS = (
     {"_core", "paths", "terminal", "seeds", "inifile", "output", "sandbox"},
     {"samples", "robots", "hyperparameters", "wrappers", "linear"},
     {"things"},
+    {"section"},
     {"plan"},
     {"net"},
     {"policy", "arena"},

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from botschool import arena, config, problems
 from botschool.errors import BotschoolError
-from botschool.plan import REWARDS, WORDS, ArenaConfig, Cylinder, Light, Plan, Robot, Wall, Zone
+from botschool.plan import Cylinder, Light, Plan, Robot, Wall, Zone
+from botschool.section import REWARDS, WORDS, ArenaConfig
 from running import write_experiment
 from strategies import REPEATABLE
 from test_arena import refused

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
 from dataclasses import MISSING, Field, asdict, dataclass, field, fields, replace
 from os import PathLike
 from pathlib import Path
@@ -20,10 +19,11 @@ from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.algorithms.coevo2 import Coevo2Config
 from botschool.evolution.algorithms.openaies import OpenAIESConfig
 from botschool.evolution.algorithms.sss import SSSConfig
-from botschool.hyperparameters import CONVOLUTIONAL, NO_YES, PolicyConfig, hyper, numbers
+from botschool.hyperparameters import NO_YES, PolicyConfig, conflicts, hyper
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
-from botschool.plan import PROBLEM, WORDS, ArenaConfig, Plan, PlanError
+from botschool.plan import PROBLEM, Plan, PlanError
 from botschool.robots import MODELS, find
+from botschool.section import WORDS, ArenaConfig
 from botschool.things import KINDS
 from botschool.wrappers import keywords, parse
 
@@ -99,7 +99,7 @@ class Experiment:
     algo: Any
     """The hyperparameters of `exp.algo`, in the dataclass that its file declares."""
     arena: Any = None
-    """What the section [ARENA] declares (botschool.plan.ArenaConfig), None without one."""
+    """What the section [ARENA] declares (botschool.section.ArenaConfig), None without one."""
     path: Path | None = field(default=None, compare=False)
 
     @property
@@ -194,7 +194,7 @@ def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]
     arena = _arena(exp, sections.get(ARENA), path)
     experiment = Experiment(exp, policy, algo, arena, Path(path))
     lines = {key: entry.line for entries in sections.values() for key, entry in entries.items()}
-    for keys, sentence in conflicts(experiment):
+    for keys, sentence in (*conflicts(policy), *ALGORITHMS[exp.algo].conflicts(algo)):
         raise refusal(path, max(lines.get(key.lower(), 0) for key in keys), sentence)
     return experiment
 
@@ -349,55 +349,3 @@ def _unknown(key: str, section: str, cls: type) -> str:
             f"{chosen}: remove the line, or set algo = {owners[0]} in section [EXP]"
         )
     return f"{key} is no hyperparameter: {nearest(key, (f.name for f in fields(cls)))}"
-
-
-def conflicts(experiment: Experiment) -> Iterator[tuple[tuple[str, ...], str]]:
-    """Hyperparameters that cannot go together: their names and a sentence with the remedy."""
-    p = experiment.policy
-    if p.nhiddens2 and p.nlayers != 2:
-        yield (
-            ("nhiddens2",),
-            f"nhiddens2 = {p.nhiddens2} needs nlayers = 2, but nlayers is {p.nlayers}: "
-            "set nlayers = 2 or nhiddens2 = 0",
-        )
-    if p.nhiddens2 and p.nhiddens2 >= 2 * p.nhiddens:
-        yield (
-            ("nhiddens2",),
-            f"nhiddens2 = {p.nhiddens2} leaves no neuron to the first layer: "
-            f"it must be below 2 x nhiddens = {2 * p.nhiddens}",
-        )
-    if p.architecture in (1, 2, 3) and p.nhiddens and p.nlayers != 1:
-        yield (
-            ("architecture",),
-            f"architecture = {p.architecture} is recurrent and has one hidden layer, "
-            f"but nlayers is {p.nlayers}: set nlayers = 1 or architecture = 0",
-        )
-    yield from _of_convolutions(p)
-    yield from ALGORITHMS[experiment.exp.algo].conflicts(experiment.algo)
-
-
-def _of_convolutions(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
-    lists = ("filters", "kernels", "strides")
-    if p.architecture != CONVOLUTIONAL:
-        for f in fields(p):
-            if f.name in lists and getattr(p, f.name) != f.default:
-                yield (
-                    (f.name,),
-                    f"{f.name} = {getattr(p, f.name)} needs architecture = {CONVOLUTIONAL} "
-                    f"(convolutional), but architecture is {p.architecture}: set it, or remove "
-                    "the line",
-                )
-        return
-    if len({len(numbers(getattr(p, name))) for name in lists}) > 1:
-        said = [f"{name} = {getattr(p, name)}" for name in lists]
-        yield (
-            lists,
-            f"{said[0]}; {said[1]}; {said[2]}: give as many numbers in each, one for every "
-            "convolutional layer",
-        )
-    if p.normalize:
-        yield (
-            ("architecture", "normalize"),
-            "normalize = 1 does not go with architecture = 4 (convolutional), whose pixels are "
-            "divided by 255: set normalize = 0",
-        )

@@ -8,7 +8,8 @@ algorithm stand in its file (botschool.evolution.algorithms).
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field, make_dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields, make_dataclass
 from typing import Any
 
 from botschool import _core
@@ -99,3 +100,54 @@ PolicyConfig = make_dataclass(
     namespace={"__module__": __name__},
 )
 PolicyConfig.__doc__ = """Section [POLICY]: the network and how its robot is evaluated."""
+
+
+def conflicts(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Hyperparameters of the policy that cannot go together: their names and a sentence with the
+    remedy."""
+    if p.nhiddens2 and p.nlayers != 2:
+        yield (
+            ("nhiddens2",),
+            f"nhiddens2 = {p.nhiddens2} needs nlayers = 2, but nlayers is {p.nlayers}: "
+            "set nlayers = 2 or nhiddens2 = 0",
+        )
+    if p.nhiddens2 and p.nhiddens2 >= 2 * p.nhiddens:
+        yield (
+            ("nhiddens2",),
+            f"nhiddens2 = {p.nhiddens2} leaves no neuron to the first layer: "
+            f"it must be below 2 x nhiddens = {2 * p.nhiddens}",
+        )
+    if p.architecture in (1, 2, 3) and p.nhiddens and p.nlayers != 1:
+        yield (
+            ("architecture",),
+            f"architecture = {p.architecture} is recurrent and has one hidden layer, "
+            f"but nlayers is {p.nlayers}: set nlayers = 1 or architecture = 0",
+        )
+    yield from _of_convolutions(p)
+
+
+def _of_convolutions(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
+    lists = ("filters", "kernels", "strides")
+    if p.architecture != CONVOLUTIONAL:
+        for f in fields(p):
+            if f.name in lists and getattr(p, f.name) != f.default:
+                yield (
+                    (f.name,),
+                    f"{f.name} = {getattr(p, f.name)} needs architecture = {CONVOLUTIONAL} "
+                    f"(convolutional), but architecture is {p.architecture}: set it, or remove "
+                    "the line",
+                )
+        return
+    if len({len(numbers(getattr(p, name))) for name in lists}) > 1:
+        said = [f"{name} = {getattr(p, name)}" for name in lists]
+        yield (
+            lists,
+            f"{said[0]}; {said[1]}; {said[2]}: give as many numbers in each, one for every "
+            "convolutional layer",
+        )
+    if p.normalize:
+        yield (
+            ("architecture", "normalize"),
+            "normalize = 1 does not go with architecture = 4 (convolutional), whose pixels are "
+            "divided by 255: set normalize = 0",
+        )
