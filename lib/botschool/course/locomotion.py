@@ -61,7 +61,8 @@ class Runner:
 
     def evolve(self, steps: int, seed: int) -> np.ndarray:
         """OpenAI-ES until so many steps are done; the best post-evaluated genotype."""
-        from botschool.evolution.run import Limit, Run
+        from botschool.evolution.limit import Limit
+        from botschool.evolution.run import Run
 
         experiment = Experiment(Exp(self.environment), self.policy.config, OpenAIESConfig(**ALGO))
         run = Run(experiment, seed)
