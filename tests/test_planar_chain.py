@@ -191,6 +191,16 @@ def test_a_stick_rests_on_the_ground_and_slides_from_its_friction_angle_on():
         assert gain / 0.5 == pytest.approx(down if slides else 0, abs=0.05)
 
 
+@pytest.mark.parametrize("depth", [0.0002, 0.0008, 0.003])
+@pytest.mark.parametrize("speed", [-0.05, 0.02, 1.0])
+def test_contacts_are_those_of_the_planar_runners(depth, speed):
+    lying = Moving(STRAIGHT, height=0.1 - depth)
+    lying.v[1] = speed
+    lying.advance(1e-9, 1)
+    push = 30000 * depth - 600 * min(depth / 0.001, 1) * speed
+    assert lying.load == pytest.approx(max(push, 0), rel=1e-4)
+
+
 def test_a_fall_loses_energy():
     for p in BODIES:
         falling = Moving(p)
