@@ -13,7 +13,7 @@ from botschool import config, problems, wrappers
 from botschool.errors import BotschoolError
 from botschool.policy import Policy
 from botschool.problems import Episodes, making
-from botschool.problems.spaces import Flattener, fitted, interface
+from botschool.problems.spaces import Flattener, Unsupported, fitted, interface
 from running import TESTS, experiment, run_seeds, same, write_experiment
 
 
@@ -63,6 +63,12 @@ def test_what_the_space_does_not_contain(wrong):
     flattener = Flattener(spaces.Dict(x=spaces.Box(-1, 1, (2,)), n=spaces.Discrete(3)), "any")
     with pytest.raises((TypeError, ValueError, LookupError)):
         flattener(wrong)
+
+
+def test_pictures_too_large_for_a_flat_network_are_refused():
+    assert Flattener(spaces.Box(0, 255, (100, 100, 3), np.uint8), "any").size == 30_000
+    with pytest.raises(Unsupported, match=r"30603 values.*at most 30000: .*ResizeObservation"):
+        Flattener(spaces.Box(0, 255, (101, 101, 3), np.uint8), "any")
 
 
 def test_what_is_left_out_is_said_once(tmp_path, capsys):

@@ -414,7 +414,13 @@ def test_checkpoints_of_networks_that_were_computed_otherwise(refused, tmp_path)
     whole = dict(np.load(path))
     header = json.loads(str(whole["botschool"]))
     header["experiment"]["policy"]["out_type"] = 2
-    np.savez(path, **whole | {"botschool": np.array(json.dumps(header))})
-    write(tmp_path)
-    says = ["checkpointS3.npz", "evaluates robots differently", "--force"]
-    refused(*arguments(tmp_path, "--resume"), says=says)
+    fitness = whole["algorithm.fitness"].copy()
+    fitness[0, -1] = np.nextafter(fitness[0, -1], 2)  # the last bit of one meeting
+    for changed, out_type in (
+        ({"botschool": np.array(json.dumps(header))}, 2),
+        ({"algorithm.fitness": fitness}, 3),
+    ):
+        np.savez(path, **whole | changed)
+        write(tmp_path, policy={"out_type": out_type})
+        says = ["checkpointS3.npz", "evaluates robots differently", "--force"]
+        refused(*arguments(tmp_path, "--resume"), says=says)

@@ -68,14 +68,17 @@ def test_recorded_episodes_add_up(body):
     assert set(np.unique(one["feet"])) == {0.0, 1.0} and (changes >= 4).all()
 
 
-def test_a_foot_is_down_while_the_ground_pushes_it():
-    runner = Runner("PlanarHopper-v5")
-    genotype = np.load(ROOT / "data" / "genotypes" / "planarhopper.npy")
+@pytest.mark.parametrize("name", ["PlanarHopper", "PlanarWalker2D", "PlanarHalfCheetah"])
+def test_a_foot_is_down_while_the_ground_pushes_it(name):
+    runner = Runner(f"{name}-v5")
+    genotype = np.load(ROOT / "data" / "genotypes" / f"{name.lower()}.npy")
     scene = runner._scene()
+    ((_, feet),) = scene.charted
     shown = [
-        scene.numbers(step.state)[scene.charted[0][1][0]] for step in runner.play(genotype, 3, 200)
+        [scene.numbers(step.state)[foot] for foot in feet] for step in runner.play(genotype, 3, 200)
     ]
-    np.testing.assert_array_equal(runner.record(genotype, 3, 200)["feet"][:, 0], shown)
+    np.testing.assert_array_equal(runner.record(genotype, 3, 200)["feet"], shown)
+    assert len(feet) == 1 or any(left != right for left, right in shown)
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
@@ -107,6 +110,9 @@ def test_a_picture_of_gaits_shows_every_robot(tmp_path):
     one = runner.record(genotype, 1, 300)
     row = runner.strip(genotype, 1, 200, 5)
     assert row.shape[1] % 5 == 0 and row.std() > 10
+    fallen = np.append(np.zeros(runner.size - 11), np.ones(11))  # after 124 steps
+    short = runner.strip(fallen, 1, pictures=8)
+    assert short.shape[1] == 8 * row.shape[1] // 5 and (short[:, -100:] == 255).all()
     file = tmp_path / "gaits.png"
     income = {"progress": 800.0, "alive": 300.0, "effort": -2.0}
     locomotion.draw_gaits(file, {"a": [one, one]}, {"a": income}, {"a": one}, {"a": row})

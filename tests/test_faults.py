@@ -29,6 +29,8 @@ from running import contents, experiment, finished_run, same, write_experiment
         ("es -f", ["-f", "argument"]),
         ("es own.ini", ["own.ini"]),
         ("evolve", ["evolve", "botschool --help"]),
+        ("rl trian", ["'trian'; did you mean 'train'? See ", "botschool rl --help."]),
+        ("es --stepz 3", ["; did you mean ", "'--steps'? See ", "botschool es --help."]),
         ("es -f own.ini --resume --force", ["--resume", "--force"]),
         ("es -f own.ini -p --render cinema", ["cinema", "human", "none"]),
     ],

@@ -172,6 +172,16 @@ def test_one_parameter_and_fitness_that_says_nothing(name):
     assert np.isfinite(one.mean).all()
 
 
+@each
+def test_sigma_stays_within_its_limits(name):
+    """On a slope it would grow for ever."""
+    one = made(name)
+    one.sigma = 0.0 * one.sigma + 1e6
+    for _ in range(40):
+        one.tell(one.ask()[0][:, 0])
+        assert np.max(one.sigma) <= 1e6
+
+
 # whole runs
 
 POLICY = {"normalize": 1, "episodes": 2, "pepisodes": 3}

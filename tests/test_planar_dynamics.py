@@ -237,6 +237,18 @@ def test_momentum_is_kept_in_flight(name):
         assert np.abs(flying.momentum() - start - fallen).max() < 5e-4 * np.abs(start).max()
 
 
+@pytest.mark.parametrize("depth", [0.0002, 0.0008, 0.003])
+@pytest.mark.parametrize("speed", [-0.05, 0.02, 1.0])
+def test_a_contact_is_a_spring_with_a_damper_that_is_whole_from_a_millimetre_on(depth, speed):
+    """It never pulls."""
+    box = Moving("box", height=0.05 - depth)
+    box.v[1] = speed
+    box.advance(1e-9, 1)
+    push = 30000 * depth - 600 * min(depth / 0.001, 1) * speed
+    assert box.load[:2] == pytest.approx(max(push, 0), rel=1e-5)
+    assert not box.load[2:].any()
+
+
 def test_a_box_rests():
     box = Moving("box", height=0.06)
     box.advance(0.001, 2000)

@@ -41,6 +41,7 @@ def test_the_start_and_some_others_are_tried(tmp_path):
     assert len(tried) == len(said) == 3
     assert tried[0][0] == {} and said[0].endswith("(the start)")
     assert tried[1][0].keys() == {"n_steps", "learning_rate", "net_arch"}
+    assert tried[1][0] != tried[2][0]
     best = max(tried, key=lambda each: each[1])[0]
     assert (yaml.safe_load(plan.best.read_text()) or {}) == best
     assert len(list((plan.path / "trials" / "a2c").iterdir())) == 3
@@ -56,6 +57,9 @@ def test_it_goes_on_as_if_it_had_not_been_stopped(tmp_path):
     tuning._study(parts, 2).ask()  # as a process that was killed leaves it
     assert tune(parts)
     assert results(parts) == results(whole)
+    ended = optuna.trial.TrialState
+    left = tuning._study(parts, 4).get_trials()
+    assert {trial.state for trial in left} == {ended.COMPLETE, ended.FAIL}
     assert parts.best.read_text() == whole.best.read_text()
 
 
@@ -65,6 +69,22 @@ def test_trials_without_hope_are_broken_off(tmp_path, monkeypatch):
     assert tune(plan, said.append)
     assert "broken off" not in said[0] and ", broken off" in said[1]
     assert yaml.safe_load(plan.best.read_text()) == {}  # the start is the best
+
+
+def test_a_training_that_breaks_down_is_no_good(tmp_path, monkeypatch):
+    learn, calls = tuning.learn, itertools.count()
+
+    def breaking(*arguments, **options):
+        if next(calls) == 1:
+            raise BotschoolError("The training broke down after 8 steps.")
+        return learn(*arguments, **options)
+
+    monkeypatch.setattr(tuning, "learn", breaking)
+    plan, said = plan_of(tmp_path, 3), []
+    assert tune(plan, said.append)
+    assert ", broken off" in said[1] and ", broken off" not in said[0] + said[2]
+    best = max((results(plan)[i] for i in (0, 2)), key=lambda each: each[1])[0]
+    assert (yaml.safe_load(plan.best.read_text()) or {}) == best
 
 
 def test_the_command_and_what_it_writes(tmp_path, command):

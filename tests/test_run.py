@@ -270,14 +270,15 @@ def test_event_files_of_long_runs_are_thinned(tmp_path):
 
 @pytest.mark.parametrize("environment", ["Pendulum-v1", "MountainCar-v0"])
 def test_post_evaluations_may_have_longer_episodes(environment, tmp_path):
-    """pmaxsteps; here no episode ends by itself. With workers it is the same."""
+    """pmaxsteps; here no episode ends by itself. With workers, and resumed, it is the same."""
     policy = {"maxsteps": 20, "pmaxsteps": 50}
     own = experiment(tmp_path, environment, policy=policy, maxmsteps=0.001)
     assert run_seeds(own, tmp_path / "one")
     generation = 6 * 2 * 20 + 3 * 50
     steps = np.load(tmp_path / "one" / "statS1.npy").reshape(-1, len(STAT))[:, 0]
     assert steps.tolist() == [generation, 2 * generation, 3 * generation]
-    assert run_seeds(own, tmp_path / "two", workers=2)
+    assert run_seeds(own, tmp_path / "two", workers=2, steps=1)
+    assert run_seeds(own, tmp_path / "two", workers=2, resume=True)
     assert same(tmp_path / "one", tmp_path / "two")
     saved = np.load(tmp_path / "one" / "bestgS1.npy")
     shown = PostEvaluation(own, 1, saved)

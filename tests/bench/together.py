@@ -8,7 +8,8 @@ from report import Table, rate
 from speed import CASES, SEED, generations_in
 
 from botschool.config import Experiment
-from botschool.evolution.run import Limit, Run
+from botschool.evolution.limit import Limit
+from botschool.evolution.run import Run
 
 
 def together_or_apart(seconds: float, repetitions: int) -> Table:

@@ -7,6 +7,7 @@ where they are used.
 from __future__ import annotations
 
 import os
+import re
 import signal
 import sys
 from contextlib import suppress
@@ -76,9 +77,10 @@ def main() -> None:
     except BotschoolError as error:
         code = _refuse(str(error))
     except UsageError as error:
-        message = " ".join(error.format_message().split()).rstrip(".")
+        message = _once(" ".join(error.format_message().split()).rstrip("."))
         command = error.ctx.command_path.removeprefix("python -m ") if error.ctx else "botschool"
-        code = _refuse(f"{message}: see {command} --help.") if message else 2
+        see = " See" if message.endswith("?") else ": see"
+        code = _refuse(f"{message}{see} {command} --help.") if message else 2
     except MemoryError:
         code = _refuse(
             "There is not enough memory: lower samplesize, popsize, nhiddens or the number of "
@@ -98,6 +100,12 @@ def main() -> None:
     if code == 130:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # impatience is no error
     sys.exit(code)
+
+
+def _once(message: str) -> str:
+    """With one suggestion; Typer and Click each add theirs."""
+    suggestion = r"\.? \(?Did you mean(?: one of:)? ([^?]*)\?.*"
+    return re.sub(suggestion, r"; did you mean \1?", message)
 
 
 def _refuse(sentence: str) -> int:

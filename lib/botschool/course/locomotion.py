@@ -61,7 +61,8 @@ class Runner:
 
     def evolve(self, steps: int, seed: int) -> np.ndarray:
         """OpenAI-ES until so many steps are done; the best post-evaluated genotype."""
-        from botschool.evolution.run import Limit, Run
+        from botschool.evolution.limit import Limit
+        from botschool.evolution.run import Run
 
         experiment = Experiment(Exp(self.environment), self.policy.config, OpenAIESConfig(**ALGO))
         run = Run(experiment, seed)
@@ -126,7 +127,10 @@ class Runner:
     def strip(
         self, genotype: np.ndarray, seed: int, steps: int = 320, pictures: int = 8
     ) -> np.ndarray:
-        """Pictures of an episode's first steps side by side, equally far apart in time."""
+        """Pictures of an episode's first steps side by side, equally far apart in time.
+
+        After the end of an episode they are white.
+        """
         scene, found = self._scene(), []
         wanted = set(np.linspace(1, steps, pictures).astype(int).tolist())
         for step in self.play(genotype, seed, steps):
@@ -134,7 +138,8 @@ class Runner:
                 frame = scene.draw_transition(step)
                 margin = (frame.shape[1] - round(0.6 * frame.shape[0])) // 2
                 found.append(frame[:, margin : frame.shape[1] - margin])
-        return np.hstack(found)
+        white = np.full_like(found[0], 255)
+        return np.hstack(found + [white] * (pictures - len(found)))
 
     def _scene(self):
         from botschool.render.canvas import draw_offscreen

@@ -16,8 +16,9 @@ import numpy as np
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithm import ALGORITHMS, Competition
 from botschool.evolution.algorithms.sides import PREDATORS, PREY, SIDES, means, seen_by
+from botschool.evolution.limit import Limit
 from botschool.evolution.record import STAT, Record, RunFiles
-from botschool.evolution.run import Limit, Run
+from botschool.evolution.run import Run
 from botschool.output import save_npy
 from botschool.problems import Episodes
 

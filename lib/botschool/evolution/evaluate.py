@@ -149,7 +149,7 @@ class Evaluator:
 
         It takes part in nothing: no data are collected, and its steps do not count.
         """
-        episodes, maxsteps = self._post_episodes, self.policy.config.maxsteps
+        episodes, maxsteps = self._post_episodes, self.policy.config.post_steps
         outcome = self.problem.evaluate(
             self.policy, genotype[None], normalisation, episodes, maxsteps, self._workers
         )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from botschool.output import save_bytes, save_npy
+from botschool.errors import BotschoolError
+from botschool.output import cannot_write, remove_leftovers, save_bytes, save_npy
 
 STAT = (
     "steps",
@@ -76,6 +78,41 @@ class RunFiles:
     def existing(self) -> list[Path]:
         """Those that exist."""
         return [path for file in self.all() for path in sorted(self.folder.glob(file.name))]
+
+
+def claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:
+    """Makes the folder ready for runs with these seeds.
+
+    Results that exist are kept when resuming, removed with `force`, and an error otherwise.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        _claim(folder, seeds, resume, force)
+    except OSError as error:
+        raise cannot_write(folder, error.strerror or str(error)) from error
+
+
+def _claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:
+    for seed in seeds:
+        files = RunFiles(folder, seed)
+        existing = files.existing()
+        if not existing or (resume and files.checkpoint.exists()):
+            continue
+        if resume:
+            raise BotschoolError(
+                f"{existing[0]} exists but {files.checkpoint} does not, so the run cannot be "
+                "resumed: use another seed (-s) or folder (-o), or --force to start anew."
+            )
+        if not force:
+            raise BotschoolError(
+                f"{existing[0]} exists: use --resume to continue that run, another seed (-s) or "
+                "folder (-o) to keep it, or --force to overwrite it."
+            )
+    for files in [RunFiles(folder, seed) for seed in seeds]:
+        for path in files.all():
+            remove_leftovers(path)
+        for path in files.existing() if force else []:
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
 
 
 class Record:

@@ -8,8 +8,8 @@ from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.progress import print_lines, reporting
-from botschool.evolution.record import RunFiles
-from botschool.evolution.run import Run, claim, evolve
+from botschool.evolution.record import RunFiles, claim
+from botschool.evolution.run import Run, evolve
 from botschool.terminal import stoppable
 
 

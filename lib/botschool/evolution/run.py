@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shutil
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -20,8 +19,9 @@ from botschool.evolution import checkpoint
 from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.evaluate import Evaluator, Measured, mean
 from botschool.evolution.events import Events
+from botschool.evolution.limit import Limit
 from botschool.evolution.record import Record, RunFiles
-from botschool.output import cannot_write, remove_leftovers, save_npy
+from botschool.output import save_npy
 from botschool.problems import Interrupted
 from botschool.terminal import readable
 
@@ -42,31 +42,6 @@ class Open:
     parameter: float
     before: dict[str, dict[str, np.ndarray]]
     """State of the algorithm and the evaluator before the generation, by name."""
-
-
-@dataclass(frozen=True)
-class Limit:
-    """When a run ends: after so many steps or generations, whichever comes first."""
-
-    steps: float = math.inf
-    generations: float = math.inf
-
-    def and_also(self, steps: int | None, generations: int | None) -> Limit:
-        """The same, or earlier; None does not limit."""
-        return Limit(
-            min(self.steps, math.inf if steps is None else steps),
-            min(self.generations, math.inf if generations is None else generations),
-        )
-
-    def reached(self, run: Run) -> bool:
-        """Whether the run is at its end."""
-        record = run.record
-        return record.steps >= self.steps or record.generation >= self.generations
-
-    def share(self, run: Run) -> float:
-        """How much is done, from 0 to 1."""
-        generations = run.record.generation + run.progress
-        return min(1.0, max(run.record.steps / self.steps, generations / self.generations))
 
 
 class Run:
@@ -383,38 +358,3 @@ def keeping(files: RunFiles, every: int, report: Callable[[Run], None]) -> Calla
         report(run)
 
     return kept
-
-
-def claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:
-    """Makes the folder ready for runs with these seeds.
-
-    Results that exist are kept when resuming, removed with `force`, and an error otherwise.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        _claim(folder, seeds, resume, force)
-    except OSError as error:
-        raise cannot_write(folder, error.strerror or str(error)) from error
-
-
-def _claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:
-    for seed in seeds:
-        files = RunFiles(folder, seed)
-        existing = files.existing()
-        if not existing or (resume and files.checkpoint.exists()):
-            continue
-        if resume:
-            raise BotschoolError(
-                f"{existing[0]} exists but {files.checkpoint} does not, so the run cannot be "
-                "resumed: use another seed (-s) or folder (-o), or --force to start anew."
-            )
-        if not force:
-            raise BotschoolError(
-                f"{existing[0]} exists: use --resume to continue that run, another seed (-s) or "
-                "folder (-o) to keep it, or --force to overwrite it."
-            )
-    for files in [RunFiles(folder, seed) for seed in seeds]:
-        for path in files.all():
-            remove_leftovers(path)
-        for path in files.existing() if force else []:
-            shutil.rmtree(path) if path.is_dir() else path.unlink()

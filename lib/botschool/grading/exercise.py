@@ -115,8 +115,9 @@ class Exercise:
         """Raises BotschoolError that says what to install if a package is not installed."""
         missing = missing_packages(self.extras)
         if missing:
+            listed = " and ".join(filter(None, [", ".join(missing[:-1]), missing[-1]]))
             raise BotschoolError(
-                f"Exercise {self.number} needs {' and '.join(missing)}: install what it needs with "
+                f"Exercise {self.number} needs {listed}: install what it needs with "
                 f"'make test-ex{self.number}' or 'pip install botschool[{','.join(self.extras)}]'."
             )
 
@@ -186,5 +187,5 @@ def submission_file(number: int, submission: str | None, root: Path | None = Non
             return place / exercise.file
     raise BotschoolError(
         f"There is no {exercise.file} in {' or '.join(map(str, places))}: "
-        "name the folder with SUBMISSION=FOLDER."
+        "name another folder with --submission FOLDER, or SUBMISSION=FOLDER for make."
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from shlex import quote
 
 from rich.console import Console
 from rich.markup import escape
@@ -71,7 +72,7 @@ class Screen:
             return
         if not missing:
             own = "exercises" in self._file.parts
-            run = f"botschool show {result.exercise}" if own else f"python {self._file}"
+            run = f"botschool show {result.exercise}" if own else f"python {quote(str(self._file))}"
             self.console.print(
                 f"[green]All done![/] See what you have made: {escape(run)}", soft_wrap=True
             )
@@ -79,7 +80,8 @@ class Screen:
         task = missing[0]
         self.console.print(
             f"Next: task {task.id}. After a change: botschool grade {task.id}   "
-            f"A hint: botschool hint {task.id}"
+            f"A hint: botschool hint {task.id}",
+            soft_wrap=True,
         )
 
     def _indented(self, lines: list[str], longest: int, style: str) -> None:

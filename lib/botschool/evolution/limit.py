@@ -1,0 +1,42 @@
+"""When a run ends."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+from botschool.evolution.record import Record
+
+
+class Advancing(Protocol):
+    """What a limit asks of a run."""
+
+    record: Record
+    progress: float
+    """How much of the present generation is done, from 0 to 1."""
+
+
+@dataclass(frozen=True)
+class Limit:
+    """When a run ends: after so many steps or generations, whichever comes first."""
+
+    steps: float = math.inf
+    generations: float = math.inf
+
+    def and_also(self, steps: int | None, generations: int | None) -> Limit:
+        """The same, or earlier; None does not limit."""
+        return Limit(
+            min(self.steps, math.inf if steps is None else steps),
+            min(self.generations, math.inf if generations is None else generations),
+        )
+
+    def reached(self, run: Advancing) -> bool:
+        """Whether the run is at its end."""
+        record = run.record
+        return record.steps >= self.steps or record.generation >= self.generations
+
+    def share(self, run: Advancing) -> float:
+        """How much is done, from 0 to 1."""
+        generations = run.record.generation + run.progress
+        return min(1.0, max(run.record.steps / self.steps, generations / self.generations))

@@ -1,0 +1,227 @@
+"""How PlanarBodyBrain's chain moves: docs/specification.md, "PlanarBodyBrain"."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from botschool import _core
+from botschool.envs.morphology import MORPHOLOGY_SIZE, decode
+
+G = 10.0
+BODIES = 0.6 * np.random.default_rng(1).normal(size=(3, MORPHOLOGY_SIZE))
+STRAIGHT = np.zeros(MORPHOLOGY_SIZE)
+LIMITS = slice(22, 42)
+RODS = 11
+
+
+def turned(vector, angle):
+    (x, z), c, s = vector, math.cos(angle), math.sin(angle)
+    return np.array([x * c - z * s, x * s + z * c])
+
+
+def start_angles(parameters):
+    """Of the torso, and of each rod against the one before, within the limits."""
+    body = decode(parameters)
+    return body.angles + np.append(0.0, np.clip(0.0, *body.limits.T))
+
+
+def test_parameters_mean_what_they_mean_to_box2ds_chain():
+    for p in (STRAIGHT, *BODIES, 1e6 * np.ones(64), -1e6 * np.ones(64)):
+        body, table = decode(p), _core.PlanarBody(p).table
+        masses = body.densities * body.lengths * body.thicknesses
+        inertias = masses * (body.lengths**2 + body.thicknesses**2) / 12
+        expected = np.stack([masses, body.lengths / 2, np.zeros(RODS), inertias], axis=1)
+        assert table["masses"] == pytest.approx(expected, rel=1e-9, abs=1e-12)
+        for i, rod in enumerate(table["segments"]):
+            ((x, z, angle, half, radius),) = rod["capsules"]
+            assert (x, z, angle) == (half, 0, 0) and rod["parent"] == i - 1
+            assert 2 * half == pytest.approx(body.lengths[i])
+            assert 2 * radius == pytest.approx(body.thicknesses[i])
+            if i:
+                assert rod["x"] == pytest.approx(body.lengths[i - 1])
+                wanted = body.angles[i] + body.limits[i - 1]
+                assert rod["range"] == pytest.approx(wanted, abs=1e-12)
+        ends = [(c[0], c[1], c[3]) for c in table["contacts"]]
+        wanted = [(c // 2, c % 2 * body.lengths[c // 2]) for c in range(2 * RODS)]
+        assert np.array(ends)[:, :2] == pytest.approx(np.array(wanted))
+        assert np.array(ends)[:, 2] == pytest.approx(np.repeat(body.thicknesses, 2) / 2)
+
+
+def mjcf(table):
+    """The same chain for MuJoCo, without contacts, limits and motors."""
+
+    def body(i):
+        rod = table["segments"][i]
+        mass, x, z, inertia = table["masses"][i].tolist()
+        text = f'<body pos="{rod["x"]!r} 0 0">'
+        if i == 0:
+            text += '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'
+        text += f'<joint type="hinge" axis="0 -1 0" limited="false" damping="{rod["damping"]!r}" '
+        text += f'armature="{rod["armature"]!r}"/>'
+        text += f'<inertial pos="{x!r} 0 {z!r}" mass="{mass!r}" '
+        text += f'diaginertia="{inertia!r} {inertia!r} {inertia!r}"/>'
+        if i + 1 < RODS:
+            text += body(i + 1)
+        return text + "</body>"
+
+    return f"""<mujoco><option gravity="0 0 -{G}"><flag contact="disable"/></option>
+    <worldbody>{body(0)}</worldbody></mujoco>"""
+
+
+def motor_torques(action, rates):
+    """5 rad/s in the direction of the action, with at most 90 N m times its size."""
+    strength, gap = 90 * np.minimum(np.abs(action), 1), 5 * np.sign(action) - rates
+    return strength * gap / np.maximum(np.abs(gap), 0.5)
+
+
+@pytest.mark.parametrize("number", range(10))
+def test_accelerations_and_mass_matrix_are_those_of_mujoco(number):
+    """At 1,000 random states of each of ten bodies, with motors and dampers, without contacts."""
+    mujoco = pytest.importorskip("mujoco")
+    rng = np.random.default_rng(number)
+    p = rng.normal(0, 1, MORPHOLOGY_SIZE)
+    p[LIMITS] = np.tile([-1.0, 1.0], 10)
+    chain = _core.PlanarBody(p)
+    rest = np.array([np.mean(rod["range"]) for rod in chain.table["segments"][1:]])
+    model = mujoco.MjModel.from_xml_string(mjcf(chain.table))
+    data = mujoco.MjData(model)
+    form = np.eye(chain.size)  # (x, z, absolute angles) = form (x, z, angle, hinge angles)
+    form[2:, 2:] = np.tri(RODS)
+    for _ in range(1000):
+        q, v = rng.uniform(-1, 1, chain.size), rng.normal(0, 4, chain.size)
+        q[2] *= math.pi
+        q[3:] = rest + q[3:] * math.pi / 2 * 0.999
+        action = rng.uniform(-1.2, 1.2, RODS - 1)
+        data.qpos, data.qvel = q, v
+        data.qfrc_applied[3:] = motor_torques(action, v[3:])
+        mujoco.mj_forward(model, data)
+        theirs = np.zeros((model.nv, model.nv))
+        mujoco.mj_fullM(model, theirs, data.qM)
+        ours = form.T @ chain.mass_matrix(form @ q) @ form
+        assert np.abs(ours - theirs).max() <= 1e-9 * np.abs(theirs).max()
+        acceleration = np.linalg.solve(form, chain.accelerations(form @ q, form @ v, action, G))
+        assert np.abs(acceleration - data.qacc).max() <= 1e-9 * np.abs(data.qacc).max()
+
+
+class Moving:
+    """A chain that is simulated, with its state at hand."""
+
+    def __init__(self, parameters, height=5.0, single=False):
+        self.body, self.single = _core.PlanarBody(parameters), single
+        self.masses, self.lengths = self.body.table["masses"], decode(parameters).lengths
+        self.q, self.v = np.zeros((2, self.body.size))
+        self.q[1] = height
+        self.q[2:] = np.cumsum(start_angles(parameters))
+        self.load = np.zeros(2 * RODS)
+
+    def advance(self, h, steps, action=None, **around):
+        action = np.zeros(RODS - 1) if action is None else action
+        state = np.concatenate([self.q, self.v])
+        options = {"gravity": G, "single": self.single} | around
+        state, self.load = self.body.advance(state, action, h, steps, **options)
+        self.q, self.v = state.reshape(2, -1)
+
+    def along(self):
+        """From the rear to the front end of each rod."""
+        return np.array([turned((length, 0), a) for length, a in zip(self.lengths, self.q[2:])])  # noqa: B905
+
+    def lift(self, gap):
+        """So that the lowest ball is `gap` above the ground."""
+        self.q[1] = 0
+        radii = np.array([contact[3] for contact in self.body.table["contacts"]])
+        rears = np.concatenate([[0.0], np.cumsum(self.along()[:, 1])])
+        self.q[1] = gap - (np.stack([rears[:-1], rears[1:]], axis=1).ravel() - radii).min()
+
+    def centres(self):
+        along = self.along()
+        return self.q[:2] + np.cumsum(along, axis=0) - along / 2
+
+    def energy(self):
+        kinetic = self.v @ self.body.mass_matrix(self.q) @ self.v / 2
+        return kinetic + G * self.masses[:, 0] @ self.centres()[:, 1]
+
+    def momentum(self):
+        """Along x and z, and the angular momentum about the centre of mass."""
+        generalised = self.body.mass_matrix(self.q) @ self.v
+        arm = self.masses[:, 0] @ self.centres() / self.masses[:, 0].sum() - self.q[:2]
+        turning = generalised[2:].sum() - (arm[0] * generalised[1] - arm[1] * generalised[0])
+        return np.array([*generalised[:2], turning])
+
+
+def test_momentum_is_kept_in_flight():
+    """While motors and limits work, but for an error of second order in the substep."""
+    for p in BODIES:
+        errors = []
+        for h in (0.001, 0.00025):
+            flying = Moving(p, height=100.0)
+            rng = np.random.default_rng(3)
+            flying.v[:] = rng.normal(0, 1, flying.body.size)
+            flying.advance(h, round(0.02 / h))
+            start, worst = flying.momentum(), 0.0
+            weight = flying.masses[:, 0].sum() * G
+            for k in range(1, 51):
+                flying.advance(h, round(0.02 / h), rng.uniform(-0.3, 0.3, RODS - 1))
+                fallen = np.array([0, -weight * 0.02 * k, 0])
+                lost = np.abs(flying.momentum() - start - fallen).max()
+                worst = max(worst, lost / np.abs(start).max())
+            errors.append(worst)
+        assert errors[0] < 0.05 and errors[1] < 0.005 and errors[0] > 6 * errors[1]
+
+
+def test_a_stick_rests_on_the_ground_and_slides_from_its_friction_angle_on():
+    lying = Moving(STRAIGHT, height=0.11)
+    lying.advance(0.001, 2000)
+    there = lying.q.copy()
+    assert np.abs(lying.v).max() < 1e-3
+    lying.advance(0.001, 2000)
+    assert lying.q == pytest.approx(there, abs=1e-4)
+    assert lying.load.sum() == pytest.approx(lying.masses[:, 0].sum() * G, rel=1e-3)
+    for share, slides in ((0.9, False), (1.1, True)):  # friction is 2.5
+        angle = math.atan(2.5 * share)
+        lying = Moving(STRAIGHT, height=0.1 / math.cos(angle))
+        lying.q[2:] = angle
+        lying.advance(0.001, 500, slope=2.5 * share)
+        before = lying.v[:2].copy()
+        lying.advance(0.001, 500, slope=2.5 * share)
+        gain = np.hypot(*lying.v[:2]) - np.hypot(*before)
+        down = G * (math.sin(angle) - 2.5 * math.cos(angle))
+        assert gain / 0.5 == pytest.approx(down if slides else 0, abs=0.05)
+
+
+@pytest.mark.parametrize("depth", [0.0002, 0.0008, 0.003])
+@pytest.mark.parametrize("speed", [-0.05, 0.02, 1.0])
+def test_contacts_are_those_of_the_planar_runners(depth, speed):
+    lying = Moving(STRAIGHT, height=0.1 - depth)
+    lying.v[1] = speed
+    lying.advance(1e-9, 1)
+    push = 30000 * depth - 600 * min(depth / 0.001, 1) * speed
+    assert lying.load == pytest.approx(max(push, 0), rel=1e-4)
+
+
+def test_a_fall_loses_energy():
+    for p in BODIES:
+        falling = Moving(p)
+        falling.lift(3.0)
+        start = falling.energy()
+        for _ in range(300):
+            falling.advance(0.001, 10)
+            assert falling.energy() < start * 1.02
+        assert falling.energy() < 0.5 * start
+
+
+def test_half_the_substep_stays_near():
+    """Positions of twelve bodies after 0.4 s of work on the ground, against an eighth of it."""
+    errors = []
+    for p in 0.6 * np.random.default_rng(5).normal(size=(12, MORPHOLOGY_SIZE)):
+        ends = []
+        for part in (1, 2, 8):
+            body = Moving(p)
+            body.lift(0.1)
+            body.advance(0.001 / part, 400 * part, np.full(RODS - 1, 0.05))
+            ends.append(body.q)
+        errors.append([np.abs(end - ends[2]).max() for end in ends[:2]])
+    whole, half = np.median(errors, axis=0)
+    assert half < whole < 0.02 and np.max(errors) < 0.2
