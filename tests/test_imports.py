@@ -17,6 +17,7 @@ LAYERS = (
     {"evolution.algorithm"},
     {"evolution.algorithms"},
     {"config"},
+    {"cluster"},
     {"evolution"},
     {"render"},
     {"envs"},

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from botschool.analysis.populations import (
 )
 from botschool.analysis.tournament import Contest, Table, master_tournament, play, summarised
 from botschool.analysis.tournament_plot import check_files, draw, save_csv
+from botschool.cluster import Open
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.inifile import shown
@@ -156,10 +158,12 @@ def tournament(
     workers: int,
     picture: Path | None,
     window: bool,
+    cluster: Open | None = None,
 ) -> None:
     """The command `botschool tournament`: tables, the verdict, the picture and its CSV file.
 
-    seed: None is the only one in the folder. wanted: generations, else `every` so many, else at
+    seed: None is the only one in the folder. cluster: whose workers evaluate, instead of `workers`
+    cores. wanted: generations, else `every` so many, else at
     most GENERATIONS of them. window: where no picture is asked for, show it on the screen.
     """
     files = None if picture is None else check_files(picture)
@@ -171,7 +175,10 @@ def tournament(
         raise BotschoolError(f"A tournament needs two generations: {populations.there()}.")
     chosen = select(populations, generations, best)
     print(_taking_part(chosen))
-    tables = _tournament(contest, chosen)
+    with ExitStack() as stack:
+        if cluster:
+            contest.problem = stack.enter_context(cluster(print)).problem(experiment)
+        tables = _tournament(contest, chosen)
     report.print_tournament(tables, [population.name for population in chosen])
     if files:
         save_csv(files[1], tables, generations)

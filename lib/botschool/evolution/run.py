@@ -23,7 +23,7 @@ from botschool.evolution.events import Events
 from botschool.evolution.record import Record, RunFiles
 from botschool.output import cannot_write, remove_leftovers, save_npy
 from botschool.policy import Policy
-from botschool.problems import Interrupted
+from botschool.problems import Interrupted, Problem
 from botschool.terminal import readable
 
 EVENT_SECONDS = 10
@@ -101,12 +101,14 @@ class Run:
         seed: int,
         workers: int = 1,
         stopping: Callable[[], bool] = lambda: False,
+        problem: Problem | None = None,
     ) -> None:
+        """problem: the experiment's, if others than this machine's cores evaluate."""
         self.experiment = experiment
         self.seed = seed
         self.workers = workers
         self.stopping = stopping
-        self.problem = problems.of(experiment)
+        self.problem = problem or problems.of(experiment)
         self.check()
         self.policy = Policy(self.problem.name, self.problem.interface, experiment.policy)
         self.report: Callable[[Run], None] = lambda run: None
@@ -196,7 +198,7 @@ class Run:
             self._close(post)
 
         best = int(measured.fitness.argmax())
-        saved = self.policy.join(candidates[best], self.evaluator.normalisation)
+        saved = self.policy.join(np.asarray(candidates[best]), self.evaluator.normalisation)
         waits = goes_on and self._may_wait(measured.steps)
         before = {}
         if waits:

@@ -108,6 +108,14 @@ class Problem(ABC):
         drawn from the state (botschool.render.scene).
         """
 
+    def rows(self, *parts: np.ndarray) -> np.ndarray:
+        """Genotypes for `evaluate`, one part after another."""
+        return np.concatenate(parts)
+
+    def status(self) -> str:
+        """What a progress bar is to say of those who evaluate; often nothing."""
+        return ""
+
     def steps(self, maxsteps: int) -> int:
         """Longest episode under an experiment's `maxsteps`."""
         return maxsteps if self.limit is None else min(maxsteps, self.limit)

@@ -21,7 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from botschool.evolution.algorithm import Initial, Play, algorithm
-from botschool.evolution.algorithms.openaies import climb, mirrored
+from botschool.evolution.algorithms.drawing import draw
+from botschool.evolution.algorithms.openaies import climb
 from botschool.evolution.algorithms.sides import (
     PREDATORS,
     PREY,
@@ -174,12 +175,11 @@ class Coevo2:
 
         Each is a centre of its own, whose offspring all meet all opponents.
         """
-        count, size = centres.shape
-        samples = numbers.standard_normal((count, self.config.samplesize, size))
-        offspring = mirrored(centres, samples, self.config.noiseStdDev)
-        met = _play(play, self.side, offspring.reshape(-1, size), opponents)
-        fitness = means(seen_by(self.side, met)).reshape(count, -1)
-        return climb(centres, m, v, samples, fitness, self.config)
+        config = self.config
+        samples, offspring = draw(numbers, centres, config.samplesize, config.noiseStdDev)
+        met = _play(play, self.side, offspring, opponents)
+        fitness = means(seen_by(self.side, met)).reshape(len(centres), -1)
+        return climb(centres, m, v, samples, fitness, config)
 
     def _sort(self) -> None:
         """Puts the best of both populations first."""
