@@ -1,4 +1,4 @@
-"""Evaluation on many machines: Dask's scheduler and workers (docs/specification.md, "On a cluster").
+"""Evaluation on many machines by Dask (docs/specification.md, "On a cluster").
 
 `Open(TEXT)` opens a Cluster, whose `problem(experiment)` evaluates on its workers. Dask is
 imported only then.

@@ -58,8 +58,9 @@ class Connection:
         self._asked = 0.0
         self._answered = time.monotonic()
         self._told = False
-        for name in LOGGERS:  # what goes wrong is said in sentences
-            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+        for name in list(logging.root.manager.loggerDict):  # what goes wrong is said in sentences
+            if name.partition(".")[0] in LOGGERS:
+                logging.getLogger(name).setLevel(logging.CRITICAL + 1)
         warnings.filterwarnings("ignore", module="distributed")
         if place.local:
             self._start(place.local)
@@ -122,6 +123,12 @@ class Connection:
 
     def _connect(self, first: bool = False) -> None:
         """A new client; raises BotschoolError if there is none at first."""
+        address = self.address if first else ""
+        if address.startswith("tls:") and not _has_certificates():
+            raise BotschoolError(
+                f"{address} needs certificates: name them in Dask's settings, distributed.comm.tls "
+                "(ca-file, client.cert and client.key)."
+            )
         try:
             with unheard():
                 address = self.address
@@ -137,14 +144,10 @@ class Connection:
         except Exception as error:
             if not first:
                 return
-            tls = address.startswith("tls:")
+            trusted = " and the certificates of both sides" if address.startswith("tls:") else ""
             raise BotschoolError(
-                f"No scheduler answers at {address} ({_said(error)}): "
-                + (
-                    "check the address, and Dask's settings distributed.comm.tls (certificates)."
-                    if tls
-                    else "start one with 'dask scheduler', or check the address."
-                )
+                f"No scheduler answers at {address} ({_said(error)}): start one with 'dask "
+                f"scheduler', or check the address{trusted}."
             ) from None
         self._asked = 0.0
 
@@ -226,6 +229,17 @@ class Connection:
         if self._cluster is not None:
             with suppress(Exception):
                 self._cluster.close(timeout=5)
+
+
+def _has_certificates() -> bool:
+    """Whether Dask's settings name those that a client needs."""
+    try:
+        return distributed.Security().get_connection_args("client").get("ssl_context") is not None
+    except Exception as error:
+        raise BotschoolError(
+            f"The certificates in Dask's settings distributed.comm.tls cannot be used "
+            f"({_said(error)})."
+        ) from None
 
 
 async def _ask(client) -> dict[str, int]:
