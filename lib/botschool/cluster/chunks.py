@@ -11,11 +11,11 @@ from botschool.cluster import wire
 from botschool.evolution.algorithms.drawing import Drawn
 from botschool.problems import Episodes, Outcome
 
-SHARE = 0.6
+SHARE = 0.65
 """Of what is left, a worker gets this part of its share: chunks get smaller towards the end."""
 LEAST = 0.05
 """Seconds that a chunk takes at least, as far as is known."""
-FINEST = 0.04
+FINEST = 0.05
 """Smallest chunk, as a part of a worker's share of the batch."""
 FIRST = 0.1
 """Part of its share that a worker gets before its speed is known."""
@@ -168,8 +168,11 @@ class Pace:
             setattr(self, name, 0.5 * (before + now) if before else now)
 
 
-def size(batch: Batch, pace: Pace, paces: list[Pace], native: bool) -> int:
-    """Episodes for a worker's next chunk; paces: of all workers, its own among them."""
+def size(batch: Batch, pace: Pace, paces: list[Pace], native: bool, least: float = LEAST) -> int:
+    """Episodes for a worker's next chunk.
+
+    paces: of all workers, its own among them. least: seconds that a chunk should take.
+    """
     known = all(p.episodes for p in paces)
     own, total = (
         (pace.episodes, sum(p.episodes for p in paces))
@@ -179,6 +182,6 @@ def size(batch: Batch, pace: Pace, paces: list[Pace], native: bool) -> int:
     share = own / total
     count = batch.untaken() * share * (SHARE if pace.episodes else FIRST)
     if pace.episodes:
-        count = max(count, FINEST * share * len(batch.episodes), LEAST * pace.episodes)
+        count = max(count, FINEST * share * len(batch.episodes), least * pace.episodes)
     lanes = LANES * pace.threads if native else 1
     return max(1, round(count / lanes)) * lanes if count >= lanes / 2 else max(1, round(count))

@@ -18,7 +18,7 @@ from botschool.problems import Interrupted
 
 DEPTH = 2
 """Chunks that a worker has at a time, so that it need not wait for the next one."""
-TICK = 0.1
+TICK = 0.2
 """Seconds between looks at who is there and who is late."""
 LATE = 3.0
 """A chunk is late after so many times the time that it should take ..."""
@@ -80,14 +80,16 @@ class Crew:
         setup: bytes,
         bits: bytes | None,
         native: bool,
+        least: float,
         patience: float,
         say: Callable[[str], None],
         watch: Bottleneck,
     ) -> None:
-        """setup: the experiment as a table; bits: what each must compute, None if unknown."""
+        """setup: the experiment as a table; bits: what each must compute, None if unknown;
+        least: seconds that a chunk should take."""
         self._connection = connection
         self._setup, self._name = setup, wire.digest(setup)
-        self._bits, self._native = bits, native
+        self._bits, self._native, self._least = bits, native, least
         self._patience, self._say, self._watch = patience, say, watch
         self.workers: dict[str, Worker] = {}
         self._tasks: dict[int, Task | Worker] = {}
@@ -219,7 +221,8 @@ class Crew:
             for worker in self.ready:
                 if batch.waiting and len(worker.tasks) <= room and not worker.behind:
                     paces = [other.pace for other in self.ready]
-                    chunk = batch.take(size(batch, worker.pace, paces, self._native))
+                    count = size(batch, worker.pace, paces, self._native, self._least)
+                    chunk = batch.take(count)
                     self._assign(worker, batch, chunk, batch.message(chunk))
 
     def _assign(self, worker: Worker, batch: Batch, chunk: slice, message) -> Task:
@@ -268,7 +271,7 @@ class Crew:
 
     def _hear(self, batch: Batch) -> None:
         """Takes the answers that come within a moment."""
-        heard = self._connection.answer(TICK / 2)
+        heard = self._connection.answer(TICK)
         while heard:
             self._take(*heard)
             heard = self._connection.answer(0)

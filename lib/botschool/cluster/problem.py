@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 
+import dask
 import numpy as np
 
 from botschool import problems
@@ -37,9 +38,7 @@ class Distributed(Problem):
         connection: Connection,
         patience: float,
         say: Callable[[str], None],
-        shortest: float = LEAST,
     ) -> None:
-        """shortest: seconds of a batch from which it goes to the workers."""
         self._inner = inner = problems.of(experiment)
         self.name, self.dynamics, self.interface = inner.name, inner.dynamics, inner.interface
         self.limit, self.fps, self.native = inner.limit, inner.fps, inner.native
@@ -47,14 +46,17 @@ class Distributed(Problem):
         same = bits(inner, policy)
         if not self.native and same != bits(inner, policy):
             same = None  # never the same twice: there is nothing to compare
-        self._shortest = shortest
+        self._shortest = float(dask.config.get("botschool.shortest", LEAST))
+        """Seconds of a batch from which it goes to the workers, and of the shortest chunk."""
         self._stopped = False
         self._seconds: float | None = None
         """Of an episode, on one core."""
         self.watch = Bottleneck()
         self._connection = connection
         setup = wire.pack(to_dict(experiment))
-        self._crew = Crew(connection, setup, same, self.native, patience, say, self.watch)
+        self._crew = Crew(
+            connection, setup, same, self.native, self._shortest, patience, say, self.watch
+        )
 
     def rows(self, *parts: np.ndarray) -> tuple[np.ndarray, ...]:
         """As they are: each part has its own way over the wire."""
