@@ -27,6 +27,10 @@ class Bottleneck:
         self._last = self.busy
         self._idle = {}
 
+    def nobody(self) -> None:
+        """There are no workers: until now, this batch has taken no time of theirs."""
+        self._began = time.monotonic()
+
     def evaluated(self, seconds: float) -> None:
         """A worker has computed for so long."""
         self.busy += seconds

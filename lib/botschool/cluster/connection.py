@@ -6,12 +6,14 @@ import asyncio
 import concurrent.futures
 import itertools
 import logging
+import os
 import queue
 import time
 import uuid
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
+from multiprocessing import resource_tracker
 
 from botschool.cluster.address import Place
 from botschool.errors import BotschoolError
@@ -112,6 +114,7 @@ class Connection:
 
     def _start(self, workers: int) -> None:
         """A scheduler and workers of our own; only this machine reaches them."""
+        _track_processes()
         try:
             with unheard():  # Ctrl-C is the main process's affair
                 self._cluster = distributed.LocalCluster(
@@ -237,6 +240,18 @@ class Connection:
         if self._cluster is not None:
             with suppress(Exception):
                 self._cluster.close(timeout=5)
+
+
+def _track_processes() -> None:
+    """Starts what tidies up after worker processes: it would let their signals through again, and
+    complain when this process is ended at once."""
+    if os.name == "posix":
+        before = os.environ.get("PYTHONWARNINGS")
+        os.environ["PYTHONWARNINGS"] = "ignore"
+        resource_tracker.ensure_running()
+        os.environ.pop("PYTHONWARNINGS")
+        if before is not None:
+            os.environ["PYTHONWARNINGS"] = before
 
 
 def _has_certificates() -> bool:

@@ -155,6 +155,7 @@ class Crew:
 
     def _alone(self) -> None:
         """Nobody can be given anything: waits for a while."""
+        self._watch.nobody()
         place, left_out = self._connection.place, [w.left_out for w in self.workers.values()]
         if left_out and all(left_out):
             raise BotschoolError(

@@ -11,6 +11,7 @@ import threading
 import time
 from collections import OrderedDict
 from collections.abc import Callable
+from multiprocessing.util import Finalize
 from typing import Any
 
 import numpy as np
@@ -93,9 +94,8 @@ def _evaluate(request: dict) -> dict:
     normalisation = None if normalisation is None else _tables[normalisation]
     candidate, collect = request["candidate"], request["collect"]
     episodes = Episodes(candidate, request["seed"], request["episode"], collect)
-    threads = _threads() if problem.native or not _daemon() else 1
     outcome = problem.evaluate(
-        policy, genotypes, normalisation, episodes, request["maxsteps"], threads
+        policy, genotypes, normalisation, episodes, request["maxsteps"], _threads()
     )
     return {
         "fitness": outcome.fitness,
@@ -120,6 +120,8 @@ def _experiment(name: bytes) -> tuple[Problem, Policy]:
     if name not in _made:
         experiment = config.from_dict(_tables[name])
         problem = problems.of(experiment)
+        if not problem.native:
+            _may_have_children(problem)
         _made[name] = problem, Policy(problem.name, problem.interface, experiment.policy)
     return _made[name]
 
@@ -131,6 +133,8 @@ def _threads() -> int:
     return get_worker().state.nthreads
 
 
-def _daemon() -> bool:
-    """Whether this process may not have children: episodes in Python then take turns."""
-    return bool(multiprocessing.current_process().daemon)
+def _may_have_children(problem: Problem) -> None:
+    """Episodes in Python have a process for each thread; Dask starts workers as daemons, which may
+    have none. The problem's end with their parent: they watch it, and it ends them."""
+    multiprocessing.current_process()._config["daemon"] = False
+    Finalize(None, problem.close, exitpriority=10)
