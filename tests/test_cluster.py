@@ -10,6 +10,7 @@ import pytest
 
 from botschool.cluster.address import is_this_machine, place
 from botschool.errors import BotschoolError
+from botschool.evolution.algorithms.ascent import Ascent, Start
 from botschool.evolution.algorithms.drawing import draw
 from botschool.problems import Episodes
 from botschool.seeds import generator
@@ -17,7 +18,8 @@ from running import call, environment_of_command, finish, same, start, write_exp
 
 pytest.importorskip("distributed")
 
-from botschool.cluster import chunks, wire
+from botschool.cluster import chunks, wire, worker
+from botschool.cluster.shelf import Shelf
 
 EVERYTHING = {"DASK_BOTSCHOOL__SHORTEST": "0"}
 """Even the shortest batches go to the workers."""
@@ -99,11 +101,41 @@ def test_any_candidates_are_drawn_again_to_the_bit(both):
     centres = generator(7, 4).standard_normal((2, 9))
     deviation = 0.02 if both else np.linspace(0.1, 1, 9)
     samples, candidates = draw(numbers, centres, 100, deviation, both)
-    again = wire.table(wire.cloud_packed(candidates.cloud))
+    again = wire.table(wire.packed(candidates.cloud))
     assert samples.shape == (2, 100, 9) and len(again) == len(candidates) == (400 if both else 200)
     for rows in ([150, 151, 199], [3], range(len(candidates)), [0, 140, len(candidates) - 1]):
         assert (again.rows(np.array(rows)) == candidates[list(rows)]).all()
     assert candidates[:5].cloud is None and (candidates + 1).cloud is None
+
+
+def test_an_ascent_is_followed_by_what_it_was_told(monkeypatch):
+    monkeypatch.setattr(worker, "_tables", {})
+    numbers = generator(7, 3)
+    centres, m = numbers.standard_normal((2, 3, 9))
+    stream = numbers.bit_generator.state
+    ascent = Ascent(Start(centres, m, np.abs(m), stream, 4, 0.02, 0.01, 1))
+    episodes = Episodes(np.array([[0, 20], [24, 24]], dtype=np.int32), *np.zeros((2, 2), dtype=int))
+    rows = {}
+    for step in range(4):
+        offspring = ascent.offspring()
+        batch = chunks.Batch([offspring, centres], None, episodes, 10)
+        request, tables = batch.message(slice(0, 2))
+        assert len(tables) == 1 + step + 1  # where it began, each fitness, and who is met
+        worker._tables.update({name: wire.table(data) for name, data in tables.items()})
+        rows[step] = request["parts"][0], offspring[[0, 20]]
+        ascent.climb(numbers.standard_normal((3, 8)))
+    for step in (1, 3, 0, 2):  # forward, and from the beginning again
+        part, ours = rows[step]
+        assert (worker._rows(wire.unpack(wire.pack(part))) == ours).all()
+
+
+def test_tables_that_were_used_last_are_kept():
+    shelf = Shelf(10)
+    for name in b"abc":
+        shelf.put(name, 3)
+    shelf.use([97])
+    shelf.put(100, 3)
+    assert shelf.trim() == [98] and 98 not in shelf and 97 in shelf
 
 
 def test_what_goes_over_the_wire_comes_back_and_code_does_not():

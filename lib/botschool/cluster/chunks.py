@@ -32,9 +32,11 @@ class Batch:
         normalisation: np.ndarray | None,
         episodes: Episodes,
         maxsteps: int,
+        single: bool = False,
     ) -> None:
-        """parts: genotypes, one array after another."""
-        self.parts = [_Part(part) for part in parts]
+        """parts: genotypes, one array after another; single: single precision is as good."""
+        met = episodes.candidate.ndim == 2
+        self.parts = [_Part(part, met, single) for part in parts]
         self.episodes = episodes
         self.maxsteps = maxsteps
         self.normalisation = None if normalisation is None else wire.pack(normalisation)
@@ -127,27 +129,44 @@ class Batch:
 class _Part:
     """Genotypes of a batch, and how they go over the wire."""
 
-    def __init__(self, genotypes: np.ndarray) -> None:
+    def __init__(self, genotypes: np.ndarray, met: bool, single: bool) -> None:
+        """met: whether each meets many; single: whether single precision is all that counts."""
         self._genotypes = genotypes
-        self._table: tuple[bytes, bytes] | None = None
+        self._met, self._type = met, np.float32 if single else np.float64
         self._cloud = genotypes.cloud if isinstance(genotypes, Drawn) else None
+        self._rows: dict[int, tuple[bytes, bytes]] = {}
+        self._drawn: tuple[list[bytes], dict[bytes, bytes]] | None = None
+
+    def __len__(self) -> int:
+        return len(self._genotypes)
 
     def rows(self, numbers: np.ndarray) -> tuple[dict, dict[bytes, bytes]]:
         """Some of them, sorted: for a request, and the tables that this refers to.
 
-        What is drawn is sent as the cloud, and rows that everyone needs as a table, once to each
-        worker; others as they are.
+        What is drawn is drawn again; who meets many is a table, sent once to each worker and kept
+        there; all others are sent as they are.
         """
-        if self._cloud is None and len(numbers) < len(self._genotypes):
-            return {"sent": self._genotypes[numbers]}, {}
-        if self._table is None:
-            cloud = self._cloud
-            data = wire.pack(self._genotypes) if cloud is None else wire.cloud_packed(cloud)
-            self._table = wire.digest(data), data
-        name, data = self._table
-        every = len(numbers) == len(self._genotypes)
-        rows = None if every else numbers.astype(np.int32)
-        return {"table": name, "rows": rows}, {name: data}
+        if self._cloud is not None:
+            (name, *told), tables = self._drawn = self._drawn or self._recipe()
+            told = told if self._cloud.origin else None
+            return {"table": name, "told": told, "rows": numbers.astype(np.int32)}, tables
+        if not self._met:
+            return {"sent": self._genotypes[numbers].astype(self._type)}, {}
+        for number in set(numbers.tolist()) - self._rows.keys():
+            data = wire.pack(self._genotypes[number].astype(self._type))
+            self._rows[number] = wire.digest(data), data
+        chosen = [self._rows[number] for number in numbers.tolist()]
+        return {"each": [name for name, _ in chosen]}, dict(chosen)
+
+    def _recipe(self) -> tuple[list[bytes], dict[bytes, bytes]]:
+        """Names of the tables by which the cloud is drawn again, in their order; and the tables."""
+        if self._cloud.origin is None:
+            tables = [wire.packed(self._cloud)]
+        else:
+            start, told = self._cloud.origin
+            tables = [wire.packed(start), *map(wire.pack, told)]
+        names = [wire.digest(data) for data in tables]
+        return names, dict(zip(names, tables, strict=True))
 
 
 @dataclass

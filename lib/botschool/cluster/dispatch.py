@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -13,6 +12,7 @@ from botschool.cluster import worker as remote
 from botschool.cluster.bottleneck import Bottleneck
 from botschool.cluster.chunks import Batch, Pace, size
 from botschool.cluster.connection import Connection
+from botschool.cluster.shelf import Shelf
 from botschool.errors import BotschoolError
 from botschool.problems import Interrupted
 
@@ -59,7 +59,7 @@ class Worker:
     left_out: str = ""
     """Why it gets nothing to do, if so."""
     tasks: dict[int, Task] = field(default_factory=dict)
-    holds: OrderedDict[bytes, None] = field(default_factory=OrderedDict)
+    holds: Shelf = field(default_factory=lambda: Shelf(remote.SPACE // 2))
     """Tables that it has, probably."""
     failures: int = 0
     greeting: int | None = None
@@ -240,11 +240,10 @@ class Crew:
         worker, (request, tables) = task.worker, task.message
         tables = {self._name: self._setup, **tables}
         lacking = {name: data for name, data in tables.items() if name not in worker.holds}
-        for name in tables:
-            worker.holds[name] = None
-            worker.holds.move_to_end(name)
-        while len(worker.holds) > remote.TABLES // 2:
-            worker.holds.popitem(last=False)
+        for name, data in lacking.items():
+            worker.holds.put(name, len(data))
+        worker.holds.use(tables)
+        worker.holds.trim()
         message = wire.pack(
             {**request, "experiment": self._name, "needs": list(tables), "tables": lacking}
         )
@@ -292,7 +291,7 @@ class Crew:
             self._met(worker, content)
         elif "lacks" in content:
             for name in content["lacks"]:
-                worker.holds.pop(name, None)
+                worker.holds.drop(name)
             self._submit(task)
         elif "sentence" in content:
             if task.batch.left and not task.batch.done(task.chunk):
@@ -324,7 +323,7 @@ class Crew:
         else:
             worker.ready = True
             worker.pace.threads = answer["threads"]
-            worker.holds[self._name] = None
+            worker.holds.put(self._name, len(self._setup))
             return
         self._say(f"Worker {worker.address} is left out: {worker.left_out}")
 

@@ -48,6 +48,8 @@ class Distributed(Problem):
             same = None  # never the same twice: there is nothing to compare
         self._shortest = float(dask.config.get("botschool.shortest", LEAST))
         """Seconds of a batch from which it goes to the workers, and of the shortest chunk."""
+        self._single = inner.native and not inner.interface.morphology
+        """Whether evaluation rounds genotypes to single precision anyway."""
         self._stopped = False
         self._seconds: float | None = None
         """Of an episode, on one core."""
@@ -76,7 +78,7 @@ class Distributed(Problem):
         parts = list(genotypes) if isinstance(genotypes, tuple) else [genotypes]
         if self._short(len(episodes)):
             return self._here(policy, parts, normalisation, episodes, maxsteps, stopping)
-        batch = Batch(parts, normalisation, episodes, maxsteps)
+        batch = Batch(parts, normalisation, episodes, maxsteps, self._single)
         before = self.watch.busy
         try:
             self._crew.evaluate(batch, stopping)

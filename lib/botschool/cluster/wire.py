@@ -10,11 +10,13 @@ from typing import Any
 import msgpack
 import numpy as np
 
+from botschool.evolution.algorithms.ascent import Start
 from botschool.evolution.algorithms.drawing import Cloud
 
 ARRAY, PACKED = 1, 2
 TYPES = {"<f8", "<f4", "<i4", "<i8", "<u4", "<u8", "|u1"}
 STREAM = ("counter", "key")
+WORDS = ("buffer_pos", "has_uint32", "uinteger")
 WORTH = 64
 """Bytes from which whole numbers are compressed: seeds and places are regular."""
 
@@ -54,36 +56,32 @@ def digest(data: bytes) -> bytes:
     return blake2b(data, digest_size=12).digest()
 
 
-def cloud_packed(cloud: Cloud) -> bytes:
-    """A cloud as a table: see `table`."""
-    stream = cloud.stream
-    words = [stream["buffer_pos"], stream["has_uint32"], stream["uinteger"]]
+def packed(value: Cloud | Start) -> bytes:
+    """What candidates are drawn from, as a table: see `table`."""
+    stream = value.stream
+    names = ("centres", "m", "v") if isinstance(value, Start) else ("centres", "both")
+    rules = ("samplesize", "deviation", *(("stepsize", "wdecay") if "m" in names else ()))
     return pack(
         {
-            "centres": cloud.centres,
-            "samplesize": cloud.samplesize,
-            "deviation": cloud.deviation,
-            "both": cloud.both,
+            "kind": type(value).__name__,
+            "fields": {name: getattr(value, name) for name in (*names, *rules)},
             "stream": {name: stream["state"][name] for name in STREAM},
             "buffer": stream["buffer"],
-            "words": words,
+            "words": [stream[name] for name in WORDS],
         }
     )
 
 
 def table(data: bytes) -> Any:
-    """What a table holds: an array, a Cloud, or an experiment as a dict."""
+    """What a table holds: an array, a Cloud, a Start, or an experiment as a dict."""
     value = unpack(data)
-    if not (isinstance(value, dict) and "centres" in value):
+    kind = {"Cloud": Cloud, "Start": Start}.get(value.get("kind") if isinstance(value, dict) else 0)
+    if kind is None:
         return value
-    position, has, rest = value["words"]
     stream = {
         "bit_generator": "Philox",
         "state": {name: np.array(value["stream"][name]) for name in STREAM},
         "buffer": np.array(value["buffer"]),
-        "buffer_pos": position,
-        "has_uint32": has,
-        "uinteger": rest,
+        **dict(zip(WORDS, value["words"], strict=True)),
     }
-    deviation = value["deviation"]
-    return Cloud(value["centres"], value["samplesize"], deviation, value["both"], stream)
+    return kind(**value["fields"], stream=stream)

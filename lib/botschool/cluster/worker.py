@@ -9,7 +9,6 @@ from __future__ import annotations
 import multiprocessing
 import threading
 import time
-from collections import OrderedDict
 from collections.abc import Callable
 from multiprocessing.util import Finalize
 from typing import Any
@@ -18,19 +17,25 @@ import numpy as np
 
 from botschool import __version__, config, problems
 from botschool.cluster import wire
+from botschool.cluster.shelf import Shelf
 from botschool.errors import BotschoolError
+from botschool.evolution.algorithms.ascent import Ascent
+from botschool.evolution.algorithms.drawing import Cloud
 from botschool.policy import Policy
 from botschool.problems import Episodes, Problem
 from botschool.seeds import generator
 
-TABLES = 32
-"""Tables that a worker keeps, the newest."""
+SPACE = 256_000_000
+"""Bytes of tables that a worker keeps."""
 PROBE = 987_654_321
 PROBED = 20
 """Steps of each episode of a probe."""
 
 _one_at_a_time = threading.Lock()  # each evaluation uses all threads of the worker
-_tables: OrderedDict[bytes, Any] = OrderedDict()
+_tables: dict[bytes, Any] = {}
+_shelf = Shelf(SPACE)
+_ascents: dict[bytes, tuple[tuple[bytes, ...], Ascent, Cloud]] = {}
+"""Of the newest start: the names of what it was told, and where that has led."""
 _made: dict[bytes, tuple[Problem, Policy]] = {}
 
 
@@ -51,14 +56,14 @@ def _answer(message: bytes, function: Callable[[dict], dict]) -> bytes:
             request = wire.unpack(message)
             for name, data in request["tables"].items():
                 _tables[name] = wire.table(data)
+                _shelf.put(name, len(data))
             lacking = [name for name in request["needs"] if name not in _tables]
             if lacking:
                 return wire.pack({"lacks": lacking})
-            for name in request["needs"]:
-                _tables.move_to_end(name)
+            _shelf.use(request["needs"])
             answer = function(request)
-            while len(_tables) > TABLES:
-                _tables.popitem(last=False)
+            for name in _shelf.trim():
+                del _tables[name]
             return wire.pack(answer)
     except BotschoolError as error:
         return wire.pack({"sentence": str(error)})
@@ -106,13 +111,29 @@ def _evaluate(request: dict) -> dict:
 
 
 def _rows(part: dict) -> np.ndarray:
-    """The genotypes of a part: rows of a table, all of it, or as they were sent."""
-    if "rows" not in part:
+    """The genotypes of a part: as they were sent, a table each, or drawn again."""
+    if "sent" in part:
         return part["sent"].astype(np.float64)
-    table, rows = _tables[part["table"]], part["rows"]
-    if isinstance(table, np.ndarray):
-        return (table if rows is None else table[rows]).astype(np.float64)
-    return table.rows(np.arange(len(table)) if rows is None else rows)
+    if "each" in part:
+        return np.array([_tables[name] for name in part["each"]], dtype=np.float64)
+    told = part["told"]
+    cloud = _tables[part["table"]] if told is None else _followed(part["table"], tuple(told))
+    return cloud.rows(part["rows"])
+
+
+def _followed(name: bytes, told: tuple[bytes, ...]) -> Cloud:
+    """The cloud that an ascent draws from after it was told this fitness."""
+    known, ascent, cloud = _ascents.get(name, (None, None, None))
+    if known == told:
+        return cloud
+    if known is None or told[: len(known)] != known:
+        known, ascent = (), Ascent(_tables[name])
+    for fitness in told[len(known) :]:
+        ascent.offspring()
+        ascent.climb(_tables[fitness])
+    _ascents.clear()
+    _ascents[name] = told, ascent, ascent.cloud()
+    return _ascents[name][2]
 
 
 def _experiment(name: bytes) -> tuple[Problem, Policy]:

@@ -39,6 +39,8 @@ class Cloud:
     """Whether there are candidates on both sides of a centre: see `mirrored`."""
     stream: dict
     """State of the Philox generator that gives the directions, centre by centre."""
+    origin: tuple | None = None
+    """Of an ascent (ascent.py): its start, and the fitness of each step so far."""
     _places: list[dict] = field(default_factory=list)
     """The stream after 0, STRIDE, 2 STRIDE ... directions, as far as it has been followed."""
 
