@@ -6,8 +6,10 @@ import asyncio
 import concurrent.futures
 import itertools
 import logging
+import multiprocessing
 import os
 import queue
+import signal
 import time
 import uuid
 import warnings
@@ -17,7 +19,7 @@ from multiprocessing import resource_tracker
 
 from botschool.cluster.address import Place
 from botschool.errors import BotschoolError
-from botschool.terminal import unheard
+from botschool.terminal import SIGNALS, unheard
 
 try:
     import dask
@@ -41,6 +43,8 @@ QUIET = {
     "distributed.client.heartbeat": "5s",
 }
 """Dask's settings without the measurements that cost each process a few hundredths of a core."""
+FROM_TERMINAL = [number for number in SIGNALS if number != signal.SIGTERM]
+"""What a terminal sends to all processes: Ctrl-C, and its end. SIGTERM must end workers."""
 LOGGERS = ("distributed", "tornado", "asyncio", "bokeh")
 
 
@@ -116,7 +120,7 @@ class Connection:
         """A scheduler and workers of our own; only this machine reaches them."""
         _track_processes()
         try:
-            with unheard():  # Ctrl-C is the main process's affair
+            with unheard(FROM_TERMINAL):  # they are the main process's affair
                 self._cluster = distributed.LocalCluster(
                     n_workers=workers,
                     threads_per_worker=1,
@@ -141,7 +145,7 @@ class Connection:
                 "(ca-file, client.cert and client.key)."
             )
         try:
-            with unheard():
+            with unheard(FROM_TERMINAL):
                 address = self.address
                 self._client = distributed.Client(
                     self._cluster or address,
@@ -240,6 +244,9 @@ class Connection:
         if self._cluster is not None:
             with suppress(Exception):
                 self._cluster.close(timeout=5)
+            for process in multiprocessing.active_children():
+                if "Dask" in process.name:  # it would be waited for
+                    process.kill()
 
 
 def _track_processes() -> None:
