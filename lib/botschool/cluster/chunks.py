@@ -41,7 +41,7 @@ class Batch:
         self.maxsteps = maxsteps
         self.normalisation = None if normalisation is None else wire.pack(normalisation)
         n = len(episodes)
-        self.fitness = np.empty(n)
+        self.fitness: np.ndarray | None = None
         self.steps = np.empty(n, dtype=np.int32)
         self.moments: np.ndarray | None = None
         self._next = 0
@@ -83,9 +83,11 @@ class Batch:
         """The outcome of a chunk. Raises ValueError for one of another shape."""
         count = chunk.stop - chunk.start
         fitness, steps, moments = answer["fitness"], answer["steps"], answer["moments"]
-        if fitness.shape != (count,) or steps.shape != (count,):
+        if fitness.shape[-1:] != (count,) or steps.shape != (count,):
             raise ValueError("the outcome is not that of its episodes")
-        self.fitness[chunk], self.steps[chunk] = fitness, steps
+        if self.fitness is None:
+            self.fitness = np.empty((*fitness.shape[:-1], len(self.episodes)))
+        self.fitness[..., chunk], self.steps[chunk] = fitness, steps
         if moments is not None:
             if self.moments is None:
                 self.moments = np.zeros((len(self.episodes), moments.shape[1]))

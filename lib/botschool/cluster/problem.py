@@ -21,6 +21,8 @@ from botschool.problems import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.transition import Transition
 from botschool.terminal import readable
 
+DECLARED = tuple(name for name in Problem.__annotations__ if not name.startswith("_"))
+"""What a problem says of itself."""
 KEPT = 0.3
 """How much the newest batch counts in the time that an episode takes."""
 
@@ -40,8 +42,8 @@ class Distributed(Problem):
         say: Callable[[str], None],
     ) -> None:
         self._inner = inner = problems.of(experiment)
-        self.name, self.dynamics, self.interface = inner.name, inner.dynamics, inner.interface
-        self.limit, self.fps, self.native = inner.limit, inner.fps, inner.native
+        for name in DECLARED:
+            setattr(self, name, getattr(inner, name))
         policy = Policy(self.name, self.interface, experiment.policy)
         same = bits(inner, policy)
         if not self.native and same != bits(inner, policy):
