@@ -18,7 +18,7 @@ from running import call, environment_of_command, finish, same, start, write_exp
 
 pytest.importorskip("distributed")
 
-from botschool.cluster import chunks, wire, worker
+from botschool.cluster import Open, chunks, connection, wire, worker
 from botschool.cluster.shelf import Shelf
 
 EVERYTHING = {"DASK_BOTSCHOOL__SHORTEST": "0"}
@@ -228,3 +228,26 @@ def test_without_dask_it_says_what_to_install(tmp_path, refused, monkeypatch):
     monkeypatch.delitem(sys.modules, "botschool.cluster.connection", raising=False)
     path = write_experiment(tmp_path)
     refused("es", "-f", path, "--cluster", "local:2", says="pip install 'botschool[cluster]'")
+
+
+@pytest.fixture(scope="module")
+def link():
+    """A connection to a worker of its own."""
+    with Open("local:1", patience=6.0)(print) as cluster:
+        yield cluster._connection
+
+
+def test_local_workers_are_reached_from_this_machine_only(link):
+    processes = [psutil.Process(), *psutil.Process().children(recursive=True)]
+    heard = {
+        c.laddr.ip for p in processes for c in p.net_connections("tcp") if c.status == "LISTEN"
+    }
+    assert heard == {"127.0.0.1"}
+
+
+def test_time_without_evaluation_is_not_the_schedulers_silence(link, monkeypatch):
+    before = connection.time.monotonic
+    link.refresh()
+    monkeypatch.setattr(connection.time, "monotonic", lambda: before() + 3600)
+    link.refresh()
+    assert link.answering and not link.lost

@@ -15,6 +15,7 @@ import uuid
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
+from importlib.util import find_spec
 from multiprocessing import resource_tracker
 
 from botschool.cluster.address import Place
@@ -70,7 +71,7 @@ class Connection:
         """Whether the scheduler was away for too long; nothing is sent from then on."""
         self._question: concurrent.futures.Future | None = None
         self._asked = 0.0
-        self._answered = time.monotonic()
+        self._answered = self._refreshed = time.monotonic()
         self._told = False
         for name in list(logging.root.manager.loggerDict):  # what goes wrong is said in sentences
             if name.partition(".")[0] in LOGGERS:
@@ -109,11 +110,10 @@ class Connection:
 
     @property
     def dashboard(self) -> str:
-        """Address of Dask's pictures of what goes on; "" if there are none."""
+        """Address of Dask's pictures of what goes on; "" if there are none, for lack of bokeh."""
         with suppress(Exception):
-            import bokeh  # noqa: F401
-
-            return self._client.dashboard_link
+            if self._cluster is None or find_spec("bokeh"):
+                return self._client.dashboard_link or ""
         return ""
 
     def _start(self, workers: int) -> None:
@@ -199,7 +199,14 @@ class Connection:
 
         Raises BotschoolError when the scheduler has been away for longer than is allowed.
         """
-        now = time.monotonic()
+        try:
+            self._refresh(time.monotonic())
+        finally:
+            self._refreshed = time.monotonic()
+
+    def _refresh(self, now: float) -> None:
+        if now - self._refreshed > ATTEMPT:  # nobody has asked: it was not the scheduler's silence
+            self._answered = now
         if self._question is not None and self._question.done():
             with suppress(Exception, asyncio.CancelledError, concurrent.futures.CancelledError):
                 self.members = dict(self._question.result())
