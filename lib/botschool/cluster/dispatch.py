@@ -148,7 +148,7 @@ class Crew:
             self._alone_since = None
             if self._told:
                 self._told = False
-                self._say(f"{_counted(len(self.ready), 'worker')} at {self._connection.place}.")
+                self._say(f"{counted(len(self.ready), 'worker')} at {self._connection.place}.")
             self._help(batch)
             return
         self._alone()
@@ -353,5 +353,6 @@ class Crew:
             self._watch.idle(worker.address, now)
 
 
-def _counted(number: int, what: str) -> str:
+def counted(number: int, what: str) -> str:
+    """The number and the word, in the plural if it is not one."""
     return f"{number} {what}" if number == 1 else f"{number} {what}s"

@@ -13,7 +13,7 @@ from botschool.cluster import wire
 from botschool.cluster.bottleneck import Bottleneck
 from botschool.cluster.chunks import LEAST, Batch
 from botschool.cluster.connection import Connection
-from botschool.cluster.dispatch import Crew
+from botschool.cluster.dispatch import Crew, counted
 from botschool.cluster.worker import bits
 from botschool.config import Experiment, to_dict
 from botschool.policy import Policy
@@ -130,7 +130,7 @@ class Distributed(Problem):
         """Workers and their speed, for a progress bar."""
         ready = self._crew.ready
         speed = sum(worker.pace.steps for worker in ready)
-        return f"{len(ready)} workers {_speed(speed)}" if speed else ""
+        return f"{counted(len(ready), 'worker')} {_speed(speed)}" if speed else ""
 
     def report(self) -> list[str]:
         """Sentences for the end: each worker's speed, and where the time went."""

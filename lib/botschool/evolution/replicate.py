@@ -55,6 +55,7 @@ def replicate(
                 kind, experiment, folder, share, steps, resume, generations, keep_every, terminal
             )
             return evolve_all(task, seeds, processes, stopping)
+        finished = True
         for seed in seeds:
             run = runs.pop() if runs else kind(experiment, seed, workers, stopping, problem)
             with reporting(seed, terminal) as report:
@@ -62,10 +63,10 @@ def replicate(
             if text := run.ending(RunFiles(folder, seed), finished):
                 print_lines([text])
             if not finished:
-                return False
-        if problem:
-            print_lines(problem.report())
-    return True
+                break
+        if problem and (lines := problem.report()):
+            print_lines(lines)
+    return finished
 
 
 def _say(sentence: str) -> None:
