@@ -94,7 +94,8 @@ def bits(problem: Problem, policy: Policy) -> bytes:
 def _evaluate(request: dict) -> dict:
     problem, policy = _experiment(request["experiment"])
     began = time.perf_counter()
-    genotypes = np.concatenate([_rows(part) for part in request["parts"]])
+    parts = [_rows(part) for part in request["parts"]]
+    genotypes = parts[0] if len(parts) == 1 else np.concatenate(parts)
     normalisation = request["normalisation"]
     normalisation = None if normalisation is None else _tables[normalisation]
     candidate, collect = request["candidate"], request["collect"]

@@ -49,29 +49,41 @@ class Cloud:
 
     def rows(self, numbers: np.ndarray) -> np.ndarray:
         """The candidates with these numbers, sorted: float64 (n, parameters)."""
-        directions = numbers // 2 if self.both else numbers
-        needed, where = np.unique(directions, return_inverse=True)
-        samples = self._directions(needed)
-        centres = self.centres[needed // self.samplesize]
-        if not self.both:
-            return candidates_of(centres, samples, self.deviation)[where]
-        pairs = mirrored(centres, samples[:, None], self.deviation)
-        return pairs[where, numbers % 2]
+        sides = 2 if self.both else 1
+        first, last = int(numbers[0]) // sides, int(numbers[-1]) // sides + 1
+        parts = []
+        while first < last:  # centre by centre
+            centre = first // self.samplesize
+            end = min(last, (centre + 1) * self.samplesize)
+            around = mirrored if self.both else candidates_of
+            parts.append(around(self.centres[centre], self._directions(first, end), self.deviation))
+            first = end
+        candidates = parts[0] if len(parts) == 1 else np.concatenate(parts)
+        places = numbers - sides * (int(numbers[0]) // sides)
+        if places[-1] - places[0] + 1 == len(places):
+            return candidates[places[0] : places[-1] + 1]
+        return candidates[places]
 
-    def _directions(self, needed: np.ndarray) -> np.ndarray:
-        """Directions with these numbers, sorted and each once."""
-        found = np.empty((len(needed), self.centres.shape[1]))
+    def _directions(self, first: int, last: int) -> np.ndarray:
+        """Directions from number `first` to before `last`."""
+        size = self.centres.shape[1]
+        found = np.empty((last - first, size))
         self._places = self._places or [self.stream]
         numbers = Generator(Philox(0))
-        edges = np.arange(needed[0] // STRIDE, needed[-1] // STRIDE + 1)
-        # follow the stream to the first block, then draw the blocks with directions in them
-        for block in range(min(len(self._places) - 1, edges[0]), edges[-1] + 1):
+        # follow the stream to the block with the first one, and on to the last
+        block = min(len(self._places) - 1, first // STRIDE)
+        while block * STRIDE < last:
             numbers.bit_generator.state = self._places[block]
-            drawn = numbers.standard_normal((STRIDE, self.centres.shape[1]))
-            if block + 1 == len(self._places):
+            begin, end = block * STRIDE, (block + 1) * STRIDE
+            if first <= begin and end <= last:
+                numbers.standard_normal(out=found[begin - first : end - first])
+            else:
+                drawn = numbers.standard_normal((STRIDE, size))
+                own = drawn[max(first - begin, 0) : last - begin]
+                found[max(begin - first, 0) :][: len(own)] = own
+            block += 1
+            if block == len(self._places):
                 self._places.append(numbers.bit_generator.state)
-            first, last = np.searchsorted(needed, (block * STRIDE, (block + 1) * STRIDE))
-            found[first:last] = drawn[needed[first:last] - block * STRIDE]
         return found
 
 
