@@ -44,9 +44,8 @@ class Distributed(Problem):
         self._inner = inner = problems.of(experiment)
         for name in DECLARED:
             setattr(self, name, getattr(inner, name))
-        policy = Policy(self.name, self.interface, experiment.policy)
-        same = bits(inner, policy)
-        if not self.native and same != bits(inner, policy):
+        same = bits(experiment)
+        if not self.native and same != bits(experiment):
             same = None  # never the same twice: there is nothing to compare
         self._shortest = float(dask.config.get("botschool.shortest", LEAST))
         """Seconds of a batch from which it goes to the workers, and of the shortest chunk."""

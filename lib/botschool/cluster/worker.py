@@ -18,6 +18,7 @@ import numpy as np
 from botschool import __version__, config, problems
 from botschool.cluster import wire
 from botschool.cluster.shelf import Shelf
+from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithms.ascent import Ascent
 from botschool.evolution.algorithms.drawing import Cloud
@@ -72,15 +73,19 @@ def _answer(message: bytes, function: Callable[[dict], dict]) -> bytes:
 
 
 def _hello(request: dict) -> dict:
-    problem, policy = _experiment(request["experiment"])
-    return {"version": __version__, "threads": _threads(), "bits": bits(problem, policy)}
+    _experiment(request["experiment"])
+    experiment = config.from_dict(_tables[request["experiment"]])
+    return {"version": __version__, "threads": _threads(), "bits": bits(experiment)}
 
 
-def bits(problem: Problem, policy: Policy) -> bytes:
+def bits(experiment: Experiment) -> bytes:
     """A digest of what this machine computes: the beginning of two episodes, and normal numbers.
 
-    Machines with other digests would give other results.
+    Machines with other digests would give other results. The environment is one of its own: after
+    episodes that are broken off, PyBullet's next one can differ in its last digits.
     """
+    problem = problems.of(experiment)
+    policy = Policy(problem.name, problem.interface, experiment.policy)
     genotypes = np.array([policy.initial(PROBE, index) for index in range(2)])
     seeds = np.full(2, PROBE, dtype=np.uint64)
     numbers = np.arange(2)
