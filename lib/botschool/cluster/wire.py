@@ -58,18 +58,31 @@ def digest(data: bytes) -> bytes:
 
 def packed(value: Cloud | Start) -> bytes:
     """What candidates are drawn from, as a table: see `table`."""
-    stream = value.stream
+    places = value.places[1:] if isinstance(value, Cloud) else []
     names = ("centres", "m", "v") if isinstance(value, Start) else ("centres", "both")
     rules = ("samplesize", "deviation", *(("stepsize", "wdecay") if "m" in names else ()))
     return pack(
         {
             "kind": type(value).__name__,
             "fields": {name: getattr(value, name) for name in (*names, *rules)},
-            "stream": {name: stream["state"][name] for name in STREAM},
-            "buffer": stream["buffer"],
-            "words": [stream[name] for name in WORDS],
+            "stream": _told(value.stream),
+            "places": [_told(place) for place in places],
         }
     )
+
+
+def _told(stream: dict) -> list:
+    """The state of a Philox generator as a list."""
+    arrays = [stream["state"][name] for name in STREAM]
+    return [*arrays, stream["buffer"], *(stream[name] for name in WORDS)]
+
+
+def _stream(told: list) -> dict:
+    """The reverse of `_told`."""
+    counter, key, buffer, *words = told
+    state = dict(zip(STREAM, (np.array(counter), np.array(key)), strict=True))
+    rest = dict(zip(WORDS, words, strict=True))
+    return {"bit_generator": "Philox", "state": state, "buffer": np.array(buffer), **rest}
 
 
 def table(data: bytes) -> Any:
@@ -78,10 +91,8 @@ def table(data: bytes) -> Any:
     kind = {"Cloud": Cloud, "Start": Start}.get(value.get("kind") if isinstance(value, dict) else 0)
     if kind is None:
         return value
-    stream = {
-        "bit_generator": "Philox",
-        "state": {name: np.array(value["stream"][name]) for name in STREAM},
-        "buffer": np.array(value["buffer"]),
-        **dict(zip(WORDS, value["words"], strict=True)),
-    }
-    return kind(**value["fields"], stream=stream)
+    stream = _stream(value["stream"])
+    if kind is Start:
+        return kind(**value["fields"], stream=stream)
+    places = [stream, *map(_stream, value["places"])]
+    return kind(**value["fields"], stream=stream, places=places)

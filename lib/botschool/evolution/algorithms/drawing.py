@@ -41,7 +41,7 @@ class Cloud:
     """State of the Philox generator that gives the directions, centre by centre."""
     origin: tuple | None = None
     """Of an ascent (ascent.py): its start, and the fitness of each step so far."""
-    _places: list[dict] = field(default_factory=list)
+    places: list[dict] = field(default_factory=list)
     """The stream after 0, STRIDE, 2 STRIDE ... directions, as far as it has been followed."""
 
     def __len__(self) -> int:
@@ -68,12 +68,12 @@ class Cloud:
         """Directions from number `first` to before `last`."""
         size = self.centres.shape[1]
         found = np.empty((last - first, size))
-        self._places = self._places or [self.stream]
+        self.places = self.places or [self.stream]
         numbers = Generator(Philox(0))
         # follow the stream to the block with the first one, and on to the last
-        block = min(len(self._places) - 1, first // STRIDE)
+        block = min(len(self.places) - 1, first // STRIDE)
         while block * STRIDE < last:
-            numbers.bit_generator.state = self._places[block]
+            numbers.bit_generator.state = self.places[block]
             begin, end = block * STRIDE, (block + 1) * STRIDE
             if first <= begin and end <= last:
                 numbers.standard_normal(out=found[begin - first : end - first])
@@ -82,8 +82,8 @@ class Cloud:
                 own = drawn[max(first - begin, 0) : last - begin]
                 found[max(begin - first, 0) :][: len(own)] = own
             block += 1
-            if block == len(self._places):
-                self._places.append(numbers.bit_generator.state)
+            if block == len(self.places):
+                self.places.append(numbers.bit_generator.state)
         return found
 
 
@@ -106,8 +106,13 @@ def draw(
     centres: (count, parameters). Candidates: with `both` as `mirrored` gives them, else one for
     each direction, (count, samplesize, parameters).
     """
-    cloud = Cloud(centres, samplesize, deviation, both, numbers.bit_generator.state)
-    samples = numbers.standard_normal((len(centres), samplesize, centres.shape[1]))
+    directions = np.empty((len(centres) * samplesize, centres.shape[1]))
+    places = []
+    for first in range(0, len(directions), STRIDE):
+        places.append(numbers.bit_generator.state)
+        numbers.standard_normal(out=directions[first : first + STRIDE])
+    cloud = Cloud(centres, samplesize, deviation, both, places[0], places=places)
+    samples = directions.reshape(len(centres), samplesize, -1)
     if both:
         candidates = mirrored(centres, samples, deviation)
     else:
