@@ -21,6 +21,7 @@ LAYERS = (
     {"evolution.algorithm"},
     {"evolution.algorithms"},
     {"config"},
+    {"cluster"},
     {"evolution"},
     {"render"},
     {"envs"},

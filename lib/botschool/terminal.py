@@ -76,12 +76,12 @@ def exits_on_signals() -> Iterator[None]:
 
 
 @contextmanager
-def unheard() -> Iterator[None]:
-    """Processes that start meanwhile never get SIGNALS; here they come at the end."""
+def unheard(signals: list[int] = SIGNALS) -> Iterator[None]:
+    """Processes that start meanwhile never get these signals; here they come at the end."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, signals)
     try:
         yield
     finally:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from botschool.analysis.populations import (
 )
 from botschool.analysis.tournament import Contest, Table, master_tournament, play, summarised
 from botschool.analysis.tournament_plot import check_files, draw, save_csv
+from botschool.cluster import Open
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.inifile import shown
@@ -161,15 +163,17 @@ def tournament(
     workers: int,
     picture: Path | None,
     window: bool,
+    cluster: Open | None = None,
 ) -> None:
     """The command `botschool tournament`: tables, the verdict, the picture and its CSV file.
 
-    seed: None is the only one in the folder. wanted: generations, else `every` so many, else at
+    seed: None is the only one in the folder. cluster: whose workers evaluate, instead of `workers`
+    cores. wanted: generations, else `every` so many, else at
     most GENERATIONS of them. window: where no picture is asked for, show it on the screen.
     """
     files = None if picture is None else check_files(picture)
     seed = only_seed(folder) if seed is None else seed
-    with Contest(experiment, seed, workers) as contest:
+    with Contest(experiment, seed, workers) as contest, ExitStack() as stack:
         populations = Populations(folder, seed, contest.policy)
         generations = wanted or thinned(populations, every)
         if len(generations) < 2:
@@ -177,6 +181,8 @@ def tournament(
         chosen = select(populations, generations, best)
         report.print_roles(contest.problem.roles)
         print(_taking_part(chosen))
+        if cluster:
+            contest.problem = stack.enter_context(cluster(print)).problem(experiment)
         tables = _tournament(contest, chosen)
     report.print_tournament(tables, [population.name for population in chosen])
     if files:

@@ -22,7 +22,7 @@ from botschool import problems
 from botschool.analysis.populations import Population
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
-from botschool.problems import Episodes
+from botschool.problems import Episodes, Problem
 from botschool.seeds import POST_EVALUATION_SEED, generator
 
 ROLES = ("predators", "prey")
@@ -35,6 +35,9 @@ class Contest:
 
     Raises BotschoolError if the experiment's environment has no two robots.
     """
+
+    problem: Problem
+    """May be replaced by one with the same outcomes that evaluates elsewhere."""
 
     def __init__(self, experiment: Experiment, seed: int, workers: int = 1) -> None:
         self.problem = problems.of(experiment)
@@ -72,7 +75,7 @@ class Contest:
         )
         outcome = self.problem.evaluate(
             self.policy,
-            np.concatenate([predators, prey]),
+            self.problem.rows(predators, prey),
             None,
             episodes,
             self.policy.config.maxsteps,

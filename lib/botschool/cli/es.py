@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from botschool.cli import cluster_options as options
 from botschool.errors import BotschoolError
 
 app = typer.Typer()
@@ -27,8 +28,9 @@ def es(
         ),
     ] = 1,
     workers: Annotated[
-        int, typer.Option("-w", "--workers", min=1, max=1024, help="Cores to use.")
-    ] = 1,
+        int | None,
+        typer.Option("-w", "--workers", min=1, max=1024, help="Cores to use.", show_default="1"),
+    ] = None,
     output: Annotated[
         Path, typer.Option("-o", "--output", help="Folder of the run's files.", metavar="FOLDER")
     ] = Path("."),
@@ -76,6 +78,9 @@ def es(
     episodes: Annotated[
         int | None, typer.Option(min=1, help="With -p: episodes to evaluate or show.")
     ] = None,
+    cluster: options.Cluster = None,
+    no_tls: options.NoTLS = False,
+    patience: options.Patience = None,
 ) -> None:
     """Evolve robots, or look at an evolved one (-p). Without -f: list all hyperparameters.
 
@@ -96,10 +101,14 @@ def es(
         return
     from botschool import config
 
+    machines = options.machines(cluster, no_tls, patience, workers)
+    workers = workers or 1
     experiment = config.load(file)
     if replay and not (post or genotype):
         raise BotschoolError("--replay shows a robot: add -p, and -g FILE for a saved one.")
     if post or genotype or video or render or neurons:
+        if machines:
+            raise BotschoolError("--cluster is for evolving and for tournaments: leave it out.")
         from botschool.render.watch import Watching
 
         watching = Watching(neurons, render, video, replay, episodes)
@@ -128,6 +137,7 @@ def es(
             terminal,
             generations,
             keep_every,
+            machines,
         )
     finally:
         gc.set_threshold(*collecting)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from botschool.cli import cluster_options as options
 from botschool.errors import BotschoolError
 
 if TYPE_CHECKING:
@@ -45,14 +46,18 @@ def tournament(
         typer.Option(min=2, help="How many of each population.", show_default="the 10 best"),
     ] = None,
     workers: Annotated[
-        int, typer.Option("-w", "--workers", min=1, max=1024, help="Cores to use.")
-    ] = 1,
+        int | None,
+        typer.Option("-w", "--workers", min=1, max=1024, help="Cores to use.", show_default="1"),
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option(
             "-o", "--output", help="Write a picture, and a .csv beside it.", metavar="FILE"
         ),
     ] = None,
+    cluster: options.Cluster = None,
+    no_tls: options.NoTLS = False,
+    patience: options.Patience = None,
 ) -> None:
     """Let predators and prey of all generations meet, and tell whether they made progress.
 
@@ -64,10 +69,11 @@ def tournament(
     from botschool.analysis import coevolution
     from botschool.terminal import has_display
 
+    machines = options.machines(cluster, no_tls, patience, workers)
     experiment = config.load(file)
     wanted = coevolution.generations_in(generations, every)
     coevolution.tournament(
-        experiment, folder, seed, wanted, every, best, workers, output, has_display()
+        experiment, folder, seed, wanted, every, best, workers or 1, output, has_display(), machines
     )
 
 

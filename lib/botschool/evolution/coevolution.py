@@ -134,7 +134,7 @@ class Coevolution(Run):
         places = pairs + np.array([[0], [len(predators)]], dtype=np.int32)
         outcome = self.problem.evaluate(
             self.policy,
-            np.concatenate([predators, prey]),
+            self.problem.rows(predators, prey),
             None,
             Episodes(
                 np.ascontiguousarray(np.repeat(places, count, axis=1)),

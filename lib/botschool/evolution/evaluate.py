@@ -88,7 +88,7 @@ class Evaluator:
             )
         candidate, episode = self._behind[len(seeds)]
         both = Episodes(candidate, np.concatenate([own.seed, post.seed]), episode)
-        outcome = self._run(np.concatenate([candidates, genotype[None]]), both)
+        outcome = self._run(self.problem.rows(candidates, genotype[None]), both)
         n = len(own)
         return (
             self._measured(Outcome(outcome.fitness[:n], outcome.steps[:n])),

@@ -71,4 +71,5 @@ def messages(
 def bar(run: Run) -> Bar:
     """What a progress bar is to show of a run."""
     share, record = run.limit.share(run), run.record
-    return share, record.steps, 2, run.numbers() if record.generation else ""
+    numbers = run.numbers() if record.generation else ""
+    return share, record.steps, 2, "  ".join(filter(None, (numbers, run.problem.status())))

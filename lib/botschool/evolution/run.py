@@ -22,7 +22,7 @@ from botschool.evolution.events import Events
 from botschool.evolution.limit import Limit
 from botschool.evolution.record import Record, RunFiles
 from botschool.output import save_npy
-from botschool.problems import Interrupted
+from botschool.problems import Interrupted, Problem
 from botschool.terminal import readable
 
 EVENT_SECONDS = 10
@@ -75,12 +75,14 @@ class Run:
         seed: int,
         workers: int = 1,
         stopping: Callable[[], bool] = lambda: False,
+        problem: Problem | None = None,
     ) -> None:
+        """problem: the experiment's, if others than this machine's cores evaluate."""
         self.experiment = experiment
         self.seed = seed
         self.workers = workers
         self.stopping = stopping
-        self.problem = problems.of(experiment)
+        self.problem = problem or problems.of(experiment)
         self.check()
         self.policy = self.problem.policy(experiment.policy)
         self.report: Callable[[Run], None] = lambda run: None
@@ -170,7 +172,7 @@ class Run:
             self._close(post)
 
         best = int(measured.fitness.argmax())
-        saved = self.policy.join(candidates[best], self.evaluator.normalisation)
+        saved = self.policy.join(np.asarray(candidates[best]), self.evaluator.normalisation)
         waits = goes_on and self._may_wait(measured.steps)
         before = {}
         if waits:

@@ -75,7 +75,7 @@ class Problem(ABC):
     native: bool
     dynamics: str
     """Name of the dynamics, by which pictures are drawn."""
-    constant_sum = True
+    constant_sum: bool = True
     """Of two sides: whether an episode has one return, the first side's, and the second side gets
     1 minus it. Otherwise each has a return of its own."""
     sides: tuple[str, str] = ("predator", "prey")
@@ -125,6 +125,14 @@ class Problem(ABC):
         With `render`, an environment in Python adds its pictures; those of native problems are
         drawn from the state (botschool.render.scene).
         """
+
+    def rows(self, *parts: np.ndarray) -> np.ndarray:
+        """Genotypes for `evaluate`, one part after another."""
+        return np.concatenate(parts)
+
+    def status(self) -> str:
+        """What a progress bar is to say of those who evaluate; often nothing."""
+        return ""
 
     def steps(self, maxsteps: int) -> int:
         """Longest episode under an experiment's `maxsteps`."""

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
-from botschool.evolution.algorithms.openaies import mirrored
+from botschool.evolution.algorithms.drawing import draw
 from botschool.hyperparameters import NO_YES, hyper
 from botschool.seeds import generator
 
@@ -90,9 +90,11 @@ class ARS:
 
         Candidates 2 b and 2 b + 1 are centre + noiseStdDev * e_b and centre - noiseStdDev * e_b.
         """
-        shape = (self.config.samplesize, len(self.centre))
-        self.samples = generator(self.seed, self.generation).standard_normal(shape)
-        candidates = mirrored(self.centre, self.samples, self.config.noiseStdDev)
+        numbers, config = generator(self.seed, self.generation), self.config
+        samples, candidates = draw(
+            numbers, self.centre[None], config.samplesize, config.noiseStdDev
+        )
+        self.samples = samples[0]
         return candidates, self.seed + self.generation * self._seeds_used + self._own_seeds
 
     def tell(self, fitness: np.ndarray) -> None:

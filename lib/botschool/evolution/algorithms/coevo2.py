@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from botschool.evolution.algorithm import Initial, Play, algorithm
-from botschool.evolution.algorithms.openaies import climb, mirrored
+from botschool.evolution.algorithms.ascent import Ascent, Start
 from botschool.evolution.algorithms.sides import (
     PREDATORS,
     PREY,
@@ -147,10 +147,15 @@ class Coevo2:
         chosen = order[: self.config.selsize]
 
         # evolve copies of them, then let them meet everyone
-        evolved = [array[side, chosen] for array in (self.parameters, self.m, self.v)]
+        config, stream = self.config, numbers.bit_generator.state
+        copies = [array[side, chosen] for array in (self.parameters, self.m, self.v)]
+        rules = (config.samplesize, config.noiseStdDev, config.stepsize, config.wdecay)
+        ascent = Ascent(Start(*copies, stream, *rules))
         opponents = self.parameters[other, competitors]
-        for _ in range(SUB_GENERATIONS):
-            evolved = self._improved(*evolved, opponents, numbers, play)
+        for _ in range(SUB_GENERATIONS):  # each one's offspring all meet all opponents
+            met = _play(play, side, ascent.offspring(), opponents)
+            ascent.climb(means(seen_by(side, met)).reshape(len(chosen), -1))
+        evolved = ascent.centres, ascent.m, ascent.v
         met = _play(play, side, evolved[0], self.parameters[other])
         after = seen_by(side, met)[:, competitors]
 
@@ -163,26 +168,6 @@ class Coevo2:
         self._sort()
         self.generation += 1
         self.progress = mean(after) - mean(before[chosen])
-
-    def _improved(
-        self,
-        centres: np.ndarray,
-        m: np.ndarray,
-        v: np.ndarray,
-        opponents: np.ndarray,
-        numbers: np.random.Generator,
-        play: Play,
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """A sub-generation of all chosen individuals: their next parameters, m and v.
-
-        Each is a centre of its own, whose offspring all meet all opponents.
-        """
-        count, size = centres.shape
-        samples = numbers.standard_normal((count, self.config.samplesize, size))
-        offspring = mirrored(centres, samples, self.config.noiseStdDev)
-        met = _play(play, self.side, offspring.reshape(-1, size), opponents)
-        fitness = means(seen_by(self.side, met)).reshape(count, -1)
-        return climb(centres, m, v, samples, fitness, self.config)
 
     def _sort(self) -> None:
         """Puts the best of both populations first."""

@@ -69,16 +69,16 @@ class Gaussian:
         return z
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Candidates, shape (popsize, parameters), and the seed of each one's evaluation.
-
-        All candidates of a generation meet the same conditions, so that the better one wins and
-        not the luckier one.
-        """
+        """Candidates, shape (popsize, parameters), and the seed of each one's evaluation."""
         numbers = generator(self.seed, self.generation)
         self.z = numbers.standard_normal((self.popsize, self.size))
         self.y = self.shaped(self.z)
-        seeds = np.full(self.popsize, self.seed + self.generation, dtype=np.uint64)
-        return self.mean + self.sigma * self.y, seeds
+        return self.mean + self.sigma * self.y, self.evaluation_seeds()
+
+    def evaluation_seeds(self) -> np.ndarray:
+        """All candidates of a generation meet the same conditions, so that the better one wins and
+        not the luckier one."""
+        return np.full(self.popsize, self.seed + self.generation, dtype=np.uint64)
 
     def average_parameter(self) -> float:
         """Average absolute parameter of the mean."""

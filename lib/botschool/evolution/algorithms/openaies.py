@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
+from botschool.evolution.algorithms.drawing import draw
 from botschool.hyperparameters import NO_YES, WEIGHT_DECAY, hyper
 from botschool.seeds import generator
 
@@ -62,19 +63,6 @@ def adam(
     return BETA1 * m + (1 - BETA1) * descent, BETA2 * v + (1 - BETA2) * descent**2
 
 
-def mirrored(centres: np.ndarray, samples: np.ndarray, deviation: float) -> np.ndarray:
-    """Candidates on both sides of each centre, shape (..., 2 * samplesize, parameters).
-
-    centres: (..., parameters); samples: (..., samplesize, parameters). Candidates 2 b and 2 b + 1
-    are centre + deviation * e_b and centre - deviation * e_b.
-    """
-    perturbations = deviation * samples
-    candidates = np.empty((*samples.shape[:-2], 2 * samples.shape[-2], samples.shape[-1]))
-    candidates[..., 0::2, :] = centres[..., None, :] + perturbations
-    candidates[..., 1::2, :] = centres[..., None, :] - perturbations
-    return candidates
-
-
 def climb(
     centres: np.ndarray,
     m: np.ndarray,
@@ -86,8 +74,8 @@ def climb(
     """One step of several centres, without bias correction: their next parameters, m and v.
 
     Shapes: centres, m and v (count, parameters); samples (count, samplesize, parameters); fitness
-    (count, 2 * samplesize), in the order of mirrored(). config has stepsize and wdecay. This is
-    the step of the algorithms with predators and prey.
+    (count, 2 * samplesize), in the order of drawing.mirrored(). config has stepsize and wdecay.
+    This is the step of the algorithms with predators and prey.
     """
     rising = np.array([gradient(*pair) for pair in zip(fitness, samples, strict=True)])
     m, v = adam(m, v, rising, centres, config.wdecay)
@@ -135,9 +123,11 @@ class OpenAIES:
 
         Candidates 2 b and 2 b + 1 are centre + noiseStdDev * e_b and centre - noiseStdDev * e_b.
         """
-        shape = (self.config.samplesize, len(self.centre))
-        self.samples = generator(self.seed, self.generation).standard_normal(shape)
-        candidates = mirrored(self.centre, self.samples, self.config.noiseStdDev)
+        numbers, config = generator(self.seed, self.generation), self.config
+        samples, candidates = draw(
+            numbers, self.centre[None], config.samplesize, config.noiseStdDev
+        )
+        self.samples = samples[0]
         return candidates, self.seed + self.generation * self._seeds_used + self._own_seeds
 
     def tell(self, fitness: np.ndarray) -> None:

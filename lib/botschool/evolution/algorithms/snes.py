@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from botschool.evolution.algorithm import Initial, algorithm
+from botschool.evolution.algorithms.drawing import draw
 from botschool.evolution.algorithms.gaussian import (
     Gaussian,
     GaussianConfig,
@@ -23,6 +24,7 @@ from botschool.evolution.algorithms.gaussian import (
 )
 from botschool.hyperparameters import hyper
 from botschool.linear import exp, log, weighted
+from botschool.seeds import generator
 
 
 @dataclass
@@ -45,6 +47,13 @@ class SNES(Gaussian):
         self.sigma = np.full(n, config.sigma)
         self.etasigma = config.etasigma or (3 + log([n])[0]) / (5 * math.sqrt(n))
         self.utilities = utilities(self.popsize)
+
+    def ask(self) -> tuple[np.ndarray, np.ndarray]:
+        """As Gaussian.ask."""
+        numbers = generator(self.seed, self.generation)
+        z, candidates = draw(numbers, self.mean[None], self.popsize, self.sigma, both=False)
+        self.z = z[0]
+        return candidates, self.evaluation_seeds()
 
     def tell(self, fitness: np.ndarray) -> None:
         """Adapts mean and deviations; fitness has shape (popsize,), in the order of ask()."""

@@ -1,0 +1,95 @@
+"""Where a cluster is: what --cluster says, read and checked."""
+
+from __future__ import annotations
+
+import ipaddress
+import json
+import re
+import socket
+from dataclasses import dataclass
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.inifile import shown
+
+FORMS = "tcp://HOST:PORT, tls://HOST:PORT, a scheduler's file FILE.json or local:N"
+MOST = 1024
+"""Workers that local:N starts at most."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """A scheduler that exists, or one to be started here with so many workers."""
+
+    text: str
+    """As the user wrote it."""
+    local: int = 0
+    """Workers to start on this machine; 0 for a scheduler that exists."""
+    unsafe: bool = False
+    """Whether the user allows a network without TLS."""
+
+    def address(self) -> str:
+        """The scheduler's address now: a scheduler's file may say another one tomorrow.
+
+        Raises BotschoolError for one that is unreadable, or beyond this machine and without TLS.
+        """
+        address = _of_file(Path(self.text)) if self.text.endswith(".json") else self.text
+        address = address if "://" in address else f"tcp://{address}"
+        match = re.fullmatch(r"(tcp|tls)://(\[[^]]+\]|[^:/\[\]]+):(\d{1,5})/?", address)
+        if match is None or not 0 < int(match[3]) < 65536:
+            raise BotschoolError(f"--cluster {shown(self.text)} is none of {FORMS}.")
+        protocol, host = match[1], match[2].strip("[]")
+        if protocol == "tcp" and not self.unsafe and not is_this_machine(host):
+            raise BotschoolError(
+                f"{address} is not this machine's own address and has no TLS, so anyone on the "
+                "network could run programs on the workers and here: start the scheduler with "
+                "TLS and give tls://HOST:PORT, or add --no-tls in a network that you trust."
+            )
+        return address.rstrip("/")
+
+
+def place(text: str, unsafe: bool = False) -> Place:
+    """What --cluster says. Raises BotschoolError."""
+    if text.startswith("local:"):
+        count = text.removeprefix("local:")
+        if not (count.isascii() and count.isdigit() and 1 <= int(count) <= MOST):
+            raise BotschoolError(
+                f"--cluster {shown(text)}: local: needs a number of workers from 1 to {MOST}, as "
+                "in local:2."
+            )
+        return Place(text, int(count))
+    found = Place(text, unsafe=unsafe)
+    found.address()
+    return found
+
+
+def is_this_machine(host: str) -> bool:
+    """Whether a host's name or number stands for this machine's loopback, and for nothing else."""
+    try:
+        found = {entry[4][0] for entry in socket.getaddrinfo(host, None)}
+    except (OSError, UnicodeError):
+        return False
+    return bool(found) and all(_loopback(number) for number in found)
+
+
+def _loopback(number: str) -> bool:
+    return ipaddress.ip_address(number.partition("%")[0]).is_loopback
+
+
+def _of_file(path: Path) -> str:
+    """The address in a scheduler's file, as `dask scheduler --scheduler-file FILE` writes it."""
+    try:
+        address = json.loads(path.read_text())["address"]
+    except FileNotFoundError:
+        raise BotschoolError(
+            f"There is no file {path}: 'dask scheduler --scheduler-file {path}' writes it."
+        ) from None
+    except OSError as error:
+        raise BotschoolError(f"{path} cannot be read ({error.strerror or error}).") from None
+    except (ValueError, KeyError, TypeError):
+        address = None
+    if not isinstance(address, str):
+        raise BotschoolError(
+            f"{path} is no scheduler's file: 'dask scheduler --scheduler-file {path}' writes one."
+        )
+    return address

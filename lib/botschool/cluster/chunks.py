@@ -1,0 +1,208 @@
+"""How a batch of episodes is cut into chunks for workers, and put together again."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool.cluster import wire
+from botschool.evolution.algorithms.drawing import Drawn
+from botschool.problems import Episodes, Outcome
+
+SHARE = 0.65
+"""Of what is left, a worker gets this part of its share: chunks get smaller towards the end."""
+LEAST = 0.05
+"""Seconds that a chunk takes at least, as far as is known."""
+FINEST = 0.05
+"""Smallest chunk, as a part of a worker's share of the batch."""
+FIRST = 0.1
+"""Part of its share that a worker gets before its speed is known."""
+LANES = 16
+"""Episodes that a thread computes side by side: natively, chunks are multiples of it."""
+
+
+class Batch:
+    """Episodes to be evaluated; chunks are slices of them, in any order."""
+
+    def __init__(
+        self,
+        parts: list[np.ndarray],
+        normalisation: np.ndarray | None,
+        episodes: Episodes,
+        maxsteps: int,
+        single: bool = False,
+    ) -> None:
+        """parts: genotypes, one array after another; single: single precision is as good."""
+        met = episodes.candidate.ndim == 2
+        self.parts = [_Part(part, met, single) for part in parts]
+        self.episodes = episodes
+        self.maxsteps = maxsteps
+        self.normalisation = None if normalisation is None else wire.pack(normalisation)
+        n = len(episodes)
+        self.fitness: np.ndarray | None = None
+        self.steps = np.empty(n, dtype=np.int32)
+        self.moments: np.ndarray | None = None
+        self._next = 0
+        self._again: deque[slice] = deque()
+        self._losses: dict[int, int] = {}
+        self._entered: set[int] = set()
+        self.left = n
+        """Episodes without an outcome."""
+        self._firsts = np.cumsum([0, *(len(part) for part in parts)])
+
+    @property
+    def waiting(self) -> bool:
+        """Whether there are episodes that nobody has been given."""
+        return bool(self._again) or self._next < len(self.episodes)
+
+    def take(self, count: int) -> slice:
+        """The next chunk, of about so many episodes; first those that were lost."""
+        if self._again:
+            return self._again.popleft()
+        first, rest = self._next, len(self.episodes) - self._next
+        self._next += rest if count > 0.75 * rest else count
+        return slice(first, self._next)
+
+    def give_back(self, chunk: slice) -> int:
+        """Its worker is lost: another one must do it. Gives how often that was so."""
+        self._again.append(chunk)
+        self._losses[chunk.start] = self._losses.get(chunk.start, 0) + 1
+        return self._losses[chunk.start]
+
+    def done(self, chunk: slice) -> bool:
+        """Whether its outcome is known."""
+        return chunk.start in self._entered
+
+    def untaken(self) -> int:
+        """Episodes that were never given to anyone."""
+        return len(self.episodes) - self._next
+
+    def enter(self, chunk: slice, answer: dict) -> None:
+        """The outcome of a chunk. Raises ValueError for one of another shape."""
+        count = chunk.stop - chunk.start
+        fitness, steps, moments = answer["fitness"], answer["steps"], answer["moments"]
+        if fitness.shape[-1:] != (count,) or steps.shape != (count,):
+            raise ValueError("the outcome is not that of its episodes")
+        if self.fitness is None:
+            self.fitness = np.empty((*fitness.shape[:-1], len(self.episodes)))
+        self.fitness[..., chunk], self.steps[chunk] = fitness, steps
+        if moments is not None:
+            if self.moments is None:
+                self.moments = np.zeros((len(self.episodes), moments.shape[1]))
+            self.moments[chunk] = moments
+        self._entered.add(chunk.start)
+        self.left -= count
+
+    def outcome(self) -> Outcome:
+        """Of the whole batch, in the order of its episodes."""
+        return Outcome(self.fitness, self.steps, self.moments)
+
+    def message(self, chunk: slice) -> tuple[dict, dict[bytes, bytes]]:
+        """What a worker needs for a chunk: the request, and the tables that it refers to."""
+        chosen = self.episodes.select(chunk)
+        used, places = np.unique(chosen.candidate, return_inverse=True)
+        tables, parts = {}, []
+        edges = np.searchsorted(used, self._firsts)
+        for part, first, begin, end in zip(
+            self.parts, self._firsts[:-1], edges[:-1], edges[1:], strict=True
+        ):
+            if begin < end:
+                sent, needed = part.rows(used[begin:end] - first)
+                parts.append(sent)
+                tables.update(needed)
+        name = None
+        if self.normalisation is not None:
+            name = wire.digest(self.normalisation)
+            tables[name] = self.normalisation
+        request = {
+            "parts": parts,
+            "normalisation": name,
+            "candidate": places.reshape(chosen.candidate.shape).astype(np.int32),
+            "seed": chosen.seed,
+            "episode": chosen.episode,
+            "collect": chosen.collect,
+            "maxsteps": self.maxsteps,
+        }
+        return request, tables
+
+
+class _Part:
+    """Genotypes of a batch, and how they go over the wire."""
+
+    def __init__(self, genotypes: np.ndarray, met: bool, single: bool) -> None:
+        """met: whether each meets many; single: whether single precision is all that counts."""
+        self._genotypes = genotypes
+        self._met, self._type = met, np.float32 if single else np.float64
+        self._cloud = genotypes.cloud if isinstance(genotypes, Drawn) else None
+        self._rows: dict[int, tuple[bytes, bytes]] = {}
+        self._drawn: tuple[list[bytes], dict[bytes, bytes]] | None = None
+
+    def __len__(self) -> int:
+        return len(self._genotypes)
+
+    def rows(self, numbers: np.ndarray) -> tuple[dict, dict[bytes, bytes]]:
+        """Some of them, sorted: for a request, and the tables that this refers to.
+
+        What is drawn is drawn again; who meets many is a table, sent once to each worker and kept
+        there; all others are sent as they are.
+        """
+        if self._cloud is not None:
+            (name, *told), tables = self._drawn = self._drawn or self._recipe()
+            told = told if self._cloud.origin else None
+            return {"table": name, "told": told, "rows": numbers.astype(np.int32)}, tables
+        if not self._met:
+            return {"sent": self._genotypes[numbers].astype(self._type)}, {}
+        for number in set(numbers.tolist()) - self._rows.keys():
+            data = wire.pack(self._genotypes[number].astype(self._type))
+            self._rows[number] = wire.digest(data), data
+        chosen = [self._rows[number] for number in numbers.tolist()]
+        return {"each": [name for name, _ in chosen]}, dict(chosen)
+
+    def _recipe(self) -> tuple[list[bytes], dict[bytes, bytes]]:
+        """Names of the tables by which the cloud is drawn again, in their order; and the tables."""
+        if self._cloud.origin is None:
+            tables = [wire.packed(self._cloud)]
+        else:
+            start, told = self._cloud.origin
+            tables = [wire.packed(start), *map(wire.pack, told)]
+        names = [wire.digest(data) for data in tables]
+        return names, dict(zip(names, tables, strict=True))
+
+
+@dataclass
+class Pace:
+    """How fast a worker evaluates: measured, or guessed by its threads."""
+
+    threads: int
+    episodes: float = 0.0
+    """A second; 0 if not known yet."""
+    steps: float = 0.0
+    """A second."""
+
+    def measured(self, episodes: int, steps: int, seconds: float) -> None:
+        """Takes an answer into account."""
+        seconds = max(seconds, 1e-6)
+        for name, count in (("episodes", episodes), ("steps", steps)):
+            before, now = getattr(self, name), count / seconds
+            setattr(self, name, 0.5 * (before + now) if before else now)
+
+
+def size(batch: Batch, pace: Pace, paces: list[Pace], native: bool, least: float = LEAST) -> int:
+    """Episodes for a worker's next chunk.
+
+    paces: of all workers, its own among them. least: seconds that a chunk should take.
+    """
+    known = all(p.episodes for p in paces)
+    own, total = (
+        (pace.episodes, sum(p.episodes for p in paces))
+        if known
+        else (pace.threads, sum(p.threads for p in paces))
+    )
+    share = own / total
+    count = batch.untaken() * share * (SHARE if pace.episodes else FIRST)
+    if pace.episodes:
+        count = max(count, FINEST * share * len(batch.episodes), least * pace.episodes)
+    lanes = LANES * pace.threads if native else 1
+    return max(1, round(count / lanes)) * lanes if count >= lanes / 2 else max(1, round(count))

@@ -1,0 +1,358 @@
+"""Who of the workers does what: chunks out, answers in, and what to do when one is lost or late."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from botschool import __version__
+from botschool.cluster import wire
+from botschool.cluster import worker as remote
+from botschool.cluster.bottleneck import Bottleneck
+from botschool.cluster.chunks import Batch, Pace, size
+from botschool.cluster.connection import Connection
+from botschool.cluster.shelf import Shelf
+from botschool.errors import BotschoolError
+from botschool.problems import Interrupted
+
+DEPTH = 2
+"""Chunks that a worker has at a time, so that it need not wait for the next one."""
+TICK = 0.2
+"""Seconds between looks at who is there and who is late."""
+LATE = 3.0
+"""A chunk is late after so many times the time that it should take ..."""
+SOONEST = 1.0
+"""... and this many seconds; then another worker without work does it too."""
+UNKNOWN = 30.0
+"""The time that a chunk should take where nothing is known."""
+FAILURES = 5
+"""Failures of a worker in a row after which it is left out."""
+LOSSES = 10
+"""Times that a chunk may be lost with its worker; then evaluation stops."""
+
+
+@dataclass
+class Task:
+    """A chunk that a worker has been given."""
+
+    batch: Batch
+    chunk: slice
+    worker: Worker
+    since: float
+    """When it began, or will begin, as far as is known."""
+    expected: float
+    """Seconds that it should take."""
+    message: tuple[dict, dict[bytes, bytes]]
+    copies: int = 0
+    """How often it was given to others too."""
+
+
+@dataclass
+class Worker:
+    """A worker as it is seen from here."""
+
+    address: str
+    pace: Pace
+    ready: bool = False
+    """Whether it computes the same bits as we do."""
+    left_out: str = ""
+    """Why it gets nothing to do, if so."""
+    tasks: dict[int, Task] = field(default_factory=dict)
+    holds: Shelf = field(default_factory=lambda: Shelf(remote.SPACE // 2))
+    """Tables that it has, probably."""
+    failures: int = 0
+    greeting: int | None = None
+    """Number of the task that asks it who it is."""
+
+    @property
+    def behind(self) -> bool:
+        """Whether it has yet to answer what others have done in its place."""
+        return any(task.batch.done(task.chunk) for task in self.tasks.values())
+
+
+class Crew:
+    """The workers of a connection, for one experiment."""
+
+    def __init__(
+        self,
+        connection: Connection,
+        setup: bytes,
+        bits: bytes | None,
+        native: bool,
+        least: float,
+        patience: float,
+        say: Callable[[str], None],
+        watch: Bottleneck,
+    ) -> None:
+        """setup: the experiment as a table; bits: what each must compute, None if unknown;
+        least: seconds that a chunk should take."""
+        self._connection = connection
+        self._setup, self._name = setup, wire.digest(setup)
+        self._bits, self._native, self._least = bits, native, least
+        self._patience, self._say, self._watch = patience, say, watch
+        self.workers: dict[str, Worker] = {}
+        self._tasks: dict[int, Task | Worker] = {}
+        self._alone_since: float | None = None
+        self._told = False
+
+    @property
+    def ready(self) -> list[Worker]:
+        """Who takes part."""
+        return [worker for worker in self.workers.values() if worker.ready]
+
+    def evaluate(self, batch: Batch, stopping: Callable[[], bool]) -> None:
+        """Has every episode of a batch evaluated. Raises Interrupted or BotschoolError."""
+        self._alone_since = None
+        self._watch.begin()
+        try:
+            looked = 0.0
+            while batch.left:
+                now = time.monotonic()
+                if now - looked >= TICK:
+                    if stopping():
+                        raise Interrupted
+                    self._look(batch)
+                    looked = now
+                self._give(batch)
+                self._hear(batch)
+        except BaseException:
+            self.forget()
+            raise
+        finally:
+            self._watch.end(len(self.ready))
+
+    def forget(self) -> None:
+        """Takes back what has been given to workers; who was asked who it is will be asked anew."""
+        for number in self._tasks:
+            self._connection.forget(number)
+        self._tasks.clear()
+        self.workers = {a: w for a, w in self.workers.items() if w.ready or w.left_out}
+        for worker in self.workers.values():
+            worker.tasks.clear()
+
+    def _look(self, batch: Batch) -> None:
+        """Who has come, who has gone, and whether anybody is left."""
+        self._connection.refresh()
+        members = self._connection.members
+        for address, threads in members.items():
+            if address not in self.workers:
+                self.workers[address] = worker = Worker(address, Pace(threads))
+                self._greet(worker)
+        for address in self.workers.keys() - members.keys():
+            self._gone(self.workers.pop(address))
+        if not self._connection.answering:
+            self._alone_since = None
+            return
+        if self.ready:
+            self._alone_since = None
+            if self._told:
+                self._told = False
+                self._say(f"{counted(len(self.ready), 'worker')} at {self._connection.place}.")
+            self._help(batch)
+            return
+        self._alone()
+
+    def _alone(self) -> None:
+        """Nobody can be given anything: waits for a while."""
+        self._watch.nobody()
+        place, left_out = self._connection.place, [w.left_out for w in self.workers.values()]
+        if left_out and all(left_out):
+            raise BotschoolError(
+                f"No worker at {place} can take part: {left_out[0]} Mend that, and add --resume."
+            )
+        now = time.monotonic()
+        self._alone_since = self._alone_since or now
+        away = now - self._alone_since
+        if away > self._patience:
+            raise BotschoolError(
+                f"For {away:.0f} seconds no worker at {place} has taken part: start one with 'dask "
+                f"worker {self._connection.address}', and add --resume to go on."
+            )
+        if away > 3 and not self._told and not self.workers:
+            self._told = True
+            self._say(
+                f"No workers at {place} yet: start one with 'dask worker "
+                f"{self._connection.address}' (waiting up to {self._patience:.0f} seconds)."
+            )
+
+    def _greet(self, worker: Worker) -> None:
+        """Asks a worker who it is."""
+        request = {"experiment": self._name, "needs": [self._name]}
+        message = wire.pack({**request, "tables": {self._name: self._setup}})
+        worker.greeting = self._send(remote.hello, worker, message)
+        self._tasks[worker.greeting] = worker
+
+    def _send(self, function: Callable, worker: Worker, message: bytes) -> int:
+        self._watch.sent += len(message)
+        return self._connection.submit(function, worker.address, message)
+
+    def _gone(self, worker: Worker) -> None:
+        """What it was doing, others must do; nobody waits for its answers."""
+        tasks, worker.tasks = worker.tasks, {}
+        for number in (*tasks, worker.greeting):
+            self._tasks.pop(number, None)
+            self._connection.forget(number)
+        for task in tasks.values():
+            self._lost(task)
+
+    def _lost(self, task: Task) -> None:
+        """A chunk has no outcome, and will get none from this task."""
+        if self._elsewhere(task) or task.batch.done(task.chunk):
+            return
+        if task.batch.give_back(task.chunk) >= LOSSES:
+            raise BotschoolError(
+                f"Workers at {self._connection.place} were lost {LOSSES} times with the same "
+                "episodes: look at their output, or run with -w 1 to see why."
+            )
+
+    def _elsewhere(self, task: Task) -> bool:
+        """Whether somebody else has the same chunk."""
+        return any(
+            isinstance(other, Task)
+            and other is not task
+            and other.batch is task.batch
+            and other.chunk == task.chunk
+            for other in self._tasks.values()
+        )
+
+    def _give(self, batch: Batch) -> None:
+        """Work for everyone who has room for it: first for who has least."""
+        for room in range(DEPTH):
+            for worker in self.ready:
+                if batch.waiting and len(worker.tasks) <= room and not worker.behind:
+                    paces = [other.pace for other in self.ready]
+                    count = size(batch, worker.pace, paces, self._native, self._least)
+                    chunk = batch.take(count)
+                    self._assign(worker, batch, chunk, batch.message(chunk))
+
+    def _assign(self, worker: Worker, batch: Batch, chunk: slice, message) -> Task:
+        now = time.monotonic()
+        count = chunk.stop - chunk.start
+        expected = count / worker.pace.episodes if worker.pace.episodes else UNKNOWN
+        ahead = [task.since + task.expected for task in worker.tasks.values()]
+        task = Task(batch, chunk, worker, max([now, *ahead]), expected, message)
+        self._submit(task)
+        return task
+
+    def _submit(self, task: Task) -> None:
+        """Sends a chunk, with those tables that its worker lacks."""
+        worker, (request, tables) = task.worker, task.message
+        tables = {self._name: self._setup, **tables}
+        lacking = {name: data for name, data in tables.items() if name not in worker.holds}
+        for name, data in lacking.items():
+            worker.holds.put(name, len(data))
+        worker.holds.use(tables)
+        worker.holds.trim()
+        message = wire.pack(
+            {**request, "experiment": self._name, "needs": list(tables), "tables": lacking}
+        )
+        number = self._send(remote.evaluate, worker, message)
+        worker.tasks[number] = self._tasks[number] = task
+
+    def _help(self, batch: Batch) -> None:
+        """Gives late chunks to workers that have nothing to do; the first answer counts."""
+        if batch.waiting:
+            return
+        now = time.monotonic()
+        idle = [worker for worker in self.ready if not worker.tasks]
+        late = [
+            task
+            for task in self._tasks.values()
+            if isinstance(task, Task)
+            and task.batch is batch
+            and not batch.done(task.chunk)
+            and now > task.since + max(SOONEST, LATE * task.expected) * 2**task.copies
+        ]
+        for worker, task in zip(idle, sorted(late, key=lambda task: task.since), strict=False):
+            copy = self._assign(worker, batch, task.chunk, task.message)
+            task.copies += 1
+            copy.copies = task.copies
+
+    def _hear(self, batch: Batch) -> None:
+        """Takes the answers that come within a moment."""
+        heard = self._connection.answer(TICK)
+        while heard:
+            self._take(*heard)
+            heard = self._connection.answer(0)
+
+    def _take(self, number: int, answer: bytes | BaseException) -> None:
+        task = self._tasks.pop(number, None)
+        if task is None:  # of a worker that is gone
+            return
+        worker = task if isinstance(task, Worker) else task.worker
+        worker.tasks.pop(number, None)
+        if isinstance(answer, BaseException):
+            content = {"failure": f"{type(answer).__name__}: {' '.join(str(answer).split())}"}
+        else:
+            self._watch.received += len(answer)
+            content = wire.unpack(answer)
+        if isinstance(task, Worker):
+            self._met(worker, content)
+        elif "lacks" in content:
+            for name in content["lacks"]:
+                worker.holds.drop(name)
+            self._submit(task)
+        elif "sentence" in content:
+            if task.batch.left and not task.batch.done(task.chunk):
+                raise BotschoolError(content["sentence"])
+        elif "failure" in content:
+            self._failed(task, content["failure"])
+        else:
+            self._done(task, content)
+
+    def _met(self, worker: Worker, answer: dict) -> None:
+        """A worker has said who it is."""
+        worker.greeting = None
+        said = answer.get("sentence") or answer.get("failure")
+        if said and "Cancelled" in said:  # it is gone, or the connection: it will be asked again
+            self.workers.pop(worker.address, None)
+            return
+        if said:
+            worker.left_out = f"it says: {said.rstrip('.')}."
+        elif answer["version"] != __version__:
+            worker.left_out = (
+                f"it has botschool {answer['version']}, and this is {__version__}: install the "
+                "same."
+            )
+        elif self._bits not in (None, answer["bits"]):
+            worker.left_out = (
+                "it computes other bits than this machine: install the same botschool, numpy and "
+                "environments."
+            )
+        else:
+            worker.ready = True
+            worker.pace.threads = answer["threads"]
+            worker.holds.put(self._name, len(self._setup))
+            return
+        self._say(f"Worker {worker.address} is left out: {worker.left_out}")
+
+    def _failed(self, task: Task, said: str) -> None:
+        """A task broke down, not the environment: its chunk is for somebody else."""
+        worker = task.worker
+        self._lost(task)
+        if "Cancelled" in said or "KilledWorker" in said:  # it is gone, or the connection
+            return
+        worker.failures += 1
+        if worker.failures >= FAILURES:
+            worker.ready, worker.left_out = False, f"it says: {said.rstrip('.')}."
+            self._say(f"Worker {worker.address} is left out: {worker.left_out}")
+
+    def _done(self, task: Task, answer: dict) -> None:
+        worker, batch, chunk = task.worker, task.batch, task.chunk
+        worker.failures = 0
+        steps = int(answer["steps"].sum())
+        worker.pace.measured(chunk.stop - chunk.start, steps, answer["seconds"])
+        self._watch.evaluated(answer["seconds"])
+        now = time.monotonic()
+        for following in list(worker.tasks.values())[:1]:
+            following.since = now
+        if not batch.done(chunk):
+            batch.enter(chunk, answer)
+        if not worker.tasks and not batch.waiting:
+            self._watch.idle(worker.address, now)
+
+
+def counted(number: int, what: str) -> str:
+    """The number and the word, in the plural if it is not one."""
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"

@@ -1,0 +1,98 @@
+"""What goes over the wire: dicts of plain values and arrays as bytes, by msgpack. Nothing that is
+unpacked can be code."""
+
+from __future__ import annotations
+
+import zlib
+from hashlib import blake2b
+from typing import Any
+
+import msgpack
+import numpy as np
+
+from botschool.evolution.algorithms.ascent import Start
+from botschool.evolution.algorithms.drawing import Cloud
+
+ARRAY, PACKED = 1, 2
+TYPES = {"<f8", "<f4", "<i4", "<i8", "<u4", "<u8", "|u1"}
+STREAM = ("counter", "key")
+WORDS = ("buffer_pos", "has_uint32", "uinteger")
+WORTH = 64
+"""Bytes from which whole numbers are compressed: seeds and places are regular."""
+
+
+def pack(value: Any) -> bytes:
+    """Numbers, strings, bytes, arrays, and lists and dicts of such, as bytes."""
+    return msgpack.packb(value, default=_array, use_bin_type=True)
+
+
+def unpack(data: bytes) -> Any:
+    """The reverse of `pack`; raises ValueError for anything else."""
+    return msgpack.unpackb(data, ext_hook=_from, raw=False, strict_map_key=False)
+
+
+def _array(value: Any) -> msgpack.ExtType:
+    if isinstance(value, np.generic):
+        value = np.array(value)
+    if not isinstance(value, np.ndarray):
+        raise TypeError(f"{type(value).__name__} does not go over the wire")
+    value = np.ascontiguousarray(value).view(np.ndarray)
+    data, code = value.tobytes(), ARRAY
+    if value.dtype.kind in "iu" and len(data) >= WORTH:
+        data, code = zlib.compress(data, 1), PACKED
+    return msgpack.ExtType(code, msgpack.packb([value.dtype.str, list(value.shape), data]))
+
+
+def _from(code: int, data: bytes) -> np.ndarray:
+    kind, shape, content = msgpack.unpackb(data)
+    if kind not in TYPES or code not in (ARRAY, PACKED):
+        raise ValueError(f"{kind} is no array of botschool's")
+    content = zlib.decompress(content) if code == PACKED else content
+    return np.frombuffer(content, dtype=kind).reshape(shape)
+
+
+def digest(data: bytes) -> bytes:
+    """A name for data: equal if and only if the data are."""
+    return blake2b(data, digest_size=12).digest()
+
+
+def packed(value: Cloud | Start) -> bytes:
+    """What candidates are drawn from, as a table: see `table`."""
+    places = value.places[1:] if isinstance(value, Cloud) else []
+    names = ("centres", "m", "v") if isinstance(value, Start) else ("centres", "both")
+    rules = ("samplesize", "deviation", *(("stepsize", "wdecay") if "m" in names else ()))
+    return pack(
+        {
+            "kind": type(value).__name__,
+            "fields": {name: getattr(value, name) for name in (*names, *rules)},
+            "stream": _told(value.stream),
+            "places": [_told(place) for place in places],
+        }
+    )
+
+
+def _told(stream: dict) -> list:
+    """The state of a Philox generator as a list."""
+    arrays = [stream["state"][name] for name in STREAM]
+    return [*arrays, stream["buffer"], *(stream[name] for name in WORDS)]
+
+
+def _stream(told: list) -> dict:
+    """The reverse of `_told`."""
+    counter, key, buffer, *words = told
+    state = dict(zip(STREAM, (np.array(counter), np.array(key)), strict=True))
+    rest = dict(zip(WORDS, words, strict=True))
+    return {"bit_generator": "Philox", "state": state, "buffer": np.array(buffer), **rest}
+
+
+def table(data: bytes) -> Any:
+    """What a table holds: an array, a Cloud, a Start, or an experiment as a dict."""
+    value = unpack(data)
+    kind = {"Cloud": Cloud, "Start": Start}.get(value.get("kind") if isinstance(value, dict) else 0)
+    if kind is None:
+        return value
+    stream = _stream(value["stream"])
+    if kind is Start:
+        return kind(**value["fields"], stream=stream)
+    places = [stream, *map(_stream, value["places"])]
+    return kind(**value["fields"], stream=stream, places=places)

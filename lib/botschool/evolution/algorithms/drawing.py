@@ -1,0 +1,127 @@
+"""How candidates are drawn around centres, in one place: where they are asked for, and again where
+they are evaluated, on another machine (docs/specification.md, "On a cluster")."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.random import Generator, Philox
+
+STRIDE = 64
+"""Samples between two places in the stream that a cloud remembers."""
+
+
+def mirrored(centres: np.ndarray, samples: np.ndarray, deviation: float) -> np.ndarray:
+    """Candidates on both sides of each centre, shape (..., 2 * samplesize, parameters).
+
+    centres: (..., parameters); samples: (..., samplesize, parameters). Candidates 2 b and 2 b + 1
+    are centre + deviation * e_b and centre - deviation * e_b.
+    """
+    perturbations = deviation * samples
+    candidates = np.empty((*samples.shape[:-2], 2 * samples.shape[-2], samples.shape[-1]))
+    candidates[..., 0::2, :] = centres[..., None, :] + perturbations
+    candidates[..., 1::2, :] = centres[..., None, :] - perturbations
+    return candidates
+
+
+@dataclass(eq=False)
+class Cloud:
+    """Candidates around centres, as few numbers: enough to draw any of them again."""
+
+    centres: np.ndarray
+    """float64 (count, parameters)."""
+    samplesize: int
+    """Directions drawn for each centre."""
+    deviation: float | np.ndarray
+    """Of the candidates, or along each axis."""
+    both: bool
+    """Whether there are candidates on both sides of a centre: see `mirrored`."""
+    stream: dict
+    """State of the Philox generator that gives the directions, centre by centre."""
+    origin: tuple | None = None
+    """Of an ascent (ascent.py): its start, and the fitness of each step so far."""
+    places: list[dict] = field(default_factory=list)
+    """The stream after 0, STRIDE, 2 STRIDE ... directions, as far as it has been followed."""
+
+    def __len__(self) -> int:
+        return len(self.centres) * self.samplesize * (2 if self.both else 1)
+
+    def rows(self, numbers: np.ndarray) -> np.ndarray:
+        """The candidates with these numbers, sorted: float64 (n, parameters)."""
+        sides = 2 if self.both else 1
+        first, last = int(numbers[0]) // sides, int(numbers[-1]) // sides + 1
+        parts = []
+        while first < last:  # centre by centre
+            centre = first // self.samplesize
+            end = min(last, (centre + 1) * self.samplesize)
+            around = mirrored if self.both else candidates_of
+            parts.append(around(self.centres[centre], self._directions(first, end), self.deviation))
+            first = end
+        candidates = parts[0] if len(parts) == 1 else np.concatenate(parts)
+        places = numbers - sides * (int(numbers[0]) // sides)
+        if places[-1] - places[0] + 1 == len(places):
+            return candidates[places[0] : places[-1] + 1]
+        return candidates[places]
+
+    def _directions(self, first: int, last: int) -> np.ndarray:
+        """Directions from number `first` to before `last`."""
+        size = self.centres.shape[1]
+        found = np.empty((last - first, size))
+        self.places = self.places or [self.stream]
+        numbers = Generator(Philox(0))
+        # follow the stream to the block with the first one, and on to the last
+        block = min(len(self.places) - 1, first // STRIDE)
+        while block * STRIDE < last:
+            numbers.bit_generator.state = self.places[block]
+            begin, end = block * STRIDE, (block + 1) * STRIDE
+            if first <= begin and end <= last:
+                numbers.standard_normal(out=found[begin - first : end - first])
+            else:
+                drawn = numbers.standard_normal((STRIDE, size))
+                own = drawn[max(first - begin, 0) : last - begin]
+                found[max(begin - first, 0) :][: len(own)] = own
+            block += 1
+            if block == len(self.places):
+                self.places.append(numbers.bit_generator.state)
+        return found
+
+
+class Drawn(np.ndarray):
+    """Candidates that can be drawn again; parts of them, or what is computed from them, cannot."""
+
+    cloud: Cloud | None = None
+
+
+def candidates_of(centres: np.ndarray, samples: np.ndarray, deviation) -> np.ndarray:
+    """One candidate a direction: centre + deviation * e."""
+    return centres + deviation * samples
+
+
+def draw(
+    numbers: Generator, centres: np.ndarray, samplesize: int, deviation, both: bool = True
+) -> tuple[np.ndarray, Drawn]:
+    """Directions, shape (count, samplesize, parameters), and candidates around the centres.
+
+    centres: (count, parameters). Candidates: with `both` as `mirrored` gives them, else one for
+    each direction, (count, samplesize, parameters).
+    """
+    directions = np.empty((len(centres) * samplesize, centres.shape[1]))
+    places = []
+    for first in range(0, len(directions), STRIDE):
+        places.append(numbers.bit_generator.state)
+        numbers.standard_normal(out=directions[first : first + STRIDE])
+    cloud = Cloud(centres, samplesize, deviation, both, places[0], places=places)
+    samples = directions.reshape(len(centres), samplesize, -1)
+    if both:
+        candidates = mirrored(centres, samples, deviation)
+    else:
+        candidates = candidates_of(centres[:, None], samples, deviation)
+    return samples, remembering(candidates.reshape(-1, centres.shape[1]), cloud)
+
+
+def remembering(candidates: np.ndarray, cloud: Cloud | None) -> Drawn:
+    """The same candidates, which remember the cloud that they are from."""
+    drawn = candidates.view(Drawn)
+    drawn.cloud = cloud
+    return drawn
