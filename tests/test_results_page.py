@@ -63,6 +63,15 @@ def test_an_interval_of_differences():
     assert low < values.mean() < high
 
 
+def test_the_page_of_clusters_is_made_from_its_data():
+    pytest.importorskip("distributed")
+    import cluster_page as page
+
+    text = page.PAGE.read_text(encoding="utf-8")
+    assert page.filled(text, page.load()) == text, "run tests/bench/cluster.py page"
+    assert sorted(page.BLOCKS) == sorted(page.re.findall(r"<!-- (?!end)(\w+) -->", text))
+
+
 def test_a_block_without_data_stays():
     import page
 
