@@ -97,6 +97,29 @@ def test_version_0_agrees_over_whole_episodes(make, reference, body):
         assert own_ended == ended
 
 
+def reflexes(env, number):
+    """Observations of an episode in which a random layer of neurons acts."""
+    rng = np.random.default_rng(number)
+    observation, _ = env.reset(seed=number)
+    observations = [observation]
+    weights, biases = rng.normal(size=(3, 15)), rng.normal(size=3)
+    for _ in range(60):
+        observation, _, ended, _, _ = env.step(np.tanh(weights @ observation + biases))
+        observations.append(observation)
+        if ended:
+            break
+    return np.array(observations)
+
+
+@pytest.mark.parametrize(("before", "number"), [(34, 30), (19, 136), (19, 113)])
+def test_an_episode_does_not_depend_on_the_one_before(make, before, number):
+    """Contacts that outlived restoreState moved the last digits of these."""
+    fresh = reflexes(make("HopperBulletEnv-v5"), number)
+    used = make("HopperBulletEnv-v5")
+    reflexes(used, before)
+    np.testing.assert_array_equal(reflexes(used, number), fresh)
+
+
 def test_the_first_episode_of_the_reference_differs_in_one_reward_alone(make, reference):
     module = sys.modules["pybullet_envs_gymnasium.gym_locomotion_envs"]
     theirs = module.HopperBulletEnv()
