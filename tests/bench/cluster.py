@@ -34,7 +34,7 @@ from report import commit, machine
 
 from botschool import config
 from botschool.cluster import Open, dispatch
-from botschool.config import Experiment, competitive
+from botschool.config import Experiment
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.run import Limit, Run
 from botschool.problems import Episodes, Interrupted
@@ -68,7 +68,7 @@ class Case:
     def run(self, heavier: bool = False, problem=None) -> Run:
         """A run of it, before its first generation; without limit."""
         experiment = self.load(heavier)
-        kind = Coevolution if competitive(experiment) else Run
+        kind = Coevolution if experiment.competitive else Run
         run = kind(experiment, SEED, problem=problem)
         run.limit = Limit()
         if self.robot and not heavier:

@@ -226,8 +226,8 @@ def figure(data: dict) -> None:
     left.set(
         xlabel="local workers, on two cores",
         ylabel="seconds of a turn",
-        yscale="log",
-        title="predicted (lines), measured (dots)",
+        ylim=(0, None),
+        title="Predicted (lines), measured (dots)",
     )
     left.legend()
     for colour, (name, each) in enumerate(found.items()):
@@ -241,7 +241,7 @@ def figure(data: dict) -> None:
         yscale="log",
         xlabel=f"cores, in workers of {THREADS}",
         ylabel="times as fast as one core",
-        title="predicted; 10 (dashed), 100 (dotted) times as many candidates",
+        title="Predicted; with 10 (dashed), 100 (dotted) times the candidates",
     )
     right.legend()
     panes.savefig(FIGURE, dpi=110)
