@@ -13,7 +13,7 @@ from botschool import config, problems, wrappers
 from botschool.errors import BotschoolError
 from botschool.policy import Policy
 from botschool.problems import Episodes, making
-from botschool.problems.spaces import Flattener, Unsupported, fitted, interface
+from botschool.problems.spaces import Flattener, fitted, interface
 from running import TESTS, experiment, run_seeds, same, write_experiment
 
 
@@ -66,9 +66,14 @@ def test_what_the_space_does_not_contain(wrong):
 
 
 def test_pictures_too_large_for_a_flat_network_are_refused():
-    assert Flattener(spaces.Box(0, 255, (100, 100, 3), np.uint8), "any").size == 30_000
-    with pytest.raises(Unsupported, match=r"30603 values.*at most 30000: .*ResizeObservation"):
-        Flattener(spaces.Box(0, 255, (101, 101, 3), np.uint8), "any")
+    def flat(side: int) -> Policy:
+        flattener = Flattener(spaces.Box(0, 255, (side, side, 3), np.uint8), "any")
+        asked = interface(flattener.size, spaces.Discrete(2), 0, flattener.image)
+        return Policy("any", asked, config.PolicyConfig(nhiddens=0))
+
+    assert flat(100).spec.inputs == 30_000
+    with pytest.raises(BotschoolError, match=r"30603 values.*at most 30000: .*ResizeObservation"):
+        flat(101)
 
 
 def test_what_is_left_out_is_said_once(tmp_path, capsys):

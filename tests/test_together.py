@@ -191,8 +191,12 @@ def test_runs_side_by_side_that_are_stopped_go_on(number, tmp_path):
     ini = write_experiment(tmp_path, "CartPole-v1", "OpenAI-ES", maxmsteps=1000)
     arguments = ["es", "-f", ini, "-n", 2, "-w", 2, "-o", results]
     process = start(*arguments, start_new_session=True)
-    while "generation 20 " not in process.stdout.readline():
+    begun = set()
+    while len(begun) < 2:  # one of them may be slow to begin
         assert process.poll() is None
+        line = process.stdout.readline()
+        if "generation 20 " in line:
+            begun.add(line.partition("generation")[0])
     # a terminal sends it to all processes at once
     os.killpg(process.pid, number)
     code, out, errors = finish(process)

@@ -1,10 +1,10 @@
 """Whether what `botschool rl tune` has found is better than the start of its search.
 
-On seeds that it has not seen; the block `tuned` of docs/chapter.md.
+On seeds that it has not seen; the blocks `tuned` of docs/chapter.md.
 
-    python tests/bench/tuned.py tune       the search, into results/tuned (goes on where it stopped)
-    python tests/bench/tuned.py measure    trainings with and without, into docs/results/tuned
-    python tests/bench/tuned.py page       the block from that file
+    python tests/bench/tuned.py tune NAME       a search, or the rest of it, into results/tuned
+    python tests/bench/tuned.py measure NAME    trainings with and without, into docs/results/tuned
+    python tests/bench/tuned.py page            the blocks from these files
 
 The options are those of the commands in that page.
 """
@@ -17,56 +17,80 @@ import json
 import re
 import sys
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 REPOSITORY = Path(__file__).parents[2]
 FOLDER = REPOSITORY / "results" / "tuned"
-DATA = REPOSITORY / "docs" / "results" / "tuned" / "cartpole.json"
 PAGE = REPOSITORY / "docs" / "chapter.md"
-
-ALGO, ENV, STEPS = "a2c", "CartPole-v1", 5000
 TRIALS = 12
-SEEDS = range(21, 61)
-FIRST = 20
-"""They were all at first; as they left it open, the others came to them."""
 NEW_EPISODES = 20
 SAMPLES = 100_000
 
 
-def tune() -> None:
+@dataclass(frozen=True)
+class Search:
+    """A search, and the seeds of the trainings that judge it."""
+
+    algo: str
+    env: str
+    steps: int
+    seeds: range
+    first: int
+    """How many seeds there were at first; where they left it open, the others came to them."""
+
+    @property
+    def data(self) -> Path:
+        """What was measured."""
+        name = self.env.partition("-")[0].lower()
+        return REPOSITORY / "docs" / "results" / "tuned" / f"{name}.json"
+
+
+SEARCHES = {
+    "cartpole": Search("a2c", "CartPole-v1", 5000, range(21, 61), 20),
+    "pendulum": Search("a2c", "Pendulum-v1", 20_000, range(21, 41), 20),
+}
+
+
+def tune(name: str) -> None:
     """Searches, or goes on."""
     from botschool.rl.tuning import Plan, tune
 
-    options = {"steps": STEPS, "envs": None, "seed": 1, "wrappers": "", "evaluations": 2}
-    tune(Plan(ALGO, ENV, FOLDER, TRIALS, options | {"episodes": 10}), lambda line: print(line))
+    search = SEARCHES[name]
+    options = {"steps": search.steps, "envs": None, "seed": 1, "wrappers": "", "evaluations": 2}
+    plan = Plan(search.algo, search.env, FOLDER, TRIALS, options | {"episodes": 10})
+    tune(plan, lambda line: print(line))
 
 
-def measure() -> None:
+def measure(name: str) -> None:
     """Trains with each seed as the search began and as it ended; goes on where it stopped."""
     from botschool.output import save_bytes
     from botschool.rl.parameters import read_settings
     from botschool.rl.tuning import Plan
 
-    best = read_settings(Plan(ALGO, ENV, FOLDER, TRIALS, {}).best)
-    measured = json.loads(DATA.read_text(encoding="utf-8")) if DATA.exists() else {"runs": []}
+    search = SEARCHES[name]
+    best = read_settings(Plan(search.algo, search.env, FOLDER, TRIALS, {}).best)
+    found = search.data.exists()
+    measured = json.loads(search.data.read_text(encoding="utf-8")) if found else {"runs": []}
     rows = measured["runs"] if measured.get("tuned") == best else []
-    for seed in sorted(set(SEEDS) - {row["seed"] for row in rows}):
-        rows.append({"seed": seed, "start": returned(seed, {}), "tuned": returned(seed, best)})
+    for seed in sorted(set(search.seeds) - {row["seed"] for row in rows}):
+        start, tuned = (returned(search, seed, params) for params in ({}, best))
+        rows.append({"seed": seed, "start": start, "tuned": tuned})
         print(rows[-1], flush=True)
-        save_bytes(DATA, (json.dumps({"tuned": best, "runs": rows}, indent=1) + "\n").encode())
+        text = json.dumps({"tuned": best, "runs": rows}, indent=1) + "\n"
+        save_bytes(search.data, text.encode())
 
 
-def returned(seed: int, params: dict) -> float:
+def returned(search: Search, seed: int, params: dict) -> float:
     """Mean return of the last model in new episodes."""
     from botschool.rl.training import train
     from botschool.rl.watch import Player
 
     with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
-        run = train(
-            *(ALGO, ENV, folder), params=params, steps=STEPS, seed=seed, evaluations=1, episodes=1
-        )
+        options = {"steps": search.steps, "seed": seed, "evaluations": 1, "episodes": 1}
+        run = train(search.algo, search.env, folder, params=params, **options)
         player = Player(run.last, seed)
         player.play(NEW_EPISODES)
     return round(float(np.mean(player.returns)), 2)
@@ -80,9 +104,9 @@ def interval(differences: np.ndarray) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def text(measured: dict) -> str:
+def text(search: Search) -> str:
     """What was found, in a paragraph."""
-    runs = measured["runs"]
+    runs = json.loads(search.data.read_text(encoding="utf-8"))["runs"]
     start, tuned = (np.array([run[name] for run in runs]) for name in ("start", "tuned"))
     low, high = interval(tuned - start)
     verdict = "better" if low > 0 else "worse" if high < 0 else "not surely better"
@@ -93,9 +117,18 @@ def text(measured: dict) -> str:
         f"{start.mean():.1f} +- {start.std(ddof=1):.1f} without (mean and standard deviation over "
         f"{len(runs)} seeds). With {(tuned > start).sum()} of the seeds it is better. The mean "
         f"difference is {difference(tuned - start)} (95 % of a bootstrap over the seeds): the "
-        f"tuned ones are {verdict}. The first {FIRST} seeds, with "
-        f"{difference((tuned - start)[:FIRST])}, had left that open; the {len(runs) - FIRST} that "
-        f"were added have {difference((tuned - start)[FIRST:])}."
+        f"tuned ones are {verdict}."
+    ) + added(search, tuned - start)
+
+
+def added(search: Search, differences: np.ndarray) -> str:
+    """What became of seeds that were added."""
+    first, others = differences[: search.first], differences[search.first :]
+    if not len(others):
+        return ""
+    return (
+        f" The first {len(first)} seeds, with {difference(first)}, had left that open; the "
+        f"{len(others)} that were added have {difference(others)}."
     )
 
 
@@ -105,10 +138,13 @@ def difference(values: np.ndarray) -> str:
     return f"{values.mean():.1f}, from {low:.1f} to {high:.1f}"
 
 
-def filled(page: str, measured: dict) -> str:
-    """The page with its block made from what was measured."""
-    lines = "\n".join(wrapped(text(measured)))
-    return re.sub(r"(<!-- tuned -->\n).*?(<!-- end -->)", rf"\g<1>{lines}\n\2", page, flags=re.S)
+def filled(page: str) -> str:
+    """The page with its blocks made from what was measured."""
+    for name, search in SEARCHES.items():
+        lines = "\n".join(wrapped(text(search)))
+        block = rf"(<!-- tuned {name} -->\n).*?(<!-- end -->)"
+        page = re.sub(block, rf"\g<1>{lines}\n\2", page, flags=re.S)
+    return page
 
 
 def wrapped(paragraph: str) -> list[str]:
@@ -119,10 +155,9 @@ def wrapped(paragraph: str) -> list[str]:
 
 
 def page() -> None:
-    """Writes the block."""
-    measured = json.loads(DATA.read_text(encoding="utf-8"))
-    PAGE.write_text(filled(PAGE.read_text(encoding="utf-8"), measured), encoding="utf-8")
+    """Writes the blocks."""
+    PAGE.write_text(filled(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    {"tune": tune, "measure": measure, "page": page}[sys.argv[1]]()
+    {"tune": tune, "measure": measure, "page": page}[sys.argv[1]](*sys.argv[2:])

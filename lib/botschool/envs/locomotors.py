@@ -164,8 +164,8 @@ class Locomotor(gymnasium.Env):
         return self._observation.clip(*self._seen), {}
 
     def _forget_contacts(self) -> None:
-        """Restoring a state leaves points of contact that the last episode had with the floor, which
-        in one episode of hundreds shows in the last digits. High above the floor there are none."""
+        """Restoring a state leaves points where the last episode touched the floor, which in one
+        episode of hundreds shows in the last digits. High above the floor there are none."""
         world = {"physicsClientId": self._client}
         self._bullet.resetBasePositionAndOrientation(
             self._robot, (0.0, 0.0, ALOFT), (0.0, 0.0, 0.0, 1.0), **world
