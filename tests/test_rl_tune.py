@@ -1,12 +1,15 @@
 """`botschool rl tune`: tries hyperparameters, goes on where it stopped, writes what is best."""
 
 import itertools
+from dataclasses import replace
 
+import numpy as np
 import pytest
 import yaml
 
 from botschool.errors import BotschoolError
 from botschool.rl import settings, tuning
+from botschool.rl.folder import Evaluations
 from botschool.rl.model import choose
 from botschool.rl.tuning import SPACES, Log, Plan, tune
 from running import TESTS
@@ -61,6 +64,24 @@ def test_it_goes_on_as_if_it_had_not_been_stopped(tmp_path):
     left = tuning._study(parts, 4).get_trials()
     assert {trial.state for trial in left} == {ended.COMPLETE, ended.FAIL}
     assert parts.best.read_text() == whole.best.read_text()
+
+
+def test_a_trial_is_worth_the_mean_of_its_trainings(tmp_path, monkeypatch):
+    trained = []
+
+    def learn(settings, folder, report, stopping):
+        trained.append(settings.seed)
+        value = float(settings.seed)
+        ends = Evaluations(np.array([12, 24]), np.full((2, 2), value), np.full((2, 2), 5))
+        return None, ends
+
+    monkeypatch.setattr(tuning, "learn", learn)
+    several = replace(plan_of(tmp_path, 2), seeds=3)
+    lines = []
+    assert tune(several, lines.append)
+    assert trained == [3, 4, 5] * 2 and lines[0].startswith("trial 0: 4.00 ")
+    with pytest.raises(BotschoolError, match="with seeds = 3, not 1"):
+        tune(plan_of(tmp_path, 3))
 
 
 def test_trials_without_hope_are_broken_off(tmp_path, monkeypatch):

@@ -159,6 +159,10 @@ def rl_tune(
         list[str] | None, typer.Option(help="As in `rl train`.", metavar="NAME")
     ] = None,
     seed: RlSeed = 1,
+    seeds: Annotated[
+        int,
+        typer.Option(min=1, max=1000, help="Trainings of each trial, from --seed on; their mean."),
+    ] = 1,
     evaluations: Annotated[
         int, typer.Option(min=1, max=1000, help="Post-evaluations of each training.")
     ] = 8,
@@ -173,7 +177,7 @@ def rl_tune(
 
     options = {"steps": steps, "envs": envs, "seed": seed, "wrappers": ", ".join(wrapper or [])}
     options |= {"evaluations": evaluations, "episodes": episodes}
-    if not tune_command(Plan(check_algorithm(algo), env, output, trials, options)):
+    if not tune_command(Plan(check_algorithm(algo), env, output, trials, options, seeds)):
         raise typer.Exit(130)
 
 

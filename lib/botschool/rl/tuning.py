@@ -85,6 +85,8 @@ class Plan:
     trials: int
     options: Mapping[str, Any]
     """steps, envs, seed, evaluations, episodes, wrappers of each training, as in `choose`."""
+    seeds: int = 1
+    """Trainings of each trial, with `seed` and those after it; a trial is worth their mean."""
 
     @property
     def path(self) -> Path:
@@ -158,8 +160,8 @@ def _ended(study: Study) -> list:
 
 
 def _check_same(study: Study, plan: Plan) -> None:
-    now = dict(plan.options)
-    before = study.user_attrs.get("options", now)
+    now = {**plan.options, "seeds": plan.seeds}
+    before = {"seeds": 1, **study.user_attrs.get("options", now)}
     for name, value in now.items():
         if before.get(name) != value:
             raise BotschoolError(
@@ -182,29 +184,41 @@ def _choices(algo: str, trial: Trial) -> dict[str, Any]:
 
 
 def _train(plan: Plan, trial: Trial, given: dict[str, Any], stopping: Callable[[], bool]):
-    """(mean return of the last post-evaluation, state of the trial)."""
+    """(mean return of the trainings' last post-evaluations, state of the trial)."""
     from optuna.trial import TrialState
 
-    pruned, reported = False, 0
+    pruned, reports, ends = False, 0, []
 
-    def report(steps: int, found: Evaluations) -> None:
-        nonlocal pruned, reported
-        while reported < len(found.steps):
-            trial.report(float(found.returns[reported].mean()), reported)
-            reported += 1
-            pruned = pruned or trial.should_prune()
+    def reporter() -> Callable[[int, Evaluations], None]:
+        seen = 0
 
-    settings = choose(plan.algo, plan.env, params=given, **plan.options)
-    try:
-        _, found = learn(
-            settings, plan.path / "trials", report, stopping=lambda: pruned or stopping()
-        )
-    except BotschoolError as error:
-        if "broke down" not in str(error):
-            raise
-        return -1e9, TrialState.PRUNED  # its numbers have overflown
-    report(0, found)
-    return found.last, TrialState.PRUNED if pruned else TrialState.COMPLETE
+        def report(steps: int, found: Evaluations) -> None:
+            nonlocal pruned, reports, seen
+            while seen < len(found.steps):
+                known = [*ends, float(found.returns[seen].mean())]
+                trial.report(sum(known) / len(known), reports)
+                seen, reports = seen + 1, reports + 1
+                pruned = pruned or trial.should_prune()
+
+        return report
+
+    for seed in range(plan.options["seed"], plan.options["seed"] + plan.seeds):
+        settings = choose(plan.algo, plan.env, params=given, **plan.options | {"seed": seed})
+        report = reporter()
+        try:
+            _, found = learn(
+                settings, plan.path / "trials", report, stopping=lambda: pruned or stopping()
+            )
+        except BotschoolError as error:
+            if "broke down" not in str(error):
+                raise
+            return -1e9, TrialState.PRUNED  # its numbers have overflown
+        report(0, found)
+        ends.append(found.last)
+        if pruned or stopping():
+            break
+    state = TrialState.PRUNED if pruned else TrialState.COMPLETE
+    return sum(ends) / len(ends), state
 
 
 def _save_best(plan: Plan, study: Study) -> None:
