@@ -20,7 +20,6 @@ from botschool.hyperparameters import PolicyConfig
 from botschool.policy import Policy
 from botschool.problems import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.transition import Transition
-from botschool.terminal import readable
 
 DECLARED = tuple(name for name in Problem.__annotations__ if not name.startswith("_"))
 """What a problem says of itself."""
@@ -158,4 +157,5 @@ class Distributed(Problem):
 
 
 def _speed(steps: float) -> str:
-    return f"{readable(steps / 1e6)}M steps/s"
+    size, letter = (1e6, "M") if steps >= 1e6 else (1e3, "k")
+    return f"{steps / size:.3g} {letter} steps/s"
