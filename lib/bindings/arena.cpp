@@ -118,22 +118,11 @@ void bind_arena(nb::module_& module) {
 
   module.def("declarations", &declarations);
   nb::class_<Declaration>(module, "Declaration")
-      .def(
-          "__init__",
-          [](Declaration* made, double width, double height, const std::vector<std::string>& models,
-             const Things& robots, const Things& walls, const Things& cylinders,
-             const Things& lights, const Things& zones, const std::vector<std::string>& sensors,
-             double noise, double half_light, int beams, double field, double reach,
-             const std::string& reward, double distance, bool bumps_end) {
-            new (made) Declaration(declare(width, height, models, robots, walls, cylinders, lights,
-                                           zones, sensors, noise, half_light, beams, field, reach,
-                                           reward, distance, bumps_end));
-          },
-          nb::kw_only(), nb::arg("width"), nb::arg("height"), nb::arg("models"), nb::arg("robots"),
-          nb::arg("walls"), nb::arg("cylinders"), nb::arg("lights"), nb::arg("zones"),
-          nb::arg("sensors"), nb::arg("noise"), nb::arg("half_light"), nb::arg("beams"),
-          nb::arg("field"), nb::arg("reach"), nb::arg("reward"), nb::arg("distance"),
-          nb::arg("bumps_end"))
+      .def(nb::new_(&declare), nb::kw_only(), nb::arg("width"), nb::arg("height"),
+           nb::arg("models"), nb::arg("robots"), nb::arg("walls"), nb::arg("cylinders"),
+           nb::arg("lights"), nb::arg("zones"), nb::arg("sensors"), nb::arg("noise"),
+           nb::arg("half_light"), nb::arg("beams"), nb::arg("field"), nb::arg("reach"),
+           nb::arg("reward"), nb::arg("distance"), nb::arg("bumps_end"))
       .def_prop_ro("observations", [](const Declaration& d) { return observations_of(d); })
       .def("size_of", [](const Declaration& d, const std::string& sensor) {
         return size_of(Sense(index_of(kSenses, sensor)), d.sensing);

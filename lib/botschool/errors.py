@@ -1,4 +1,7 @@
-"""The one exception that users see."""
+"""The one exception that users see, and what others say."""
+
+MOST = 300
+"""Letters of what a foreign exception says that are shown."""
 
 
 class BotschoolError(Exception):
@@ -6,3 +9,9 @@ class BotschoolError(Exception):
 
     The command prints the sentence and exits with code 2; it never shows a traceback.
     """
+
+
+def said(error: BaseException) -> str:
+    """What an exception says, on one line without a full stop; its type if it says nothing."""
+    text = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+    return text if len(text) <= MOST else f"{text[:MOST]}..."

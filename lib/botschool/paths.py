@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 from types import ModuleType
 
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, said
 
 
 def course_root() -> Path:
@@ -49,10 +49,9 @@ def import_here(module: str, purpose: str) -> ModuleType:
             reason = "is its package installed, or are you in its folder"
         raise BotschoolError(f"There is no module {module} to {purpose}; {reason}?") from None
     except Exception as error:
-        reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
         raise BotschoolError(
             f"The module {module}, to {purpose}, cannot be imported "
-            f"({type(error).__name__}: {reason[:300]}): mend it."
+            f"({type(error).__name__}: {said(error)}): mend it."
         ) from error
 
 

@@ -13,7 +13,7 @@ import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, said
 from botschool.inifile import nearest, shown
 from botschool.paths import import_here
 
@@ -46,12 +46,11 @@ class Wrapper:
             outside = found(env, *self.given, **self.named)
         except gymnasium.error.DependencyNotInstalled as error:
             raise BotschoolError(
-                f"The wrapper {self.name} needs a package that is not installed: "
-                f"{_sentence(error)}."
+                f"The wrapper {self.name} needs a package that is not installed: {said(error)}."
             ) from None
         except Exception as error:
             raise BotschoolError(
-                f"The wrapper {self.name} does not fit {wrapped} ({_sentence(error)}): give its "
+                f"The wrapper {self.name} does not fit {wrapped} ({said(error)}): give its "
                 "arguments in brackets, as ResizeObservation(shape=(32, 32)), or leave it out."
             ) from error
         if not isinstance(outside, gymnasium.Env):
@@ -146,8 +145,3 @@ def _wrapper(text: str) -> Wrapper:
             "lists or tuples, as in ResizeObservation(shape=(32, 32))"
         ) from None
     return Wrapper(module or "", name, given, named)
-
-
-def _sentence(error: Exception) -> str:
-    text = " ".join(str(error).split()).rstrip(".") or type(error).__name__
-    return text if len(text) <= 300 else f"{text[:300]}..."

@@ -19,7 +19,7 @@ from importlib.util import find_spec
 from multiprocessing import resource_tracker
 
 from botschool.cluster.address import Place
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, said
 from botschool.terminal import SIGNALS, unheard
 
 try:
@@ -85,9 +85,7 @@ class Connection:
     def answer(self, timeout: float) -> tuple[int, bytes | BaseException] | None:
         """Number of a task and what came of it; None if nothing comes within so many seconds."""
         try:
-            number, answer = (
-                self._answers.get(timeout=timeout) if timeout else (self._answers.get_nowait())
-            )
+            number, answer = self._answers.get(timeout > 0, timeout)
         except queue.Empty:
             return None
         self._pending.pop(number, None)
@@ -132,7 +130,7 @@ class Connection:
                 )
         except Exception as error:
             raise BotschoolError(
-                f"--cluster {self._place.text} cannot start its workers ({_said(error)}): -w "
+                f"--cluster {self._place.text} cannot start its workers ({said(error)}): -w "
                 f"{workers} uses the cores of this machine without them."
             ) from None
 
@@ -161,7 +159,7 @@ class Connection:
                 return
             trusted = " and the certificates of both sides" if address.startswith("tls:") else ""
             raise BotschoolError(
-                f"No scheduler answers at {address} ({_said(error)}): start one with 'dask "
+                f"No scheduler answers at {address} ({said(error)}): start one with 'dask "
                 f"scheduler', or check the address{trusted}."
             ) from None
         self._asked = 0.0
@@ -275,7 +273,7 @@ def _has_certificates() -> bool:
     except Exception as error:
         raise BotschoolError(
             f"The certificates in Dask's settings distributed.comm.tls cannot be used "
-            f"({_said(error)})."
+            f"({said(error)})."
         ) from None
 
 
@@ -287,8 +285,3 @@ def _outcome(done: concurrent.futures.Future) -> bytes | BaseException:
     if done.cancelled():
         return concurrent.futures.CancelledError()
     return done.exception() or done.result()
-
-
-def _said(error: BaseException) -> str:
-    """What an exception says, on one line without a full stop."""
-    return (" ".join(str(error).split()) or type(error).__name__).rstrip(".")

@@ -17,6 +17,11 @@ ARRAY, PACKED = 1, 2
 TYPES = {"<f8", "<f4", "<i4", "<i8", "<u4", "<u8", "|u1"}
 STREAM = ("counter", "key")
 WORDS = ("buffer_pos", "has_uint32", "uinteger")
+FIELDS = {
+    Cloud: ("centres", "samplesize", "deviation", "both"),
+    Start: ("centres", "m", "v", "samplesize", "deviation", "stepsize", "wdecay"),
+}
+"""What a table of each kind holds, besides a stream."""
 WORTH = 64
 """Bytes from which whole numbers are compressed: seeds and places are regular."""
 
@@ -58,17 +63,10 @@ def digest(data: bytes) -> bytes:
 
 def packed(value: Cloud | Start) -> bytes:
     """What candidates are drawn from, as a table: see `table`."""
-    places = value.places[1:] if isinstance(value, Cloud) else []
-    names = ("centres", "m", "v") if isinstance(value, Start) else ("centres", "both")
-    rules = ("samplesize", "deviation", *(("stepsize", "wdecay") if "m" in names else ()))
-    return pack(
-        {
-            "kind": type(value).__name__,
-            "fields": {name: getattr(value, name) for name in (*names, *rules)},
-            "stream": _told(value.stream),
-            "places": [_told(place) for place in places],
-        }
-    )
+    kind = type(value)
+    told = {"kind": kind.__name__, "fields": {name: getattr(value, name) for name in FIELDS[kind]}}
+    places = value.places[1:] if kind is Cloud else []
+    return pack(told | {"stream": _told(value.stream), "places": [_told(p) for p in places]})
 
 
 def _told(stream: dict) -> list:
@@ -88,11 +86,12 @@ def _stream(told: list) -> dict:
 def table(data: bytes) -> Any:
     """What a table holds: an array, a Cloud, a Start, or an experiment as a dict."""
     value = unpack(data)
-    kind = {"Cloud": Cloud, "Start": Start}.get(value.get("kind") if isinstance(value, dict) else 0)
+    name = value.get("kind") if isinstance(value, dict) else None
+    kind = next((each for each in FIELDS if each.__name__ == name), None)
     if kind is None:
         return value
     stream = _stream(value["stream"])
     if kind is Start:
-        return kind(**value["fields"], stream=stream)
+        return Start(**value["fields"], stream=stream)
     places = [stream, *map(_stream, value["places"])]
-    return kind(**value["fields"], stream=stream, places=places)
+    return Cloud(**value["fields"], stream=stream, places=places)

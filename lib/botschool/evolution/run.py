@@ -134,7 +134,7 @@ class Run:
         record, last = self.record, self.record.last
         return (
             f"seed {self.seed}  generation {record.generation}  steps {record.steps} "
-            f"({100 * record.steps / self.max_steps:.1f}%)  {self.numbers()}  "
+            f"({100 * self.limit.share(self):.1f}%)  {self.numbers()}  "
             f"of this generation {readable(last['best of generation'])}  "
             f"parameter {last['average parameter']:.3f}"
         )

@@ -14,7 +14,7 @@ from contextlib import suppress
 
 import gymnasium
 
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, said
 from botschool.paths import look_here
 from botschool.problems import faces  # noqa: F401  (registers our own)
 from botschool.problems.native import INFOS, NATIVE
@@ -67,7 +67,7 @@ def _make(name: str, **options) -> gymnasium.Env:
             return gymnasium.make(_registered(name), disable_env_checker=True, **options)
     except (gymnasium.error.DependencyNotInstalled, ModuleNotFoundError) as error:
         raise BotschoolError(
-            f"{name} needs a package that is not installed: {sentence(error)}"
+            f"{name} needs a package that is not installed: {said(error)}."
         ) from None
     except gymnasium.error.UnregisteredEnv:
         module, colon, own = name.rpartition(":")
@@ -78,7 +78,7 @@ def _make(name: str, **options) -> gymnasium.Env:
             hint = f"did you mean {module}{colon}{near[0]}?"
         raise BotschoolError(f"There is no environment '{name}'; {hint}") from None
     except Exception as error:
-        raise BotschoolError(f"{name} cannot be made: {sentence(error)}") from error
+        raise BotschoolError(f"{name} cannot be made: {said(error)}.") from error
 
 
 def _registered(name: str) -> str:
@@ -131,11 +131,5 @@ def _import_package(name: str) -> None:
             module.ALEInterface.setLoggerMode(module.LoggerMode.Error)
     except ModuleNotFoundError as error:
         if error.name != package:
-            raise BotschoolError(f"{name} cannot be made: {sentence(error)}") from None
+            raise BotschoolError(f"{name} cannot be made: {said(error)}.") from None
         raise BotschoolError(f"{name} {remedy}") from None
-
-
-def sentence(error: Exception) -> str:
-    """What an exception says, on one line with a full stop."""
-    text = " ".join(str(error).split()) or type(error).__name__
-    return text if text.endswith(".") else text + "."

@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, said
 from botschool.inifile import shown
 from botschool.policy import Policy
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
-from botschool.problems.making import sentence
 from botschool.problems.transition import Transition
 
 
@@ -102,7 +101,7 @@ class PythonProblem(Problem):
             return method(*arguments, **options)
         except (Exception, SystemExit) as error:
             raise BotschoolError(
-                f"{self.name} raised {type(error).__name__} in {where} ({sentence(error)[:-1]}): "
+                f"{self.name} raised {type(error).__name__} in {where} ({said(error)}): "
                 "mend the environment."
             ) from error
 

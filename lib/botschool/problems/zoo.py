@@ -18,11 +18,10 @@ from typing import Any
 
 import gymnasium
 
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, said
 from botschool.inifile import nearest, shown
 from botschool.paths import look_here
 from botschool.problems import faces  # noqa: F401  (registers our own)
-from botschool.problems.making import sentence
 
 NAMES = (
     "name a module with parallel_env (as mpe2.simple_tag_v3), module:function or an id of "
@@ -55,7 +54,7 @@ def make_parallel(name: str, **options: Any) -> Any:
             if isinstance(error.__cause__, ModuleNotFoundError):
                 raise _without(name, error.__cause__) from None
             given = " with these options" if options else ""
-            raise BotschoolError(f"{name} cannot be made{given}: {sentence(error)}") from error
+            raise BotschoolError(f"{name} cannot be made{given}: {said(error)}.") from error
         if isinstance(env, AECEnv):
             if not env.metadata.get("is_parallelizable"):
                 raise BotschoolError(
@@ -149,7 +148,7 @@ def _import(module: str, name: str) -> ModuleType:
     except ModuleNotFoundError as error:
         raise _without(name, error) from None
     except Exception as error:
-        raise BotschoolError(f"{name} cannot be imported: {sentence(error)}") from error
+        raise BotschoolError(f"{name} cannot be imported: {said(error)}.") from error
 
 
 def _without(name: str, error: ModuleNotFoundError) -> BotschoolError:

@@ -14,7 +14,7 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, said
 from botschool.inifile import shown
 from botschool.rl import spellings
 from botschool.rl.environments import described, make
@@ -240,10 +240,9 @@ def build(settings: Settings, env: VecEnv | gymnasium.Env, small: bool = False) 
                 **chosen,
             )
     except (AssertionError, ValueError, TypeError, RuntimeError, MemoryError) as error:
-        reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
         raise BotschoolError(
             f"{settings.algo} cannot be set up for {settings.env} with these hyperparameters "
-            f"({reason[:300]}): change them with --params."
+            f"({said(error)}): change them with --params."
         ) from error
     if not small:
         _pass_on(caught)
