@@ -82,6 +82,7 @@ def convolutional_specs(draw):
         nlayers=draw(st.integers(1, 2)),
         nbins=draw(st.sampled_from([1, 1, 3])),
         bias=draw(flag),
+        normalize=draw(flag),
         clip=draw(flag),
         afunction=draw(HIDDEN_ACTIVATIONS),
         out_type=draw(st.integers(1, 5)),

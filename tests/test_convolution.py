@@ -17,7 +17,7 @@ from botschool.problems.spaces import Flattener
 from botschool.rl import environments
 from reference_network import ReferenceNetwork, genotype_length, kernels, parse, planes, read
 from running import TESTS, experiment, run_seeds, same, write_experiment
-from strategies import REPEATABLE, convolutional_specs, random_genotype
+from strategies import REPEATABLE, convolutional_specs, random_genotype, random_normalisation
 
 POLICY = {
     "architecture": 4, "afunction": 5, "filters": "4, 6", "kernels": "8, 3", "strides": "4, 2",
@@ -43,10 +43,11 @@ def spec_of(image=(2, 7, 6), filters=(3, 2), kernels=(3, 2), strides=(2, 1), **c
 @given(convolutional_specs(), st.integers(0, 2**32))
 def test_network_agrees_with_the_reference(spec, seed):
     rng = np.random.default_rng(seed)
-    genotype = random_genotype(spec, rng, 2.0)
-    network, reference = Network(spec), ReferenceNetwork(spec, genotype)
+    genotype, vectors = random_genotype(spec, rng, 2.0), random_normalisation(spec, rng)
+    network, reference = Network(spec), ReferenceNetwork(spec, genotype, vectors)
     assert len(network.parameters) == genotype_length(spec)
     network.parameters[:] = genotype
+    network.normalisation = vectors
     for _ in range(3):
         observation = 4 * rng.standard_normal(spec.inputs)
         network.observation = observation
@@ -67,7 +68,7 @@ def test_convolutions_are_those_of_torch(spec, seed):
     network.parameters[:] = genotype
     network.observation[:] = observation = rng.uniform(0, 1, spec.inputs)
     network.step()
-    x = torch.tensor(observation.reshape(1, *spec.image))
+    x = torch.tensor(observation.reshape(1, *spec.image))  # normalisation does nothing yet
     activation = {1: torch.sigmoid, 2: torch.tanh, 3: lambda x: x, 5: torch.relu}[spec.afunction]
     for i, stride in enumerate(spec.strides):
         weights, bias = (torch.tensor(parts[f"filters{i}{end}"]) for end in ("", " bias"))
@@ -158,7 +159,6 @@ def test_initial_weights(winit):
         ({"kernels": (8, 1)}, "kernel of convolutional layer 1 is 8 x 8, .* 7 x 6 only"),
         ({"strides": (0, 1)}, "from 1 to 1000"),
         ({"filters": (1001, 1)}, "from 1 to 1000"),
-        ({"normalize": 1}, "normalize is 1.*set normalize = 0"),
         ({"image": (1, 900, 900), "kernels": (1, 1), "strides": (1, 1)}, "too large"),
         ({"afunction": 4}, "afunction is 4"),
         ({"nhiddens": 10000, "nlayers": 3}, "too large"),
@@ -234,12 +234,34 @@ def test_a_policy_sees_the_picture():
         assert moment.action == pytest.approx(action, abs=1e-6)
 
 
+def test_pixels_are_normalised_as_the_network_reads_them():
+    name = "tiny_envs:Picture-v0"
+    problem = problems.make(name)
+    policy = Policy(name, problem.interface, config.PolicyConfig(**POLICY | {"normalize": 1}))
+    n = policy.spec.inputs
+    genotype, vectors = (
+        policy.initial(1),
+        random_normalisation(policy.spec, np.random.default_rng(2)),
+    )
+    reference = ReferenceNetwork(policy.spec, genotype, vectors)
+    read = []
+    for moment in problem.play(policy, genotype, vectors, 3, 0, 10):
+        read.append(moment.observation.reshape(40, 40, 3).transpose(2, 0, 1).ravel() / 255)
+        assert moment.action == pytest.approx(reference.step(read[-1])[0], abs=1e-6)
+    episodes = Episodes.of(np.array([3], dtype=np.uint64), 1)
+    episodes.collect = np.ones(1, dtype=np.uint8)
+    [moments] = problem.evaluate(policy, genotype[None], vectors, episodes, 10).moments
+    assert moments[:n] == pytest.approx(np.sum(read, axis=0))
+    assert moments[n:] == pytest.approx(np.sum(np.square(read), axis=0))
+
+
 # evolution
 
 
-@pytest.mark.parametrize("algo", ["SSS", "OpenAI-ES", "sNES"])
-def test_they_evolve_alike_with_workers_and_resumed(algo, tmp_path):
-    own = experiment(tmp_path, "tiny_envs:Picture-v0", algo, POLICY, maxmsteps=0.0006)
+@pytest.mark.parametrize(("algo", "normalize"), [("SSS", 0), ("OpenAI-ES", 1), ("sNES", 0)])
+def test_they_evolve_alike_with_workers_and_resumed(algo, normalize, tmp_path):
+    policy = POLICY | {"normalize": normalize}
+    own = experiment(tmp_path, "tiny_envs:Picture-v0", algo, policy, maxmsteps=0.0006)
     assert run_seeds(own, tmp_path / "whole")
     assert run_seeds(own, tmp_path / "parts", steps=300)
     workers = 2 if algo == "SSS" else 1
@@ -281,7 +303,6 @@ def test_they_are_watched_and_filmed(command, tmp_path):
         ({"strides": "4,"}, "4, is no list"),
         ({"filters": "0, 3"}, "0, 3 is no list"),
         ({"filters": ""}, "filters has no value: it needs whole numbers"),
-        ({"normalize": 1}, ["normalize = 1 does not go with architecture = 4", "normalize = 0"]),
         ({"architecture": 0}, "filters = 4, 6 needs architecture = 4"),
         ({"afunction": 4}, "5 (relu)"),
         ({"nbins": 2, "nlayers": 2}, None),

@@ -145,9 +145,3 @@ def _of_convolutions(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
             f"{said[0]}; {said[1]}; {said[2]}: give as many numbers in each, one for every "
             "convolutional layer",
         )
-    if p.normalize:
-        yield (
-            ("architecture", "normalize"),
-            "normalize = 1 does not go with architecture = 4 (convolutional), whose pixels are "
-            "divided by 255: set normalize = 0",
-        )

@@ -30,7 +30,7 @@ Convolutions::Convolutions(const Spec& spec, const Vision& vision) : spec_(spec)
   const double values = double(vision.channels) * vision.height * vision.width;
   if (values > 1e6) throw std::invalid_argument("an image has at most a million values.");
   inputs_ = int(values);
-  if (spec.clip) clipped_.resize(inputs_);
+  if (spec.normalize || spec.clip) image_.resize(inputs_);
   for (std::size_t i = 0; i < count; ++i)
     add(vision.filters[i], vision.kernels[i], vision.strides[i], vision);
 }
@@ -89,9 +89,19 @@ void Convolutions::initialise(Random& random, double* parameters) const {
                   parameters);
 }
 
-void Convolutions::step(const double* parameters, const double* image, double* features) {
-  for (std::size_t i = 0; i < clipped_.size(); ++i) clipped_[i] = clamp(image[i], -5.0, 5.0);
-  const double* from = clipped_.empty() ? image : clipped_.data();
+const double* Convolutions::read(const double* normalisation, const double* image) {
+  if (image_.empty()) return image;
+  const double* deviation = normalisation + inputs_;
+  for (int i = 0; i < inputs_; ++i) {
+    const double x = spec_.normalize ? (image[i] - normalisation[i]) / deviation[i] : image[i];
+    image_[i] = spec_.clip ? clamp(x, -5.0, 5.0) : x;
+  }
+  return image_.data();
+}
+
+void Convolutions::step(const double* parameters, const double* normalisation, const double* image,
+                        double* features) {
+  const double* from = read(normalisation, image);
   for (const Stage& s : stages_) {
     pack(s, parameters);
     double* to = activations_.data() + s.first;

@@ -25,8 +25,10 @@ class Convolutions {
   int features() const { return features_; }
   int parameters() const { return parameters_; }
   void initialise(Random& random, double* parameters) const;
-  /// From `inputs` values to `features`, which come filter by filter, row by row.
-  void step(const double* parameters, const double* image, double* features);
+  /// From `inputs` values to `features`, which come filter by filter, row by row. `normalisation`:
+  /// all means, then all standard deviations, for normalize = 1.
+  void step(const double* parameters, const double* normalisation, const double* image,
+            double* features);
 
  private:
   /// Sums of as many filters run side by side, of as many pixels in a row.
@@ -43,6 +45,7 @@ class Convolutions {
   };
 
   void add(int filters, int kernel, int stride, const Vision& vision);
+  const double* read(const double* normalisation, const double* image);
   void pack(const Stage& stage, const double* parameters);
   template <int pixels>
   void sums(const Stage& stage, const double* weights, const double* from, double* to) const;
@@ -50,7 +53,7 @@ class Convolutions {
   Spec spec_;
   int inputs_, features_ = 0, parameters_ = 0;
   std::vector<Stage> stages_;
-  std::vector<double> clipped_;      ///< inputs within -5 to 5, with clip = 1
+  std::vector<double> image_;        ///< normalised or clipped
   std::vector<double> weights_;      ///< of the stage at work, as sums() reads them
   std::vector<double> activations_;  ///< of all stages, the filters of a pixel side by side
 };

@@ -41,9 +41,6 @@ namespace {
 std::optional<Convolutions> convolutions_of(const Spec& spec, const Vision& vision) {
   if (spec.architecture != convolutional) return {};
   if (vision.channels == 0) make_layout(spec);  // refuses it
-  if (spec.normalize)
-    throw std::invalid_argument(
-        "normalize is 1, but pixels are divided by 255 instead: set normalize = 0.");
   return Convolutions(spec, vision);
 }
 
@@ -52,7 +49,7 @@ Layout layout_of(Spec spec, const std::optional<Convolutions>& convolutions) {
   if (convolutions) {
     spec.architecture = feedforward;
     spec.inputs = convolutions->features();
-    spec.clip = 0;
+    spec.normalize = spec.clip = 0;
   }
   return make_layout(spec);
 }
@@ -105,7 +102,7 @@ void Evonet::step(const double* parameters, const double* inputs, double* action
     if (collecting) moments.add(raw);
     Brain<double, 1> brain(layout_, memory);
     if (convolutions_) {
-      convolutions_->step(genotype, raw, memory.inputs);
+      convolutions_->step(genotype, normalisation.data(), raw, memory.inputs);
       brain.load(0, genotype + convolutions_->parameters(), nullptr);
     } else {
       std::copy(raw, raw + layout_.spec.inputs, memory.inputs);

@@ -62,7 +62,8 @@ class Outcome:
     steps: np.ndarray
     """int32, shape (n,)."""
     moments: np.ndarray | None = None
-    """float64, shape (n, 2 * observations): sums, then sums of squares of the raw observations."""
+    """float64, shape (n, 2 * observations): sums, then sums of squares of what the network read
+    (`Policy.inputs`)."""
 
 
 class Problem(ABC):
