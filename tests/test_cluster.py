@@ -156,8 +156,8 @@ def test_chunks_cover_a_batch_once_and_keep_its_order():
     quick, slow = chunks.Pace(1, 300.0, 1.0), chunks.Pace(1, 100.0, 1.0)
     taken = []
     while batch.waiting:
-        pace = quick if len(taken) % 2 else slow
-        taken.append(batch.take(chunks.size(batch, pace, [quick, slow], False, 0.0)))
+        count = chunks.size(batch, len(taken) % 2, [slow, quick], [0.0, 0.0], False, 0.0)
+        taken.append(batch.take(count))
     assert sum(chunk.stop - chunk.start for chunk in taken) == 150 and len(taken) > 4
     batch.give_back(taken[1])
     assert batch.take(1) == taken[1]
@@ -170,6 +170,26 @@ def test_chunks_cover_a_batch_once_and_keep_its_order():
         steps = np.arange(chunk.start, chunk.stop, dtype=np.int32)
         batch.enter(chunk, {"fitness": steps * 2.0, "steps": steps, "moments": None})
     assert not batch.left and (batch.outcome().fitness == 2.0 * np.arange(150)).all()
+
+
+def test_no_worker_is_given_more_than_its_share():
+    """However many chunks it has at a time: whoever has more than that is waited for."""
+    batch = chunks.Batch([], None, Episodes.of(np.arange(800), 1), 10)
+    paces, ahead = [chunks.Pace(1, 300.0), chunks.Pace(1, 100.0)], [0.0, 0.0]
+    for number in (0, 1) * 4:
+        chunk = batch.take(chunks.size(batch, number, paces, ahead, False))
+        ahead[number] += chunk.stop - chunk.start
+    assert ahead[0] <= 600 and ahead[1] <= 200 and sum(ahead) > 700
+
+
+def test_a_short_chunk_says_little_of_a_workers_speed():
+    pace = chunks.Pace(1)
+    pace.measured(200, 2000, 2.0)
+    assert pace.episodes == 100 and pace.steps == 1000
+    pace.measured(1, 10, 0.05)
+    assert 95 < pace.episodes < 99
+    pace.measured(20, 200, 10.0)
+    assert 2 < pace.episodes < 2.1 and 20 < pace.steps < 21
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from botschool.cluster.chunks import Batch, Pace, size
-from botschool.cluster.dispatch import DEPTH
+from botschool.cluster.dispatch import DEPTH, Worker
 from botschool.problems import Episodes
 
 
@@ -134,7 +134,7 @@ def _batch(steps: np.ndarray, load: Load, wire: Wire, workers: int, threads, cor
     chunks, latest = 0, 0.0
     arriving: list[tuple] = []  # (moment, number, worker, chunk, or None for an answer)
     while True:
-        if "command" not in work.jobs and (given := dispatch.next()):
+        if "command" not in work.jobs and (given := dispatch.next(work.now)):
             chunks += 1
             first = 0.0 if dispatch.met(given[0]) else 8 * load.parameters / wire.bandwidth
             work.add("command", wire.chunk + first, 1)
@@ -150,7 +150,7 @@ def _batch(steps: np.ndarray, load: Load, wire: Wire, workers: int, threads, cor
         else:
             _, _, worker, chunk = heapq.heappop(arriving)
             if chunk is None:
-                dispatch.has[worker] -= 1
+                dispatch.answered(worker, work.now)
                 continue
             directions = (chunk.stop - chunk.start) * load.candidates / n / 2
             fresh = directions * load.parameters * load.drawing
@@ -170,26 +170,33 @@ class _Dispatch:
 
     def __init__(self, load: Load, batch: Batch, paces: list[Pace]) -> None:
         self._native, self._batch, self._paces = load.lanes > 1, batch, paces
-        self.has = [0] * len(paces)
-        """Chunks that each worker has been given and has not answered."""
+        self._workers = [Worker(str(number), pace) for number, pace in enumerate(paces)]
         self.queued: list[deque[float]] = [deque() for _ in paces]
-        """Seconds of those that have arrived there."""
+        """Seconds of the chunks that have arrived at each worker."""
         self._known: set[int] = set()
 
-    def met(self, worker: int) -> bool:
-        """Whether it has been given something before."""
-        before = worker in self._known
-        self._known.add(worker)
+    def met(self, number: int) -> bool:
+        """Whether a worker has been given something before."""
+        before = number in self._known
+        self._known.add(number)
         return before
 
-    def next(self) -> tuple[int, slice] | None:
+    def next(self, now: float) -> tuple[int, slice] | None:
         """A worker with room, and its chunk."""
-        worker = min(range(len(self.has)), key=self.has.__getitem__)
-        if not self._batch.waiting or self.has[worker] >= DEPTH:
+        worker = min(self._workers, key=lambda each: len(each.tasks))
+        if not self._batch.waiting or len(worker.tasks) >= DEPTH:
             return None
-        self.has[worker] += 1
-        count = size(self._batch, self._paces[worker], self._paces, self._native)
-        return worker, self._batch.take(count)
+        number, ahead = int(worker.address), [each.ahead(now) for each in self._workers]
+        chunk = self._batch.take(size(self._batch, number, self._paces, ahead, self._native))
+        worker.tasks[chunk.start] = worker.task(self._batch, chunk, None, now)
+        return number, chunk
+
+    def answered(self, number: int, now: float) -> None:
+        """A worker has done the oldest of its chunks, and begun the next one."""
+        tasks = self._workers[number].tasks
+        del tasks[next(iter(tasks))]
+        for following in list(tasks.values())[:1]:
+            following.since = now
 
 
 class _Sharing:

@@ -11,14 +11,14 @@ from botschool.cluster import wire
 from botschool.evolution.algorithms.drawing import Drawn
 from botschool.problems import Episodes, Outcome
 
-SHARE = 0.65
-"""Of what is left, a worker gets this part of its share: chunks get smaller towards the end."""
+SHARE = 0.5
+"""A worker's next chunk, as a part of what is left for it to get."""
 LEAST = 0.05
 """Seconds that a chunk takes at least, as far as is known."""
-FINEST = 0.05
-"""Smallest chunk, as a part of a worker's share of the batch."""
 FIRST = 0.1
 """Part of its share that a worker gets before its speed is known."""
+HALF = 1.0
+"""Seconds of evaluation after which a worker's speed counts half."""
 LANES = 16
 """Episodes that a thread computes side by side: natively, chunks are multiples of it."""
 
@@ -180,29 +180,39 @@ class Pace:
     """A second; 0 if not known yet."""
     steps: float = 0.0
     """A second."""
+    _seconds: float = 0.0
+    """That they were measured in; old ones count less."""
 
     def measured(self, episodes: int, steps: int, seconds: float) -> None:
         """Takes an answer into account."""
         seconds = max(seconds, 1e-6)
-        for name, count in (("episodes", episodes), ("steps", steps)):
-            before, now = getattr(self, name), count / seconds
-            setattr(self, name, 0.5 * (before + now) if before else now)
+        self._seconds = self._seconds * 0.5 ** (seconds / HALF) + seconds
+        weight = seconds / self._seconds
+        self.episodes += weight * (episodes / seconds - self.episodes)
+        self.steps += weight * (steps / seconds - self.steps)
 
 
-def size(batch: Batch, pace: Pace, paces: list[Pace], native: bool, least: float = LEAST) -> int:
-    """Episodes for a worker's next chunk.
+def size(
+    batch: Batch,
+    number: int,
+    paces: list[Pace],
+    ahead: list[float],
+    native: bool,
+    least: float = LEAST,
+) -> int:
+    """Episodes for the next chunk of a worker, so that all workers end together.
 
-    paces: of all workers, its own among them. least: seconds that a chunk should take.
+    number: the worker's, in paces and ahead. ahead: episodes that each has been given and has yet
+    to evaluate. least: seconds that a chunk should take.
     """
-    known = all(p.episodes for p in paces)
-    own, total = (
-        (pace.episodes, sum(p.episodes for p in paces))
-        if known
-        else (pace.threads, sum(p.threads for p in paces))
-    )
-    share = own / total
-    count = batch.untaken() * share * (SHARE if pace.episodes else FIRST)
+    known = [pace for pace in paces if pace.episodes]
+    thread = sum(p.episodes for p in known) / sum(p.threads for p in known) if known else 1.0
+    speeds = [pace.episodes or thread * pace.threads for pace in paces]
+    pace, share = paces[number], speeds[number] / sum(speeds)
     if pace.episodes:
-        count = max(count, FINEST * share * len(batch.episodes), least * pace.episodes)
+        left = (batch.untaken() + sum(ahead)) * share - ahead[number]
+        count = max(SHARE * left, least * pace.episodes)
+    else:
+        count = FIRST * batch.untaken() * share
     lanes = LANES * pace.threads if native else 1
     return max(1, round(count / lanes)) * lanes if count >= lanes / 2 else max(1, round(count))

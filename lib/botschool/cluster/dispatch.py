@@ -47,6 +47,11 @@ class Task:
     copies: int = 0
     """How often it was given to others too."""
 
+    def left(self, now: float) -> float:
+        """Episodes that are yet to be evaluated, as far as is known."""
+        part = (self.since + self.expected - now) / self.expected
+        return (self.chunk.stop - self.chunk.start) * min(1.0, max(0.0, part))
+
 
 @dataclass
 class Worker:
@@ -69,6 +74,17 @@ class Worker:
     def behind(self) -> bool:
         """Whether it has yet to answer what others have done in its place."""
         return any(task.batch.done(task.chunk) for task in self.tasks.values())
+
+    def task(self, batch: Batch, chunk: slice, message, now: float) -> Task:
+        """A chunk for it, after those that it has."""
+        count = chunk.stop - chunk.start
+        expected = count / self.pace.episodes if self.pace.episodes else UNKNOWN
+        free = [task.since + task.expected for task in self.tasks.values()]
+        return Task(batch, chunk, self, max([now, *free]), expected, message)
+
+    def ahead(self, now: float) -> float:
+        """Episodes that it has yet to evaluate."""
+        return sum(task.left(now) for task in self.tasks.values())
 
 
 class Crew:
@@ -218,20 +234,20 @@ class Crew:
 
     def _give(self, batch: Batch) -> None:
         """Work for everyone who has room for it: first for who has least."""
+        if not batch.waiting:
+            return
+        now, ready = time.monotonic(), self.ready
+        paces, ahead = [worker.pace for worker in ready], [worker.ahead(now) for worker in ready]
         for room in range(DEPTH):
-            for worker in self.ready:
+            for number, worker in enumerate(ready):
                 if batch.waiting and len(worker.tasks) <= room and not worker.behind:
-                    paces = [other.pace for other in self.ready]
-                    count = size(batch, worker.pace, paces, self._native, self._least)
+                    count = size(batch, number, paces, ahead, self._native, self._least)
                     chunk = batch.take(count)
+                    ahead[number] += chunk.stop - chunk.start
                     self._assign(worker, batch, chunk, batch.message(chunk))
 
     def _assign(self, worker: Worker, batch: Batch, chunk: slice, message) -> Task:
-        now = time.monotonic()
-        count = chunk.stop - chunk.start
-        expected = count / worker.pace.episodes if worker.pace.episodes else UNKNOWN
-        ahead = [task.since + task.expected for task in worker.tasks.values()]
-        task = Task(batch, chunk, worker, max([now, *ahead]), expected, message)
+        task = worker.task(batch, chunk, message, time.monotonic())
         self._submit(task)
         return task
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.random import Generator, Philox
 
-STRIDE = 64
+STRIDE = 16
 """Samples between two places in the stream that a cloud remembers."""
 
 
