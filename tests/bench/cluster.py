@@ -269,7 +269,7 @@ HEAVY = {"discrim": {"samplesize": 8000}, "hopper": {"samplesize": 400}}
 """Experiments whose generations take longer than a second on two cores."""
 
 
-def overhead(pairs: int = 5) -> dict:
+def overhead(pairs: int = 9) -> dict:
     """Generations on `--cluster local:2` beside the same ones with -w 2, by turns: by the clock,
     and processor time of all processes."""
     found = {}
