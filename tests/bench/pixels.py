@@ -48,14 +48,14 @@ def interval(returns: np.ndarray) -> str:
     return f"{returns.mean():.1f} ({low:.1f} to {high:.1f})"
 
 
-def of_robots(problem, policy, genotypes: np.ndarray, episodes: int) -> Outcome:
+def of_robots(problem, policy, genotypes: np.ndarray, normalisation, episodes: int) -> Outcome:
     """New episodes, shared by the genotypes."""
     batch = Episodes(
         np.arange(episodes, dtype=np.int32) % len(genotypes),
         np.full(episodes, NEW, dtype=np.uint64),
         np.arange(episodes, dtype=np.uint32),
     )
-    return problem.evaluate(policy, genotypes, None, batch, policy.config.post_steps)
+    return problem.evaluate(policy, genotypes, normalisation, batch, policy.config.post_steps)
 
 
 def of_actions(experiment, episodes: int) -> np.ndarray:
@@ -80,16 +80,16 @@ def measured(name: str) -> list[str]:
     policy = Policy(problem.name, problem.interface, experiment.policy)
     folder, episodes = RUNS / name, EPISODES[name]
     stat = np.load(folder / "statS1.npy").reshape(-1, 6)
-    genotype, _ = policy.split(np.load(folder / "bestgS1.npy"))
+    genotype, normalisation = policy.split(np.load(folder / "bestgS1.npy"))
     first = np.array([policy.initial(1, i) for i in range(10)])
     begun = time.process_time()
-    robot = of_robots(problem, policy, genotype[None], episodes)
+    robot = of_robots(problem, policy, genotype[None], normalisation, episodes)
     step = (time.process_time() - begun) / robot.steps.sum()
     plot_stat([folder], DOCS / "images" / f"{name}.png")
     return [
         f"{name}.ini", str(policy.genotype_size), f"{stat[-1, 0]:,.0f}", str(len(stat)),
         interval(robot.fitness),
-        interval(of_robots(problem, policy, first, episodes).fitness),
+        interval(of_robots(problem, policy, first, None, episodes).fitness),
         interval(of_actions(experiment, episodes)), str(episodes),
         f"{1e3 * step:.2f}",
     ]  # fmt: skip
