@@ -63,7 +63,7 @@ TEST(convolutions_are_those_of_a_plain_loop) {
             const std::vector<double> genotype = numbers(layers.parameters(), 1);
             const std::vector<double> image = numbers(layers.inputs(), 2);
             std::vector<double> features(layers.features());
-            layers.step(genotype.data(), image.data(), features.data());
+            layers.step(genotype.data(), nullptr, image.data(), features.data());
             const double* at = genotype.data();
             const auto first = plain(image, channels, 7, width, filters, 3, stride, bias != 0, at);
             const int rows = 4 / stride + 1, columns = (width - 3) / stride + 1;
@@ -76,9 +76,10 @@ TEST(networks_that_read_images_run) {
   const Vision vision{2, 6, 5, {3, 2}, {3, 2}, {1, 2}};
   for (int networks : {1, 3})
     for (bool heterogeneous : {false, true})
-      for (int clip : {0, 1}) {
+      for (int scaled : {0, 1, 2, 3}) {
         Spec spec = spec_of(1);
-        spec.clip = clip;
+        spec.normalize = scaled / 2;
+        spec.clip = scaled % 2;
         spec.afunction = linear_unit;
         Evonet net(spec, networks, heterogeneous, vision);
         CHECK(net.inputs() == 60 * networks);

@@ -30,15 +30,21 @@ Spec spec_for(const Info& info, int architecture, int nhiddens) {
   return spec;
 }
 
-/// A batch that owns its arrays: `count` jobs of five candidates, with a network for each robot.
+/// A batch that owns its arrays: `count` jobs of five candidates, with a network for each robot and
+/// the parameters of a body.
 struct Batch {
   explicit Batch(const Engine& engine, int count)
       : inputs(engine.layout().spec.inputs), robots(engine.info().robots) {
-    const int length = engine.layout().parameters;
-    stride = robots * length;
+    length = engine.layout().parameters;
+    stride = robots * length + engine.info().body;
     genotypes.resize(5 * stride);
-    for (int c = 0; c < 5 * robots; ++c)
-      initial_parameters(engine.layout(), 3, c, genotypes.data() + c * length);
+    for (int c = 0; c < 5; ++c) {
+      double* genotype = genotypes.data() + c * stride;
+      for (int r = 0; r < robots; ++r, genotype += length)
+        initial_parameters(engine.layout(), 3, c * robots + r, genotype);
+      Random random(3, c, Stream::start);
+      for (int i = 0; i < engine.info().body; ++i) genotype[i] = random.gaussian();
+    }
     normalisation.assign(2 * inputs, 0.7);
     for (int r = 0; r < robots; ++r)
       for (int i = 0; i < count; ++i) candidate.push_back(i % 5);
@@ -53,7 +59,7 @@ struct Batch {
   }
   Jobs jobs() {
     return {genotypes.data(), stride,       normalisation.data(), seed.size(),    candidate.data(),
-            stride / robots,  seed.data(),  episode.data(),       collect.data(), {kLimit},
+            length,           seed.data(),  episode.data(),       collect.data(), {kLimit},
             fitness.data(),   steps.data(), moments.data()};
   }
   bool equals(const Batch& other) const {
@@ -63,7 +69,7 @@ struct Batch {
   }
 
   int inputs, robots;
-  std::size_t stride;
+  std::size_t length, stride;  ///< of a network, of a genotype
   std::vector<double> genotypes, normalisation, fitness, moments;
   std::vector<std::int32_t> candidate, steps;
   std::vector<std::uint64_t> seed;

@@ -11,7 +11,7 @@ from botschool.cluster import wire
 from botschool.evolution.algorithms.drawing import Drawn
 from botschool.problems import Episodes, Outcome
 
-SHARE = 0.5
+SHARE = 0.65
 """A worker's next chunk, as a part of what is left for it to get."""
 LEAST = 0.05
 """Seconds that a chunk takes at least, as far as is known."""
