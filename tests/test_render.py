@@ -189,6 +189,14 @@ def test_the_caption():
     assert (panel.with_caption(frame, 4, moment) != out).any()
 
 
+def test_pictures_too_narrow_for_the_caption_are_drawn_larger():
+    moment = Transition(1, 0.0, 0.0, np.zeros(1), np.zeros(1), np.zeros(1))
+    frame = np.random.default_rng(1).integers(0, 256, (21, 160, 3), dtype=np.uint8)
+    out = panel.with_caption(frame, 1, moment)
+    assert out.shape == (42 + panel.CAPTION_HEIGHT, 320, 3)
+    assert all((out[:42][y::2, x::2] == frame).all() for y in (0, 1) for x in (0, 1))
+
+
 # video.py
 
 

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 PANEL_WIDTH = 240
 PANEL_MIN_HEIGHT = 240
 CAPTION_HEIGHT = 26
+CAPTION_WIDTH = 300
+"""Pixels that a caption needs."""
 POSITIVE = (213, 94, 0)
 NEGATIVE = (0, 114, 178)
 """Orange and blue: different for colour-blind readers too."""
@@ -84,8 +86,11 @@ def neuron_groups(
 def with_caption(frame: np.ndarray, episode: int, transition: Transition) -> np.ndarray:
     """The frame with a line below: episode, step, reward and return.
 
-    `frame` is (height, width, 3) uint8. Returns a new frame; its sides are even.
+    `frame` is (height, width, 3) uint8. Returns a new frame; its sides are even. Of a frame too
+    narrow for the caption, as Atari's, each pixel becomes a square of pixels.
     """
+    larger = -(-CAPTION_WIDTH // frame.shape[1])
+    frame = frame.repeat(larger, axis=0).repeat(larger, axis=1)
     frame = _padded(frame, _even(len(frame)))
     width = frame.shape[1]
     strip = blank(width, CAPTION_HEIGHT)
