@@ -75,7 +75,9 @@ class Evolving:
     def finish(self):
         """(exit code, the rest of standard output, standard error)."""
         try:
-            return finish(self.process, LIMIT)
+            out = self.process.stdout.read()  # communicate() loses what readline() has read ahead
+            code, rest, errors = finish(self.process, LIMIT)
+            return code, out + rest, errors
         finally:
             self._watchdog.cancel()
 
