@@ -35,7 +35,7 @@ LIMIT = 900
 
 # Generations of some tenths of a second each, so that faults meet them in the middle.
 EXPERIMENTS = {
-    "acrobot": (40, {"samplesize": 3000, "episodes": 3, "saveeach": 0, "maxmsteps": 9000}),
+    "acrobot": (100, {"samplesize": 3000, "episodes": 3, "saveeach": 0, "maxmsteps": 9000}),
     "discrim": (30, {"samplesize": 700, "saveeach": 0, "maxmsteps": 9000}),
     "predprey": (12, {"popsize": 8, "selsize": 4, "samplesize": 16, "maxsteps": 200}),
     "hopper": (30, {"samplesize": 40, "saveeach": 0, "maxsteps": 200}),
@@ -289,6 +289,7 @@ def test_a_worker_that_stood_still_goes_on(evolving_on, tmp_path):
         evolving = evolving_on(cluster.address, env=cluster.environment)
         for generation in (3, 20):
             assert evolving.reach(generation)
+            assert evolving.process.poll() is None  # it goes on, so this one is missed
             with frozen(first.process):
                 time.sleep(8)
         evolving.done()

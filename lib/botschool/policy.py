@@ -194,12 +194,6 @@ class Policy:
         self.network.seed(seed, episode)
         self.network.reset()
 
-    @property
-    def inputs(self) -> np.ndarray:
-        """What the network read at its last step, shape (observations,): the raw observation, of an
-        image the planes of its channels."""
-        return self.network.observation
-
     def act(self, observation: np.ndarray) -> np.ndarray | int:
         """The action: an index for a discrete problem (int64 of shape (groups,) where it has
         several), else float32 of shape (outputs,)."""

@@ -17,15 +17,14 @@ in Stable-Baselines3, whose learning curves this file is compared with in docs/r
 
 from __future__ import annotations
 
-from collections import deque
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import gymnasium
 import numpy as np
 import torch
 from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from ppo_picture import draw
 from shared import new_folder, read_hyperparameters, run
 from torch import nn
 from torch.distributions import Categorical, Independent, Normal
@@ -356,45 +355,6 @@ def evaluate(agent: Agent, env: str, episodes: int, seed: int) -> np.ndarray:
             ended = terminated or truncated
     world.close()
     return returns
-
-
-# 7. The picture -------------------------------------------------------------------------------
-PANELS = {
-    "train/approx_kl": "KL divergence (new policy from old)",
-    "train/clip_fraction": "clip fraction",
-    "train/entropy_loss": "entropy (curiosity left)",
-    "train/explained_variance": "explained variance (of the critic)",
-}
-
-
-def draw(history: History, title: str, file: Path) -> None:
-    """The learning curve, and four indicators beneath it."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(9, 8), layout="constrained")
-    grid = figure.add_gridspec(3, 2, height_ratios=(1.6, 1, 1))
-    top = figure.add_subplot(grid[0, :])
-    if history.episodes:
-        steps, returns, _ = np.array(history.episodes).T
-        top.plot(steps, returns, ".", color="#56b4e9", markersize=3, alpha=0.5, label="an episode")
-        recent: deque[float] = deque(maxlen=20)
-        means = [(recent.append(each), np.mean(recent))[1] for each in returns]
-        top.plot(steps, means, color="#0072b2", linewidth=2, label="mean of the last 20")
-        top.legend(frameon=False, loc="lower right")
-    top.set(title=title, ylabel="return", xlabel="steps")
-    steps = [each["steps"] for each in history.indicators]
-    for i, (name, words) in enumerate(PANELS.items()):
-        axes = figure.add_subplot(grid[1 + i // 2, i % 2])
-        values = np.array([each[name] for each in history.indicators])
-        axes.plot(steps, -values if name == "train/entropy_loss" else values, color="#0072b2", lw=1)
-        axes.set_title(words, fontsize=10)
-        if name == "train/explained_variance":
-            axes.set_ylim(max(-1.0, values.min()) - 0.05, 1.05)
-    for axes in figure.axes:
-        axes.grid(alpha=0.3)
-        axes.spines[["top", "right"]].set_visible(False)
-    figure.savefig(file, dpi=100)
-    print(f"picture: {file}")
 
 
 def main() -> None:

@@ -63,7 +63,7 @@ class Outcome:
     """int32, shape (n,)."""
     moments: np.ndarray | None = None
     """float64, shape (n, 2 * observations): sums, then sums of squares of what the network read
-    (`Policy.inputs`)."""
+    (`Network.observation`)."""
 
 
 class Problem(ABC):

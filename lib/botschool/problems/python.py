@@ -59,8 +59,8 @@ class PythonProblem(Problem):
                 returns[..., i] = transition.total if self.constant_sum else transition.totals
                 outcome.steps[i] = transition.step
                 if moments is not None:
-                    moments[:size] += policy.inputs
-                    moments[size:] += policy.inputs**2
+                    moments[:size] += policy.network.observation
+                    moments[size:] += policy.network.observation**2
         return outcome
 
     def play(
