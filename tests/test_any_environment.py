@@ -10,6 +10,7 @@ import pytest
 from gymnasium import spaces
 
 from botschool import config, problems, wrappers
+from botschool.envs.wrappers import AliveBonus
 from botschool.errors import BotschoolError
 from botschool.policy import Policy
 from botschool.problems import Episodes, making
@@ -219,6 +220,17 @@ def test_wrappers_wrap_the_first_one_innermost():
     assert (limited <= 0.5 * 12).all() and (limited > 0).all()
     _, timed = fitness("tiny_envs:Tiny-v0", "TimeAwareObservation(normalize_time=True)")
     assert timed == size + 1
+
+
+def test_an_alive_bonus_is_paid_for_steps_that_do_not_end_the_episode():
+    """CartPole pays 1 a step, also for the last one, in which it falls."""
+    env = AliveBonus(gymnasium.make("CartPole-v1"), bonus=0.5)
+    env.reset(seed=1)
+    rewards, fallen = [], False
+    while not fallen:
+        _, reward, fallen, _, _ = env.step(1)
+        rewards.append(reward)
+    assert len(rewards) > 5 and rewards == [1.5] * (len(rewards) - 1) + [1.0]
 
 
 @pytest.mark.parametrize("name", ["CartPole-v1", "Pendulum-v0", "ErDiscrim", "envSwingupCustom"])

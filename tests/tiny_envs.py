@@ -221,14 +221,14 @@ class Doubled(gymnasium.RewardWrapper):
 
 
 class Picture(Tiny):
-    """Shows the point as a white column in a picture."""
+    """Shows the point as a light column in a picture."""
 
     observation_space = spaces.Box(0, 255, (40, 40, 3), np.uint8)
 
     def _observation(self):
         picture = np.zeros((40, 40, 3), dtype=np.uint8)
         column = int(np.clip(20 + 20 * self.x, 1, 38))
-        picture[:, column - 1 : column + 2] = 255
+        picture[:, column - 1 : column + 2] = 200
         return picture
 
 
