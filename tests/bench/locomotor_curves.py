@@ -25,6 +25,7 @@ from botschool.analysis.runs import BEST_POST, STEPS, read_stat
 from botschool.evolution.record import RunFiles
 from botschool.policy import Policy
 from botschool.problems import Episodes, make
+from botschool.wrappers import parse
 
 ROOT = Path(__file__).parents[2]
 DATA = ROOT / "data"
@@ -50,6 +51,7 @@ class Seed:
     seed: int
     files: RunFiles
     stat: np.ndarray
+    bonus: float
     returns: np.ndarray
     steps: np.ndarray
     metres: np.ndarray
@@ -60,9 +62,20 @@ class Seed:
         return float(self.stat[-1, STEPS])
 
     @property
+    def curve(self) -> np.ndarray:
+        """Best post-evaluated fitness so far, a value a generation, without the alive bonus: of a
+        robot that falls a little more than this."""
+        return self.stat[:, BEST_POST] - self.bonus * LONGEST
+
+    @property
+    def paid(self) -> np.ndarray:
+        """Returns with the alive bonus, as `botschool es -p` prints them."""
+        return self.returns + self.bonus * (self.steps - (self.steps < LONGEST))
+
+    @property
     def best(self) -> float:
-        """Best post-evaluated fitness."""
-        return float(self.stat[-1, BEST_POST])
+        """Best post-evaluated fitness, likewise."""
+        return float(self.curve[-1])
 
 
 def experiment_of(robot: str):
@@ -73,7 +86,8 @@ def experiment_of(robot: str):
 def seeds_of(folder: Path, robot: str) -> list[Seed]:
     """The runs of a robot that a folder holds."""
     experiment = experiment_of(robot)
-    problem = make(experiment.exp.environment)
+    problem = make(experiment.exp.environment)  # without the wrapper of the search
+    bonus = sum(wrapper.named["bonus"] for wrapper in parse(experiment.exp.wrappers))
     policy = Policy(problem.name, problem.interface, experiment.policy)
     found = []
     for path in sorted((folder / robot).glob("statS*.npy")):
@@ -89,7 +103,7 @@ def seeds_of(folder: Path, robot: str) -> list[Seed]:
             returns.append(outcome.fitness[0])
             steps.append(outcome.steps[0])
             metres.append(problem._env.unwrapped._place[0])
-        found.append(Seed(seed, files, stat, *map(np.array, (returns, steps, metres))))
+        found.append(Seed(seed, files, stat, bonus, *map(np.array, (returns, steps, metres))))
     problem.close()
     return sorted(found, key=lambda s: s.seed)
 
@@ -130,7 +144,7 @@ def draw(runs: dict[str, list[Seed]], picture: Path) -> None:
         end, (mean, deviation) = BUDGET.get(robot, 50e6) / 1e6, PUBLISHED[robot]
         for run, colour in zip(seeds, COLOURS, strict=False):
             steps = run.stat[:, STEPS] / 1e6
-            axes.plot(steps, run.stat[:, BEST_POST], color=colour, lw=1.8, label=f"seed {run.seed}")
+            axes.plot(steps, run.curve, color=colour, lw=1.8, label=f"seed {run.seed}")
         style = {"fmt": "o", "color": "black", "capsize": 4, "label": "published, 10 seeds"}
         axes.errorbar(end, mean, deviation, **style)
         axes.set_xscale("log")
@@ -165,7 +179,7 @@ def write(runs: dict[str, list[Seed]]) -> None:
         rows.append(
             f"| {name}.npy | {name}.ini | `botschool es -f data/experiments/{name}.ini "
             f"-s {best.seed} --steps {best.done:.0f}` (++) | {best.done:,.0f} | "
-            f"{best.returns.mean():.0f} |"
+            f"{best.paid.mean():.0f} |"
         )
     put(
         DATA / "genotypes" / "README.md",
