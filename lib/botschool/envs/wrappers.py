@@ -14,7 +14,7 @@ class AliveBonus(gymnasium.Wrapper):
 
     def __init__(self, env: gymnasium.Env, bonus: float = 1.0) -> None:
         super().__init__(env)
-        self.bonus = bonus
+        self.bonus = float(bonus)
 
     def step(self, action):
         """One step, whose reward may have the bonus in it."""
