@@ -163,10 +163,10 @@ def runs(folder: Path, plan: Plan) -> list[StudyRun]:
 def jobs(folder: Path, plans: tuple[Plan, ...] = PLANS) -> Iterator[tuple[StudyRun, float]]:
     """What there is to do, in its order: a run, and the million steps that it is to reach.
 
-    The first milestone of each plan, then the last plan to its end, then those before it.
+    The first milestone of each plan, then the first plan to its end, then those after it.
     """
     first = [(plan, plan.milestones[0]) for plan in plans]
-    then = [(plan, milestone) for plan in reversed(plans) for milestone in plan.milestones[1:]]
+    then = [(plan, milestone) for plan in plans for milestone in plan.milestones[1:]]
     for plan, milestone in first + then:
         for run in runs(folder, plan):
             yield run, milestone
