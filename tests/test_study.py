@@ -177,9 +177,42 @@ def test_intervals_over_seeds():
     mean, low, high = interval([1, 2, 3, 4, 5])  # deviation 1.5811, t 2.776
     assert (mean, low, high) == pytest.approx((3, 3 - 1.963, 3 + 1.963), abs=1e-3)
     assert in_words([0.5]) == "+0.50" and np.isnan(interval([0.5])[1])
+    assert in_words([0, 0.5, 1], ".2f") == "0.50 (-0.74 to 1.74)"
+    assert in_words([0, 0.5, 1], ".2f", 0, 1) == "0.50 (0.00 to 1.00)"  # shares, nothing else
     numbers = np.random.default_rng(1).standard_normal((20_000, 5))
     inside = [low < 0 < high for _, low, high in map(interval, numbers)]
     assert np.mean(inside) == pytest.approx(0.95, abs=0.006)
+
+
+def test_runs_with_different_numbers_of_times_are_not_ranked():
+    from study_page import verdict
+
+    def run(times: int, gain: float) -> dict:
+        rows, columns = np.indices((times, times)) / (times - 1)
+        return {
+            "generations": list(range(times)),
+            "predators": 0.5 + gain * (rows - columns),
+        }
+
+    def ranked(*times: int) -> str:
+        runs = {f"small archive {seed}": run(times[0], 0.1 + 0.01 * seed) for seed in (1, 2)}
+        runs |= {f"small archivestar {seed}": run(times[1], 0.3) for seed in (1, 2)}
+        return verdict({"plans": {"small": plan | {"runs": runs}}})
+
+    plan = {"millions": 50, "about": "", "reached": dict.fromkeys("abcd")}
+    assert "from the most to the least: archivestar +0.14" in ranked(6, 6)
+    assert "have 3 times, others up to 6" in ranked(6, 3) and "least" not in ranked(6, 3)
+
+
+def test_means_are_of_all_seeds():
+    """Times differ: the mean is taken where all have been measured, or between two such times."""
+    from matplotlib.figure import Figure
+    from study_figures import mean_curves
+
+    axes = Figure().subplots()
+    mean_curves(axes, [[0, 5, 10], [0, 8]], [[0, 0.5, 1], [1, 1]], "black", "mean")
+    at, mean = axes.lines[-1].get_data()
+    assert list(at) == [0, 4, 8] and list(mean) == pytest.approx([0.5, 0.7, 0.9])
 
 
 def test_a_cross_test_is_between_strangers():

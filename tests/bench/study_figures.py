@@ -14,12 +14,14 @@ SIDE_COLOURS = {ROLES[0]: COLOURS[1], ROLES[1]: COLOURS[0]}
 
 
 def mean_curves(axes, millions, rows, colour: str, label: str) -> None:
-    """A thin line for each seed, a thick one for their mean; rows: (seeds, times)."""
+    """A thin line for each seed, a thick one for their mean, as far as all have come.
+
+    millions, rows: of each seed the steps of its times, and what was measured then, (times,).
+    """
     for at, row in zip(millions, rows, strict=True):
         axes.plot(at, row, color=colour, linewidth=0.6, alpha=0.5)
-    shortest = min(map(len, rows))
-    at = np.mean([each[:shortest] for each in millions], axis=0)
-    average = np.mean([row[:shortest] for row in rows], axis=0)
+    at = np.linspace(0, min(each[-1] for each in millions), max(map(len, rows)))
+    average = np.mean([np.interp(at, *each) for each in zip(millions, rows, strict=True)], axis=0)
     axes.plot(at, average, color=colour, linewidth=2.2, label=label)
 
 

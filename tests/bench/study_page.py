@@ -34,11 +34,15 @@ def interval(values: np.ndarray) -> tuple[float, float, float]:
     return mean, float(mean - half), float(mean + half)
 
 
-def in_words(values, form: str = "+.2f") -> str:
-    """The mean with its interval, as "+0.31 (+0.25 to +0.36)"; "-" of what cannot be said."""
+def in_words(values, form: str = "+.2f", least=-np.inf, most=np.inf) -> str:
+    """The mean with its interval, as "+0.31 (+0.25 to +0.36)"; "-" of what cannot be said.
+
+    least, most: what the values can be; the interval ends there.
+    """
     mean, low, high = interval(values)
     if np.isnan(mean):
         return "-"
+    low, high = np.clip((low, high), least, most)
     ends = "" if np.isnan(low) else f" ({low:{form}} to {high:{form}})"
     return f"{mean:{form}}{ends}"
 
@@ -151,7 +155,8 @@ def verdict(data: dict) -> str:
                     lines.append(f"- {name} of {role}{without}: {signs(values)}.")
                     if index is PROGRESS["global progress"] and not first:
                         of_both[role] = values
-        lines += ["", order(of_both)]
+        times = [len(run["generations"]) for group in groups(found) for run in group.runs]
+        lines += ["", order(of_both) if len(set(times)) == 1 else unranked(times)]
         texts.append("\n".join(lines))
     return "\n\n".join(texts) or "No run has ended yet."
 
@@ -181,6 +186,15 @@ def order(global_progress: dict[str, dict[str, list[float]]]) -> str:
     return text
 
 
+def unranked(times: list[int]) -> str:
+    """Why algorithms are not ranked if their runs have different numbers of measured times."""
+    return (
+        f"Who has made the most is not said: runs with few saved generations have {min(times)} "
+        f"times, others up to {max(times)}. The fewer times, the further apart are two of them (of "
+        "three two thirds of the run on average, of many one third), and the larger is an index."
+    )
+
+
 def _listed(names: list[str]) -> str:
     return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
@@ -197,11 +211,13 @@ def cross(data: dict) -> str:
         means = by_variant(fitness, own, names)
         rows = [
             [f"predators of {name}", *(in_words([value], ".2f") for value in means[i]),
-             in_words(strength(fitness, own, names)[name], ".2f")]
+             in_words(strength(fitness, own, names)[name], ".2f", 0, 1)]
             for i, name in enumerate(names)
         ]  # fmt: skip
         prey = strength(1 - fitness.T, own, names)
-        rows.append(["**prey against all**", *(in_words(prey[name], ".2f") for name in names), ""])
+        rows.append(
+            ["**prey against all**", *(in_words(prey[name], ".2f", 0, 1) for name in names), ""]
+        )
         columns = ["fitness of", *(f"prey of {name}" for name in names), "against all"]
         texts.append(f"{heading(plan, found)}\n\n{markdown(columns, rows)}")
     return "\n\n".join(texts) or "No run has ended yet."
@@ -245,7 +261,7 @@ def behaviour(data: dict) -> str:
             speed = np.array([run["speed"][-1] for run in group.runs])
             every = [steps for run in group.runs for steps in run["steps"]]
             rows.append([
-                group.variant, in_words(100 * np.array(last["caught"]), ".0f"),
+                group.variant, in_words(100 * np.array(last["caught"]), ".0f", 0, 100),
                 ", ".join(str(steps) for steps in last["steps"]),
                 in_words(speed[:, 0], ".2f"), in_words(speed[:, 1], ".2f"),
                 in_words([run["distance"][-1] for run in group.runs], ".2f"),
