@@ -73,7 +73,7 @@ def test_experiment_files_say_the_same(tmp_path):
             assert written == plan.experiment(run.variant)
 
 
-def test_one_seed_of_all_comes_first(tmp_path):
+def test_one_seed_of_all_comes_first_and_short_plans_end_first(tmp_path):
     from study_plan import PLANS, VARIANTS, jobs
 
     found = list(jobs(tmp_path))
@@ -81,6 +81,9 @@ def test_one_seed_of_all_comes_first(tmp_path):
     assert {run.seed for run, _ in found[:5]} == {1}
     steps = [millions for run, millions in found if run.plan is PLANS[0]]
     assert steps == sorted(steps)
+    begun = [(plan.name, plan.milestones[0]) for plan in PLANS]
+    rest = [(plan.name, millions) for plan in PLANS for millions in plan.milestones[1:]]
+    assert [(run.plan.name, millions) for run, millions in found[::25]] == begun + rest
     assert len(found) == sum(len(plan.milestones) * len(plan.seeds) * 5 for plan in PLANS)
 
 
