@@ -87,7 +87,7 @@ PLANS = (
     ),
     Plan(
         "full",
-        "all as in their files",
+        "the files as they are",
         (250, 500, 1000, 1500, 2000),
         (1, 2, 3, 4, 5),
         {
