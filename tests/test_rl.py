@@ -206,7 +206,7 @@ def test_a_problem_without_version_stands_for_all():
     assert walker["envs"] == 32 and settings.defaults("ppo", "BipedalWalker-v9") == walker
     assert settings.defaults("ppo", "Unheard-v0") == settings.defaults("ppo", "default")
     assert settings.defaults("ppo", "botschool/Discrim-v0")["steps"] == 500_000
-    assert settings.defaults("sac", "HumanoidBulletEnv-v0")["steps"] == 300_000
+    assert settings.defaults("sac", "BalanceBotBulletEnv-v0")["steps"] == 300_000
 
 
 # the command
