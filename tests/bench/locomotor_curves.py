@@ -4,9 +4,10 @@
     python tests/bench/locomotor_curves.py FOLDER --write    renews documents and robots
 
 FOLDER holds a folder of runs for each robot, named as the robot, made with linear policies:
-`botschool es -f data/experiments/hopper_linear.ini -s 1 -o FOLDER/hopper`. --write renews what
-docs/bodies.md and data/genotypes/README.md have between their LOCOMOTORS markers, the figure
-docs/images/locomotors.png, and the best robot of each in data/genotypes.
+`botschool es -f data/experiments/hopper_linear.ini -s 1 -o FOLDER/hopper`. --write renews the rows
+of these robots between the LOCOMOTORS markers of docs/bodies.md and data/genotypes/README.md, the
+best robot of each in data/genotypes, and the figure: docs/images/locomotors.png of all five, or
+docs/images/locomotors_ROBOT.png of fewer.
 """
 
 from __future__ import annotations
@@ -52,7 +53,11 @@ class Seed:
     files: RunFiles
     stat: np.ndarray
     bonus: float
+    """The alive bonus of the search, a step."""
+    paid: np.ndarray
+    """Returns with the wrappers of the search, as `botschool es -p` prints them."""
     returns: np.ndarray
+    """Without."""
     steps: np.ndarray
     metres: np.ndarray
 
@@ -68,11 +73,6 @@ class Seed:
         return self.stat[:, BEST_POST] - self.bonus * LONGEST
 
     @property
-    def paid(self) -> np.ndarray:
-        """Returns with the alive bonus, as `botschool es -p` prints them."""
-        return self.returns + self.bonus * (self.steps - (self.steps < LONGEST))
-
-    @property
     def best(self) -> float:
         """Best post-evaluated fitness, likewise."""
         return float(self.curve[-1])
@@ -86,9 +86,11 @@ def experiment_of(robot: str):
 def seeds_of(folder: Path, robot: str) -> list[Seed]:
     """The runs of a robot that a folder holds."""
     experiment = experiment_of(robot)
-    problem = make(experiment.exp.environment)  # without the wrapper of the search
-    bonus = sum(wrapper.named["bonus"] for wrapper in parse(experiment.exp.wrappers))
+    problem = make(experiment.exp.environment)
+    wrapped = make(experiment.exp.environment, wrappers=experiment.exp.wrappers)
+    bonus = sum(each.named.get("bonus", 0) for each in parse(experiment.exp.wrappers))
     policy = Policy(problem.name, problem.interface, experiment.policy)
+    episodes = Episodes.of([NEW_SEED], NEW_EPISODES)
     found = []
     for path in sorted((folder / robot).glob("statS*.npy")):
         seed = int(re.findall(r"\d+", path.stem)[0])
@@ -96,14 +98,18 @@ def seeds_of(folder: Path, robot: str) -> list[Seed]:
         if not len(stat) or not files.bestg.is_file():
             continue
         genotype, normalisation = policy.split(np.load(files.bestg))
+        robots = policy, genotype[None], normalisation
+        paid = wrapped.evaluate(*robots, episodes, LONGEST).fitness
         returns, steps, metres = [], [], []
         for episode in range(NEW_EPISODES):
-            one = Episodes.of([NEW_SEED], NEW_EPISODES).select(slice(episode, episode + 1))
-            outcome = problem.evaluate(policy, genotype[None], normalisation, one, LONGEST)
+            one = episodes.select(slice(episode, episode + 1))
+            outcome = problem.evaluate(*robots, one, LONGEST)
             returns.append(outcome.fitness[0])
             steps.append(outcome.steps[0])
             metres.append(problem._env.unwrapped._place[0])
-        found.append(Seed(seed, files, stat, bonus, *map(np.array, (returns, steps, metres))))
+        measured = map(np.array, (paid, returns, steps, metres))
+        found.append(Seed(seed, files, stat, bonus, *measured))
+    wrapped.close()
     problem.close()
     return sorted(found, key=lambda s: s.seed)
 
@@ -138,7 +144,7 @@ def draw(runs: dict[str, list[Seed]], picture: Path) -> None:
     """A panel for each robot, a line for each seed."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(13, 3.4), layout="constrained")
+    figure = Figure(figsize=(13 if len(runs) > 2 else 7, 3.4), layout="constrained")
     panels = figure.subplots(1, len(runs), squeeze=False)[0]
     for axes, (robot, seeds) in zip(panels, runs.items(), strict=True):
         end, (mean, deviation) = BUDGET.get(robot, 50e6) / 1e6, PUBLISHED[robot]
@@ -152,41 +158,60 @@ def draw(runs: dict[str, list[Seed]], picture: Path) -> None:
         axes.grid(color="#eeeeee")
         axes.spines[["top", "right"]].set_visible(False)
     panels[0].set_ylabel("best post-evaluated fitness")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=7)
+    figure.legend(
+        *panels[0].get_legend_handles_labels(),
+        loc="outside lower center",
+        ncols=4 if len(runs) < 3 else 7,
+    )
     figure.savefig(picture, dpi=110)
 
 
-def put(path: Path, text: str) -> None:
-    """Replaces what a document has between its markers."""
+def put(path: Path, renewed: dict[str, list[str]]) -> None:
+    """Replaces the rows of these robots in the table that a document has between its markers."""
     begin, end = "<!-- BEGIN LOCOMOTORS -->", "<!-- END LOCOMOTORS -->"
     before, _, rest = path.read_text(encoding="utf-8").partition(begin)
-    _, found, after = rest.partition(end)
+    table, found, after = rest.partition(end)
     if not found:
         raise SystemExit(f"{path} lacks the markers {begin} and {end}.")
-    path.write_text(f"{before}{begin}\n{text}\n{end}{after}", encoding="utf-8")
+    lines = table.splitlines()
+    start = next(i for i, line in enumerate(lines) if line.startswith("|---") or "---:" in line)
+    stop = next((i for i in range(start, len(lines)) if not lines[i].startswith("|")), len(lines))
+    old = {robot: [line for line in lines[start + 1 : stop] if named(line, robot)]
+           for robot in PUBLISHED}  # fmt: skip
+    rows = [row for robot in PUBLISHED for row in renewed.get(robot, old[robot])]
+    text = "\n".join([*lines[: start + 1], *rows, *lines[stop:]])
+    path.write_text(f"{before}{begin}{text}\n{end}{after}", encoding="utf-8")
+
+
+def named(row: str, robot: str) -> bool:
+    """Whether a row of a table is this robot's: its first cell begins with its name."""
+    return re.match(rf"\| {robot}(_|\b)", row) is not None
 
 
 def write(runs: dict[str, list[Seed]]) -> None:
-    """Table and figure into the documents, the best robots into data/genotypes."""
-    draw(runs, ROOT / "docs" / "images" / "locomotors.png")
-    table = table_of(runs)
-    put(ROOT / "docs" / "bodies.md", f"\n{table.markdown()}\n\n({table.about})\n")
-    rows = []
+    """Tables and figure into the documents, the best robots into data/genotypes."""
+    images = ROOT / "docs" / "images"
+    if runs.keys() == PUBLISHED.keys():
+        draw(runs, images / "locomotors.png")
+    else:
+        for robot, seeds in runs.items():
+            draw({robot: seeds}, images / f"locomotors_{robot}.png")
+    cells = table_of(runs).rows
+    put(
+        ROOT / "docs" / "bodies.md",
+        {r: [f"| {' | '.join(row)} |" for row in cells if row[0] == r] for r in runs},
+    )
+    rows = {}
     for robot, seeds in runs.items():
         best = max(seeds, key=lambda run: run.best)
         name = f"{robot}_linear"
         shutil.copyfile(best.files.bestg, DATA / "genotypes" / f"{name}.npy")
-        rows.append(
+        rows[robot] = [
             f"| {name}.npy | {name}.ini | `botschool es -f data/experiments/{name}.ini "
             f"-s {best.seed} --steps {best.done:.0f}` (++) | {best.done:,.0f} | "
             f"{best.paid.mean():.0f} |"
-        )
-    put(
-        DATA / "genotypes" / "README.md",
-        "\n| genotype | experiment | command | steps | fitness |\n|---|---|---|---|---|\n"
-        + "\n".join(rows)
-        + "\n",
-    )
+        ]
+    put(DATA / "genotypes" / "README.md", rows)
 
 
 def main() -> None:
