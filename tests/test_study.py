@@ -250,6 +250,26 @@ def test_times_are_as_far_apart_in_steps(tmp_path, monkeypatch):
     assert study_measure.times(run, 10) == [0, 1, 3, 4, 5, 6]
 
 
+def test_what_was_measured_of_other_plans_stays(tmp_path, monkeypatch):
+    import json
+
+    import study
+    import study_page
+    from study_plan import PLANS, StudyRun
+
+    data, first = tmp_path / "study.json", PLANS[0].name
+    data.write_text(json.dumps({"plans": {plan.name: {"old": 1} for plan in PLANS}}))
+    for module in (study, study_page):
+        monkeypatch.setattr(module, "DATA", data)
+    monkeypatch.setattr(study, "write", lambda: None)
+    monkeypatch.setattr(study, "measured", lambda _, plans: {p.name: {"new": 1} for p in plans})
+    monkeypatch.setattr(StudyRun, "reached", lambda run: float(run.plan.name == first))
+    study.page(tmp_path, PLANS)
+    found = study_page.load()["plans"]
+    assert found[first].keys() == {"measured", "new"}
+    assert all(found[plan.name] == {"old": 1} for plan in PLANS[1:])
+
+
 def test_the_page_is_made_from_its_data():
     import study_page
 

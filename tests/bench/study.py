@@ -5,7 +5,8 @@
     python tests/bench/study.py page     measures what is there and writes docs/coevolution.md
 
 What is compared is in study_plan.py. Runs lie in results/coevolution, or --folder. A run is
-compared with runs only that have done as many steps.
+compared with runs only that have done as many steps. `--plan full` is for these runs alone; what
+the page says of plans that the folder has no runs of stays.
 """
 
 from __future__ import annotations
@@ -19,12 +20,12 @@ from pathlib import Path
 
 from report import commit, machine
 from study_measure import measured
-from study_page import DATA, write
-from study_plan import PLANS, REPOSITORY, complete, runs
+from study_page import DATA, load, write
+from study_plan import PLANS, REPOSITORY, Plan, complete, runs
 from study_queue import Queue
 
 
-def run(folder: Path, processes: int) -> int:
+def run(folder: Path, plans: tuple[Plan, ...], processes: int) -> int:
     """The exit code: 0 if all is done."""
     folder.mkdir(parents=True, exist_ok=True)
     if not _alone(folder):
@@ -32,7 +33,7 @@ def run(folder: Path, processes: int) -> int:
         return 2
     if hasattr(os, "nice"):
         os.nice(19)
-    return 0 if Queue(folder).work(processes) else 1
+    return 0 if Queue(folder, plans).work(processes) else 1
 
 
 def _alone(folder: Path) -> bool:
@@ -50,9 +51,9 @@ def _alone(folder: Path) -> bool:
     return True
 
 
-def state(folder: Path) -> None:
+def state(folder: Path, plans: tuple[Plan, ...]) -> None:
     """Prints how far the runs are."""
-    for plan in PLANS:
+    for plan in plans:
         done = complete(folder, plan)
         print(f"{plan.name}: all have reached {f'{done:g} M' if done else 'no milestone'}")
         for each in runs(folder, plan):
@@ -60,15 +61,16 @@ def state(folder: Path) -> None:
                 print(f"  {each.name}: {each.reached():.0f} M steps")
 
 
-def page(folder: Path) -> None:
+def page(folder: Path, plans: tuple[Plan, ...]) -> None:
     """Measures and writes; the data go to docs/images/study.json."""
-    plans = measured(folder)
     stamp = {
         "commit": commit(),
         "date": time.strftime("%Y-%m-%d", time.gmtime()),
         "machine": machine(),
     }
-    text = json.dumps({"measured": stamp, "plans": plans}, separators=(",", ":"))
+    begun = tuple(plan for plan in plans if any(each.reached() for each in runs(folder, plan)))
+    found = {name: {"measured": stamp} | of for name, of in measured(folder, begun).items()}
+    text = json.dumps({"plans": load()["plans"] | found}, separators=(",", ":"))
     # a line for each run, so that a difference can be read
     DATA.write_text(text.replace(',"', ',\n"') + "\n", encoding="utf-8")
     write()
@@ -78,11 +80,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="The study of co-evolution.")
     parser.add_argument("what", choices=("run", "state", "page"))
     parser.add_argument("--folder", type=Path, default=REPOSITORY / "results" / "coevolution")
+    parser.add_argument("--plan", choices=[plan.name for plan in PLANS], help="default: all")
     parser.add_argument("--processes", type=int, default=1, help="runs at a time")
     options = parser.parse_args()
+    plans = tuple(plan for plan in PLANS if options.plan in (None, plan.name))
     if options.what == "run":
-        return run(options.folder, options.processes)
-    (state if options.what == "state" else page)(options.folder)
+        return run(options.folder, plans, options.processes)
+    (state if options.what == "state" else page)(options.folder, plans)
     return 0
 
 

@@ -278,8 +278,12 @@ def behaviour(data: dict) -> str:
 
 def origin(data: dict) -> str:
     """Where and when it was measured."""
-    stamp = data["measured"]
-    return f"Measured on {stamp['date']}, commit {stamp['commit']}, {stamp['machine']}."
+    stamps = {plan.name: found["measured"] for plan, found in shown(data)}
+    return "\n".join(
+        f"The {name} runs were measured on {stamp['date']}, commit {stamp['commit']}, "
+        f"{stamp['machine']}."
+        for name, stamp in stamps.items()
+    )
 
 
 BLOCKS: dict[str, Callable[[dict], str]] = {
