@@ -54,6 +54,7 @@ PLAN = (
         "steps": 300_000, "params": QUICK | {"gamma": 0.98, "gae_lambda": 0.9}} | EIGHT),
     ("ppo", "Reacher-v5", {
         "steps": 300_000, "params": QUICK | {"gamma": 0.95, "gae_lambda": 0.9}} | EIGHT),
+    ("sac", "HumanoidBulletEnv-v5", {"evaluations": 12, "episodes": 5}),
 )  # fmt: skip
 """Algorithm, environment, and what the training has in place of the defaults."""
 

@@ -22,7 +22,7 @@ from botschool.rl.agent import Agent
 from botschool.rl.folder import Evaluations, find_runs
 
 WALKS = 5.0
-"""Metres from which on an episode is one of walking: three times as far as a leap goes."""
+"""Metres from which on an episode is one of walking: some three times as far as the falling ones come."""
 
 
 @dataclass
