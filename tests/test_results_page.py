@@ -54,6 +54,23 @@ def test_what_tuning_gives_is_told_from_its_data():
         assert f"<!-- tuned {name} -->" in text
 
 
+@pytest.mark.parametrize("name", ["docs/bodies.md", "data/genotypes/README.md"])
+def test_rows_of_other_locomotors_stay(tmp_path, name):
+    import locomotor_curves
+
+    text = (BENCH.parents[1] / name).read_text(encoding="utf-8")
+    page = tmp_path / "page.md"
+    page.write_text(text, encoding="utf-8")
+    locomotor_curves.put(page, {})
+    assert page.read_text(encoding="utf-8") == text
+    locomotor_curves.put(page, {"hopper": ["| hopper | new |"]})
+    found = page.read_text(encoding="utf-8")
+    gone = set(text.splitlines()) - set(found.splitlines())
+    assert gone and all(line.startswith("| hopper") for line in gone)
+    assert found.count("| hopper | new |") == 1
+    assert all(f"\n| {robot}" in found for robot in ("halfcheetah", "walker2d", "ant", "humanoid"))
+
+
 def test_an_interval_of_differences():
     import tuned
 

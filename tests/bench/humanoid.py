@@ -22,7 +22,7 @@ from botschool.rl.agent import Agent
 from botschool.rl.folder import Evaluations, find_runs
 
 WALKS = 5.0
-"""Metres from which on an episode is one of walking: some three times as far as the falling ones come."""
+"""Metres from which on an episode is one of walking: far more than a fall ahead."""
 
 
 @dataclass
