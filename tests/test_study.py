@@ -250,6 +250,29 @@ def test_times_are_as_far_apart_in_steps(tmp_path, monkeypatch):
     assert study_measure.times(run, 10) == [0, 1, 3, 4, 5, 6]
 
 
+def test_one_plan_alone(tmp_path, monkeypatch, capsys):
+    import study
+    from study_plan import PLANS
+
+    asked = []
+
+    class Queue:
+        def __init__(self, folder, plans):
+            asked.extend(plans)
+
+        def work(self, processes):
+            return True
+
+    monkeypatch.setattr(study, "Queue", Queue)
+    monkeypatch.setattr(study.os, "nice", lambda _: 0, raising=False)
+    for what in ("run", "state"):
+        words = ["study.py", what, "--plan", PLANS[1].name, "--folder", str(tmp_path)]
+        monkeypatch.setattr("sys.argv", words)
+        assert study.main() == 0
+    assert asked == [PLANS[1]]
+    assert capsys.readouterr().out == f"{PLANS[1].name}: all have reached no milestone\n"
+
+
 def test_what_was_measured_of_other_plans_stays(tmp_path, monkeypatch):
     import json
 

@@ -18,7 +18,7 @@ import numpy as np
 from locomotor_curves import COLOURS, LONGEST, NEW_EPISODES, NEW_SEED, PUBLISHED, ROOT
 from report import Table, machine
 
-from botschool.rl.agent import Agent
+from botschool.rl.agent import Agent, play
 from botschool.rl.folder import Evaluations, find_runs
 
 WALKS = 5.0
@@ -41,12 +41,7 @@ def measured(run) -> Trained:
     agent, env = Agent.load(run.best), run.make_env()
     returns, steps, metres = [], [], []
     for episode in range(NEW_EPISODES):
-        observation, _ = env.reset(seed=NEW_SEED + episode)
-        total, count, over = 0.0, 0, False
-        while not over and count < LONGEST:
-            action, _ = agent.act(observation[None])
-            observation, reward, over, _, _ = env.step(action[0])
-            total, count = total + float(reward), count + 1
+        (total,), (count,) = play(agent, [env], [NEW_SEED + episode])
         returns.append(total)
         steps.append(count)
         metres.append(env.unwrapped._place[0])

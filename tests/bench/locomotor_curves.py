@@ -141,10 +141,11 @@ def table_of(runs: dict[str, list[Seed]]) -> Table:
 
 
 def draw(runs: dict[str, list[Seed]], picture: Path) -> None:
-    """A panel for each robot, a line for each seed."""
+    """A panel for each robot (one or all), a line for each seed."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(13 if len(runs) > 2 else 7, 3.4), layout="constrained")
+    width, columns = (13, 7) if len(runs) > 1 else (7, 4)
+    figure = Figure(figsize=(width, 3.4), layout="constrained")
     panels = figure.subplots(1, len(runs), squeeze=False)[0]
     for axes, (robot, seeds) in zip(panels, runs.items(), strict=True):
         end, (mean, deviation) = BUDGET.get(robot, 50e6) / 1e6, PUBLISHED[robot]
@@ -158,11 +159,8 @@ def draw(runs: dict[str, list[Seed]], picture: Path) -> None:
         axes.grid(color="#eeeeee")
         axes.spines[["top", "right"]].set_visible(False)
     panels[0].set_ylabel("best post-evaluated fitness")
-    figure.legend(
-        *panels[0].get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=4 if len(runs) < 3 else 7,
-    )
+    handles = panels[0].get_legend_handles_labels()
+    figure.legend(*handles, loc="outside lower center", ncols=columns)
     figure.savefig(picture, dpi=110)
 
 
