@@ -126,10 +126,10 @@ class HallOfFame:
         """A generation. It changes nothing before its end: what `play` raises leaves no trace."""
         candidates, opponents = self.ask()
         places, rivals = np.unique(opponents, return_inverse=True)
-        rivals = np.repeat(rivals.reshape(opponents.shape), 2, axis=1)
-        ours = np.broadcast_to(
-            np.arange(candidates.shape[0] * candidates.shape[1])[:, None],
-            (candidates.shape[0] * candidates.shape[1], opponents.shape[2]),
+        # both candidates of a perturbation meet an opponent side by side: its weights are read once
+        ours, rivals = np.broadcast_arrays(
+            np.arange(candidates.shape[0] * candidates.shape[1]).reshape(-1, 1, 2),
+            rivals.reshape(-1, opponents.shape[2], 1),
         )
         pairs = np.stack([ours.ravel(), rivals.ravel()]).astype(np.int32)
         archive = self.archives[1 - self.side]
@@ -144,7 +144,8 @@ class HallOfFame:
             met = met[self.side]
         elif self.side == PREY:
             met = 1 - met
-        self.tell(met.reshape(rivals.shape))
+        met = met.reshape(ours.shape).swapaxes(1, 2)
+        self.tell(met.reshape(*candidates.shape[:2], -1))
 
     def _samples(self, numbers: np.random.Generator) -> np.ndarray:
         """Draws a turn's directions and returns the candidates on both sides of each centre."""
