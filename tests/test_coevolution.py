@@ -403,8 +403,8 @@ def test_damaged_checkpoints(refused, own, tmp_path):
     path.write_bytes(whole)
     write(tmp_path, popsize=POPSIZE + 1)
     refused(*arguments(tmp_path, "--resume"), says=[f"popsize is now {POPSIZE + 1}"])
-    write(tmp_path, evolving="best")
-    refused(*arguments(tmp_path, "--resume"), says=["evolving = random", "is now best"])
+    write(tmp_path, evolving="random")
+    refused(*arguments(tmp_path, "--resume"), says=["evolving = best", "is now random"])
 
 
 def test_checkpoints_of_networks_that_were_computed_otherwise(refused, tmp_path):

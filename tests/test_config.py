@@ -92,7 +92,7 @@ COEVO2_DEFAULTS = {
     "stepsize": 0.01,
     "noiseStdDev": 0.02,
     "wdecay": 0,
-    "evolving": "random",
+    "evolving": "best",
     "saveeach": 100,
 }
 ARCHIVE_DEFAULTS = {

@@ -73,9 +73,9 @@ class Coevo2Config:
     noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
     wdecay: int = hyper(0, "pull of the centre towards 0", choices=WEIGHT_DECAY)
     evolving: str = hyper(
-        "random",
+        "best",
         "which candidates evolve in a generation",
-        choices={"random": "drawn at random", "best": "the best against the chosen competitors"},
+        choices={"best": "the best against the chosen competitors", "random": "drawn at random"},
     )
     saveeach: int = hyper(100, "generations between saves", low=1, high=1000000000, free=True)
 
