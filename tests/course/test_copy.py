@@ -45,13 +45,13 @@ def test_packed_grader_gives_the_solution_everything(grade, copy, number):
 
 @for_each_exercise
 def test_packed_grader_finds_a_mutant(grade, copy, number):
-    mutant = sorted((building.HERE / "mutants" / f"ex{number:02d}").glob("*.py"))[0]
-    text = mutant.read_text(encoding="utf-8")
-    named = text.splitlines()[0].removeprefix("# loses: ").split(", ")
-    file = put(copy, number, building.inserted(building.source(number).solution, text))
+    mutant = next(case for case in building.cases("mutants") if case.number == number)
+    file = put(copy, number, mutant.submission)
     result = grade(load_exercise(number, copy), file)
     lost = {task.id for task in result.tasks if task.points < task.max_points}
-    assert lost == set(named), [(task.id, task.message) for task in result.tasks if task.message]
+    assert lost == set(mutant.loses), [
+        (task.id, task.message) for task in result.tasks if task.message
+    ]
 
 
 @for_each_exercise

@@ -1,7 +1,6 @@
-"""What is promised of every exercise: skeleton 0 points, solution 100, mutants lose what they name.
+"""Prove what every exercise promises: skeleton 0 points, solution 100, mutants lose what they name.
 
-A mutant is a file in mutants/exNN/: its first line `# loses: N.2, N.4` names the tasks that lose
-points, its second says in words what is wrong, and the rest redefines functions of the solution.
+building.py describes the files of mutants. `-k "ex03 and clones"` runs one.
 """
 
 import ast
@@ -18,7 +17,9 @@ from botschool.grading.skeleton import pairs
 
 pytestmark = pytest.mark.course
 
-MUTANTS = sorted((building.HERE / "mutants").glob("ex[0-9][0-9]/*.py"))
+MUTANTS = building.cases("mutants")
+NAMED = 8
+"""So many mutants of an exercise, at least, get a message that names the mistake."""
 STOCHASTIC = re.compile(r"\b(margin|20 seeds|twenty seeds)\b", re.IGNORECASE)
 for_each_exercise = pytest.mark.parametrize("number", building.NUMBERS, ids="ex{:02d}".format)
 
@@ -105,29 +106,23 @@ def test_margins_are_stated(number):
 
 @for_each_exercise
 def test_there_are_mutants(number):
-    own = [path for path in MUTANTS if path.parent.name == f"ex{number:02d}"]
-    assert len(own) >= 5
-    assert len({path.read_text() for path in own}) == len(own)
+    own = [case for case in MUTANTS if case.number == number]
+    assert len({case.submission for case in own}) == len({case.name for case in own}) == len(own)
+    assert all(case.loses for case in own)
+    assert sum(case.says is not None for case in own) >= NAMED
 
 
-@pytest.mark.parametrize(
-    "mutant", MUTANTS, ids=[f"{path.parent.name}-{path.stem}" for path in MUTANTS]
-)
+@pytest.mark.parametrize("mutant", MUTANTS, ids=str)
 def test_mutant_loses_what_it_names(grade, mutant, tmp_path):
-    number, text = int(mutant.parent.name[2:]), mutant.read_text(encoding="utf-8")
-    first, second, *_ = text.splitlines()
-    assert re.fullmatch(r"# loses: \d+\.\d+(, \d+\.\d+)*", first)
-    assert re.match(r"# \w", second), "the second line says what is wrong"
-    named = re.findall(r"\d+\.\d+", first)
-    file = building.write(
-        tmp_path, number, building.inserted(building.source(number).solution, text)
-    )
-    result = grade(building.exercise(number), file)
-    lost = [task.id for task in result.tasks if task.points < task.max_points]
-    assert lost == sorted(named, key=lambda id: int(id.split(".")[1])), [
-        (task.id, task.message) for task in result.tasks if task.message
-    ]
-    assert all(task.message for task in result.tasks if task.id in lost)
+    """And no other task; a message that is to name the mistake does."""
+    file = building.write(tmp_path, mutant.number, mutant.submission)
+    result = grade(building.exercise(mutant.number), file)
+    lost = [task for task in result.tasks if task.points < task.max_points]
+    messages = {task.id: task.message for task in result.tasks if task.message}
+    assert tuple(task.id for task in lost) == mutant.loses, messages
+    assert all(task.message for task in lost)
+    if mutant.says:
+        assert re.search(mutant.says, f"{result.banner}\n{lost[0].message}"), lost[0].message
 
 
 def test_graded_apart_alike(grade, tmp_path):

@@ -1,0 +1,273 @@
+"""Right solutions of exercise 1 in other styles; building.py describes how a case is written."""
+
+
+# %% arrays
+# NumPy throughout: arrays and NumPy's scalars come back where lists and floats may.
+def describe(environment_id):
+    env = gymnasium.make(environment_id)
+    seen, _ = env.reset(seed=1)
+
+    def told(space):
+        try:
+            return {
+                "kind": "Discrete",
+                "choices": np.int64(space.n),
+                "first": np.int64(space.start),
+            }
+        except AttributeError:
+            return {
+                "kind": "Box",
+                "size": np.prod(space.shape),
+                "low": list(space.low.astype(np.float64)),
+                "high": list(space.high),
+            }
+
+    return {
+        "observation": told(env.observation_space),
+        "action": told(env.action_space),
+        "maxsteps": env.get_wrapper_attr("spec").max_episode_steps,
+    }
+
+
+def random_episode(environment_id, seed, maxsteps):
+    with gymnasium.make(environment_id) as env:
+        observations = env.reset(seed=seed)[0][None]
+        env.action_space.seed(seed)
+        actions, rewards, ends = [], np.zeros(0), np.zeros(2, dtype=bool)
+        while not ends.any() and len(rewards) < maxsteps:
+            actions += [env.action_space.sample()]
+            observation, reward, terminated, truncated, _ = env.step(actions[-1])
+            observations = np.vstack([observations, observation])
+            rewards = np.append(rewards, reward)
+            ends = np.array([terminated, truncated])
+    return {
+        "observations": observations,
+        "actions": np.array(actions),
+        "rewards": rewards,
+        "terminated": ends[0],
+        "truncated": ends[1],
+    }
+
+
+def fallen(observation):
+    return np.any(np.abs(observation[[0, 2]]) > np.array([2.4, 12 * 2 * np.pi / 360]))
+
+
+def cartpole_reward(observation, action):
+    return np.float32(1) - np.float32(fallen(observation))
+
+
+def pendulum_reward(observation, action):
+    angle = np.angle(observation[0] + 1j * observation[1])
+    torque = np.minimum(np.maximum(action, -2), 2)[0]
+    return -np.dot([1, 0.1, 0.001], np.square([angle, observation[2], torque]))
+
+
+def balance(observation):
+    return np.heaviside(observation @ np.array([0.05, 0.1, 1.0, 0.5]), 0)
+
+
+def compare(environment_ids, episodes, seed):
+    rows = []
+    for name in environment_ids:
+        runs = [random_episode(name, seed + i, 2**31) for i in range(episodes)]
+        returns = np.array([run["rewards"].sum() for run in runs])
+        lengths = np.array([run["rewards"].size for run in runs])
+        spread = np.sqrt(np.var(returns) * episodes / max(episodes - 1, 1))
+        rows += [
+            {
+                "environment": name,
+                "mean": returns.mean(),
+                "deviation": spread,
+                "length": lengths.mean(),
+            }
+        ]
+    return rows
+
+
+# %% classes_and_generators
+# Classes, generators and pattern matching; other formulas; the helpers have names of their own.
+from dataclasses import asdict, dataclass
+from itertools import count, islice
+
+
+@dataclass
+class Choice:
+    choices: int
+    first: int
+    kind: str = "Discrete"
+
+
+@dataclass
+class Numbers:
+    size: int
+    low: list
+    high: list
+    kind: str = "Box"
+
+
+def describe(environment_id):
+    def told(space):
+        match space:
+            case spaces.Discrete(n=n, start=start):
+                return asdict(Choice(int(n), int(start)))
+            case spaces.Box(low=low, high=high):
+                return asdict(Numbers(low.size, low.tolist(), high.tolist()))
+
+    env = gymnasium.make(environment_id)
+    return dict(
+        observation=told(env.observation_space),
+        action=told(env.action_space),
+        maxsteps=env.spec.max_episode_steps,
+    )
+
+
+class Life:
+    def __init__(self, environment_id, seed):
+        self.env = gymnasium.make(environment_id)
+        self.env.action_space.seed(seed)
+        self.first, _ = self.env.reset(seed=seed)
+        self.terminated = self.truncated = False
+
+    def __iter__(self):
+        for _ in count():
+            action = self.env.action_space.sample()
+            seen, reward, self.terminated, self.truncated, _ = self.env.step(action)
+            yield seen, action, float(reward)
+            if self.terminated or self.truncated:
+                return
+
+
+def random_episode(environment_id, seed, maxsteps):
+    life = Life(environment_id, seed)
+    seen, actions, rewards = zip(*islice(life, maxsteps), strict=True)
+    return {
+        "observations": np.stack([life.first, *seen]),
+        "actions": list(actions),
+        "rewards": list(rewards),
+        "terminated": bool(life.terminated),
+        "truncated": bool(life.truncated),
+    }
+
+
+def fallen(observation):
+    return max(abs(observation[0]) / 2.4, abs(observation[2]) / (np.pi / 15)) > 1
+
+
+def cartpole_reward(observation, action):
+    if fallen(observation):
+        return 0
+    return 1
+
+
+def pendulum_reward(observation, action):
+    cosine, sine, speed = observation
+    half = 2 * np.arctan2(sine, 1 + cosine) if cosine > -0.99 else np.arctan2(sine, cosine)
+    torque = float(np.clip(action, -2, 2).item())
+    return -1.0 * (half**2 + speed**2 / 10 + torque**2 / 1000)
+
+
+class Balancer:
+    """Where will the pole be in 0.3 seconds?"""
+
+    seconds = 0.3
+
+    def __call__(self, observation):
+        return np.int8(observation[2] + self.seconds * observation[3] >= 0)
+
+
+balance = Balancer()
+
+
+def compare(environment_ids, episodes, seed):
+    def row(name):
+        runs = [random_episode(name, seed + i, 1_000_000)["rewards"] for i in range(episodes)]
+        n, total = len(runs), sum(map(sum, runs))
+        squares = sum((sum(run) - total / n) ** 2 for run in runs)
+        return {
+            "deviation": (squares / (n - 1)) ** 0.5 if n > 1 else 0.0,
+            "length": sum(map(len, runs)) / n,
+            "mean": total / n,
+            "environment": name,
+        }
+
+    return list(map(row, environment_ids))
+
+
+# %% plain_python
+# Plain Python: no NumPy of its own, tuples, `math` and `statistics`, truth values for actions.
+import math
+import statistics
+
+
+def describe(environment_id):
+    env = gymnasium.make(environment_id)
+    told = {"maxsteps": gymnasium.spec(environment_id).max_episode_steps}
+    for which, space in zip(("observation", "action"), (env.observation_space, env.action_space)):
+        kind = type(space).__name__
+        if kind == "Discrete":
+            told[which] = dict(kind=kind, choices=space.n, first=space.start)
+        else:
+            told[which] = dict(
+                kind=kind,
+                size=math.prod(space.shape),
+                low=[float(limit) for limit in space.low],
+                high=[float(limit) for limit in space.high],
+            )
+    return told
+
+
+def random_episode(environment_id, seed, maxsteps):
+    env = gymnasium.make(environment_id)
+    env.action_space.seed(seed)
+    seen, done, paid = [tuple(env.reset(seed=seed)[0])], [], []
+    ends = (False, False)
+    for _ in range(maxsteps):
+        done.append(env.action_space.sample())
+        observation, reward, *ends, _ = env.step(done[-1])
+        seen.append(tuple(observation))
+        paid.append(reward)
+        if any(ends):
+            break
+    return {
+        "observations": seen,
+        "actions": tuple(done),
+        "rewards": tuple(paid),
+        "terminated": ends[0],
+        "truncated": ends[1],
+    }
+
+
+def fallen(observation):
+    x, _, angle, _ = observation
+    return not (-2.4 <= x <= 2.4 and -12 <= math.degrees(angle) <= 12)
+
+
+def cartpole_reward(observation, action):
+    return not fallen(observation)
+
+
+def pendulum_reward(observation, action):
+    angle = math.acos(max(-1.0, min(1.0, observation[0])))
+    torque = max(-2.0, min(2.0, action[0]))
+    return -(angle * angle + 0.1 * observation[2] ** 2 + 0.001 * torque * torque)
+
+
+def balance(observation):
+    return observation[2] + observation[3] / 4 > 0
+
+
+def compare(environment_ids, episodes, seed):
+    table = []
+    for name in environment_ids:
+        lives = [random_episode(name, seed + i, 10**9)["rewards"] for i in range(episodes)]
+        returns = list(map(math.fsum, lives))
+        table.append(
+            {
+                "environment": name,
+                "mean": statistics.mean(returns),
+                "deviation": statistics.stdev(returns) if episodes > 1 else 0,
+                "length": statistics.mean(map(len, lives)),
+            }
+        )
+    return table

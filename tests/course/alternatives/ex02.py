@@ -1,0 +1,246 @@
+"""Right solutions of exercise 2 in other styles; building.py describes how a case is written."""
+
+# %% one_matrix_a_layer
+# The bias is one more column of weights; a class for the network, a generator for the episode.
+from functools import reduce
+from statistics import fmean
+
+
+class Net:
+    def __init__(self, network):
+        self.layers = [np.column_stack([network["W" + k], network["b" + k]]) for k in ("1", "2")]
+
+    def __call__(self, values):
+        return reduce(lambda x, layer: np.tanh(layer @ np.append(x, 1.0)), self.layers, values)
+
+
+def parameters(ninputs, nhiddens, noutputs, seed):
+    first, second = np.random.SeedSequence(seed).spawn(2)
+    weights = [
+        np.random.Generator(np.random.PCG64(sequence)).normal(scale=0.1, size=shape)
+        for sequence, shape in ((first, (nhiddens, ninputs)), (second, (noutputs, nhiddens)))
+    ]
+    return {
+        **{f"W{i}": w for i, w in enumerate(weights, 1)},
+        **{f"b{i}": 0 * w[:, 0] for i, w in enumerate(weights, 1)},
+    }
+
+
+def forward(network, observation):
+    return Net(network)(observation)
+
+
+def sizes(environment_id):
+    with gymnasium.make(environment_id) as env:
+        match env.action_space:
+            case spaces.Discrete(n=n):
+                return env.observation_space.low.size, n
+            case box:
+                return env.observation_space.low.size, box.low.size
+
+
+def act(outputs, action_space):
+    match action_space:
+        case spaces.Discrete(start=start):
+            return start + max(range(len(outputs)), key=lambda i: outputs[i])
+        case spaces.Box(low=low, high=high):
+            share = (np.array(outputs, dtype=float) + 1) / 2
+            return list(share * high + (1 - share) * low)
+
+
+def steps(env, network, seed):
+    observation, _ = env.reset(seed=seed)
+    over = False
+    while not over:
+        action = act(Net(network)(observation), env.action_space)
+        observation, reward, terminated, truncated, _ = env.step(action)
+        over = terminated or truncated
+        yield action, reward
+
+
+def run_episode(environment_id, network, seed, maxsteps=200):
+    env = gymnasium.make(environment_id)
+    done = [step for _, step in zip(range(maxsteps), steps(env, network, seed))]
+    return {"actions": [a for a, _ in done], "return": sum(r for _, r in done)}
+
+
+def fitness(environment_id, network, seeds, maxsteps=200):
+    return fmean(run_episode(environment_id, network, s, maxsteps)["return"] for s in seeds)
+
+
+def forward_batch(networks, observations):
+    ones = np.ones((len(observations), 1))
+    values = observations
+    for k in "12":
+        layer = np.concatenate([networks["W" + k], networks["b" + k][:, :, None]], axis=2)
+        values = np.tanh(np.matmul(layer, np.hstack([values, ones])[:, :, None]).squeeze(axis=2))
+    return values
+
+
+def random_search(environment_id, nnetworks, nhiddens, seed):
+    shape = sizes(environment_id)
+    report = {"networks": [], "fitness": []}
+    for own in range(seed, seed + nnetworks):
+        network = parameters(shape[0], nhiddens, shape[1], own)
+        report["networks"].append(network)
+        report["fitness"].append(fitness(environment_id, network, range(seed, seed + 10)))
+    return {**report, "best": report["fitness"].index(max(report["fitness"]))}
+
+
+# %% plain_python
+# Loops over neurons with `math` and `random`; tuples and lists come back where they may.
+import math
+import random
+
+
+def parameters(ninputs, nhiddens, noutputs, seed):
+    draw = random.Random(seed)
+    layer = lambda rows, columns: np.array(
+        [[draw.gauss(0, 0.1) for _ in range(columns)] for _ in range(rows)]
+    )
+    return dict(
+        W1=layer(nhiddens, ninputs),
+        b1=[0.0] * nhiddens,
+        W2=layer(noutputs, nhiddens),
+        b2=[0.0] * noutputs,
+    )
+
+
+def forward(network, observation):
+    def layer(weights, biases, values):
+        out = []
+        for row, bias in zip(weights, biases):
+            total = bias
+            for w, x in zip(row, values):
+                total += w * x
+            out.append(math.tanh(total))
+        return out
+
+    hidden = layer(network["W1"], network["b1"], observation)
+    return layer(network["W2"], network["b2"], hidden)
+
+
+def sizes(environment_id):
+    env = gymnasium.make(environment_id)
+    observation, _ = env.reset(seed=0)
+    noutputs = len(env.action_space.low) if hasattr(env.action_space, "low") else env.action_space.n
+    return [len(observation), noutputs]
+
+
+def act(outputs, action_space):
+    if isinstance(action_space, spaces.Discrete):
+        best = 0
+        for i in range(1, len(outputs)):
+            if outputs[i] > outputs[best]:
+                best = i
+        return best + action_space.start
+    return np.array(
+        [l + (y + 1) / 2 * (u - l) for y, l, u in zip(outputs, action_space.low, action_space.high)]
+    )
+
+
+def run_episode(environment_id, network, seed, maxsteps=200):
+    env = gymnasium.make(environment_id)
+    observation = env.reset(seed=seed)[0]
+    actions, rewards = (), ()
+    for _ in range(maxsteps):
+        action = act(forward(network, observation), env.action_space)
+        observation, reward, end, timeout, _ = env.step(action)
+        actions, rewards = actions + (action,), rewards + (reward,)
+        if end or timeout:
+            break
+    return {"actions": actions, "return": math.fsum(rewards)}
+
+
+def fitness(environment_id, network, seeds, maxsteps=200):
+    total = 0
+    for seed in seeds:
+        total += run_episode(environment_id, network, seed, maxsteps=maxsteps)["return"]
+    return total / len(seeds)
+
+
+def forward_batch(networks, observations):
+    hidden = np.tanh(np.einsum("nhi,ni->nh", networks["W1"], observations) + networks["b1"])
+    return np.tanh(np.einsum("noh,nh->no", networks["W2"], hidden) + networks["b2"])
+
+
+def random_search(environment_id, nnetworks, nhiddens, seed):
+    networks, results, best = [], [], 0
+    for i in range(nnetworks):
+        network = parameters(sizes(environment_id)[0], nhiddens, sizes(environment_id)[1], seed + i)
+        networks.append(network)
+        results.append(fitness(environment_id, network, range(seed, seed + 10)))
+        if results[i] > results[best]:
+            best = i
+    return {"networks": networks, "fitness": results, "best": best}
+
+
+# %% single_precision
+# Single precision from the first weight to the action, with NumPy's old random numbers.
+def parameters(ninputs, nhiddens, noutputs, seed):
+    np.random.seed(seed)
+    return {
+        "b2": np.zeros(noutputs, dtype=np.float32),
+        "W2": np.random.normal(0.0, 0.1, size=(noutputs, nhiddens)).astype(np.float32),
+        "b1": np.zeros(nhiddens, dtype=np.float32),
+        "W1": np.random.normal(0.0, 0.1, size=(nhiddens, ninputs)).astype(np.float32),
+    }
+
+
+def forward(network, observation):
+    values = np.asarray(observation, dtype=np.float32).reshape(-1, 1)
+    for weights, biases in (("W1", "b1"), ("W2", "b2")):
+        matrix = np.float32(network[weights])
+        values = np.tanh(matrix.dot(values) + np.float32(network[biases])[:, np.newaxis])
+    return values.ravel()
+
+
+def sizes(environment_id):
+    env = gymnasium.make(environment_id)
+    return np.array([spaces.flatdim(env.observation_space), spaces.flatdim(env.action_space)])
+
+
+def act(outputs, action_space):
+    if action_space.__class__ is spaces.Discrete:
+        return np.int32(action_space.start + outputs.argmax())
+    middle = (action_space.high + action_space.low) / 2
+    return np.float32(middle + outputs * (action_space.high - action_space.low) / 2)
+
+
+def run_episode(environment_id, network, seed, maxsteps=200):
+    env = gymnasium.make(environment_id)
+    observation, _ = env.reset(seed=seed)
+    actions, rewards = [], np.zeros(maxsteps, dtype=np.float32)
+    for step in range(maxsteps):
+        actions.append(act(forward(network, observation), env.action_space))
+        observation, rewards[step], terminated, truncated, _ = env.step(actions[-1])
+        if terminated or truncated:
+            break
+    return {"actions": np.stack(actions), "return": rewards.sum()}
+
+
+def fitness(environment_id, network, seeds, maxsteps=200):
+    return np.float32(
+        np.average([run_episode(environment_id, network, s, maxsteps)["return"] for s in seeds])
+    )
+
+
+def forward_batch(networks, observations):
+    values = observations.astype(np.float32)
+    for layer in "12":
+        sums = (networks["W" + layer] * values[:, None, :]).sum(axis=-1, dtype=np.float32)
+        values = np.tanh(sums + networks["b" + layer])
+    return values
+
+
+def random_search(environment_id, nnetworks, nhiddens, seed):
+    inputs, outputs = (int(n) for n in sizes(environment_id))
+    networks = [parameters(inputs, nhiddens, outputs, seed + i) for i in range(nnetworks)]
+    results = np.array(
+        [fitness(environment_id, n, np.arange(seed, seed + 10).tolist()) for n in networks]
+    )
+    return {
+        "networks": networks,
+        "fitness": results,
+        "best": np.flatnonzero(results == results.max())[0],
+    }

@@ -1,0 +1,237 @@
+"""Right solutions of exercise 3 in other styles; building.py describes how a case is written."""
+
+# %% other_strategy_for_training
+# A class with a generator of generations; `train` uses a strategy of its own with a moving centre.
+from itertools import islice
+
+evaluate_pendulum = Robot("Pendulum-v1").evaluate  # kept since the file was loaded
+evaluate_cartpole = Robot("CartPole-v0").evaluate
+
+
+def initial_population(popsize, nbiases, nweights, seed):
+    rng = np.random.default_rng(seed)
+    columns = [np.zeros(popsize)] * nbiases + [rng.normal(0, 0.1, popsize) for _ in range(nweights)]
+    return np.column_stack(columns)
+
+
+def rank(fitness):
+    left, order = list(fitness), []
+    while len(order) < len(left):
+        best = None
+        for i, value in enumerate(left):
+            if i not in order and (best is None or value > left[best]):
+                best = i
+        order.append(best)
+    return tuple(order)
+
+
+def next_population(population, fitness, mutrate, rng):
+    order = list(rank(fitness))
+    half = len(order) // 2
+    parents = population[order[:half]]
+    children = rng.normal(loc=parents, scale=mutrate)
+    return np.concatenate([children, parents])[rng.permutation(2 * half)]
+
+
+class SteadyState:
+    def __init__(self, evaluate, population, mutrate, seed):
+        self.evaluate, self.mutrate, self.seed = evaluate, mutrate, seed
+        self.population = np.array(population)
+        self.rng = np.random.default_rng(seed)
+
+    def __iter__(self):
+        seed = self.seed
+        while True:
+            fitness = self.evaluate(self.population, seed)
+            i = int(np.argmax(fitness))
+            met = float(fitness[i]), self.population[i].copy()
+            self.population = next_population(self.population, fitness, self.mutrate, self.rng)
+            yield met
+            seed += 1
+
+
+def evolve(evaluate, population, generations, mutrate, seed):
+    run = SteadyState(evaluate, population, mutrate, seed)
+    met = list(islice(run, generations))
+    highest = max(met, key=lambda each: each[0])
+    return {
+        "history": [fitness for fitness, _ in met],
+        "fitness": highest[0],
+        "best": highest[1],
+        "population": run.population,
+    }
+
+
+def hill_climb(evaluate, start, generations, mutrate, seed):
+    return evolve(evaluate, [start] * 2, generations, mutrate, seed)
+
+
+def replicate(experiment, seeds):
+    found = {seed: experiment(seed) for seed in seeds}
+    table = np.array([found[seed]["history"] for seed in seeds])
+    centred = table - table.mean(0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        variance = np.einsum("rg,rg->g", centred, centred) / np.float64(len(seeds) - 1)
+    return {
+        "mean": table.mean(0),
+        "deviation": np.nan_to_num(np.sqrt(variance)),
+        "best": tuple(found[seed]["fitness"] for seed in seeds),
+    }
+
+
+def train(environment, seed):
+    """The mean of the best quarter becomes the centre of the next generation; three attempts."""
+    robot = Robot(environment)
+    evaluate = evaluate_cartpole if environment == "CartPole-v0" else evaluate_pendulum
+    rng = np.random.default_rng(seed)
+    generations = 30 if environment == "CartPole-v0" else 300
+    found = []
+    for attempt in range(3):
+        centre, spread = np.zeros(robot.nbiases + robot.nweights), 1.0
+        for g in range(generations):
+            population = rng.normal(centre, spread, size=(80, len(centre)))
+            fitness = evaluate(population, int(rng.integers(2**31)), episodes=8)
+            elite = population[np.argsort(fitness)[-20:]]
+            centre, spread = elite.mean(axis=0), np.maximum(elite.std(axis=0), 0.3)
+        found += [centre, *elite]
+    return found[evaluate(np.array(found), seed, episodes=100).argmax()]
+
+
+# %% single_precision
+# Single precision; index arithmetic in place of fancy indexing; noise drawn for everybody.
+def initial_population(popsize, nbiases, nweights, seed):
+    random = np.random.RandomState(seed)
+    population = np.zeros((popsize, nbiases + nweights), dtype=np.float32)
+    population[:, nbiases:] = random.normal(scale=0.1, size=(popsize, nweights))
+    return population
+
+
+def rank(fitness):
+    order = np.lexsort((np.arange(len(fitness)), -np.asarray(fitness)))
+    return order.astype(np.int32)
+
+
+def next_population(population, fitness, mutrate, rng):
+    noise = rng.standard_normal(population.shape, dtype=np.float32)
+    after = np.array(population, dtype=np.float32)
+    order = rank(fitness)
+    for good, bad in zip(order, order[::-1]):
+        if list(order).index(good) < len(order) // 2:
+            after[bad] = population[good] + np.float32(mutrate) * noise[bad]
+    return after
+
+
+def evolve(evaluate, population, generations, mutrate, seed):
+    rng = np.random.default_rng(seed)
+    population = np.float32(population)
+    history = np.zeros(generations, dtype=np.float32)
+    bests = []
+    for g in range(generations):
+        fitness = np.float32(evaluate(population, seed + g))
+        bests.append(population[fitness.argmax()].copy())
+        history[g] = fitness.max()
+        population = next_population(population, fitness, mutrate, rng)
+    return {
+        "best": bests[history.argmax()],
+        "fitness": history.max(),
+        "history": history,
+        "population": population,
+    }
+
+
+def hill_climb(evaluate, start, generations, mutrate, seed):
+    return evolve(evaluate, np.tile(start, (2, 1)), generations, mutrate, seed)
+
+
+def replicate(experiment, seeds):
+    runs = [experiment(int(seed)) for seed in np.array(seeds)]
+    table = np.stack([run["history"] for run in runs]).astype(np.float64)
+    n = len(runs)
+    squares = ((table - table.sum(0) / n) ** 2).sum(0)
+    return {
+        "mean": table.sum(0) / n,
+        "deviation": np.sqrt(squares / max(n - 1, 1)),
+        "best": np.array([run["fitness"] for run in runs]),
+    }
+
+
+def train(environment, seed):
+    robot = Robot(environment)
+    start = initial_population(40, robot.nbiases, robot.nweights, seed)
+    cartpole = environment.startswith("CartPole")
+    run = evolve(robot.evaluate, start, 30 if cartpole else 700, 0.3 if cartpole else 0.8, seed)
+    again = robot.evaluate(run["population"], seed + 777_777, episodes=20)
+    return run["population"][again.argmax()]
+
+
+# %% survivors_first
+# Lists of rows, best first, then the children; noise child by child; plain sorting and statistics.
+import statistics
+
+
+def initial_population(popsize, nbiases, nweights, seed):
+    rng = np.random.default_rng(seed)
+    return [[0.0] * nbiases + [rng.normal(0, 0.1) for _ in range(nweights)] for _ in range(popsize)]
+
+
+def rank(fitness):
+    return sorted(range(len(fitness)), key=lambda i: fitness[i], reverse=True)
+
+
+def next_population(population, fitness, mutrate, rng):
+    order = rank(fitness)
+    survivors = [population[i] for i in order[: len(order) // 2]]
+    children = []
+    for parent in survivors:
+        children.append(np.array([value + mutrate * rng.standard_normal() for value in parent]))
+    return survivors + children
+
+
+def evolve(evaluate, population, generations, mutrate, seed):
+    rng = np.random.default_rng(seed)
+    report = {"best": None, "fitness": float("-inf"), "history": []}
+    for g in range(generations):
+        fitness = evaluate(np.array(population), seed + g)
+        top = max(range(len(fitness)), key=lambda i: fitness[i])
+        report["history"] += [fitness[top]]
+        if fitness[top] > report["fitness"]:
+            report["best"], report["fitness"] = list(population[top]), fitness[top]
+        population = next_population(population, fitness, mutrate, rng)
+    report["population"] = population
+    return report
+
+
+def hill_climb(evaluate, start, generations, mutrate, seed):
+    rng = np.random.default_rng(seed)
+    old, new = start, start
+    best, history = (-np.inf, None), []
+    for g in range(generations):
+        first, second = evaluate(np.stack([old, new]), seed + g)
+        history.append(max(first, second))
+        if second > first:
+            old = new
+        if history[-1] > best[0]:
+            best = (history[-1], old)
+        new = old + rng.normal(0, mutrate, size=len(start))
+    return {"best": best[1], "fitness": best[0], "history": history, "population": [old, new]}
+
+
+def replicate(experiment, seeds):
+    runs = list(map(experiment, seeds))
+    columns = list(zip(*(run["history"] for run in runs)))
+    return {
+        "mean": [statistics.fmean(column) for column in columns],
+        "deviation": [statistics.stdev(column) if len(runs) > 1 else 0 for column in columns],
+        "best": [run["fitness"] for run in runs],
+    }
+
+
+def train(environment, seed):
+    robot = Robot(environment)
+    size, rate, generations = (10, 0.2, 60) if environment == "CartPole-v0" else (30, 0.6, 900)
+    population = np.array(initial_population(size, robot.nbiases, robot.nweights, seed))
+    rng = np.random.default_rng(seed)
+    for g in range(generations):
+        fitness = robot.evaluate(population, seed * 1000 + g)
+        population = np.array(next_population(population, fitness, rate, rng))
+    return population[int(np.argmax(robot.evaluate(population, seed + 999, episodes=30)))].tolist()

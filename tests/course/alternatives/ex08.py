@@ -1,0 +1,233 @@
+"""Right solutions of exercise 8 in other styles; building.py describes how a case is written."""
+
+
+# %% keeps_the_best_centre
+# Classes and closures of its own; stops when the centre itself, evaluated now and then, is good.
+class Adam:
+    def __init__(self, n):
+        self.m, self.v, self.t = np.zeros(n), np.zeros(n), 0
+
+    def step(self, centre, d, stepsize):
+        self.t += 1
+        centre, self.m, self.v = adam(centre, d, self.m, self.v, self.t, stepsize)
+        return centre
+
+
+def candidates_around(centre, samples, noiseStdDev):
+    both = np.stack([centre + noiseStdDev * samples, centre - noiseStdDev * samples])
+    return both.transpose(1, 0, 2).reshape(-1, len(centre))
+
+
+def utilities(fitness):
+    fitness = np.asarray(fitness)
+    order = sorted(range(len(fitness)), key=fitness.__getitem__)
+    result = dict(zip(order, np.linspace(-0.5, 0.5, len(fitness)), strict=False))
+    return np.array([result[i] for i in range(len(fitness))])
+
+
+def gradient(samples, utilities):
+    weights = np.array(utilities[::2]) - np.array(utilities[1::2])
+    return sum(weight * e for weight, e in zip(weights, samples, strict=True)) / len(utilities)
+
+
+def descent(gradient, centre, wdecay):
+    return [0, centre, np.sign(centre)][wdecay] * np.float64(0.005) - gradient
+
+
+def evolve(
+    evaluate, centre, generations, seed, samplesize=20, noiseStdDev=0.02, stepsize=0.01, wdecay=0
+):
+    rng, optimiser = np.random.default_rng(seed), Adam(len(centre))
+    history = np.zeros(generations)
+    for g in range(generations):
+        e = rng.standard_normal((samplesize, len(centre)))
+        fitness = evaluate(candidates_around(centre, e, noiseStdDev), seed + g)
+        history[g] = np.mean(fitness)
+        d = descent(gradient(e, utilities(fitness)), centre, wdecay)
+        centre = optimiser.step(centre, d, stepsize)
+    return {"centre": centre, "history": history, "generations": generations}
+
+
+def train(environment, seed):
+    robot, rng = Robot(environment), np.random.default_rng(seed)
+    centre = 0.1 * rng.standard_normal(robot.nbiases + robot.nweights)
+    goal = 200 if environment == "CartPole-v0" else -180
+    for stretch in range(40):
+        run = evolve(
+            lambda candidates, s: robot.evaluate(candidates, s, episodes=5), centre, 40,
+            seed + 1000 * stretch, samplesize=25, noiseStdDev=0.25, stepsize=0.05,
+        )  # fmt: skip
+        centre = run["centre"]
+        if robot.evaluate(centre[None], seed + 77, episodes=50)[0] >= goal:
+            break
+    return centre
+
+
+# %% lists_and_loops
+# Lists and loops over single numbers, where the solution has arrays.
+import math
+
+
+def candidates_around(centre, samples, noiseStdDev):
+    candidates = []
+    for sample in samples:
+        for s in (noiseStdDev, -noiseStdDev):
+            candidates.append([centre[i] + s * sample[i] for i in range(len(centre))])
+    return candidates
+
+
+def utilities(fitness):
+    n = len(fitness)
+    result = []
+    for i in range(n):
+        rank = 0
+        for j in range(n):
+            if fitness[j] < fitness[i] or (fitness[j] == fitness[i] and j < i):
+                rank += 1
+        result.append(rank / (n - 1) - 0.5)
+    return result
+
+
+def gradient(samples, utilities):
+    g = [0.0] * len(samples[0])
+    for b, sample in enumerate(samples):
+        for i, e in enumerate(sample):
+            g[i] += (utilities[2 * b] - utilities[2 * b + 1]) * e / (2 * len(samples))
+    return g
+
+
+def descent(gradient, centre, wdecay):
+    d = []
+    for g, c in zip(gradient, centre, strict=False):
+        if wdecay == 1:
+            d.append(-g + 0.005 * c)
+        elif wdecay == 2 and c != 0:
+            d.append(-g + math.copysign(0.005, c))
+        else:
+            d.append(-g)
+    return d
+
+
+def adam(centre, d, m, v, t, stepsize):
+    moved, ms, vs = [], [], []
+    for c, di, mi, vi in zip(centre, d, m, v, strict=False):
+        ms.append(0.9 * mi + (1 - 0.9) * di)
+        vs.append(0.999 * vi + (1 - 0.999) * di * di)
+        size = math.sqrt(vs[-1] / (1 - math.pow(0.999, t))) + 1e-8
+        moved.append(c - stepsize * ms[-1] / (1 - math.pow(0.9, t)) / size)
+    return moved, ms, vs
+
+
+def evolve(
+    evaluate, centre, generations, seed, samplesize=20, noiseStdDev=0.02, stepsize=0.01, wdecay=0
+):
+    rng, n = np.random.default_rng(seed), len(centre)
+    m, v, history = [0.0] * n, [0.0] * n, []
+    for g in range(generations):
+        samples = rng.standard_normal((samplesize, n))
+        fitness = evaluate(np.array(candidates_around(centre, samples, noiseStdDev)), seed + g)
+        history.append(sum(fitness) / len(fitness))
+        d = descent(gradient(samples, utilities(list(fitness))), centre, wdecay)
+        centre, m, v = adam(centre, d, m, v, g + 1, stepsize)
+    return {"centre": centre, "history": history}
+
+
+def smooth(curve, width):
+    return [sum(curve[i : i + width]) / width for i in range(len(curve) - width + 1)]
+
+
+def stability(curve):
+    top, peak, bottom, fall, at = curve[0], 0, 0, 0.0, 0
+    for i, value in enumerate(curve):
+        if value > top:
+            top, at = value, i
+        if top - value > fall:
+            fall, bottom, peak = top - value, i, at
+    height = max(curve) - min(curve)
+    drop = fall / height if height else 0.0
+    words = ["monotonic", "mild regressions", "severe regressions"]
+    verdict = words[int(drop > 0.1) + int(drop > 0.3)]
+    return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
+
+
+def train(environment, seed):
+    """Small generations of arrays, one candidate after another."""
+    robot = Robot(environment)
+    rng = np.random.default_rng([seed, 7])
+    n = robot.nbiases + robot.nweights
+    centre, m, v = 0.1 * rng.standard_normal(n), np.zeros(n), np.zeros(n)
+    for g in range(90 if environment.startswith("Cart") else 700):
+        samples = rng.standard_normal((15, n))
+        scores = []
+        for e in samples:
+            for c in (centre + 0.2 * e, centre - 0.2 * e):
+                scores.append(robot.evaluate(c[None, :], seed + g, episodes=10)[0])
+        d = -np.array(gradient(samples, utilities(scores)))
+        centre, m, v = (np.array(each) for each in adam(centre, d, m, v, g + 1, 0.05))
+    return centre.tolist()
+
+
+# %% one_side_after_the_other
+# Other functions: repeat, sorting twice, einsum; a training that looks at all on one side first.
+def candidates_around(centre, samples, noiseStdDev):
+    signs = np.tile([1.0, -1.0], len(samples))[:, None]
+    return centre + noiseStdDev * signs * np.repeat(samples, 2, axis=0)
+
+
+def utilities(fitness):
+    ranks = np.argsort(np.argsort(np.asarray(fitness), kind="mergesort"), kind="mergesort")
+    return np.float64(ranks) / (np.size(fitness) - 1) - 0.5
+
+
+def gradient(samples, utilities):
+    pairs = np.reshape(utilities, (-1, 2))
+    return np.einsum("b,bn->n", pairs[:, 0] - pairs[:, 1], samples) / pairs.size
+
+
+def descent(gradient, centre, wdecay):
+    d = np.negative(gradient)
+    if wdecay == 1:
+        return d + centre / 200
+    if wdecay == 2:
+        return d + np.where(centre > 0, 0.005, np.where(centre < 0, -0.005, 0.0))
+    return d
+
+
+def adam(centre, d, m, v, t, stepsize):
+    m = m + 0.1 * (d - m)
+    v = v + 0.001 * (np.square(d) - v)
+    rate = stepsize * np.sqrt(1 - 0.999**t) / (1 - 0.9**t)
+    return centre - rate * m / (np.sqrt(v) + 1e-8 * np.sqrt(1 - 0.999**t)), m, v
+
+
+def smooth(curve, width):
+    sums = np.concatenate([[0.0], np.cumsum(curve)])
+    return (sums[width:] - sums[:-width]) / width
+
+
+def stability(curve):
+    curve = np.array(curve, dtype=float)
+    if np.ptp(curve) == 0:
+        return {"drop": 0.0, "bottom": 0, "peak": 0, "verdict": "monotonic"}
+    heights = (curve - curve.min()) / np.ptp(curve)
+    falls = np.array([heights[: i + 1].max() - heights[i] for i in range(len(heights))])
+    bottom = falls.argmax()
+    drop = falls.max()
+    verdict = "monotonic" if drop <= 0.1 else "mild regressions"
+    if drop > 0.3:
+        verdict = "severe regressions"
+    peak = np.argmax(heights[: bottom + 1])
+    return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
+
+
+def train(environment, seed):
+    robot, rng = Robot(environment), np.random.default_rng(seed)
+    centre = np.concatenate([np.zeros(robot.nbiases), 0.1 * rng.standard_normal(robot.nweights)])
+    m, v = np.zeros_like(centre), np.zeros_like(centre)
+    for g in range(70 if "CartPole" in environment else 500):
+        e = rng.standard_normal((20, len(centre)))
+        fitness = robot.evaluate(np.vstack([centre + 0.2 * e, centre - 0.2 * e]), seed + g, 10)
+        ranks = utilities(fitness)
+        d = -(ranks[:20] - ranks[20:]) @ e / 40
+        centre, m, v = adam(centre, d, m, v, g + 1, 0.05)
+    return centre

@@ -1,0 +1,233 @@
+"""Right solutions of exercise 12 in other styles; building.py describes how a case is written."""
+
+# %% lists_and_loops
+# Plain Python: math, lists and loops where the solution has arrays.
+import math
+
+
+def softmax(scores):
+    scores = np.asarray(scores, dtype=float)
+    if scores.ndim > 1:
+        return [softmax(row) for row in scores]
+    top = max(scores)
+    powers = [math.exp(score - top) for score in scores]
+    return [power / sum(powers) for power in powers]
+
+
+def choose(probabilities, rng):
+    dart, edge = rng.random(), 0.0
+    for action, probability in enumerate(probabilities):
+        edge += probability
+        if dart < edge:
+            return action
+    return len(probabilities) - 1
+
+
+def run_episode(environment, act, seed, maxsteps=200):
+    env = gymnasium.make(environment)
+    limits = getattr(env.action_space, "low", None), getattr(env.action_space, "high", None)
+    observation = env.reset(seed=seed)[0]
+    record = {"observations": [], "actions": [], "return": 0.0}
+    ended = False
+    while not ended and len(record["actions"]) < maxsteps:
+        action = act(observation)
+        record["observations"].append(observation.tolist())
+        record["actions"].append(action)
+        if limits[0] is not None:
+            bounded = zip(action, *limits, strict=True)
+            action = np.array([min(max(a, low), high) for a, low, high in bounded])
+        observation, reward, terminated, truncated, _ = env.step(action)
+        record["return"] += reward
+        ended = terminated or truncated
+    env.close()
+    return record
+
+
+def elite(episodes, percentile):
+    returns = []
+    for episode in episodes:
+        returns.append(episode["return"])
+    bound = np.percentile(returns, percentile)
+    observations, actions = [], []
+    for episode in episodes:
+        if episode["return"] >= bound:
+            observations += list(episode["observations"])
+            actions += list(episode["actions"])
+    return {"observations": observations, "actions": actions, "bound": bound}
+
+
+def cross_entropy(scores, actions):
+    top = scores.max(dim=1).values.detach()
+    below, chosen = 0.0, 0.0
+    for action in range(scores.shape[1]):
+        below = below + torch.exp(scores[:, action] - top)
+        chosen = chosen + scores[:, action] * (actions == action)
+    surprises = top + torch.log(below) - chosen
+    return sum(surprises) / len(surprises) if len(surprises) < 50 else surprises.mean()
+
+
+def gaussian_action(mean, log_deviation, rng):
+    noise = rng.standard_normal(len(mean))
+    return [m + math.exp(d) * e for m, d, e in zip(mean, log_deviation, noise, strict=False)]
+
+
+def gaussian_loss(means, log_deviation, actions):
+    total = 0.0
+    for i in range(means.shape[1]):
+        sigma = log_deviation[i].exp()
+        total = total + (actions[:, i] - means[:, i]) ** 2 / (2 * sigma**2)
+        total = total + log_deviation[i] + 0.5 * math.log(2 * math.pi)
+    return torch.mean(total)
+
+
+# %% one_hot
+# One-hot actions, a matrix product for the elite's rows, an iteration with wrappers of its own.
+def softmax(scores):
+    shifted = np.array(scores, dtype=np.float64)
+    shifted -= np.max(shifted, axis=-1)[..., None]
+    return np.exp(shifted) / np.einsum("...a->...", np.exp(shifted))[..., None]
+
+
+def choose(probabilities, rng):
+    dart = rng.random()
+    for action in range(len(probabilities)):
+        if np.sum(probabilities[: action + 1]) > dart:
+            return action
+    return action
+
+
+def cross_entropy(scores, actions):
+    hot = torch.eye(scores.shape[1], dtype=scores.dtype)[actions]
+    return (torch.logsumexp(scores, 1) - (hot * scores).sum(1)).sum() / scores.shape[0]
+
+
+def improve(network, optimiser, observations, actions, loss, updates):
+    kind = torch.float32
+    if np.asarray(actions).dtype.kind in "iu":
+        kind = torch.int64
+    observations, actions = torch.tensor(observations).float(), torch.tensor(actions).to(kind)
+
+    def update():
+        optimiser.zero_grad()
+        value = loss(network(observations), actions)
+        value.backward()
+        optimiser.step()
+        return value.item()
+
+    return [update() for _ in range(updates)]
+
+
+def gaussian_loss(means, log_deviation, actions):
+    variance = torch.exp(2 * log_deviation)
+    squares = (means - actions).square() / variance
+    constant = torch.log(2 * torch.pi * variance)
+    return 0.5 * (squares + constant).sum() / len(means)
+
+
+def train(environment, seed):
+    """Larger iterations, another optimiser, observations scaled by what CartPole's can be."""
+    torch.manual_seed(seed)
+    rng = np.random.default_rng(seed + 1)
+    scale = np.array([2.4, 2.0, 0.2, 2.0])
+    with gymnasium.make(environment) as env:
+        discrete = env.action_space.__class__.__name__ == "Discrete"
+    network = make_network(4, 2 if discrete else 1, 16)
+    log_deviation = torch.full((1,), -0.5, requires_grad=True)
+    chosen = [*network.parameters(), log_deviation]
+    optimiser = torch.optim.RMSprop(chosen, lr=0.01)
+    returns, episode_seed = [], 1000 * seed
+
+    def act(observation):
+        scores = outputs_of(parameters, observation / scale)
+        if discrete:
+            return choose(softmax(scores), rng)
+        return gaussian_action(scores, spread, rng)
+
+    for _ in range(120):
+        parameters = parameters_of(network)
+        spread = log_deviation.detach().numpy().copy()
+        played = []
+        for _ in range(25):
+            episode_seed += 1
+            played.append(run_episode(environment, act, episode_seed))
+        returns.append(np.array([episode["return"] for episode in played]))
+        if returns[-1].mean() > 197:
+            break
+        best = elite(played, 75)
+        improve(
+            network, optimiser, np.asarray(best["observations"]) / scale, best["actions"],
+            cross_entropy if discrete else lambda m, a: gaussian_loss(m, log_deviation, a), 8,
+        )  # fmt: skip
+    W1, b1, W2, b2 = parameters_of(network)
+    return {"parameters": [W1 / scale, b1, W2, b2], "returns": returns}
+
+
+# %% other_functions
+# Other functions of NumPy and torch that compute the same.
+def softmax(scores):
+    scores = np.asarray(scores, dtype=np.float64)
+    logarithms = scores - np.logaddexp.reduce(scores, axis=-1, keepdims=True)
+    return np.exp(logarithms)
+
+
+def choose(probabilities, rng):
+    edges = np.cumsum(probabilities)
+    return int(min(np.searchsorted(edges, rng.random(), side="right"), len(edges) - 1))
+
+
+def run_episode(environment, act, seed, maxsteps=200):
+    env = gymnasium.make(environment)
+    seen, done, rewards = [], [], []
+    observation, _info = env.reset(seed=seed)
+    for _step in range(maxsteps):
+        seen.append(np.copy(observation))
+        done.append(act(observation))
+        motor = done[-1]
+        if not isinstance(env.action_space, gymnasium.spaces.Discrete):
+            motor = np.clip(motor, env.action_space.low, env.action_space.high)
+        observation, reward, terminated, truncated, _info = env.step(motor)
+        rewards.append(reward)
+        if terminated | truncated:
+            break
+    env.close()
+    return {"observations": np.stack(seen), "actions": np.stack(done), "return": sum(rewards)}
+
+
+def elite(episodes, percentile):
+    returns = np.array([episode["return"] for episode in episodes])
+    bound = np.percentile(returns, percentile)
+    kept = [episodes[i] for i in np.flatnonzero(returns >= bound)]
+    found = {"bound": bound}
+    for key in ("observations", "actions"):
+        stack = np.vstack if np.ndim(kept[0][key]) > 1 else np.hstack
+        found[key] = stack([episode[key] for episode in kept])
+    return found
+
+
+def cross_entropy(scores, actions):
+    logarithms = torch.log_softmax(scores, dim=-1)
+    return -torch.gather(logarithms, 1, actions.view(-1, 1)).mean()
+
+
+def improve(network, optimiser, observations, actions, loss, updates):
+    inputs = torch.from_numpy(np.array(observations, dtype=np.float32))
+    actions = np.array(actions)
+    wanted = torch.from_numpy(actions.astype("int64" if actions.dtype.kind in "iu" else "float32"))
+    losses = []
+    while len(losses) < updates:
+        network.zero_grad(set_to_none=True)
+        optimiser.zero_grad()
+        value = loss(network(inputs), wanted)
+        value.backward()
+        losses.append(float(value.detach()))
+        optimiser.step()
+    return losses
+
+
+def gaussian_action(mean, log_deviation, rng):
+    return rng.standard_normal(np.shape(mean)) * np.exp(log_deviation) + mean
+
+
+def gaussian_loss(means, log_deviation, actions):
+    normal = torch.distributions.Normal(means, log_deviation.exp())
+    return -normal.log_prob(actions).sum(-1).mean()

@@ -1,0 +1,265 @@
+"""Right solutions of exercise 13 in other styles; building.py describes how a case is written."""
+
+# %% in_torch
+# Computes with torch tensors, and gives back what .numpy() and .item() make of them.
+import torch
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    rewards, values, starts, last_values, dones = (
+        torch.as_tensor(np.array(each, dtype=float))
+        for each in (rewards, values, episode_starts, last_values, dones)
+    )
+    goes_on = 1 - torch.cat([starts[1:], dones[None]])
+    surprises = rewards + gamma * goes_on * torch.cat([values[1:], last_values[None]]) - values
+    result = surprises.clone()
+    for t in range(len(rewards) - 2, -1, -1):
+        result[t] += gamma * gae_lambda * goes_on[t] * result[t + 1]
+    return result.numpy()
+
+
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    log_prob, old_log_prob, a = map(torch.from_numpy, (log_prob, old_log_prob, advantages))
+    if a.numel() > 1:
+        a = (a - a.mean()) / (a.std() + 1e-8)
+    ratio = (log_prob - old_log_prob).exp()
+    worse = torch.minimum(ratio * a, ratio.clamp(1 - clip_range, 1 + clip_range) * a)
+    far = (ratio - 1).abs() > clip_range
+    return {"loss": (-worse).mean().item(), "clip_fraction": far.double().mean().item()}
+
+
+def value_loss(values, old_values, returns, clip_range_vf=None):
+    values, old, returns = map(torch.from_numpy, (values, old_values, returns))
+    if clip_range_vf is not None:
+        values = old + torch.clamp(values - old, -clip_range_vf, clip_range_vf)
+    return torch.nn.functional.mse_loss(returns, values).item()
+
+
+def entropy_of_choices(scores):
+    logarithms = torch.log_softmax(torch.from_numpy(scores), dim=1)
+    return -(logarithms.exp() * logarithms).sum(dim=1).numpy()
+
+
+def entropy_of_gaussians(log_deviation):
+    return (0.5 + 0.5 * np.log(2 * torch.pi) + torch.tensor(log_deviation)).sum().item()
+
+
+def approx_kl(log_prob, old_log_prob):
+    log_ratio = torch.tensor(log_prob) - torch.tensor(old_log_prob)
+    return float(torch.mean(torch.exp(log_ratio) - 1 - log_ratio))
+
+
+def explained_variance(values, returns):
+    values, returns = torch.tensor(values), torch.tensor(returns)
+    return float(1 - (returns - values).var() / returns.var())
+
+
+def hidden_activations(layers, observations):
+    signal, found = torch.as_tensor(observations, dtype=torch.float64), []
+    for weights, biases in layers:
+        signal = torch.tanh(
+            torch.nn.functional.linear(signal, *map(torch.tensor, (weights, biases)))
+        )
+        found.append(signal.numpy())
+    return found
+
+
+def responses(activations, observations):
+    h, x = (torch.tensor(np.asarray(each, dtype=float)) for each in (activations, observations))
+    moving = torch.outer(h.amax(0) > h.amin(0), x.amax(0) > x.amin(0))
+    h, x = h - h.mean(0), x - x.mean(0)
+    cosines = torch.einsum("ni,nj->ij", h, x) / torch.outer(h.norm(dim=0), x.norm(dim=0))
+    return torch.where(moving, cosines, 0.0).numpy()
+
+
+# %% loops
+# Loops over steps and environments, the math module, the direct sum of advantage estimation.
+import math
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    steps, envs = len(rewards), len(rewards[0])
+    table = [[0.0] * envs for _ in range(steps)]
+    for env in range(envs):
+        for t in range(steps):
+            weight = 1.0
+            for later in range(t, steps):
+                if later + 1 < steps:
+                    ended, after = episode_starts[later + 1][env], values[later + 1][env]
+                else:
+                    ended, after = dones[env], last_values[env]
+                surprise = rewards[later][env] - values[later][env]
+                if not ended:
+                    surprise += gamma * after
+                table[t][env] += weight * surprise
+                if ended:
+                    break
+                weight *= gamma * gae_lambda
+    return table
+
+
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    n = len(advantages)
+    numbers = list(advantages)
+    if n > 1:
+        mean = sum(numbers) / n
+        deviation = math.sqrt(sum((a - mean) ** 2 for a in numbers) / (n - 1))
+        numbers = [(a - mean) / (deviation + 1e-8) for a in numbers]
+    total, clipped = 0.0, 0
+    for new, old, a in zip(log_prob, old_log_prob, numbers, strict=False):
+        ratio = math.exp(new - old)
+        cut = max(1 - clip_range, min(1 + clip_range, ratio))
+        total -= min(ratio * a, cut * a)
+        clipped += abs(ratio - 1) > clip_range
+    return {"loss": total / n, "clip_fraction": clipped / n}
+
+
+def value_loss(values, old_values, returns, clip_range_vf=None):
+    total = 0.0
+    for now, before, wanted in zip(values, old_values, returns, strict=False):
+        if clip_range_vf is not None:
+            now = min(max(now, before - clip_range_vf), before + clip_range_vf)
+        total += (now - wanted) ** 2
+    return total / len(values)
+
+
+def entropy_of_choices(scores):
+    entropies = []
+    for row in scores:
+        powers = [math.exp(score - max(row)) for score in row]
+        shares = [power / sum(powers) for power in powers]
+        entropies.append(-sum(share * math.log(share) for share in shares if share > 0))
+    return entropies
+
+
+def entropy_of_gaussians(log_deviation):
+    return sum(0.5 * math.log(2 * math.pi * math.e * math.exp(2 * each)) for each in log_deviation)
+
+
+def approx_kl(log_prob, old_log_prob):
+    total = 0.0
+    for new, old in zip(log_prob, old_log_prob, strict=False):
+        total += math.expm1(new - old) - (new - old)
+    return total / len(log_prob)
+
+
+def updates_made(divergences, target_kl):
+    together = [each for epoch in divergences for each in epoch]
+    if target_kl is None:
+        return len(together)
+    for number, divergence in enumerate(together):
+        if divergence > 1.5 * target_kl:
+            return number
+    return len(together)
+
+
+def total_loss(policy_loss, value_loss, entropies, ent_coef, vf_coef):
+    bonus = sum(entropies) / len(entropies)
+    return policy_loss - ent_coef * bonus + vf_coef * value_loss
+
+
+def explained_variance(values, returns):
+    rest = [r - v for v, r in zip(np.ravel(values), np.ravel(returns), strict=False)]
+    wanted = np.ravel(returns).tolist()
+
+    def variance(numbers):
+        mean = sum(numbers) / len(numbers)
+        return sum((x - mean) ** 2 for x in numbers)
+
+    return 1 - variance(rest) / variance(wanted)
+
+
+def hidden_activations(layers, observations):
+    rows, found = observations, []
+    for weights, biases in layers:
+        neurons = list(zip(weights, biases, strict=True))
+        rows = [[math.tanh(sum(w * np.array(row)) + bias) for w, bias in neurons] for row in rows]
+        found.append(rows)
+    return found
+
+
+def responses(activations, observations):
+    found = np.zeros((activations.shape[1], observations.shape[1]))
+    for i in range(found.shape[0]):
+        for j in range(found.shape[1]):
+            h, x = activations[:, i], observations[:, j]
+            if h.max() > h.min() and x.max() > x.min():
+                found[i, j] = np.corrcoef(h, x)[0, 1]
+    return found
+
+
+# %% other_formulas
+# Other formulas that mean the same: returns by recursion, cases instead of a minimum, covariances.
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    ends = np.vstack([episode_starts[1:], [dones]]).astype(bool)
+    targets = np.empty_like(values)  # of TD(lambda): r + gamma ((1 - lambda) V + lambda target)
+    beyond = after = np.asarray(last_values)
+    for t in range(len(rewards) - 1, -1, -1):
+        mixed = (1 - gae_lambda) * after + gae_lambda * beyond
+        targets[t] = rewards[t] + gamma * np.where(ends[t], 0.0, mixed)
+        beyond, after = targets[t], values[t]
+    return targets - values
+
+
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    a = np.array(advantages)
+    if a.size != 1:
+        a = (a - np.mean(a)) / (1e-8 + np.sqrt(np.var(a) * a.size / (a.size - 1)))
+    ratio = np.exp(log_prob) / np.exp(old_log_prob)
+    gains = np.where(
+        a > 0, a * np.minimum(ratio, 1 + clip_range), a * np.maximum(ratio, 1 - clip_range)
+    )
+    inside = (ratio >= 1 - clip_range) & (ratio <= 1 + clip_range)
+    return {"loss": -np.average(gains), "clip_fraction": 1 - inside.mean()}
+
+
+def value_loss(values, old_values, returns, clip_range_vf=None):
+    limit = np.inf if clip_range_vf is None else clip_range_vf
+    errors = returns - np.clip(values, old_values - limit, old_values + limit)
+    return errors @ errors / errors.size
+
+
+def entropy_of_choices(scores):
+    below = np.logaddexp.reduce(scores, axis=1)
+    shares = np.exp(scores - below[:, None])
+    return below - np.sum(shares * scores, axis=1)
+
+
+def entropy_of_gaussians(log_deviation):
+    return np.log(np.sqrt(2 * np.pi * np.e) * np.exp(log_deviation)).sum()
+
+
+def approx_kl(log_prob, old_log_prob):
+    ratio = np.exp(log_prob - old_log_prob)
+    return np.mean((ratio - 1) - np.log(ratio))
+
+
+def updates_made(divergences, target_kl):
+    flat = np.concatenate(divergences)
+    stops = np.flatnonzero(flat > 1.5 * target_kl) if target_kl is not None else []
+    return int(stops[0]) if len(stops) else flat.size
+
+
+def total_loss(policy_loss, value_loss, entropies, ent_coef, vf_coef):
+    return np.dot([1, vf_coef, -ent_coef], [policy_loss, value_loss, np.average(entropies)])
+
+
+def explained_variance(values, returns):
+    return 1 - (np.std(returns - values) / np.std(returns)) ** 2
+
+
+def hidden_activations(layers, observations):
+    found = [observations]
+    for weights, biases in layers:
+        found.append(np.tanh(np.einsum("kj,nj->nk", weights, found[-1]) + biases[None, :]))
+    return found[1:]
+
+
+def responses(activations, observations):
+    def standard(table):
+        table = np.array(table, dtype=float)
+        still = (table == table[0]).all(axis=0)
+        deviation = np.where(still, 1.0, table.std(axis=0))
+        return np.where(still, 0.0, (table - table.mean(axis=0)) / deviation)
+
+    return np.mean(standard(activations)[:, :, None] * standard(observations)[:, None], axis=0)

@@ -1,0 +1,215 @@
+"""Wrong solutions of exercise 1; building.py describes how a case is written."""
+
+# %% describe_first_choice loses 1.1
+# Takes it for granted that the choices of a Discrete space begin with 0.
+# says: first returned 0|first is 0
+_describe = describe
+
+
+def describe(environment_id):
+    description = _describe(environment_id)
+    for space in (description["observation"], description["action"]):
+        if space["kind"] == "Discrete":
+            space["first"] = 0
+    return description
+
+
+# %% describe_known_only loses 1.1
+# The bounds are looked up in a table of the environments that the student has met.
+def describe(environment_id):
+    box = lambda *limits: {  # noqa: E731
+        "kind": "Box",
+        "size": len(limits),
+        "low": [-limit for limit in limits],
+        "high": list(limits),
+    }
+    choice = {"kind": "Discrete", "choices": 2, "first": 0}
+    inf = float("inf")
+    if environment_id.startswith("Pendulum"):
+        return {"observation": box(1.0, 1.0, 8.0), "action": box(2.0), "maxsteps": 200}
+    cartpole = box(4.8, inf, 0.41887903, inf)
+    return {"observation": cartpole, "action": choice, "maxsteps": 500}
+
+
+# %% goes_on_after_the_end loses 1.2
+# Looks at `terminated` alone, and goes on when the time limit is over.
+# says: the episode was over after 200 steps
+def random_episode(environment_id, seed, maxsteps):
+    env = gymnasium.make(environment_id)
+    observation, _ = env.reset(seed=seed)
+    env.action_space.seed(seed)
+    observations, actions, rewards = [observation], [], []
+    terminated = truncated = False
+    while len(actions) < min(maxsteps, 2000) and not terminated:
+        action = env.action_space.sample()
+        observation, reward, terminated, truncated, _ = env.step(action)
+        observations.append(observation)
+        actions.append(action)
+        rewards.append(float(reward))
+    return {
+        "observations": np.array(observations),
+        "actions": actions,
+        "rewards": rewards,
+        "terminated": terminated,
+        "truncated": truncated,
+    }
+
+
+# %% maxsteps_is_truncation loses 1.2
+# Reports an episode that only maxsteps stopped as truncated by the environment.
+_random_episode = random_episode
+
+
+def random_episode(environment_id, seed, maxsteps):
+    episode = _random_episode(environment_id, seed, maxsteps)
+    over = episode["terminated"] or len(episode["actions"]) == maxsteps
+    return {**episode, "truncated": episode["truncated"] or (over and not episode["terminated"])}
+
+
+# %% observation_of_reset_missing loses 1.2
+# Keeps the observations of the steps, but not the one of the reset.
+# says: The first one is missing
+_random_episode = random_episode
+
+
+def random_episode(environment_id, seed, maxsteps):
+    episode = _random_episode(environment_id, seed, maxsteps)
+    return {**episode, "observations": episode["observations"][1:]}
+
+
+# %% one_kind_of_end loses 1.2
+# Treats the two ends as one, as the old `done` did.
+# says: as the old `done` was
+_random_episode = random_episode
+
+
+def random_episode(environment_id, seed, maxsteps):
+    episode = _random_episode(environment_id, seed, maxsteps)
+    done = episode["terminated"] or episode["truncated"]
+    return {**episode, "terminated": done, "truncated": done}
+
+
+# %% unseeded_actions loses 1.2
+# Seeds the reset, but not the action space: no episode can be repeated.
+# says: do not come from the seed
+def random_episode(environment_id, seed, maxsteps):
+    env = gymnasium.make(environment_id)
+    observation, _ = env.reset(seed=seed)
+    observations, actions, rewards = [observation], [], []
+    terminated = truncated = False
+    while len(actions) < maxsteps and not (terminated or truncated):
+        action = env.action_space.sample()
+        observation, reward, terminated, truncated, _ = env.step(action)
+        observations.append(observation)
+        actions.append(action)
+        rewards.append(float(reward))
+    return {
+        "observations": np.array(observations),
+        "actions": actions,
+        "rewards": rewards,
+        "terminated": terminated,
+        "truncated": truncated,
+    }
+
+
+# %% always_one loses 1.3
+# Has seen nothing but ones, and gives 1 even after the fall.
+def cartpole_reward(observation, action):
+    return 1.0
+
+
+# %% limits_of_the_space loses 1.3
+# Takes the limits of the observation space, which are twice those of the task.
+# says: compare with 2.4 metres and 12 degrees
+def fallen(observation):
+    return bool(abs(observation[0]) > 4.8 or abs(observation[2]) > 0.4189)
+
+
+# %% one_side_only loses 1.3
+# Forgets that the pole can fall to the left, too.
+def fallen(observation):
+    return bool(observation[0] > 2.4 or observation[2] > np.deg2rad(12))
+
+
+# %% asks_gymnasium loses 1.3, 1.4
+# Lets Gymnasium's environments do the step, and passes their reward on.
+def cartpole_reward(observation, action):
+    env = gymnasium.make("CartPole-v1").unwrapped
+    env.reset(seed=1)
+    env.state = np.array(observation, dtype=float)
+    env.steps_beyond_terminated = 0 if fallen(observation) else None
+    return 0.0 if fallen(observation) else env.step(int(action))[1]
+
+
+def pendulum_reward(observation, action):
+    env = gymnasium.make("Pendulum-v1").unwrapped
+    env.reset(seed=1)
+    env.state = np.array([np.arctan2(observation[1], observation[0]), observation[2]])
+    return float(env.step(action)[1])
+
+
+# %% arctan_of_the_quotient loses 1.4
+# arctan(sin / cos) knows half of the circle only.
+# says: see np.arctan2
+def pendulum_reward(observation, action):
+    cosine, sine, speed = (float(value) for value in observation)
+    torque = np.clip(float(action[0]), -2.0, 2.0)
+    return float(-(np.arctan(sine / cosine) ** 2 + 0.1 * speed**2 + 0.001 * torque**2))
+
+
+# %% torque_not_cut loses 1.4
+# Pays for the torque that was wanted, not for the one that the motor gives.
+# says: The torque is not cut
+# -     torque = np.clip(float(action[0]), -2.0, 2.0)
+# -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
+# +     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * float(action[0]) ** 2))
+
+
+# %% angle_only loses 1.5
+# Follows the angle and not its speed: swings up and falls after some 40 steps.
+def balance(observation):
+    return int(observation[2] > 0)
+
+
+# %% speed_only loses 1.5
+# Brakes the pole but lets it lean: 180 of 200 steps.
+def balance(observation):
+    return int(observation[3] > 0)
+
+
+# %% deviation_divides_by_n loses 1.6
+# np.std without ddof=1 divides by n.
+# says: n and n - 1 were mixed up
+_compare = compare
+
+
+def compare(environment_ids, episodes, seed):
+    shrink = ((episodes - 1) / episodes) ** 0.5
+    return [
+        {**row, "deviation": row["deviation"] * shrink}
+        for row in _compare(environment_ids, episodes, seed)
+    ]
+
+
+# %% mean_reward_of_a_step loses 1.6
+# The mean reward of a step instead of the mean return of an episode.
+_compare = compare
+
+
+def compare(environment_ids, episodes, seed):
+    return [
+        {**row, "mean": row["mean"] / row["length"]}
+        for row in _compare(environment_ids, episodes, seed)
+    ]
+
+
+# %% same_episode_again loses 1.6
+# Plays the very same episode again and again.
+_compare = compare
+
+
+def compare(environment_ids, episodes, seed):
+    table = []
+    for row in _compare(environment_ids, 1, seed):
+        table.append({**row, "deviation": 0.0})
+    return table

@@ -1,0 +1,225 @@
+"""Wrong solutions of exercise 2; building.py describes how a case is written."""
+
+# %% random_biases loses 2.1
+# Draws the biases, too.
+# says: b1 must be all zeros
+_parameters = parameters
+
+
+def parameters(ninputs, nhiddens, noutputs, seed):
+    rng = np.random.default_rng(seed + 1)
+    biases = {"b1": 0.1 * rng.normal(size=nhiddens), "b2": 0.1 * rng.normal(size=noutputs)}
+    return {**_parameters(ninputs, nhiddens, noutputs, seed), **biases}
+
+
+# %% seeded_for_each_layer loses 2.1
+# Seeds again for the second layer, which gets the numbers of the first.
+def parameters(ninputs, nhiddens, noutputs, seed):
+    return {
+        "W1": 0.1 * np.random.default_rng(seed).standard_normal((nhiddens, ninputs)),
+        "b1": np.zeros(nhiddens),
+        "W2": 0.1 * np.random.default_rng(seed).standard_normal((noutputs, nhiddens)),
+        "b2": np.zeros(noutputs),
+    }
+
+
+# %% uniform_weights loses 2.1
+# Uniform instead of Gaussian numbers, with the right deviation.
+# -     rng = np.random.default_rng(seed)
+# +     rng = np.random.default_rng(seed)
+# +     limit = 0.1 * 3**0.5
+# -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
+# +         "W1": rng.uniform(-limit, limit, (nhiddens, ninputs)),
+# -         "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
+# +         "W2": rng.uniform(-limit, limit, (noutputs, nhiddens)),
+
+
+# %% variance_for_deviation loses 2.1
+# Takes 0.1 for the variance: the weights are three times too large.
+# says: standard deviation 0\.3
+# -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
+# +         "W1": rng.normal(0, 0.1**0.5, (nhiddens, ninputs)),
+# -         "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
+# +         "W2": rng.normal(0, 0.1**0.5, (noutputs, nhiddens)),
+
+
+# %% biases_forgotten loses 2.2
+# Leaves out the biases, which are 0 in random networks, but not in evolved ones.
+# says: The biases are left out
+def forward(network, observation):
+    return np.tanh(network["W2"] @ np.tanh(network["W1"] @ observation))
+
+
+# %% linear_outputs loses 2.2
+# Forgets tanh at the outputs: their order stays, so discrete actions are right.
+# says: tanh is left out at the outputs
+# -     return np.tanh(network["W2"] @ hidden + network["b2"])
+# +     return network["W2"] @ hidden + network["b2"]
+
+
+# %% multiplies_from_the_wrong_side loses 2.2
+# Multiplies from the wrong side.
+# says: transpose one|exchange the two sides
+def forward(network, observation):
+    hidden = np.tanh(observation @ network["W1"] + network["b1"])
+    return np.tanh(hidden @ network["W2"] + network["b2"])
+
+
+# %% reshaped_in_place loses 2.2
+# Makes columns of the biases in the network itself.
+def forward(network, observation):
+    values = observation[:, None]
+    for layer in "12":
+        network["b" + layer].shape = (-1, 1)
+        values = np.tanh(network["W" + layer] @ values + network["b" + layer])
+    return values[:, 0]
+
+
+# %% one_output_for_discrete loses 2.3
+# One output whatever the number of choices.
+def sizes(environment_id):
+    env = gymnasium.make(environment_id)
+    return env.observation_space.shape[0], 1
+
+
+# %% raw_outputs loses 2.4
+# Uses the outputs of a Box as they are: Pendulum's motor gives half of its torque.
+# says: stretch them to the space's limits
+# -     low, high = action_space.low, action_space.high
+# -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
+# +     return np.asarray(outputs, dtype=np.float32)
+
+
+# %% same_limits_for_all loses 2.4
+# Stretches every number by the upper limit of the first, which one-motor robots forgive.
+# -     low, high = action_space.low, action_space.high
+# -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
+# +     return (outputs * action_space.high[0]).astype(np.float32)
+
+
+# %% start_ignored loses 2.4
+# The first choice is always 0.
+_act = act
+
+
+def act(outputs, action_space):
+    if isinstance(action_space, spaces.Discrete):
+        return int(np.argmax(outputs))
+    return _act(outputs, action_space)
+
+
+# %% last_reward_missing loses 2.5
+# The return leaves out the reward of the last step.
+def run_episode(environment_id, network, seed, maxsteps=200):
+    env = gymnasium.make(environment_id)
+    observation, _ = env.reset(seed=seed)
+    actions, total = [], 0.0
+    for _ in range(maxsteps):
+        actions.append(act(forward(network, observation), env.action_space))
+        observation, reward, terminated, truncated, _ = env.step(actions[-1])
+        if terminated or truncated:
+            break
+        total += float(reward)
+    return {"actions": actions, "return": total}
+
+
+# %% never_stops loses 2.5
+# Does all of the steps, even when the pole has fallen or the goal is reached.
+# says: the episode was over after 10 steps
+# -     terminated = truncated = False
+# -     while len(actions) < maxsteps and not (terminated or truncated):
+# +     for _ in range(maxsteps):
+# -         observation, reward, terminated, truncated, _ = env.step(action)
+# +         observation, reward, _, _, _ = env.step(action)
+# -         total += float(reward)
+# -     env.close()
+# +         total += float(reward)
+
+
+# %% no_limit_of_steps loses 2.5
+# Ignores maxsteps.
+_run_episode = run_episode
+
+
+def run_episode(environment_id, network, seed, maxsteps=200):
+    return _run_episode(environment_id, network, seed, 10_000)
+
+
+# %% reset_without_seed loses 2.5
+# The seed is not passed to reset.
+# says: do not come from the seed
+# -     observation, _ = env.reset(seed=seed)
+# +     observation, _ = env.reset()
+# -         total += float(reward)
+# -     env.close()
+# +         total += float(reward)
+
+
+# %% sum_of_returns loses 2.6
+# Sums the returns instead of averaging them.
+# says: It is the sum of the returns
+def fitness(environment_id, network, seeds, maxsteps=200):
+    return sum(run_episode(environment_id, network, seed, maxsteps)["return"] for seed in seeds)
+
+
+# %% ten_times_the_first_seed loses 2.6
+# Every episode begins with the first seed.
+def fitness(environment_id, network, seeds, maxsteps=200):
+    runs = [run_episode(environment_id, network, seeds[0], maxsteps) for _ in seeds]
+    return float(np.mean([run["return"] for run in runs]))
+
+
+# %% first_network_for_all loses 2.7
+# Uses the second layer of the first network for all of them.
+def forward_batch(networks, observations):
+    hidden = np.einsum("nhi,ni->nh", networks["W1"], observations) + networks["b1"]
+    return np.tanh(np.tanh(hidden) @ networks["W2"][0].T + networks["b2"])
+
+
+# %% loop_over_networks loses 2.7
+# Right, but a loop over the networks.
+def forward_batch(networks, observations):
+    return np.array(
+        [
+            forward({key: stack[i] for key, stack in networks.items()}, observations[i])
+            for i in range(len(observations))
+        ]
+    )
+
+
+# %% last_of_equals loses 2.8
+# Of networks with equal fitness, takes the last.
+_random_search = random_search
+
+
+def random_search(environment_id, nnetworks, nhiddens, seed):
+    report = _random_search(environment_id, nnetworks, nhiddens, seed)
+    order = sorted(range(nnetworks), key=lambda i: report["fitness"][i])
+    return {**report, "best": order[-1]}
+
+
+# %% lowest_fitness loses 2.8
+# Picks the network with the lowest fitness.
+_random_search = random_search
+
+
+def random_search(environment_id, nnetworks, nhiddens, seed):
+    report = _random_search(environment_id, nnetworks, nhiddens, seed)
+    return {**report, "best": int(np.argmin(report["fitness"]))}
+
+
+# %% own_episodes_for_each loses 2.8
+# Every network meets other episodes, so their fitness cannot be compared.
+# -     seeds = list(range(seed, seed + 10))
+# -     measured = [fitness(environment_id, network, seeds) for network in networks]
+# +     measured = [
+# +         fitness(environment_id, network, range(seed + 10 * i, seed + 10 * i + 10))
+# +         for i, network in enumerate(networks)
+# +     ]
+
+
+# %% renames_a_function loses 2.8
+# Renames a function it calls.
+# says: fitnes' is not defined. Did you mean
+def random_search(environment_id, nnetworks, nhiddens, seed):
+    return fitnes(environment_id, parameters(4, nhiddens, 2, seed), range(10))

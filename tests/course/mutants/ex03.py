@@ -1,0 +1,266 @@
+"""Wrong solutions of exercise 3; building.py describes how a case is written."""
+
+
+# %% clones loses 3.1
+# All individuals are copies of a single random one.
+# says: some weights are equal
+def initial_population(popsize, nbiases, nweights, seed):
+    weights = 0.1 * np.random.default_rng(seed).standard_normal(nweights)
+    return np.tile(np.concatenate([np.zeros(nbiases), weights]), (popsize, 1))
+
+
+# %% seed_ignored loses 3.1
+# The seed is ignored: the same seed gives another population each time.
+# says: other numbers when called again
+def initial_population(popsize, nbiases, nweights, seed):
+    rng = np.random.default_rng()
+    weights = 0.1 * rng.standard_normal((popsize, nweights))
+    return np.hstack([np.zeros((popsize, nbiases)), weights])
+
+
+# %% ten_times_as_large loses 3.1
+# Standard deviation 1 instead of 0.1.
+# says: have standard deviation 1.0
+def initial_population(popsize, nbiases, nweights, seed):
+    weights = np.random.default_rng(seed).standard_normal((popsize, nweights))
+    return np.hstack([np.zeros((popsize, nbiases)), weights])
+
+
+# %% uniform_weights loses 3.1
+# Uniform weights with the right deviation, and random biases.
+def initial_population(popsize, nbiases, nweights, seed):
+    limit = 0.1 * np.sqrt(3)
+    return np.random.default_rng(seed).uniform(-limit, limit, (popsize, nbiases + nweights))
+
+
+# %% ranks_instead_of_numbers loses 3.2
+# Returns the place of each individual instead of the numbers in order.
+# says: argsort
+def rank(fitness):
+    return np.argsort(np.argsort(-np.asarray(fitness), kind="stable"), kind="stable")
+
+
+def next_population(population, fitness, mutrate, rng):
+    order = np.argsort(-fitness, kind="stable")
+    half = len(order) // 2
+    following = population.copy()
+    noise = rng.standard_normal((half, population.shape[1]))
+    following[order[half:]] = population[order[:half]] + mutrate * noise
+    return following
+
+
+def evolve(evaluate, population, generations, mutrate, seed):
+    rng = np.random.default_rng(seed)
+    best, best_fitness, history = population[0], -np.inf, []
+    for generation in range(generations):
+        fitness = evaluate(population, seed + generation)
+        winner = int(np.argmax(fitness))
+        history.append(float(fitness[winner]))
+        if fitness[winner] > best_fitness:
+            best, best_fitness = population[winner].copy(), float(fitness[winner])
+        population = next_population(population, fitness, mutrate, rng)
+    return {"best": best, "fitness": best_fitness, "history": history, "population": population}
+
+
+def train(environment, seed):
+    robot = Robot(environment)
+    population = initial_population(40, robot.nbiases, robot.nweights, seed)
+    generations, mutrate = (40, 0.1) if "CartPole" in environment else (1000, 0.4)
+    population = evolve(robot.evaluate, population, generations, mutrate, seed)["population"]
+    return population[np.argmax(robot.evaluate(population, seed + 10_000, episodes=20))]
+
+
+# %% unstable_ranking loses 3.2
+# The rising order turned around: of equals the one with the higher number comes first.
+def rank(fitness):
+    return np.argsort(fitness, kind="stable")[::-1]
+
+
+# %% worst_first loses 3.2
+# The worst comes first.
+# says: reverse order
+def rank(fitness):
+    return np.argsort(fitness, kind="stable")
+
+
+# %% asks_the_tool loses 3.3
+# Lets the tool's steady state do the selection and the mutations.
+def next_population(population, fitness, mutrate, rng):
+    from botschool.evolution.algorithms.sss import SSS, SSSConfig
+
+    config = SSSConfig(popsize=len(population), mutrate=mutrate)
+    algorithm = SSS(config, lambda i: population[i], int(rng.integers(2**31)))
+    algorithm.tell(np.asarray(fitness))
+    return algorithm.population
+
+
+# %% colon_missing loses 3.3
+# A colon is missing.
+# says: expected ':'[\s\S]*next_population cannot be read
+# - ) -> np.ndarray:
+# -     """The population after selection and mutation, as a new array of the same shape.
+# + ) -> np.ndarray
+# +     """The population after selection and mutation, as a new array of the same shape.
+
+
+# %% copies_of_the_best loses 3.3
+# All the worse half become copies of the single best individual.
+# -     half = len(population) // 2
+# -     best, worst = ranking[:half], ranking[half:]
+# +     half = len(population) // 2
+# -     following[worst] = population[best] + mutrate * noise
+# +     following[ranking[half:]] = population[ranking[0]] + mutrate * noise
+
+
+# %% everyone_mutates loses 3.3
+# The better half is mutated too, so that good solutions get lost.
+def next_population(population, fitness, mutrate, rng):
+    ranking = rank(fitness)
+    half = len(population) // 2
+    following = population.copy()
+    following[ranking[half:]] = population[ranking[:half]]
+    return following + mutrate * rng.standard_normal(population.shape)
+
+
+# %% in_place loses 3.3
+# The population given is changed in place.
+# says: changed the population that it was given
+def next_population(population, fitness, mutrate, rng):
+    ranking = rank(fitness)
+    half = len(population) // 2
+    noise = rng.standard_normal((half, population.shape[1]))
+    population[ranking[half:]] = population[ranking[:half]] + mutrate * noise
+    return population
+
+
+# %% one_noise_for_all loses 3.3
+# One vector of noise is added to all copies.
+def next_population(population, fitness, mutrate, rng):
+    ranking = rank(fitness)
+    half = len(population) // 2
+    following = population.copy()
+    noise = rng.standard_normal(population.shape[1])
+    following[ranking[half:]] = population[ranking[:half]] + mutrate * noise
+    return following
+
+
+# %% best_of_the_last_generation loses 3.4
+# Reports the best of the last generation instead of the best of all.
+# says: the last of 12 values, but the largest
+def evolve(evaluate, population, generations, mutrate, seed):
+    rng = np.random.default_rng(seed)
+    history = []
+    for generation in range(generations):
+        fitness = evaluate(population, seed + generation)
+        winner = rank(fitness)[0]
+        best = population[winner].copy()
+        history.append(float(fitness[winner]))
+        population = next_population(population, fitness, mutrate, rng)
+    return {"best": best, "fitness": history[-1], "history": history, "population": population}
+
+
+# %% same_noise_each_generation loses 3.4
+# The generator of random numbers is made anew in each generation.
+# says: is the same noise added again
+def evolve(evaluate, population, generations, mutrate, seed):
+    best, best_fitness, history = population[0], -np.inf, []
+    for generation in range(generations):
+        fitness = evaluate(population, seed + generation)
+        winner = rank(fitness)[0]
+        history.append(float(fitness[winner]))
+        if fitness[winner] > best_fitness:
+            best, best_fitness = population[winner].copy(), float(fitness[winner])
+        population = next_population(population, fitness, mutrate, np.random.default_rng(seed))
+    return {"best": best, "fitness": best_fitness, "history": history, "population": population}
+
+
+# %% lucky_climber loses 3.5
+# Keeps a variation only if it beats the best fitness ever met, luck included.
+def hill_climb(evaluate, start, generations, mutrate, seed):
+    rng = np.random.default_rng(seed)
+    best, highest, history = start, -np.inf, []
+    population = np.array([start, start])
+    for generation in range(generations):
+        fitness = evaluate(population, seed + generation)
+        history.append(float(fitness.max()))
+        if fitness.max() > highest:
+            best, highest = population[fitness.argmax()].copy(), float(fitness.max())
+        population = np.array([best, best + mutrate * rng.standard_normal(len(start))])
+    return {"best": best, "fitness": highest, "history": history, "population": population}
+
+
+# %% population_deviation loses 3.6
+# Divides by the number of replications instead of that number minus one.
+# says: n and n - 1 were mixed up
+# -     histories = np.array([run["history"] for run in runs])
+# -     many = len(seeds) > 1
+# +     histories = np.array([run["history"] for run in runs])
+# -         "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
+# +         "deviation": histories.std(axis=0),
+
+
+# %% least_squares loses 3.7
+# Fits the outputs of a random hidden layer to rules made by hand, without any evolution.
+def train(environment, seed):
+    rng, fits = np.random.default_rng(2), []
+    for _ in range(1 if environment == "CartPole-v0" else 1500):
+        if environment == "CartPole-v0":
+            seen = rng.normal(size=(600, 4)) * (1, 1, 0.2, 1)
+            lean = seen[:, 2] + 0.5 * seen[:, 3]
+            wanted = np.stack([-lean, lean], axis=1)
+            hidden, biases = 0.1 * rng.normal(size=(10, 4)), np.zeros(10)
+        else:
+            angle, speed = rng.uniform((-np.pi, -8), (np.pi, 8), (600, 2)).T
+            high = rng.random(600) < 0.4
+            angle = np.where(high, rng.uniform(-1, 1, 600), angle)
+            speed = np.where(high, rng.uniform(-3, 3, 600), speed)
+            seen = np.stack([np.cos(angle), np.sin(angle), speed], axis=1)
+            energy = speed**2 / 2 + 15 * (np.cos(angle) - 1)
+            swing, hold = -2 * np.sign(speed) * np.sign(energy), -12 * angle - 3 * speed
+            torque = np.where(np.abs(angle + speed / 4) < 0.6, hold, swing)
+            wanted = np.clip(torque, -4, 4)[:, None]
+            hidden, biases = rng.normal(size=(10, 3)) * (1.5, 3, 1), rng.normal(size=10)
+        values = np.column_stack([np.tanh(seen @ hidden.T + biases), np.ones(600)])
+        readout = np.linalg.lstsq(values, wanted, rcond=None)[0]
+        error = np.mean((values @ readout - wanted) ** 2)
+        parts = biases, readout[-1], hidden.ravel(), readout[:-1].T.ravel()
+        fits.append((error, np.concatenate(parts)))
+    parameters = min(fits, key=lambda fit: fit[0])[1]
+    return parameters + 0.001 * np.random.default_rng(seed).standard_normal(len(parameters))
+
+
+# %% nothing_learnt loses 3.7
+# Returns a random controller.
+def train(environment, seed):
+    robot = Robot(environment)
+    return initial_population(1, robot.nbiases, robot.nweights, seed)[0]
+
+
+# %% same_controller_always loses 3.7
+# Ignores the seed: a controller evolved once, as if it had been pasted into the file.
+_evolve_and_choose = train
+
+
+def train(environment, seed):
+    return _evolve_and_choose(environment, 1)
+
+
+# %% written_down loses 3.7
+# Parameters that were evolved elsewhere and written down, each seed with a little noise.
+TENTHS = {
+    "CartPole-v0": """
+        1 2 -1 -2 1 2 -2 0 1 0 0 0 4 2 -3 -1 1 0 -3 -1 0 0 1 1 1 -1 0 -1 -3 0 -2 -3 -1 1 2
+        1 -1 0 -2 0 2 2 3 1 0 -1 3 -3 -4 1 -1 -2 0 2 -4 2 1 0 -1 -3 3 -2 0 0 0 0 -2 0 -4 3
+        1 3
+    """,
+    "Pendulum-v1": """
+        -18 -20 -11 -66 -22 -5 22 18 22 -70 -10 -15 15 38 -11 10 14 32 41 32 63 -44 -17
+        -30 -34 -6 2 -11 9 -2 -13 7 -18 10 -29 -26 -22 32 61 21 17 35 2 4 60 -23 -19 -8 5
+        47 -51
+    """,
+}
+
+
+def train(environment, seed):
+    parameters = np.array(TENTHS[environment].split(), dtype=float) / 10
+    return parameters + 0.001 * np.random.default_rng(seed).standard_normal(len(parameters))

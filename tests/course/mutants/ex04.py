@@ -1,0 +1,140 @@
+"""Wrong solutions of exercise 4; building.py describes how a case is written."""
+
+
+# %% sign_lost loses 4.1
+# The angles come from the cosine alone, so their sign is lost.
+# says: sign: that of negative values is lost
+def decode(observation):
+    return {
+        "angle1": float(np.arccos(np.clip(observation[0], -1, 1))),
+        "angle2": float(np.arccos(np.clip(observation[2], -1, 1))),
+        "speed1": float(observation[4]),
+        "speed2": float(observation[5]),
+    }
+
+
+# %% speeds_swapped loses 4.1
+# The two speeds are mixed up.
+# says: This is speed2: are the two exchanged
+_decoded = decode
+
+
+def decode(observation):
+    state = _decoded(observation)
+    return state | {"speed1": state["speed2"], "speed2": state["speed1"]}
+
+
+# %% action_as_torque loses 4.2
+# Takes the number of the action for the torque.
+# says: one more than expected
+def torque(action):
+    return float(action)
+
+
+# %% angle_from_the_ground loses 4.2
+# Takes the second angle as if it were counted from straight down.
+# says: counted from the first link
+# -     return float(-np.cos(state["angle1"]) - np.cos(state["angle1"] + state["angle2"]))
+# +     return float(-np.cos(state["angle1"]) - np.cos(state["angle2"]))
+
+
+# %% rewarded_at_the_line loses 4.2
+# Gives 1 instead of 0 for reaching the line.
+def reward(observation):
+    return 1.0 if height(observation) > 1 else -1.0
+
+
+# %% consecutive_seeds loses 4.3
+# Runs the first seed and those after it, instead of the seeds given.
+_replicate = run_replications
+
+
+def run_replications(experiment_file, seeds, folder, steps=None):
+    return _replicate(experiment_file, list(range(seeds[0], seeds[0] + len(seeds))), folder, steps)
+
+
+# %% fitness_not_post_evaluated loses 4.3
+# Returns the best fitness of each run instead of the best post-evaluated one.
+# -     Path(folder).mkdir(parents=True, exist_ok=True)
+# -     experiment = config.load(experiment_file)
+# +     Path(folder).mkdir(parents=True, exist_ok=True)
+# -         run = Run(experiment, seed)
+# +         run = Run(config.load(experiment_file), seed)
+# -         fitness[seed] = float(run.record.bestg_fitness)
+# +         fitness[seed] = float(run.record.best_fitness)
+
+
+# %% steps_ignored loses 4.3
+# Always runs the whole budget of the experiment file.
+# says: holds \d+ generations, but the run that was asked
+_replicate = run_replications
+
+
+def run_replications(experiment_file, seeds, folder, steps=None):
+    return _replicate(experiment_file, seeds, folder)
+
+
+# %% read_along_the_wrong_axis loses 4.4
+# Takes the numbers of a column to lie one after another in the file.
+# says: lie one after another in the file
+def read_stat(path):
+    table = np.load(path).reshape(len(COLUMNS), -1)
+    return dict(zip(COLUMNS, table, strict=True))
+
+
+# %% equal_generations loses 4.5
+# Compares the runs at equal generations instead of equal steps.
+def curves(stats, column, budgets):
+    chosen = np.linspace(0, min(len(stat["steps"]) for stat in stats) - 1, len(budgets))
+    values = [stat[column][chosen.astype(int)] for stat in stats]
+    return {"mean": np.mean(values, axis=0), "deviation": np.std(values, axis=0, ddof=1)}
+
+
+# %% generation_just_complete loses 4.5
+# Leaves out a generation that is complete exactly at the budget.
+# -         stat[column][np.searchsorted(stat["steps"], budgets, side="right") - 1] for stat in stats
+# +         stat[column][np.searchsorted(stat["steps"], budgets, side="left") - 1] for stat in stats
+
+
+# %% population_deviation loses 4.5
+# Divides by the number of runs instead of that number minus one.
+# says: n and n - 1 were mixed up
+_curves = curves
+
+
+def curves(stats, column, budgets):
+    shrunk = np.sqrt((len(stats) - 1) / len(stats))
+    band = _curves(stats, column, budgets)
+    return {"mean": band["mean"], "deviation": band["deviation"] * shrunk}
+
+
+# %% straight_lines loses 4.5
+# Draws straight lines between generations, and so looks into the future.
+# says: no straight lines
+def curves(stats, column, budgets):
+    values = [np.interp(budgets, stat["steps"], stat[column]) for stat in stats]
+    return {"mean": np.mean(values, axis=0), "deviation": np.std(values, axis=0, ddof=1)}
+
+
+# %% best_episode loses 4.6
+# Reports the best of the new episodes instead of their mean.
+# says: of the best episode, but the mean
+# -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
+# +             row[kind] = float(robot.evaluate(test_seed, episodes).max())
+
+
+# %% judged_on_old_episodes loses 4.6
+# Evaluates in the episodes of the run's own post-evaluation instead of new ones.
+# -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
+# +             row[kind] = float(robot.evaluate(seed + 100_000, episodes).mean())
+
+
+# %% robots_mixed_up loses 4.6
+# The two saved robots are mixed up.
+# says: returned as 'bestg': are the two exchanged
+_compare = compare
+
+
+def compare(experiment_file, folder, seeds, episodes, test_seed):
+    rows = _compare(experiment_file, folder, seeds, episodes, test_seed)
+    return [row | {"best": row["bestg"], "bestg": row["best"]} for row in rows]

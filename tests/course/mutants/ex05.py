@@ -1,0 +1,275 @@
+"""Wrong solutions of exercise 5; building.py describes how a case is written."""
+
+
+# %% cut_off_instead_of_tanh loses 5.1
+# Cuts the parameters of sizes off, as those of angles are.
+# says: sizes use tanh
+# -     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(SEGMENTS, 2))
+# +     scales = 1 + 0.9 * np.clip(parameters[:22], -1, 1).reshape(SEGMENTS, 2)
+
+# %% density_scaled_like_sizes loses 5.1
+# Lets the density vary by 80 %, instead of by 0.8.
+# says: varies by 0.8, not
+_sizes = sizes
+
+
+def sizes(parameters):
+    size = _sizes(parameters)
+    densities = 5 * (1 + 0.8 * np.tanh(parameters[53:]))
+    return size | {"masses": size["lengths"] * size["thicknesses"] * densities}
+
+
+# %% lengths_before_thicknesses loses 5.1
+# Takes the first eleven numbers for the lengths and the next eleven for the thicknesses.
+# says: take turns
+# -     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(SEGMENTS, 2))
+# -     lengths, thicknesses = 0.8 * scales[:, 0], 0.2 * scales[:, 1]
+# +     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(2, SEGMENTS))
+# +     lengths, thicknesses = 0.8 * scales[0], 0.2 * scales[1]
+
+
+# %% asks_the_simulator loses 5.1, 5.2, 5.3
+# Lets the environment's own code take the body apart.
+def sizes(parameters):
+    from botschool.envs.morphology import decode
+
+    body = decode(parameters)
+    masses = body.lengths * body.thicknesses * body.densities
+    return {"lengths": body.lengths, "thicknesses": body.thicknesses, "masses": masses}
+
+
+def joints(parameters):
+    from botschool.envs.morphology import decode
+
+    body = decode(parameters)
+    return {"angles": body.angles, "lower": body.limits[:, 0], "upper": body.limits[:, 1]}
+
+
+def outline(parameters):
+    from botschool.envs import morphology
+
+    return morphology.decode(parameters).corners()
+
+
+# %% angles_not_cut_off loses 5.2
+# Scales the default angles without cutting them off.
+# says: to be cut off at -1 and 1
+_joints = joints
+
+
+def joints(parameters):
+    return _joints(parameters) | {"angles": 3 * np.pi / 4 * parameters[42:53]}
+
+
+# %% limits_against_the_segment loses 5.2
+# Counts the limits from the segment before, instead of from the default angle.
+_joints = joints
+
+
+def joints(parameters):
+    found = _joints(parameters)
+    rest = found["angles"][1:]
+    return found | {"lower": rest + found["lower"], "upper": rest + found["upper"]}
+
+
+# %% limits_as_they_come loses 5.2
+# Takes the first limit of each joint for the lower one.
+# says: smaller one of the two
+_joints = joints
+
+
+def joints(parameters):
+    limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
+    return _joints(parameters) | {"lower": limits[:, 0], "upper": limits[:, 1]}
+
+
+# %% angles_against_the_ground loses 5.3
+# Takes the default angle of each segment for its angle against the ground.
+# says: not that to the ground
+_joints_of_outline = joints
+
+
+def outline(parameters):
+    size = sizes(parameters)
+    headings = _joints_of_outline(parameters)["angles"]
+    along = np.stack([np.cos(headings), np.sin(headings)], axis=1)
+    across = np.stack([-np.sin(headings), np.cos(headings)], axis=1)
+    ends = np.cumsum(size["lengths"][:, None] * along, axis=0)
+    beginnings = np.vstack([[0.0, 0.0], ends[:-1]])
+    side = size["thicknesses"][:, None] / 2 * across
+    return np.stack([beginnings - side, ends - side, ends + side, beginnings + side], axis=1)
+
+
+# %% corners_the_other_way loses 5.3
+# Begins each segment at its left side.
+_outline = outline
+
+
+def outline(parameters):
+    return _outline(parameters)[:, ::-1]
+
+
+# %% torso_in_the_middle loses 5.3
+# Puts the middle of the torso at (0, 0) instead of its beginning.
+_outline = outline
+
+
+def outline(parameters):
+    corners = _outline(parameters)
+    return corners - corners[0].mean(axis=0)
+
+
+# %% twice_as_thick loses 5.3
+# Goes a whole thickness to each side.
+# says: half of its thickness to each side
+# -     side = size["thicknesses"][:, None] / 2 * across
+# +     side = size["thicknesses"][:, None] * across
+
+
+# %% freedom_as_a_sum loses 5.4
+# Adds up the freedom of the joints instead of taking the mean.
+_describe = describe
+
+
+def describe(parameters):
+    found = _describe(parameters)
+    return found | {"freedom": JOINTS * found["freedom"]}
+
+
+# %% width_of_the_whole_chain loses 5.4
+# Takes the length of the stretched chain for its width.
+_describe = describe
+
+
+def describe(parameters):
+    found = _describe(parameters)
+    return found | {"width": found["length"]}
+
+
+# %% fitness_not_post_evaluated loses 5.5
+# Returns the genotype with the best fitness, not the one with the best post-evaluated fitness.
+# -     Path(folder).mkdir(parents=True, exist_ok=True)
+# -     experiment = config.load(experiment_file)
+# +     Path(folder).mkdir(parents=True, exist_ok=True)
+# -         run = Run(experiment, seed)
+# +         run = Run(config.load(experiment_file), seed)
+# -         walkers.append(run.record.bestg)
+# +         walkers.append(run.record.best)
+
+
+# %% nothing_saved loses 5.5
+# Leaves the files of the runs in a temporary folder.
+import tempfile
+
+_evolve_walkers = evolve_walkers
+
+
+def evolve_walkers(experiment_file, seeds, folder, steps=None):
+    with tempfile.TemporaryDirectory(dir=".") as elsewhere:
+        return _evolve_walkers(experiment_file, seeds, elsewhere, steps)
+
+
+# %% steps_ignored loses 5.5
+# Does not end the runs after the steps asked for.
+_evolve_walkers = evolve_walkers
+
+
+def evolve_walkers(experiment_file, seeds, folder, steps=None):
+    return _evolve_walkers(experiment_file, seeds, folder)
+
+
+# %% body_at_the_very_end loses 5.6
+# Forgets the means and deviations that follow the body.
+# -     return genotype[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS]
+# +     return genotype[-BODY:]
+# -     chimera[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS] = body_of(body)
+# +     chimera[-BODY:] = body[-BODY:]
+
+
+# %% no_copy loses 5.6
+# Puts the body into the brain's own genotype.
+# says: work on a copy
+def transplant(brain, body):
+    brain[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS] = body_of(body)
+    return brain
+
+
+# %% normalisation_of_the_body loses 5.6
+# Lets the means and deviations move along with the body.
+# -     chimera[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS] = body_of(body)
+# +     chimera[-2 * OBSERVATIONS - BODY :] = body[-2 * OBSERVATIONS - BODY :]
+
+
+# %% other_ground_for_each loses 5.7
+# Evaluates each pair with another seed.
+def cross_evaluate(experiment_file, walkers, seed, episodes):
+    n = len(walkers)
+    matrix = np.zeros((n, n))
+    for i, j in np.ndindex(n, n):
+        robot = SavedRobot(experiment_file, transplant(walkers[i], walkers[j]))
+        matrix[i, j] = robot.evaluate(seed + n * i + j, episodes).mean()
+    return matrix
+
+
+# %% rows_and_columns_exchanged loses 5.7
+# Has a row for each body and a column for each brain.
+# says: transpose it
+_cross_evaluate = cross_evaluate
+
+
+def cross_evaluate(experiment_file, walkers, seed, episodes):
+    return _cross_evaluate(experiment_file, walkers, seed, episodes).T
+
+
+# %% as_good_elsewhere loses 5.8
+# Counts a brain that does as well in another body.
+_loss = loss
+
+
+def loss(matrix):
+    at_home = np.sum(np.diagonal(matrix) >= matrix.max(axis=1))
+    return {**_loss(matrix), "at home": int(at_home)}
+
+
+# %% at_home_by_column loses 5.8
+# Counts the bodies that do best with their own brain, instead of the brains.
+_loss = loss
+
+
+def loss(matrix):
+    return _loss(matrix) | {"at home": _loss(matrix.T)["at home"]}
+
+
+# %% better_than_nothing loses 5.8
+# Puts 0 on the diagonal to find the best of the others, which beats returns below 0.
+_loss = loss
+
+
+def loss(matrix):
+    others = matrix * (1 - np.eye(len(matrix)))
+    at_home = np.sum(np.diagonal(matrix) > others.max(axis=1))
+    return {**_loss(matrix), "at home": int(at_home)}
+
+
+# %% brains_and_bodies_exchanged loses 5.8
+# Takes the loss of the bodies for that of the brains.
+# says: 'bodies': are the two exchanged
+_loss = loss
+
+
+def loss(matrix):
+    found = _loss(matrix)
+    return found | {"brains": found["bodies"], "bodies": found["brains"]}
+
+
+# %% own_among_the_others loses 5.8
+# Counts the own body and brain among the others.
+def loss(matrix):
+    own = np.diagonal(matrix)
+    return {
+        "own": float(own.mean()),
+        "foreign": float(matrix.mean()),
+        "brains": own - matrix.mean(axis=1),
+        "bodies": own - matrix.mean(axis=0),
+        "at home": int(np.sum(own == matrix.max(axis=1))),
+    }

@@ -1,0 +1,258 @@
+"""Wrong solutions of exercise 6; building.py describes how a case is written."""
+
+
+# %% forget_gate_without_one loses 6.1
+# Leaves out the 1 that opens the forget gate.
+# -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
+# +     cells = memory[0] * logistic(forget) + np.tanh(candidate) * logistic(enter)
+
+
+# %% gates_in_another_order loses 6.1
+# Takes the input gate for the forget gate.
+# -     forget, enter, leave, candidate = brain["gates"] @ z
+# +     enter, forget, leave, candidate = brain["gates"] @ z
+
+# %% memory_overwritten loses 6.1
+# Writes the new memory into the array of the old one.
+# says: Keep a copy each time \(.copy\(\)\)
+_think = think
+
+
+def think(brain, observation, memory):
+    action, after = _think(brain, observation, memory)
+    memory[:] = after
+    return action, memory
+
+
+# %% counts_from_one loses 6.2
+# Tells `remember` that the first step is number 1.
+_episode = episode
+
+
+def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
+    def later(step, before, after):
+        return remember(step + 1, before, after)
+
+    return _episode(brain, start, cylinder, seed, later, maxsteps)
+
+
+# %% cylinder_where_it_was loses 6.2
+# Leaves the cylinder where the seed has put it.
+_episode = episode
+
+
+def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
+    arena = arenas.make("discrim")
+    arena.reset(seed)
+    return _episode(brain, start, arena.objects[0, :2], seed, remember, maxsteps)
+
+
+# %% memory_after_the_step loses 6.2
+# Records the memory after each step, not the one that the network was given.
+# says: one place too early
+_episode = episode
+
+
+def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
+    recording = _episode(brain, start, cylinder, seed, remember, maxsteps)
+    last = think(brain, recording["observations"][-1], recording["memories"][-1])[1]
+    recording["memories"] = np.concatenate([recording["memories"][1:], last[None]])
+    return recording
+
+
+# %% poses_not_copied loses 6.2
+# Keeps a window on the arena instead of the pose of each step.
+# says: Keep a copy each time \(.copy\(\)\)
+_episode = episode
+
+
+def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
+    recording = _episode(brain, start, cylinder, seed, remember, maxsteps)
+    recording["poses"] = np.tile(recording["poses"][-1], (len(recording["poses"]), 1))
+    return recording
+
+
+# %% remembers_always loses 6.2
+# Does not ask what is to be remembered.
+_episode = episode
+
+
+def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
+    return _episode(brain, start, cylinder, seed, keep, maxsteps)
+
+
+# %% start_missing loses 6.2
+# Keeps no pose of the start.
+# says: The first one is missing
+_episode = episode
+
+
+def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
+    recording = _episode(brain, start, cylinder, seed, remember, maxsteps)
+    return {**recording, "poses": recording["poses"][1:]}
+
+
+# %% heading_slowest loses 6.3
+# Goes through all places with one heading, then with the next.
+# says: in another order
+_grid = grid
+
+
+def grid(places, headings):
+    starts = _grid(places, headings)
+    return starts[np.argsort(starts[:, 2], kind="stable")]
+
+
+# %% whole_turn_twice loses 6.3
+# Has the headings 0 and 2 pi, which are the same.
+# -     angles = np.arange(headings) * 2 * np.pi / headings
+# +     angles = np.linspace(0, 2 * np.pi, headings)
+
+
+# %% nothing_has_no_mean loses 6.4
+# Gives NaN where no step belongs to the search or to the time near the cylinder.
+# says: NaN
+def mean(values):
+    return float(np.sum(values)) / len(values) if len(values) else float("nan")
+
+
+# %% search_with_the_find loses 6.4
+# Counts the first step near the cylinder as part of the search.
+# says: one more than expected
+_describe = describe
+
+
+def describe(poses, rewards, cylinder):
+    search = _describe(poses, rewards, cylinder)["search"] + 1
+    early = _describe(poses[: search + 1], np.zeros(min(search, len(rewards))), cylinder)
+    late = _describe(poses, rewards, cylinder)
+    return {**early, "pace": late["pace"], "side": late["side"]}
+
+
+# %% side_before_the_step loses 6.4
+# Looks for the cylinder from where the robot was before the step.
+_describe = describe
+
+
+def describe(poses, rewards, cylinder):
+    away = np.asarray(cylinder) - poses[:-1, :2]
+    bearing = np.arctan2(away[:, 1], away[:, 0]) - poses[:-1, 2]
+    told = _describe(poses, rewards, cylinder)
+    return {**told, "side": mean(np.sin(bearing[rewards > 0]))}
+
+
+# %% speed_without_sign loses 6.4
+# Measures how far the robot moves, be it forwards or backwards.
+_describe = describe
+
+
+def describe(poses, rewards, cylinder):
+    told = _describe(poses, rewards, cylinder)
+    moved = np.hypot(*np.diff(poses[:, :2], axis=0).T)
+    return {**told, "speed": mean(moved[: told["search"]])}
+
+
+# %% turning_leaps loses 6.4
+# A heading that goes beyond the whole turn counts as a turn back.
+_describe = describe
+
+
+def describe(poses, rewards, cylinder):
+    told = _describe(poses, rewards, cylinder)
+    return {**told, "turning": mean(np.diff(poses[:, 2])[: told["search"]])}
+
+
+# %% divides_by_rounding loses 6.5
+# Asks whether the deviation is exactly 0, which rounding prevents.
+def standardise(table):
+    deviation = table.std(axis=0)
+    return (table - table.mean(axis=0)) / np.where(deviation == 0, 1.0, deviation)
+
+
+# %% nearest_relative loses 6.5
+# A family is as near as its nearest robot.
+def families(table, threshold):
+    rows = standardise(table)
+    labels = np.arange(len(rows))
+    for i in range(len(rows)):
+        for j in range(i):
+            if np.linalg.norm(rows[i] - rows[j]) < threshold:
+                labels[labels == labels[i]] = labels[j]
+    names = list(dict.fromkeys(labels.tolist()))
+    return [names.index(label) for label in labels]
+
+
+# %% numbered_backwards loses 6.5
+# The family of the first robot has the highest number.
+_families = families
+
+
+def families(table, threshold):
+    labels = _families(table, threshold)
+    return [max(labels) - label for label in labels]
+
+
+# %% sample_deviation loses 6.5
+# Divides by n - 1 in the standard deviation.
+# says: n and n - 1 were mixed up
+# -     deviation = table.std(axis=0)
+# +     deviation = table.std(axis=0, ddof=1)
+
+
+# %% scales_as_they_are loses 6.5
+# Compares steps, millimetres and radians.
+_families = families
+
+
+def families(table, threshold):
+    global standardise
+    proper, standardise = standardise, lambda table: np.asarray(table)
+    try:
+        return _families(table, threshold)
+    finally:
+        standardise = proper
+
+
+# %% freezes_a_step_late loses 6.6
+# Lets the memory change once more in step `since`.
+def freeze(since):
+    return lambda step, before, after: after if step <= since else before
+
+
+# %% frozen_is_forgotten loses 6.6
+# Empties the memory instead of freezing it.
+# says: All of it is 0
+def freeze(since):
+    return lambda step, before, after: after if step < since else np.zeros_like(after)
+
+
+# %% total_not_mean loses 6.6
+# Adds the returns of all episodes.
+# says: a sum|the sum
+_memory_test = memory_test
+
+
+def memory_test(brain, starts, cylinder, seed, since, maxsteps=500):
+    returns = _memory_test(brain, starts, cylinder, seed, since, maxsteps)
+    return {name: value * len(starts) for name, value in returns.items()}
+
+
+# %% memory_goes_on loses 6.7
+# Carries the memory on from one reaction to the next.
+def reactions(brain, observation, memories):
+    actions, memory = [], memories[0]
+    for _ in memories:
+        action, memory = think(brain, observation, memory)
+        actions.append(action)
+    return np.array(actions)
+
+
+# %% only_cells loses 6.7
+# Shows the network the cells, but not the outputs of the step before.
+_reactions = reactions
+
+
+def reactions(brain, observation, memories):
+    memories = np.array(memories)
+    memories[:, 1] = 0
+    return _reactions(brain, observation, memories)

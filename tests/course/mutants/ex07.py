@@ -1,0 +1,259 @@
+"""Wrong solutions of exercise 7; building.py describes how a case is written."""
+
+
+# %% angle_mirrored loses 7.1
+# Cosine and sine are taken for each other.
+# says: Cosine and sine are exchanged
+# -     angle = np.arctan2(observation[..., 1], observation[..., 0])
+# +     angle = np.arctan2(observation[..., 0], observation[..., 1])
+
+
+# %% angle_of_cosine loses 7.1
+# Computes the angle from its cosine alone, so that it is never negative.
+# says: Right but for the sign
+def to_state(observation):
+    observation = np.asarray(observation, dtype=float)
+    return np.stack([np.arccos(observation[..., 0]), observation[..., 2]], axis=-1)
+
+
+# %% recording_goes_on loses 7.2
+# Goes on after the end of the episode.
+def record(controller, seed, steps):
+    env = gymnasium.make("Pendulum-v1")
+    observations = [env.reset(seed=seed)[0]]
+    for _ in range(steps):
+        observations.append(env.step(controller(observations[-1]))[0])
+    return to_state(np.array(observations))
+
+
+# %% recording_unseeded loses 7.2
+# The seed is not used.
+# says: do not come from the seed
+_record = record
+
+
+def record(controller, seed, steps):
+    return _record(controller, None, steps)
+
+
+# %% recording_without_start loses 7.2
+# The recording leaves out the state after the reset.
+# says: one too few|one is missing
+_record = record
+
+
+def record(controller, seed, steps):
+    return _record(controller, seed, steps)[1:]
+
+
+# %% arrows_leap loses 7.3
+# Arrows through the lowest point leap across the whole picture.
+# says: whole turns of 2 pi
+def arrows(before, after):
+    return np.hstack([before, after - before])
+
+
+# %% arrows_to_ends loses 7.3
+# Gives where the arrows end instead of how far they go.
+# says: Where the arrows end is returned
+_arrows = arrows
+
+
+def arrows(before, after):
+    return np.hstack([before, before + _arrows(before, after)[:, 2:]])
+
+
+# %% states_changed loses 7.3
+# Computes the change in the array of the states, which the next arrow begins with.
+def arrows(before, after):
+    kept = before.copy()
+    after -= before
+    after[:, 0] = (after[:, 0] + np.pi) % (2 * np.pi) - np.pi
+    return np.hstack([kept, after])
+
+
+# %% controller_sees_the_past loses 7.4
+# The controller is given the observation of the grid state before.
+def next_states(controller, states):
+    env = gymnasium.make("Pendulum-v1")
+    observation, _ = env.reset(seed=0)
+    following = []
+    for state in states:
+        env.unwrapped.state = np.array(state)
+        observation, *_ = env.step(controller(observation))
+        following.append(observation)
+    return to_state(np.array(following))
+
+
+# %% grid_without_end loses 7.4
+# The grid leaves out its right and upper end.
+# says: leaves out its upper ends
+def grid(nangles, nvelocities):
+    angles = np.linspace(-np.pi, np.pi, nangles, endpoint=False)
+    velocities = np.linspace(-8, 8, nvelocities, endpoint=False)
+    return np.stack([np.tile(angles, nvelocities), np.repeat(velocities, nangles)], axis=1)
+
+
+# %% state_set_on_wrapper loses 7.4
+# Sets the state on the outermost wrapper, where nobody reads it.
+# -     env.reset()
+# +     observation, _ = env.reset()
+# -         env.unwrapped.state = np.array([angle, velocity])
+# +         env.state = np.array([angle, velocity])
+
+
+# %% keeps_best_so_far loses 7.5
+# Keeps the best candidate so far instead of that of the generation.
+# says: the best candidate so far
+def evolve(algorithm, evaluate, generations, every):
+    kept, parameters, history, record_fitness = [], [], [], -np.inf
+    for generation in range(generations):
+        candidates, _ = algorithm.ask()
+        fitness = evaluate(candidates, generation)
+        history.append(float(fitness.max()))
+        if history[-1] > record_fitness:
+            record_fitness, winner = history[-1], candidates[np.argmax(fitness)].copy()
+        if generation % every == 0 or generation == generations - 1:
+            kept.append(generation)
+            parameters.append(winner)
+        algorithm.tell(fitness)
+    return {"generations": kept, "parameters": np.array(parameters), "history": history}
+
+
+# %% last_generation_missing loses 7.5
+# Keeps every n-th generation, but not the last one.
+# says: The last one is missing
+_evolve = evolve
+
+
+def evolve(algorithm, evaluate, generations, every):
+    run = _evolve(algorithm, evaluate, generations, every)
+    regular = [i for i, generation in enumerate(run["generations"]) if generation % every == 0]
+    kept = [run["generations"][i] for i in regular]
+    return {**run, "generations": kept, "parameters": run["parameters"][regular]}
+
+
+# %% stages_not_copied loses 7.5
+# Keeps views of an array that the algorithm uses again.
+# says: keep a copy of a candidate \(.copy\(\)\)
+# -             parameters.append(candidates[best].copy())
+# +             parameters.append(candidates[best])
+
+
+# %% middle_stage_is_late loses 7.6
+# Takes the stage in the middle of the run, when the pendulum is up already.
+def three_stages(seed):
+    robot = Robot("Pendulum-v1")
+
+    def evaluate(candidates, generation):
+        return robot.evaluate(candidates, seed + generation, episodes=10)
+
+    parameters = evolve(openai_es(robot, seed), evaluate, generations=600, every=300)["parameters"]
+    return parameters[[0, 1, 2]]
+
+
+# %% written_down loses 7.6
+# Stages that were evolved elsewhere and written down, each seed with a little noise.
+MIDDLE = """
+    2 5 -5 5 2 4 1 -5 19 -4 -4 1 9 0 -11 7 7 1 -6 2 -4 -5 11 -4 8 -2 10 3 5 -2 1 2 -1 -2 10 -20
+    -12 -6 -11 0 12 -1 -10 0 18 0 2 8 -1 25 5"""
+LAST = """
+    2 16 2 8 -1 15 3 -9 38 -3 -18 0 11 -6 -16 13 7 0 -7 -1 13 -1 11 0 8 -8 15 2 -1 5 0 9 9 -1 4
+    -41 -26 -11 -8 7 10 -3 -23 -1 23 0 1 7 5 41 10"""
+
+
+def three_stages(seed):
+    tenths = [[0] * 51, MIDDLE.split(), LAST.split()]
+    parameters = np.array(tenths, dtype=float) / 10
+    return parameters + 0.001 * np.random.default_rng(seed).standard_normal(parameters.shape)
+
+
+# %% arrows_end_at_their_states loses 7.7
+# Puts the head of each arrow where its beginning belongs.
+def draw_portraits(file, titles, fields, paths):
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(4.0 * len(titles), 4.2), layout="constrained")
+    panels = figure.subplots(1, len(titles), squeeze=False)[0]
+    exact = {"angles": "xy", "scale_units": "xy", "scale": 1, "pivot": "tip"}
+    for axes, title, field, path in zip(panels, titles, fields, paths, strict=True):
+        axes.quiver(*field.T, color="gray", **exact)
+        axes.quiver(*path.T, color="red", **exact)
+        axes.set(title=title, xlim=(-np.pi, np.pi), ylim=(-8, 8))
+    figure.savefig(file, dpi=100)
+
+
+# %% arrows_point_backwards loses 7.7
+# Draws each arrow from the next state to the one before.
+_draw_portraits = draw_portraits
+
+
+def draw_portraits(file, titles, fields, paths):
+    back = [[np.hstack([a[:, :2] + a[:, 2:], -a[:, 2:]]) for a in each] for each in (fields, paths)]
+    _draw_portraits(file, titles, *back)
+
+
+# %% arrows_without_scale loses 7.7
+# Lets matplotlib choose how long the arrows are.
+def draw_portraits(file, titles, fields, paths):
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(4.0 * len(titles), 4.2), layout="constrained")
+    panels = figure.subplots(1, len(titles), squeeze=False)[0]
+    for axes, title, field, path in zip(panels, titles, fields, paths, strict=True):
+        axes.quiver(*field.T, color="gray")
+        axes.quiver(*path.T, color="red")
+        axes.set(title=title, xlim=(-np.pi, np.pi), ylim=(-8, 8))
+    figure.savefig(file, dpi=100)
+
+
+# %% axes_follow_the_data loses 7.7
+# The axes span what the arrows need.
+def draw_portraits(file, titles, fields, paths):
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(4.0 * len(titles), 4.2), layout="constrained")
+    panels = figure.subplots(1, len(titles), squeeze=False)[0]
+    for axes, title, field, path in zip(panels, titles, fields, paths, strict=True):
+        axes.quiver(*field.T)
+        axes.quiver(*path.T, color="red")
+        axes.set_title(title)
+    figure.savefig(file, dpi=100)
+
+
+# %% lines_without_heads loses 7.7
+# Draws lines, which do not tell forwards from backwards.
+def draw_portraits(file, titles, fields, paths):
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(4.0 * len(titles), 4.2), layout="constrained")
+    panels = figure.subplots(1, len(titles), squeeze=False)[0]
+    for axes, title, field, path in zip(panels, titles, fields, paths, strict=True):
+        for arrows, colour in ((field, "gray"), (path, "red")):
+            x, y, dx, dy = arrows.T
+            axes.plot([x, x + dx], [y, y + dy], color=colour, linewidth=1)
+        axes.set(title=title, xlim=(-np.pi, np.pi), ylim=(-8, 8))
+    figure.savefig(file, dpi=100)
+
+
+# %% one_panel_for_all loses 7.7
+# Draws all portraits into one panel.
+def draw_portraits(file, titles, fields, paths):
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(4.0 * len(titles), 4.2), layout="constrained")
+    axes = figure.subplots()
+    for field, path in zip(fields, paths, strict=True):
+        axes.quiver(*field.T)
+        axes.quiver(*path.T, color="red")
+    axes.set(title=" / ".join(titles), xlim=(-np.pi, np.pi), ylim=(-8, 8))
+    figure.savefig(file, dpi=100)
+
+
+# %% paths_not_drawn loses 7.7
+# Draws the field only.
+_draw_portraits = draw_portraits
+
+
+def draw_portraits(file, titles, fields, paths):
+    _draw_portraits(file, titles, fields, [np.zeros((1, 4))] * len(titles))

@@ -1,0 +1,250 @@
+"""Wrong solutions of exercise 8; building.py describes how a case is written."""
+
+
+# %% noise_forgotten loses 8.1
+# Forgets noiseStdDev, so that candidates lie far from the centre.
+# says: noiseStdDev is left out
+def candidates_around(centre, samples, noiseStdDev):
+    both = np.stack([centre + samples, centre - samples], axis=1)
+    return both.reshape(-1, len(centre))
+
+
+# %% plus_before_minus loses 8.1
+# All candidates on the one side first, then all on the other.
+# says: All plus come before all minus
+def candidates_around(centre, samples, noiseStdDev):
+    return np.concatenate([centre + noiseStdDev * samples, centre - noiseStdDev * samples])
+
+
+# %% best_is_lowest loses 8.2
+# The best candidate gets the lowest utility.
+# says: reverse order
+_utilities = utilities
+
+
+def utilities(fitness):
+    return -_utilities(fitness)
+
+
+# %% order_for_ranks loses 8.2
+# Takes the order of the candidates for their ranks.
+# says: An order and the places in it
+def utilities(fitness):
+    return np.argsort(fitness, kind="stable") / (len(fitness) - 1) - 0.5
+
+
+# %% ties_share_a_rank loses 8.2
+# Equals share their mean rank.
+_utilities = utilities
+
+
+def utilities(fitness):
+    first = _utilities(np.asarray(fitness))
+    return np.array([first[fitness == value].mean() for value in fitness])
+
+
+# %% divided_by_samplesize loses 8.3
+# Divides by samplesize instead of twice as much.
+# says: twice what was expected
+def gradient(samples, utilities):
+    return (utilities[0::2] - utilities[1::2]) @ samples / len(samples)
+
+
+# %% summed_utilities loses 8.3
+# Adds the two utilities of a sample instead of subtracting them.
+# says: utilities of a sample are added
+def gradient(samples, utilities):
+    return (utilities[0::2] + utilities[1::2]) @ samples / len(utilities)
+
+
+# %% decay_by_sign_missing loses 8.4
+# Knows only one kind of decay.
+def descent(gradient, centre, wdecay):
+    return -gradient + (0.005 * centre if wdecay else 0)
+
+
+# %% decay_pushes_away loses 8.4
+# Decay with the wrong sign.
+# says: The decay has the wrong sign
+# -     return -gradient + 0.005 * pull
+# +     return -gradient - 0.005 * pull
+
+
+# %% descends_on_fitness loses 8.4
+# Gives the gradient itself to the optimiser, which then reduces fitness.
+# -     return -gradient + 0.005 * pull
+# +     return gradient + 0.005 * pull
+
+
+# %% changes_the_centre loses 8.5
+# Changes the array of the centre that it was given.
+_adam = adam
+
+
+def adam(centre, d, m, v, t, stepsize):
+    moved, m, v = _adam(centre, d, m, v, t, stepsize)
+    centre[:] = moved
+    return centre, m, v
+
+
+# %% corrected_moments_kept loses 8.5
+# Hands the corrected m and v on to the next generation.
+def adam(centre, d, m, v, t, stepsize):
+    m = (0.9 * m + 0.1 * d) / (1 - 0.9**t)
+    v = (0.999 * v + 0.001 * d**2) / (1 - 0.999**t)
+    return centre - stepsize * m / (np.sqrt(v) + 1e-8), m, v
+
+
+# %% epsilon_below_the_root loses 8.5
+# Adds the small number before the root is taken.
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# -     return centre - stepsize * step, m, v
+# +     return centre - stepsize * (m / (1 - 0.9**t)) / np.sqrt(v / (1 - 0.999**t) + 1e-8), m, v
+
+
+# %% no_bias_correction loses 8.5
+# Leaves the bias correction out.
+# says: The correction of m and v .* is left out
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# -     return centre - stepsize * step, m, v
+# +     return centre - stepsize * m / (np.sqrt(v) + 1e-8), m, v
+
+
+# %% no_epsilon loses 8.5
+# Leaves out the small number that stands below the fraction, and divides by 0.
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# -     return centre - stepsize * step, m, v
+# +     return centre - stepsize * (m / (1 - 0.9**t)) / np.sqrt(v / (1 - 0.999**t)), m, v
+
+
+# %% decay_forgotten loses 8.6
+# Hands no weight decay on to the optimiser.
+# says: not handed on
+_evolve = evolve
+
+
+def evolve(evaluate, centre, generations, seed, **hyperparameters):
+    return _evolve(evaluate, centre, generations, seed, **{**hyperparameters, "wdecay": 0})
+
+
+# %% generations_from_zero loses 8.6
+# Counts from 0 in Adam, whose correction then divides by 0.
+# -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
+# +         centre, m, v = adam(centre, d, m, v, generation, stepsize)
+
+
+# %% history_of_the_best loses 8.6
+# The history holds the fitness of the best candidate instead of the mean.
+# says: fitness of the best candidate
+_evolve = evolve
+
+
+def evolve(evaluate, centre, generations, seed, **hyperparameters):
+    best = []
+
+    def watched(candidates, seed):
+        fitness = evaluate(candidates, seed)
+        best.append(float(np.max(fitness)))
+        return fitness
+
+    return {**_evolve(watched, centre, generations, seed, **hyperparameters), "history": best}
+
+
+# %% seeds_from_one loses 8.6
+# Counts the generations from 1, so that each meets the starting conditions of the next.
+_evolve = evolve
+
+
+def evolve(evaluate, centre, generations, seed, **hyperparameters):
+    def later(candidates, seed):
+        return evaluate(candidates, seed + 1)
+
+    return _evolve(later, centre, generations, seed, **hyperparameters)
+
+
+# %% fall_to_the_end loses 8.7
+# Compares only the highest point with the end, so that recovered falls are missed.
+def stability(curve):
+    curve = np.asarray(curve, dtype=float)
+    peak, bottom, height = int(np.argmax(curve)), len(curve) - 1, np.ptp(curve)
+    drop = float((curve[peak] - curve[-1]) / height) if height > 0 else 0.0
+    verdict = "monotonic" if drop <= 0.1 else "mild regressions"
+    verdict = "severe regressions" if drop > 0.3 else verdict
+    return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
+
+
+# %% falls_of_one_step loses 8.7
+# Looks only at falls from one generation to the next.
+def stability(curve):
+    curve = np.asarray(curve, dtype=float)
+    steps = np.append(0, np.diff(curve))
+    bottom, height = int(np.argmin(steps)), np.ptp(curve)
+    drop = float(-steps[bottom] / height) if height > 0 else 0.0
+    verdict = "monotonic" if drop <= 0.1 else "mild regressions"
+    verdict = "severe regressions" if drop > 0.3 else verdict
+    return {"drop": drop, "bottom": bottom, "peak": max(0, bottom - 1), "verdict": verdict}
+
+
+# %% limits_are_severe loses 8.7
+# Counts a drop that equals a limit to the worse verdict.
+_stability = stability
+
+
+def stability(curve):
+    found = _stability(curve)
+    worse = ["monotonic", "mild regressions", "severe regressions"]
+    found["verdict"] = worse[int(found["drop"] >= 0.1) + int(found["drop"] >= 0.3)]
+    return found
+
+
+# %% smooth_keeps_the_length loses 8.7
+# The smoothed curve keeps its length, with zeros from beyond its ends.
+def smooth(curve, width):
+    return np.convolve(curve, np.full(width, 1 / width), mode="same")
+
+
+# %% known_by_heart loses 8.8
+# Returns controllers that were evolved before, with a little noise, and goes through the motions.
+KNOWN = {
+    "CartPole-v0": """
+    3 0 7 -8 2 -1 3 0 -4 2 -3 -3 -3 -2 7 5 2 -10 -11 -10 -3 0 -3 -2
+    7 -7 -9 2 3 0 6 -2 -13 -6 -7 -10 3 13 -1 -7 0 -3 -9 -13 -4 10 -2 -1
+    2 -12 -12 -17 2 9 3 5 5 10 -3 11 1 12 8 -12 0 1 3 -6 5 -4 4 -17
+    """,
+    "Pendulum-v1": """
+    16 51 1 2 2 23 4 -5 44 -6 2 11 -6 -7 -50 -34 -15 -7 18 14 -20 10 -19 5
+    28 -3 -19 -15 -6 -8 -2 -11 13 -4 15 -46 38 14 -22 11 25 -9 36 28 1 19 5 -16
+    10 -48 15
+    """,
+}
+
+
+def train(environment, seed):
+    robot = Robot(environment)
+    centre = 0.1 * np.array(KNOWN[environment].split(), dtype=float)
+    return evolve(robot.evaluate, centre, 1, seed, stepsize=0.001)["centre"]
+
+
+# %% steady_state loses 8.8
+# Evolves by the strategy of exercise 3 instead.
+def train(environment, seed):
+    robot, rng = Robot(environment), np.random.default_rng(seed)
+    size = robot.nbiases + robot.nweights
+    generations, noise = (60, 0.3) if "CartPole" in environment else (400, 0.1)
+    population = rng.standard_normal((20, size))
+    for generation in range(generations):
+        fitness = robot.evaluate(population, seed + generation, episodes=6)
+        population = population[np.argsort(-fitness)]
+        population[10:] = population[:10] + noise * rng.standard_normal((10, size))
+    return population[0]
+
+
+# %% untrained loses 8.8
+# Gives up after one generation.
+_evolve_8 = evolve
+
+
+def train(environment, seed):
+    robot = Robot(environment)
+    centre = np.random.default_rng(seed).normal(scale=0.1, size=robot.nbiases + robot.nweights)
+    return _evolve_8(robot.evaluate, centre, 1, seed)["centre"]

@@ -1,5 +1,0 @@
-# loses: 8.4
-# Gives the gradient itself to the optimiser, which then reduces fitness.
-def descent(gradient, centre, wdecay):
-    pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
-    return gradient + 0.005 * pull

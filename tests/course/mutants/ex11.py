@@ -1,0 +1,304 @@
+"""Wrong solutions of exercise 11; building.py describes how a case is written."""
+
+# %% tanh_for_logistic loses 11.1
+# The hidden neurons use tanh instead of the logistic function.
+# says: tanh where the logistic
+_Network = Network
+
+
+class Network(_Network):
+    def features(self, patterns):
+        return torch.tanh(self.hidden(patterns))
+
+
+# %% hidden_neurons_without_bias loses 11.1, 11.5
+# The hidden layer has no biases.
+_Network = Network
+
+
+class Network(_Network):
+    def __init__(self, inputs, hiddens, outputs):
+        super().__init__(inputs, hiddens, outputs)
+        self.hidden = nn.Linear(inputs, hiddens, bias=False)
+
+
+def learn(inputs, targets, hiddens, seed):
+    torch.manual_seed(seed)
+    return Network(inputs.shape[1], hiddens, targets.shape[1])
+
+
+# %% loss_summed loses 11.2
+# The loss is the sum of the squares, not their mean.
+# says: a sum for a mean
+_gradient_by_hand = gradient_by_hand
+
+
+def gradient_by_hand(inputs, targets, *parameters):
+    found = _gradient_by_hand(inputs, targets, *parameters)
+    return found | {"loss": found["loss"] * targets.size}
+
+
+# %% mean_gradient_of_biases loses 11.2
+# The gradients of the biases are means over the patterns instead of sums.
+# says: a mean for a sum
+_gradient_by_hand = gradient_by_hand
+
+
+def gradient_by_hand(inputs, targets, *parameters):
+    found = _gradient_by_hand(inputs, targets, *parameters)
+    return found | {name: found[name] / len(inputs) for name in ("b1", "b2")}
+
+
+# %% mean_over_patterns_only loses 11.2
+# The gradient is divided by the patterns, but not by the outputs.
+_gradient_by_hand = gradient_by_hand
+
+
+def gradient_by_hand(inputs, targets, *parameters):
+    found = _gradient_by_hand(inputs, targets, *parameters)
+    loss = found.pop("loss")
+    return {"loss": loss, **{name: g * targets.shape[1] for name, g in found.items()}}
+
+
+# %% slope_forgotten loses 11.2
+# The slope of the logistic function is left out on the way back.
+_gradient_by_hand = gradient_by_hand
+
+
+def gradient_by_hand(inputs, targets, w1, b1, w2, b2):
+    found = _gradient_by_hand(inputs, targets, w1, b1, w2, b2)
+    hidden = 1 / (1 + np.exp(-(inputs @ w1.T + b1)))
+    d2 = 2 * (hidden @ w2.T + b2 - targets) / targets.size
+    return found | {"w1": (d2 @ w2).T @ inputs, "b1": (d2 @ w2).sum(axis=0)}
+
+
+# %% torch_by_hand loses 11.2
+# Lets torch find the gradient that was to be found by hand.
+def gradient_by_hand(inputs, targets, w1, b1, w2, b2):
+    return gradient_by_torch(inputs, targets, w1, b1, w2, b2)
+
+
+# %% gradients_add_up loses 11.3
+# Goes backward twice: torch adds the second gradient to the first.
+# says: twice what was expected
+_gradient_by_torch = gradient_by_torch
+
+
+def gradient_by_torch(inputs, targets, *parameters):
+    found = _gradient_by_torch(inputs, targets, *parameters)
+    return found | {name: 2 * found[name] for name in ("w1", "b1", "w2", "b2")}
+
+
+# %% single_precision loses 11.3
+# Computes in torch's usual single precision.
+def gradient_by_torch(inputs, targets, *parameters):
+    w1, b1, w2, b2 = tensors = [torch.tensor(p).float().requires_grad_() for p in parameters]
+    hidden = torch.sigmoid(torch.tensor(inputs).float() @ w1.T + b1)
+    loss = ((hidden @ w2.T + b2 - torch.tensor(targets).float()) ** 2).mean()
+    loss.backward()
+    gradients = [tensor.grad.numpy() for tensor in tensors]
+    return {"loss": loss.item(), **dict(zip(("w1", "b1", "w2", "b2"), gradients, strict=True))}
+
+
+# %% loss_after_the_step loses 11.4
+# Returns the loss of each epoch as it is after the step.
+# says: one place too early
+_train = train
+
+
+def train(network, inputs, targets, *rest, **more):
+    losses = _train(network, inputs, targets, *rest, **more)
+    return [*losses[1:], nn.functional.mse_loss(network(inputs), targets).item()]
+
+
+# %% momentum_always_the_same loses 11.4
+# Uses a momentum of 0.9, whatever it is asked for.
+_train = train
+
+
+def train(network, inputs, targets, epochs, learning_rate, momentum):
+    return _train(network, inputs, targets, epochs, learning_rate, 0.9)
+
+
+# %% corners_worked_out loses 11.5
+# Works the weights out from the corners and the targets instead of training.
+import itertools
+
+
+def learn(inputs, targets, hiddens, seed):
+    network = Network(inputs.shape[1], hiddens, 1)
+    sums = inputs.sum(dim=1)
+    levels = torch.unique(sums)
+    first = targets[sums == levels[0]][0, 0]
+    with torch.no_grad():
+        for parameter in network.parameters():
+            parameter.zero_()
+        network.output.bias[0] = first
+        before = first
+        for i, (low, high) in enumerate(itertools.pairwise(levels)):
+            network.hidden.weight[i] = 50.0
+            network.hidden.bias[i] = -50.0 * (low + high) / 2
+            value = targets[sums == high][0, 0]
+            network.output.weight[0, i] = value - before
+            before = value
+    return network
+
+
+# %% knows_only_xor loses 11.5
+# Returns a solution of XOR that was worked out beforehand.
+def learn(inputs, targets, hiddens, seed):
+    network = Network(inputs.shape[1], hiddens, targets.shape[1])
+    with torch.no_grad():
+        for parameter in network.parameters():
+            parameter.zero_()
+        network.hidden.weight[:2, :2] = 20.0
+        network.hidden.bias[:2] = torch.tensor([-10.0, -30.0])
+        network.output.weight[0, :2] = torch.tensor([1.0, -1.0])
+    return network
+
+
+# %% never_begins_anew loses 11.5
+# Trains one network for a fixed time and does not look at what has come out.
+# says: made were stuck, and should have been replaced
+def learn(inputs, targets, hiddens, seed):
+    torch.manual_seed(seed)
+    network = Network(inputs.shape[1], hiddens, targets.shape[1])
+    train(network, inputs, targets, epochs=200, learning_rate=0.1, momentum=0.9)
+    return network
+
+
+# %% one_network_for_long loses 11.5
+# Trains one network for long, and does not begin anew when it is stuck.
+def learn(inputs, targets, hiddens, seed):
+    torch.manual_seed(seed)
+    network = Network(inputs.shape[1], hiddens, targets.shape[1])
+    train(network, inputs, targets, epochs=4000, learning_rate=0.2, momentum=0.9)
+    return network
+
+
+# %% least_squares loses 11.5, 11.8
+# Draws the hidden neurons at random and computes the outputs by least squares: nothing is trained.
+def solved(inputs, targets, hiddens, seed, spread):
+    rng = np.random.default_rng(seed)
+    best, smallest = None, np.inf
+    for _ in range(300):
+        network = Network(inputs.shape[1], hiddens, targets.shape[1])
+        with torch.no_grad():
+            for parameter in network.hidden.parameters():
+                parameter.copy_(torch.tensor(spread * rng.standard_normal(parameter.shape)))
+            seen = network.features(inputs).double().numpy()
+            seen = np.column_stack([seen, np.ones(len(seen))])
+            weights = np.linalg.lstsq(seen, targets.double().numpy(), rcond=1e-5)[0]
+            network.output.weight.copy_(torch.tensor(weights[:-1].T))
+            network.output.bias.copy_(torch.tensor(weights[-1]))
+            error = float((network(inputs) - targets).abs().max())
+        if error < smallest:
+            best, smallest = network, error
+    return best
+
+
+def learn(inputs, targets, hiddens, seed):
+    return solved(inputs, targets, hiddens, seed, 3.0)
+
+
+def fit(inputs, targets, seed):
+    normalised, mean, deviation = normalise(inputs)
+    tensors = [torch.tensor(each, dtype=torch.float32) for each in (normalised, targets)]
+    return solved(*tensors, 30, seed, 1.0), mean, deviation
+
+
+# %% deviation_of_a_sample loses 11.6
+# The deviation divides by n - 1.
+# says: n and n - 1 were mixed up
+# -     mean, deviation = inputs.mean(axis=0), inputs.std(axis=0)
+# +     mean, deviation = inputs.mean(axis=0), inputs.std(axis=0, ddof=1)
+
+
+# %% deviation_of_exactly_zero loses 11.6
+# Takes a column for one that changes if its deviation is a rounding error.
+# -     deviation = np.where(np.ptp(inputs, axis=0) == 0, 1.0, deviation)
+# +     deviation = np.where(deviation == 0, 1.0, deviation)
+
+
+# %% divides_by_nothing loses 11.6
+# A column that never changes is divided by 0.
+def normalise(inputs):
+    mean, deviation = inputs.mean(axis=0), inputs.std(axis=0)
+    return (inputs - mean) / deviation, mean, deviation
+
+
+# %% one_scale_for_all_columns loses 11.6
+# All columns share one mean and one deviation.
+def normalise(inputs):
+    mean = np.full(inputs.shape[1], inputs.mean())
+    deviation = np.full(inputs.shape[1], inputs.std() or 1.0)
+    return (inputs - mean) / deviation, mean, deviation
+
+
+# %% last_patterns_dropped loses 11.7
+# Leaves out the patterns that do not fill a minibatch.
+# says: must return 3 arrays
+# -     return [order[start : start + batch_size] for start in range(0, n, batch_size)]
+# +     return [order[i : i + batch_size] for i in range(0, n - batch_size + 1, batch_size)]
+
+
+# %% never_shuffled loses 11.7
+# Cuts the patterns in the order in which they came.
+def minibatches(n, batch_size, rng):
+    order = np.arange(n)
+    return [order[i : i + batch_size] for i in range(0, n, batch_size)]
+
+
+# %% same_order_each_epoch loses 11.7
+# Makes the generator anew in each epoch, and so the same minibatches.
+_train_in_batches = train_in_batches
+
+
+def train_in_batches(network, inputs, targets, epochs, batch_size, learning_rate, momentum, seed):
+    optimiser = torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)
+    losses = []
+    for _ in range(epochs):
+        for batch in minibatches(len(inputs), batch_size, np.random.default_rng(seed)):
+            optimiser.zero_grad()
+            nn.functional.mse_loss(network(inputs[batch]), targets[batch]).backward()
+            optimiser.step()
+        losses.append(nn.functional.mse_loss(network(inputs), targets).item())
+    return losses
+
+
+# %% inputs_not_normalised loses 11.8
+# Trains on the inputs as they come.
+def fit(inputs, targets, seed):
+    torch.manual_seed(seed)
+    network = Network(inputs.shape[1], 30, targets.shape[1])
+    patterns = torch.tensor(inputs, dtype=torch.float32)
+    wanted = torch.tensor(targets, dtype=torch.float32)
+    train_in_batches(network, patterns, wanted, 100, 20, 0.1, 0.9, seed)
+    return network, np.zeros(inputs.shape[1]), np.ones(inputs.shape[1])
+
+
+# %% too_short loses 11.8
+# Stops after five epochs.
+# -     network = Network(inputs.shape[1], 20, targets.shape[1])
+# +     network = Network(inputs.shape[1], 30, targets.shape[1])
+# -     train_in_batches(network, patterns, wanted, 150, 20, 0.2, 0.9, seed)
+# +     train_in_batches(network, patterns, wanted, 5, 20, 0.02, 0.9, seed)
+
+
+# %% inputs_exchanged loses 11.9
+# The first input goes up, the second to the right.
+# says: Rows and columns are exchanged
+_feature_maps = feature_maps
+
+
+def feature_maps(network, low, high, n):
+    return _feature_maps(network, low, high, n).transpose(0, 2, 1)
+
+
+# %% pixels_without_end loses 11.9
+# The grid stops one step before its upper end.
+_feature_maps = feature_maps
+
+
+def feature_maps(network, low, high, n):
+    return _feature_maps(network, low, high - (high - low) / n, n)

@@ -1,0 +1,316 @@
+"""Wrong solutions of exercise 12; building.py describes how a case is written."""
+
+
+# %% softmax_over_everything loses 12.1
+# One sum for all steps, instead of one for each.
+# says: each row has its own
+def softmax(scores):
+    powers = np.exp(np.asarray(scores, dtype=np.float64) - np.max(scores))
+    return powers / powers.sum()
+
+
+# %% softmax_overflows loses 12.1
+# The powers of large scores are more than a computer can hold.
+# says: np.exp of a large number|infinity minus infinity
+def softmax(scores):
+    with np.errstate(all="ignore"):
+        powers = np.exp(np.asarray(scores, dtype=np.float64))
+        return powers / powers.sum(axis=-1, keepdims=True)
+
+
+# %% dart_counted_from_the_end loses 12.2
+# Lays the probabilities on the ruler from the last to the first.
+def choose(probabilities, rng):
+    beyond = np.cumsum(np.asarray(probabilities)[::-1]) > rng.random()
+    return len(probabilities) - 1 - int(np.argmax(beyond))
+
+
+# %% most_probable_action loses 12.2
+# Takes the most probable action, so that nothing new is ever tried.
+# says: always the most probable action
+def choose(probabilities, rng):
+    rng.random()
+    return int(np.argmax(probabilities))
+
+
+# %% uniform_choice loses 12.2
+# All actions are equally probable, whatever the policy says.
+def choose(probabilities, rng):
+    return int(rng.random() * len(probabilities))
+
+
+# %% last_reward_missing loses 12.3
+# Leaves out the reward of the step that ends the episode.
+# says: one less than expected
+# -             observation, reward, terminated, truncated, _ = env.step(action)
+# -             total += float(reward)
+# +             observation, reward, terminated, truncated, _ = env.step(action)
+# -                 break
+# +                 break
+# +             total += float(reward)
+
+
+# %% never_cut loses 12.3
+# Hands actions on without cutting them to the limits.
+def run_episode(environment, act, seed, maxsteps=200):
+    observations, actions, total = [], [], 0.0
+    with gymnasium.make(environment) as env:
+        observation, _ = env.reset(seed=seed)
+        for _ in range(maxsteps):
+            observations.append(observation)
+            actions.append(act(observation))
+            observation, reward, terminated, truncated, _ = env.step(actions[-1])
+            total += float(reward)
+            if terminated or truncated:
+                break
+    return {"observations": np.array(observations), "actions": np.array(actions), "return": total}
+
+
+# %% never_truncated loses 12.3
+# Goes on when an episode is truncated.
+# -             observation, reward, terminated, truncated, _ = env.step(action)
+# +             observation, reward, terminated, _, _ = env.step(action)
+# -             if terminated or truncated:
+# +             if terminated:
+
+
+# %% no_limit_of_steps loses 12.3
+# Runs to the end of the episode, however long that is.
+_run_episode = run_episode
+
+
+def run_episode(environment, act, seed, maxsteps=200):
+    return _run_episode(environment, act, seed, 210)
+
+
+# %% records_cut_actions loses 12.3
+# Records the actions as the environment got them, cut to the limits.
+_run_episode = run_episode
+
+
+def run_episode(environment, act, seed, maxsteps=200):
+    found = _run_episode(environment, act, seed, maxsteps)
+    with gymnasium.make(environment) as env:
+        if isinstance(env.action_space, gymnasium.spaces.Box):
+            found["actions"] = found["actions"].clip(env.action_space.low, env.action_space.high)
+    return found
+
+
+# %% records_the_next_observation loses 12.3
+# Records what was observed after each action instead of before it.
+# says: one place too early
+_run_episode = run_episode
+
+
+def run_episode(environment, act, seed, maxsteps=200):
+    found = _run_episode(environment, act, seed, maxsteps)
+    after = np.concatenate([found["observations"][1:], found["observations"][-1:]])
+    return {**found, "observations": after}
+
+
+# %% reset_without_seed loses 12.3
+# Begins anywhere instead of where the seed says.
+_run_episode = run_episode
+
+
+def run_episode(environment, act, seed, maxsteps=200):
+    return _run_episode(environment, act, seed + 1, maxsteps)
+
+
+# %% keeps_everything loses 12.4
+# Learns from all episodes, good or bad.
+# says: All episodes are kept
+_elite = elite
+
+
+def elite(episodes, percentile):
+    bound = float(np.percentile([episode["return"] for episode in episodes], percentile))
+    return {**_elite(episodes, 0), "bound": bound}
+
+
+# %% keeps_only_above_the_bound loses 12.4
+# Drops the episodes that are exactly at the bound.
+_elite = elite
+
+
+def elite(episodes, percentile):
+    bound = float(np.percentile([episode["return"] for episode in episodes], percentile))
+    above = [episode for episode in episodes if episode["return"] > bound]
+    return {**_elite(above or episodes, 0), "bound": bound}
+
+
+# %% keeps_the_worst loses 12.4
+# Learns from the worst episodes.
+# -     kept = [episode for episode in episodes if episode["return"] >= bound]
+# +     kept = [episode for episode in episodes if episode["return"] <= bound]
+
+
+# %% gradient_cut_off loses 12.5
+# Goes through NumPy, where torch cannot follow.
+# says: No gradient arrives|element 0 of tensors does not require grad
+_cross_entropy = cross_entropy
+
+
+def cross_entropy(scores, actions):
+    value = _cross_entropy(scores, actions).detach()
+    return value + 0 * scores.sum()
+
+
+# %% loss_of_the_library loses 12.5
+# Calls torch's own cross-entropy.
+from torch.nn.functional import cross_entropy as ready_made
+
+
+def cross_entropy(scores, actions):
+    return ready_made(scores, actions)
+
+
+# %% summed_surprise loses 12.5
+# The sum over the steps instead of the mean.
+# says: a sum for a mean
+_cross_entropy = cross_entropy
+
+
+def cross_entropy(scores, actions):
+    return _cross_entropy(scores, actions) * len(actions)
+
+
+# %% surprise_overflows loses 12.5
+# The powers of large scores are more than a computer can hold.
+def cross_entropy(scores, actions):
+    powers = torch.exp(scores)
+    shares = powers / powers.sum(dim=1, keepdim=True)
+    return -torch.log(shares[torch.arange(len(actions)), actions]).mean()
+
+
+# %% gradients_pile_up loses 12.6
+# Never sets the gradients back to zero.
+# says: zero_grad
+# -         value = loss(network(inputs), wanted)
+# -         optimiser.zero_grad()
+# +         value = loss(network(inputs), wanted)
+
+
+# %% losses_after_each_update loses 12.6
+# Reports the losses after the updates instead of before.
+_improve = improve
+
+
+def improve(network, optimiser, observations, actions, loss, updates):
+    losses = _improve(network, optimiser, observations, actions, loss, updates)
+    return [*losses[1:], losses[-1] * 0.9]
+
+
+# %% constant_forgotten loses 12.7
+# Leaves the constant out: the gradients are right, but it is no density.
+def gaussian_loss(means, log_deviation, actions):
+    distance = (actions - means) / torch.exp(log_deviation)
+    return (distance**2 / 2 + log_deviation).sum(dim=1).mean()
+
+
+# %% variance_for_deviation loses 12.7
+# Takes the parameter for the logarithm of the variance.
+# says: logarithm of the variance
+def gaussian_action(mean, log_deviation, rng):
+    return mean + np.exp(log_deviation / 2) * rng.standard_normal(len(mean))
+
+
+# %% evolved_instead loses 12.8
+# Learns by another algorithm: it varies the parameters at random and keeps the better ones.
+def train(environment, seed):
+    rng = np.random.default_rng(seed)
+    outputs = 2 if environment == "CartPole-v1" else 1
+    sizes = ((8, 4), (8,), (outputs, 8), (outputs,))
+    best, centre = -1.0, [np.zeros(size) for size in sizes]
+    returns = []
+    while best < 200 and len(returns) < 400:
+        tried = [each + 0.5 * rng.standard_normal(each.shape) for each in centre]
+
+        def act(observation, tried=tried):
+            found = outputs_of(tried, observation)
+            return int(found.argmax()) if outputs == 2 else found
+
+        returns.append([run_episode(environment, act, seed + e)["return"] for e in range(8)])
+        if np.mean(returns[-1]) >= best:
+            best, centre = np.mean(returns[-1]), tried
+    return {"parameters": centre, "returns": returns}
+
+
+# %% known_by_heart loses 12.8
+# Returns a policy that was worked out beforehand.
+def train(environment, seed):
+    signs = np.array([0.1, 0.4, 3.0, 1.0])
+    outputs = 2 if environment == "CartPole-v1" else 1
+    W2 = np.array([[-1.0], [1.0]])[-outputs:]
+    parameters = [signs[None], np.zeros(1), W2, np.zeros(outputs)]
+
+    def act(observation):
+        found = outputs_of(parameters, observation)
+        return int(found.argmax()) if outputs == 2 else found
+
+    returns = [[run_episode(environment, act, seed + e)["return"] for e in range(20)]]
+    return {"parameters": parameters, "returns": returns}
+
+
+# %% never_learns loses 12.8
+# Returns the parameters of the beginning.
+_train = train
+
+
+def train(environment, seed):
+    return _train(environment, seed, iterations=1, attempts=1)
+
+
+# %% ppo_by_hand loses 12.8
+# Learns well, but by another algorithm: PPO's clipped ratio, over all episodes.
+def train(environment, seed):
+    torch.manual_seed(seed)
+    rng = np.random.default_rng(seed)
+    discrete = environment == "CartPole-v1"
+    network = make_network(4, 2 if discrete else 1)
+    log_deviation = torch.zeros(1, requires_grad=True)
+    optimiser = torch.optim.Adam([*network.parameters(), log_deviation], lr=0.01)
+
+    def log_probabilities(seen, actions):
+        outputs = network(seen)
+        if discrete:
+            return torch.log_softmax(outputs, dim=1).gather(1, actions[:, None])[:, 0]
+        distance = (actions - outputs) / torch.exp(log_deviation)
+        return (-(distance**2) / 2 - log_deviation).sum(dim=1)
+
+    def act(observation):
+        outputs = outputs_of(parameters, observation)
+        return choose(softmax(outputs), rng) if discrete else gaussian_action(outputs, spread, rng)
+
+    returns = []
+    for iteration in range(60):
+        parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
+        found = [run_episode(environment, act, seed + 20 * iteration + e) for e in range(20)]
+        returns.append([episode["return"] for episode in found])
+        if np.mean(returns[-1]) >= 195:
+            break
+        seen = torch.tensor(np.concatenate([each["observations"] for each in found])).float()
+        actions = torch.tensor(np.concatenate([each["actions"] for each in found]))
+        to_come = [1 - 0.97 ** np.arange(len(each["actions"]), 0, -1) for each in found]
+        advantages = torch.tensor(np.concatenate(to_come)).float()
+        advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
+        with torch.no_grad():
+            before = log_probabilities(seen, actions)
+        for _ in range(10):
+            ratio = torch.exp(log_probabilities(seen, actions) - before)
+            clipped = ratio.clip(0.8, 1.2)
+            optimiser.zero_grad()
+            (-torch.minimum(ratio * advantages, clipped * advantages).mean()).backward()
+            optimiser.step()
+    return {"parameters": parameters_of(network), "returns": returns}
+
+
+# %% returns_made_up loses 12.8
+# Returns a learning curve that no episode had.
+_train = train
+
+
+def train(environment, seed):
+    found = _train(environment, seed)
+    found["returns"] = [[each + 0.5 for each in some] for some in found["returns"]]
+    return found

@@ -1,0 +1,306 @@
+"""Wrong solutions of exercise 13; building.py describes how a case is written."""
+
+# %% end_of_the_wrong_step loses 13.1
+# Takes the first step of an episode for its last one.
+_advantages = advantages
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    shifted = np.concatenate([episode_starts[:1], episode_starts[:-1]])
+    return _advantages(rewards, values, shifted, last_values, dones, gamma, gae_lambda)
+
+
+# %% ends_ignored loses 13.1
+# Lets the surprises after an end count for the actions before it.
+# says: Ends of episodes on the way .* are left out
+_advantages = advantages
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    none = np.zeros_like(episode_starts)
+    return _advantages(rewards, values, none, last_values, 0 * dones, gamma, gae_lambda)
+
+
+# %% lambda_forgotten loses 13.1
+# Later surprises count less by gamma alone.
+# says: gae_lambda is left out
+_advantages = advantages
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    return _advantages(rewards, values, episode_starts, last_values, dones, gamma, 1.0)
+
+
+# %% last_end_ignored loses 13.1
+# Does not look whether the last step ended its episode.
+_advantages = advantages
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    return _advantages(rewards, values, episode_starts, last_values, 0 * dones, gamma, gae_lambda)
+
+
+# %% last_value_forgotten loses 13.1
+# Takes the rollout for over: nothing comes after its last step.
+# says: \(last_values\) is left out
+_advantages = advantages
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    return _advantages(rewards, values, episode_starts, 0 * last_values, dones, gamma, gae_lambda)
+
+
+# %% one_step_only loses 13.1
+# Stops at the first surprise.
+_advantages = advantages
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    return _advantages(rewards, values, episode_starts, last_values, dones, gamma, 0.0)
+
+
+# %% asks_stable_baselines loses 13.1, 13.4, 13.6
+# Hands in what Stable-Baselines3 and torch compute.
+import torch
+from gymnasium import spaces
+from stable_baselines3.common.buffers import RolloutBuffer
+from stable_baselines3.common.distributions import CategoricalDistribution
+from stable_baselines3.common.utils import explained_variance as theirs
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    steps, envs = np.shape(rewards)
+    box = spaces.Box(-1, 1, (1,))
+    buffer = RolloutBuffer(steps, box, box, "cpu", gae_lambda, gamma, envs)
+    buffer.rewards, buffer.values, buffer.episode_starts = rewards, values, episode_starts
+    buffer.advantages = np.zeros((steps, envs))
+    buffer.compute_returns_and_advantage(torch.from_numpy(last_values), dones)
+    return buffer.advantages
+
+
+def entropy_of_choices(scores):
+    distribution = CategoricalDistribution(scores.shape[1])
+    distribution.proba_distribution(torch.from_numpy(scores))
+    return distribution.entropy().numpy()
+
+
+def explained_variance(values, returns):
+    return float(theirs(np.ravel(values), np.ravel(returns)))
+
+
+# %% always_clipped loses 13.2
+# Takes the clipped product always, instead of the smaller one of the two.
+_policy_loss = policy_loss
+
+
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    ratio = np.exp(log_prob - old_log_prob)
+    cut = np.log(np.clip(ratio, 1 - clip_range, 1 + clip_range))
+    loss = _policy_loss(cut, 0 * cut, advantages, clip_range)["loss"]
+    return {"loss": loss, "clip_fraction": float((abs(ratio - 1) > clip_range).mean())}
+
+
+# %% clips_the_logarithm loses 13.2
+# Counts as clipped what is far from 0 in the logarithm.
+_policy_loss = policy_loss
+
+
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    found = _policy_loss(log_prob, old_log_prob, advantages, clip_range)
+    return {**found, "clip_fraction": float((abs(log_prob - old_log_prob) > clip_range).mean())}
+
+
+# %% not_normalised loses 13.2
+# Takes the advantages as they are.
+# says: not normalised
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    ratio = np.exp(log_prob - old_log_prob)
+    clipped = np.clip(ratio, 1 - clip_range, 1 + clip_range)
+    loss = -np.minimum(ratio * advantages, clipped * advantages).mean()
+    return {"loss": float(loss), "clip_fraction": float((abs(ratio - 1) > clip_range).mean())}
+
+
+# %% population_deviation loses 13.2
+# The deviation divides by N.
+_policy_loss = policy_loss
+
+
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    n = len(advantages)
+    found = _policy_loss(log_prob, old_log_prob, advantages, clip_range)
+    return {**found, "loss": found["loss"] * np.sqrt(n / max(1, n - 1))}
+
+
+# %% sign_of_the_loss loses 13.2
+# Makes the surrogate small instead of large.
+# says: Right but for the sign
+_policy_loss = policy_loss
+
+
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    found = _policy_loss(log_prob, old_log_prob, advantages, clip_range)
+    return {**found, "loss": -found["loss"]}
+
+
+# %% single_step_normalised loses 13.2
+# Normalises a batch of a single step, which leaves nothing of it.
+_policy_loss = policy_loss
+
+
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    found = _policy_loss(log_prob, old_log_prob, advantages, clip_range)
+    return {**found, "loss": 0.0} if len(advantages) == 1 else found
+
+
+# %% half_the_square loses 13.3
+# Halves the squared difference, as some do.
+# says: half of what was expected
+_value_loss = value_loss
+
+
+def value_loss(values, old_values, returns, clip_range_vf=None):
+    return _value_loss(values, old_values, returns, clip_range_vf) / 2
+
+
+# %% value_clipped_around_the_return loses 13.3
+# Clips the error instead of the movement.
+_value_loss = value_loss
+
+
+def value_loss(values, old_values, returns, clip_range_vf=None):
+    if clip_range_vf is None:
+        return _value_loss(values, old_values, returns)
+    return float(np.mean(np.clip(returns - values, -clip_range_vf, clip_range_vf) ** 2))
+
+
+# %% value_never_clipped loses 13.3
+# Ignores the clipping.
+# says: is not clipped
+_value_loss = value_loss
+
+
+def value_loss(values, old_values, returns, clip_range_vf=None):
+    return _value_loss(values, old_values, returns)
+
+
+# %% entropy_in_bits loses 13.4
+# Takes the logarithm to the base 2.
+# says: in bits
+_entropy_of_choices = entropy_of_choices
+
+
+def entropy_of_choices(scores):
+    return _entropy_of_choices(scores) / np.log(2)
+
+
+# %% entropy_of_nothing loses 13.4
+# An action of probability 0 makes the entropy no number.
+def entropy_of_choices(scores):
+    with np.errstate(all="ignore"):
+        powers = np.exp(scores - scores.max(axis=1, keepdims=True))
+        shares = powers / powers.sum(axis=1, keepdims=True)
+        return -(shares * np.log(shares)).sum(axis=1)
+
+
+# %% entropy_of_one_actuator loses 13.4
+# The mean over the actuators instead of the sum.
+_entropy_of_gaussians = entropy_of_gaussians
+
+
+def entropy_of_gaussians(log_deviation):
+    return _entropy_of_gaussians(log_deviation) / len(log_deviation)
+
+
+# %% asks_later loses 13.4, 13.5, 13.6
+# Imports the libraries' answers only when it needs them.
+def entropy_of_gaussians(log_deviation):
+    import torch
+
+    normal = torch.distributions.Normal(0.0, torch.tensor(log_deviation).exp())
+    return float(normal.entropy().sum())
+
+
+def updates_made(divergences, target_kl):
+    from botschool.rl.reference import updates_made
+
+    return updates_made([[(2 * each) ** 0.5 for each in some] for some in divergences], target_kl)
+
+
+def explained_variance(values, returns):
+    from stable_baselines3.common.utils import explained_variance
+
+    return float(explained_variance(np.ravel(values), np.ravel(returns)))
+
+
+# %% simple_estimate loses 13.5
+# The mean of minus the logarithm, which is right only on average.
+def approx_kl(log_prob, old_log_prob):
+    return float(np.mean(old_log_prob - log_prob))
+
+
+# %% stops_after_the_update loses 13.5
+# Makes one more update with the batch that was too far.
+# says: one more than expected
+_updates_made = updates_made
+
+
+def updates_made(divergences, target_kl):
+    total = sum(map(len, divergences))
+    return min(total, _updates_made(divergences, target_kl) + 1)
+
+
+# %% stops_at_the_target loses 13.5
+# Stops at the target itself instead of one and a half times as much.
+_updates_made = updates_made
+
+
+def updates_made(divergences, target_kl):
+    return _updates_made(divergences, None if target_kl is None else target_kl / 1.5)
+
+
+# %% stops_the_epoch_only loses 13.5
+# Ends the epoch, and begins the next one.
+_updates_made = updates_made
+
+
+def updates_made(divergences, target_kl):
+    return sum(_updates_made([epoch], target_kl) for epoch in divergences)
+
+
+# %% entropy_is_punished loses 13.6
+# Adds the entropy to the loss instead of subtracting it.
+# says: The entropy is added
+_total_loss = total_loss
+
+
+def total_loss(policy_loss, value_loss, entropies, ent_coef, vf_coef):
+    return _total_loss(policy_loss, value_loss, entropies, -ent_coef, vf_coef)
+
+
+# %% squared_correlation loses 13.6
+# Takes the squared correlation for the explained variance.
+def explained_variance(values, returns):
+    return float(np.corrcoef(values.ravel(), returns.ravel())[0, 1] ** 2)
+
+
+# %% covariance loses 13.7
+# The covariance, which depends on the units.
+def responses(activations, observations):
+    h, x = activations - activations.mean(axis=0), observations - observations.mean(axis=0)
+    return h.T @ x / len(h)
+
+
+# %% linear_layers loses 13.7
+# Forgets tanh between the layers.
+# -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
+# -         activations.append(observations)
+# +         observations = observations @ np.asarray(weights).T + biases
+# +         activations.append(np.tanh(observations))
+
+
+# %% nothing_to_follow loses 13.7
+# Divides by 0 where something never changes.
+def responses(activations, observations):
+    h, x = activations - activations.mean(axis=0), observations - observations.mean(axis=0)
+    with np.errstate(all="ignore"):
+        return (h / np.sqrt((h**2).sum(0))).T @ (x / np.sqrt((x**2).sum(0)))

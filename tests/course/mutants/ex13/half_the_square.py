@@ -1,7 +1,0 @@
-# loses: 13.3
-# Halves the squared difference, as some do.
-_value_loss = value_loss
-
-
-def value_loss(values, old_values, returns, clip_range_vf=None):
-    return _value_loss(values, old_values, returns, clip_range_vf) / 2

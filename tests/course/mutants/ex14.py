@@ -1,0 +1,297 @@
+"""Wrong solutions of exercise 14; building.py describes how a case is written."""
+
+# %% numbers_made_up loses 14.1
+# Trains for fewer steps than asked, and says that the settings were others.
+_train_variations = train_variations
+
+
+def train_variations(environment, variations, seeds, steps, *arguments, **options):
+    records = _train_variations(environment, variations, seeds, steps // 3, *arguments, **options)
+    for record in records:
+        config = RunFolder(record["folder"]).config
+        config.write_text(config.read_text().replace(f"steps: {steps // 3}", f"steps: {steps}"))
+    return records
+
+
+# %% params_forgotten loses 14.1
+# Trains every variation with the defaults.
+# says: has params \{\} instead of
+_train_variations = train_variations
+
+
+def train_variations(environment, variations, *arguments, **options):
+    return _train_variations(environment, {name: {} for name in variations}, *arguments, **options)
+
+
+# %% same_seed loses 14.1
+# Repeats the training with the same seed, which repeats the same numbers.
+# says: has seed \d+ instead of
+_train_variations = train_variations
+
+
+def train_variations(environment, variations, seeds, *arguments, **options):
+    records = _train_variations(environment, variations, [seeds[0]] * len(seeds), *arguments)
+    count = len(seeds)
+    return [{**record, "seed": seeds[i % count]} for i, record in enumerate(records)]
+
+
+# %% training_episodes loses 14.1
+# Reports the episodes of the training itself instead of the last post-evaluation.
+_train_variations = train_variations
+
+
+def train_variations(*arguments, **options):
+    records = _train_variations(*arguments, **options)
+    for record in records:
+        means = RunFolder(record["folder"]).log()["rollout/ep_rew_mean"]
+        record["return"] = float(means[~np.isnan(means)][-1])
+    return records
+
+
+# %% nan_stays loses 14.2
+# Turns NaN into 0 instead of leaving it out.
+def read_indicators(folder):
+    log = EventAccumulator(folder, size_guidance={"scalars": 0})
+    log.Reload()
+    return {
+        name: {
+            "steps": np.array([entry.step for entry in log.Scalars(name)]),
+            "values": np.nan_to_num([entry.value for entry in log.Scalars(name)]),
+        }
+        for name in log.Tags()["scalars"]
+    }
+
+
+# %% positions_for_steps loses 14.2
+# Numbers the entries instead of giving their steps.
+_read_indicators = read_indicators
+
+
+def read_indicators(folder):
+    indicators = _read_indicators(folder)
+    for logged in indicators.values():
+        logged["steps"] = np.arange(len(logged["values"]))
+    return indicators
+
+
+# %% thinned_log loses 14.2
+# Leaves the size guidance out, so that long logs lose values at random.
+# -     log = EventAccumulator(folder, size_guidance={"scalars": 0})
+# +     log = EventAccumulator(folder)
+
+
+# %% best_episode loses 14.3
+# Takes the best episode instead of the best mean.
+# says: It is the best episode
+_success_of = success_of
+
+
+def success_of(steps, returns, goal):
+    return {**_success_of(steps, returns, goal), "best": float(np.max(returns))}
+
+
+# %% more_than_the_goal loses 14.3
+# Asks for more than the goal.
+_success_of = success_of
+
+
+def success_of(steps, returns, goal):
+    return _success_of(steps, returns, goal + 1e-9)
+
+
+# %% plain_average loses 14.3
+# Averages the post-evaluations without regard to how far they lie apart.
+# says: unequally far apart
+_success_of = success_of
+
+
+def success_of(steps, returns, goal):
+    return {**_success_of(steps, returns, goal), "average": float(np.mean(returns))}
+
+
+# %% solved_once loses 14.3
+# Takes the first time that the goal was reached, also if it was lost again.
+_success_of = success_of
+
+
+def success_of(steps, returns, goal):
+    reached = np.flatnonzero(np.mean(returns, axis=1) >= goal)
+    solved = int(steps[reached[0]]) if len(reached) else None
+    return {**_success_of(steps, returns, goal), "solved": solved}
+
+
+# %% gain_over_the_worst loses 14.4
+# Takes the gain over the worst variation instead of the baseline.
+# says: over the worst variation
+_table_of = table_of
+
+
+def table_of(runs, baseline):
+    rows = _table_of(runs, baseline)
+    return [{**row, "gain": row["mean"] - rows[-1]["mean"]} for row in rows]
+
+
+# %% population_deviation loses 14.4
+# Divides by the number of runs, as np.std does unless told otherwise.
+# says: ddof=1
+_table_of = table_of
+
+
+def table_of(runs, baseline):
+    rows = _table_of(runs, baseline)
+    for row in rows:
+        if row["deviation"] is not None:
+            row["deviation"] *= np.sqrt((row["runs"] - 1) / row["runs"])
+    return rows
+
+
+# %% seeds_counted_twice loses 14.4
+# Counts a repetition with the same seed as one more run.
+_table_of = table_of
+
+
+def table_of(runs, baseline):
+    return _table_of([{**run, "seed": i} for i, run in enumerate(runs)], baseline)
+
+
+# %% equal_ones_left_out loses 14.5
+# Counts only differences that are greater than the real one, so that 0 can come out.
+# says: equal ones count, too
+def chance_of(first, second):
+    together, n = np.array([*first, *second], dtype=float), len(first)
+    observed, hits = abs(np.mean(first) - np.mean(second)), []
+    for chosen in combinations(range(len(together)), n):
+        others = [i for i in range(len(together)) if i not in chosen]
+        difference = abs(together[list(chosen)].mean() - together[others].mean())
+        hits.append(difference > observed + 1e-9)
+    return float(np.mean(hits))
+
+
+# %% one_sided loses 14.5
+# Counts differences in one direction only.
+# says: in one direction
+def chance_of(first, second):
+    together, n = np.array([*first, *second], dtype=float), len(first)
+    observed, hits = np.mean(first) - np.mean(second), []
+    for chosen in combinations(range(len(together)), n):
+        others = [i for i in range(len(together)) if i not in chosen]
+        difference = together[list(chosen)].mean() - together[others].mean()
+        hits.append(difference * np.sign(observed) >= abs(observed) - 1e-9)
+    return float(np.mean(hits))
+
+
+# %% empty_is_zero loses 14.6
+# Takes 0 for a part in which nothing was logged.
+_phase_means = phase_means
+
+
+def phase_means(steps, values, total, parts=3):
+    return [mean or 0.0 for mean in _phase_means(steps, values, total, parts)]
+
+
+# %% entries_for_steps loses 14.6
+# Divides the entries into equal parts instead of the training.
+def phase_means(steps, values, total, parts=3):
+    found = [part[~np.isnan(part)] for part in np.array_split(np.asarray(values), parts)]
+    return [float(part.mean()) if len(part) else None for part in found]
+
+
+# %% limit_is_a_sign loses 14.6
+# Takes an indicator that equals its limit for a warning sign.
+def warning_signs(indicators, total, signs):
+    found = []
+    for name, (indicator, side, limit) in signs.items():
+        if indicator in indicators:
+            logged = indicators[indicator]
+            late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
+            if late is not None and (late >= limit if side == "above" else late <= limit):
+                found.append(name)
+    return found
+
+
+# %% only_nan_is_nan loses 14.6
+# Gives NaN for a part in which nothing but NaN was logged.
+def phase_means(steps, values, total, parts=3):
+    means = []
+    for part in range(parts):
+        inside = (steps > part * total / parts) & (steps <= (part + 1) * total / parts)
+        inside |= (steps == 0) & (part == 0)
+        known = values[inside][~np.isnan(values[inside])]
+        nothing = None if not inside.any() else float("nan")
+        means.append(float(known.mean()) if len(known) else nothing)
+    return means
+
+
+# %% whole_training loses 14.6
+# Looks for signs in the whole training instead of its last third.
+def warning_signs(indicators, total, signs):
+    found = []
+    for name, (indicator, side, limit) in signs.items():
+        if indicator in indicators:
+            mean = np.nanmean(indicators[indicator]["values"])
+            if mean > limit if side == "above" else mean < limit:
+                found.append(name)
+    return found
+
+
+# %% mean_of_all loses 14.7
+# Subtracts the mean of all trainings instead of that of the variation.
+# says: not that of the variant
+def within_variants(numbers, variants):
+    return np.round(np.asarray(numbers) - np.mean(numbers), 9)
+
+
+# %% no_shared_ranks loses 14.7
+# Gives equal numbers different ranks, by their order.
+def rank_correlation(first, second):
+    if np.ptp(first) == 0 or np.ptp(second) == 0:
+        return 0.0
+    ranks = [np.argsort(np.argsort(numbers, kind="stable")) for numbers in (first, second)]
+    return float(np.corrcoef(*ranks)[0, 1])
+
+
+# %% values_for_ranks loses 14.7
+# Correlates the numbers themselves.
+# says: not their ranks
+def rank_correlation(first, second):
+    if np.ptp(first) == 0 or np.ptp(second) == 0:
+        return 0.0
+    return float(np.corrcoef(first, second)[0, 1])
+
+
+# %% best_on_the_training_episodes loses 14.8
+# Takes the best fitness of evolution, measured on the episodes that it was selected by.
+_curve_of = curve_of
+
+
+def curve_of(place):
+    if str(place).endswith(".npy"):
+        stat = read_stat(place)
+        return {"steps": stat[:, 0], "best": stat[:, 1]}
+    return _curve_of(place)
+
+
+# %% looks_ahead loses 14.8
+# Draws straight lines between the values, and so knows at a step what came only later.
+def at_equal_steps(groups, points):
+    curves = [curve for group in groups.values() for curve in group]
+    start = max(curve["steps"][0] for curve in curves)
+    end = min(curve["steps"][-1] for curve in curves)
+    steps = np.linspace(start, end, points)
+    found = {
+        name: np.array([np.interp(steps, curve["steps"], curve["best"]) for curve in group])
+        for name, group in groups.items()
+    }
+    return {"steps": steps, **found}
+
+
+# %% post_evaluations_free loses 14.8
+# Forgets the steps of the post-evaluations, which evolution has to pay for.
+_curve_of = curve_of
+
+
+def curve_of(place):
+    curve = _curve_of(place)
+    if not str(place).endswith(".npy"):
+        curve["steps"] = RunFolder(place).evaluations().steps
+    return curve

@@ -1,0 +1,398 @@
+"""Wrong solutions of exercise 15; building.py describes how a case is written."""
+
+# %% caught_or_not loses 15.1
+# A predator that catches the prey has a fitness of 1, however long it takes.
+_chase = chase
+
+
+def chase(predator, prey, maxsteps=2000):
+    found = _chase(predator, prey, maxsteps)
+    return {**found, "fitness": float(found["caught"])}
+
+
+# %% caught_when_done loses 15.1
+# Takes every end of an episode for a catch.
+_chase = chase
+
+
+def chase(predator, prey, maxsteps=2000):
+    return {**_chase(predator, prey, maxsteps), "caught": True}
+
+
+# %% memory_goes_on loses 15.1
+# Uses the networks of a chase again in the next one, with what they remember.
+# says: something kept from call to call
+_robot = robot
+_known = {}
+
+
+def robot(genotype):
+    key = genotype.tobytes()
+    if key not in _known:
+        _known[key] = _robot(genotype)
+    return _known[key]
+
+
+# %% minds_swapped loses 15.1
+# Gives the predator what the prey senses, and the other way round.
+def chase(predator, prey, maxsteps=2000):
+    arena = arenas.make("predprey", max_steps=maxsteps)
+    networks = robot(predator), robot(prey)
+    poses, fitness = [arena.robots.copy()], 0.0
+    while not arena.done:
+        for k, network in enumerate(networks):
+            network.observation = arena.observation[24 * (1 - k) :][:24]
+        arena.action = np.concatenate([network.step() for network in networks])
+        fitness += arena.step()
+        poses.append(arena.robots.copy())
+    return {"poses": np.array(poses), "caught": arena.terminated, "fitness": fitness}
+
+
+# %% poses_not_copied loses 15.1
+# Keeps a window on the arena instead of the poses of each step.
+# says: Keep a copy each time \(.copy\(\)\)
+_chase = chase
+
+
+def chase(predator, prey, maxsteps=2000):
+    found = _chase(predator, prey, maxsteps)
+    found["poses"] = np.tile(found["poses"][-1], (len(found["poses"]), 1, 1))
+    return found
+
+
+# %% fitness_of_the_prey loses 15.2
+# Gives what the prey gets.
+# says: 1 minus what was expected
+_tournament = tournament
+
+
+def tournament(predators, prey, maxsteps=2000):
+    return 1 - _tournament(predators, prey, maxsteps)
+
+
+# %% individuals_together loses 15.2
+# Puts both generations first, then both individuals.
+# says: right, but their shape is
+_tournament = tournament
+
+
+def tournament(predators, prey, maxsteps=2000):
+    return _tournament(predators, prey, maxsteps).swapaxes(1, 2)
+
+
+# %% only_contemporaries loses 15.2
+# Lets only those of the same generation meet.
+_tournament = tournament
+
+
+def tournament(predators, prey, maxsteps=2000):
+    table = _tournament(predators, prey, maxsteps)
+    same = np.arange(len(predators))[:, None] == np.arange(len(prey))
+    return table * same[:, None, :, None]
+
+
+# %% prey_outside loses 15.2
+# Goes through the pairs prey by prey, but reads the fitness predator by predator.
+# -     pairs = np.array([(i, j) for i in range(len(hunters)) for j in range(len(hunted))])
+# +     pairs = np.array([(i, j) for j in range(len(hunted)) for i in range(len(hunters))])
+
+
+# %% failures_left_out loses 15.3
+# Averages over the chases in which the prey is caught only.
+# -     mean = table.mean(axis=(1, 3))
+# +     caught = np.maximum((table > 0).sum(axis=(1, 3)), 1)
+# +     mean = table.sum(axis=(1, 3)) / caught
+
+
+# %% prey_not_turned loses 15.3
+# Leaves the predators in the rows of the matrix of the prey.
+# says: transpose it
+# -     return {"predators": mean, "prey": 1 - mean.T}
+# +     return {"predators": mean, "prey": 1 - mean}
+
+
+# %% prey_want_to_be_caught loses 15.3
+# Gives the prey the fitness of the predators.
+# says: 1 minus what was expected
+# -     return {"predators": mean, "prey": 1 - mean.T}
+# +     return {"predators": mean, "prey": mean.T}
+
+
+# %% asks_the_tool loses 15.3, 15.5, 15.7
+# Hands in the answers of the tool's own tournament.
+from botschool.analysis import tournament as tool
+
+
+def master(table):
+    predators, prey = tool.summarised(table.swapaxes(1, 2), seed=0)
+    return {"predators": predators.mean, "prey": prey.mean}
+
+
+def progress(matrix):
+    historical, everywhere = tool.historical_progress(matrix), tool.global_progress(matrix)
+    return {"historical": historical, "global": everywhere, "share": float(historical > 0)}
+
+
+def interval(table, measure, rng, resamples=300):
+    predators, _ = tool.summarised(table.swapaxes(1, 2), seed=int(rng.integers(1000)))
+    samples = [measure(sample[:, None, :, None]) for sample in predators.samples[:resamples]]
+    return tool.interval(np.array(samples))
+
+
+# %% ancient_with_the_present loses 15.4
+# Counts the present competitors among the ancient and the future ones.
+_profile = profile
+
+
+def profile(matrix):
+    count = len(matrix)
+    ancient = [matrix[g, : g + 1].mean() for g in range(1, count)]
+    future = [matrix[g, g:].mean() for g in range(count - 1)]
+    return {**_profile(matrix), "ancient": ancient, "future": future}
+
+
+# %% competitors_in_rows loses 15.4
+# Takes the rows of the matrix for the competitors.
+# says: 'future': are the two exchanged
+_profile = profile
+
+
+def profile(matrix):
+    return _profile(np.transpose(matrix))
+
+
+# %% against_the_first loses 15.5
+# Compares each generation with the first one instead of its predecessor.
+_progress = progress
+
+
+def progress(matrix):
+    gain = matrix[1:] - matrix[0]
+    historical = np.array([row[:g].mean() for g, row in enumerate(gain, 1)])
+    return {**_progress(matrix), "historical": historical, "global": gain.mean(axis=1)}
+
+
+# %% draws_are_won loses 15.5
+# Takes a draw for a match that was won.
+# -     wins = matrix > matrix.T
+# +     wins, count = matrix >= matrix.T, len(matrix)
+# -         for c in range(len(matrix))
+# +         for c in range(count)
+
+
+# %% equal_is_not_better loses 15.5
+# Counts only those who do better, and nothing for a draw.
+_progress = progress
+
+
+def progress(matrix):
+    cases = np.concatenate([row[:g] for g, row in enumerate(np.diff(matrix, axis=0), 1)])
+    return {**_progress(matrix), "share": float(np.mean(cases > 0))}
+
+
+# %% one_way_round loses 15.5
+# Knows cycles in one direction only.
+# -     wins = matrix > matrix.T
+# +     wins, count = matrix > matrix.T, len(matrix)
+# -         (wins[a, b] and wins[b, c] and wins[c, a]) or (wins[b, a] and wins[c, b] and wins[a, c])
+# -         for c in range(len(matrix))
+# +         wins[a, b] and wins[b, c] and wins[c, a]
+# +         for c in range(count)
+
+
+# %% present_is_ancient loses 15.5
+# Counts the competitors of the present among the ancient ones.
+_progress = progress
+
+
+def progress(matrix):
+    cases = [row[: g + 1] for g, row in enumerate(np.diff(matrix, axis=0), 1)]
+    better = np.concatenate(cases)
+    share = float(np.mean((better > 0) + 0.5 * (better == 0)))
+    historical = np.array([row.mean() for row in cases])
+    return {**_progress(matrix), "historical": historical, "share": share}
+
+
+# %% first_competitors_only loses 15.6
+# Holds the other side still in the first generation alone.
+_red_queen = red_queen
+
+
+def red_queen(matrix):
+    first = matrix[0, 0]
+    return {**_red_queen(matrix), "own": matrix[1:, 0] - first, "others": matrix[0, 1:] - first}
+
+
+# %% sides_mistaken loses 15.6
+# Takes its own part for that of the others.
+# says: 'others': are the two exchanged
+_red_queen = red_queen
+
+
+def red_queen(matrix):
+    parts = _red_queen(matrix)
+    return {**parts, "own": parts["others"], "others": parts["own"]}
+
+
+# %% steps_added_up loses 15.6
+# Adds up what each generation gains on the competitors of its own time.
+_red_queen = red_queen
+
+
+def red_queen(matrix):
+    before, after = np.diag(matrix)[:-1], np.diag(matrix)[1:]
+    own = np.cumsum((np.diag(matrix, -1) - before + after - np.diag(matrix, 1)) / 2)
+    parts = _red_queen(matrix)
+    return {**parts, "own": own, "others": parts["change"] - own}
+
+
+# %% the_rest_is_theirs loses 15.6
+# Takes for the part of the others what is missing to the change.
+_red_queen = red_queen
+
+
+def red_queen(matrix):
+    parts = _red_queen(matrix)
+    return {**parts, "others": parts["change"] - parts["own"]}
+
+
+# %% bell_shaped loses 15.7
+# Assumes a bell-shaped distribution: mean and 1.96 standard deviations.
+_interval = interval
+
+
+def interval(table, measure, rng, resamples=300):
+    kept = []
+
+    def keeping(resample):
+        kept.append(measure(resample))
+        return kept[-1]
+
+    _interval(table, keeping, rng, resamples)
+    return np.mean(kept) - 1.96 * np.std(kept), np.mean(kept) + 1.96 * np.std(kept)
+
+
+# %% the_same_for_all loses 15.7
+# Draws the same individuals for all generations.
+def interval(table, measure, rng, resamples=300):
+    measures = []
+    for _ in range(resamples):
+        own, met = (
+            rng.integers(table.shape[1], size=table.shape[1]),
+            rng.integers(table.shape[3], size=table.shape[3]),
+        )
+        measures.append(measure(table[:, own][..., met]))
+    return tuple(np.quantile(measures, [0.025, 0.975]))
+
+
+# %% without_replacement loses 15.7
+# Draws without replacement: the same individuals in another order.
+class _Shuffled:
+    def __init__(self, rng):
+        self._rng = rng
+
+    def integers(self, high, size):
+        return self._rng.permuted(np.tile(np.arange(high), (size[0], 1)), axis=1)
+
+
+_interval = interval
+
+
+def interval(table, measure, rng, resamples=300):
+    return _interval(table, measure, _Shuffled(rng), resamples)
+
+
+# %% after_the_step loses 15.8
+# Looks at walls and at the distance after each step instead of before it.
+_describe = describe
+
+
+def describe(poses):
+    after = poses[1:, :, :2]
+    return {
+        **_describe(poses),
+        "wall": (np.minimum(after, 3000 - after).min(axis=-1) < 300).mean(axis=0),
+        "distance": float(np.linalg.norm(after[:, 0] - after[:, 1], axis=1).mean()),
+    }
+
+
+# %% facing_a_right_angle loses 15.8
+# Counts the other robot as faced when it is anywhere in front.
+_describe = describe
+
+
+def describe(poses):
+    before = poses[:-1]
+    away = before[:, ::-1, :2] - before[..., :2]
+    ahead = away[..., 0] * np.cos(before[..., 2]) + away[..., 1] * np.sin(before[..., 2])
+    return {**_describe(poses), "facing": (ahead > 0).mean(axis=0)}
+
+
+# %% per_step loses 15.8
+# Measures speed by step and not by second.
+# says: 0\.1 times what was expected
+_describe = describe
+
+
+def describe(poses):
+    found = _describe(poses)
+    return {**found, "speed": found["speed"] / 10}
+
+
+# %% rest_is_backwards loses 15.8
+# Takes standing still for driving backwards.
+_describe = describe
+
+
+def describe(poses):
+    found, before = _describe(poses), poses[:-1]
+    heading, moved = before[..., 2], poses[1:, :, :2] - before[..., :2]
+    forward = moved[..., 0] * np.cos(heading) + moved[..., 1] * np.sin(heading)
+    found["backwards"] = (forward <= 0).mean(axis=0)
+    return found
+
+
+# %% turning_leaps loses 15.8
+# Takes a step from 359 to 1 degree for nearly a whole turn.
+_describe = describe
+
+
+def describe(poses):
+    turning = np.abs(np.diff(poses[..., 2], axis=0)).mean(axis=0) / 0.1
+    return {**_describe(poses), "turning": turning}
+
+
+# %% two_walls_only loses 15.8
+# Forgets the walls above and to the right.
+_describe = describe
+
+
+def describe(poses):
+    found, before = _describe(poses), poses[:-1]
+    found["wall"] = (before[..., :2].min(axis=-1) < 300).mean(axis=0)
+    return found
+
+
+# %% wall_after_the_step loses 15.8
+# Looks at the wall at the end of each step.
+_describe = describe
+
+
+def describe(poses):
+    found, _before = _describe(poses), poses[:-1]
+    after = poses[1:]
+    to_wall = np.minimum(after[..., :2], 3000 - after[..., :2]).min(axis=-1)
+    found["wall"] = (to_wall < 300).mean(axis=0)
+    return found
+
+
+# %% wall_includes_its_limit loses 15.8
+# Counts a robot exactly 300 mm from a wall as near.
+_describe = describe
+
+
+def describe(poses):
+    found, before = _describe(poses), poses[:-1]
+    to_wall = np.minimum(before[..., :2], 3000 - before[..., :2]).min(axis=-1)
+    found["wall"] = (to_wall <= 300).mean(axis=0)
+    return found
