@@ -3,7 +3,7 @@
 import numpy as np
 
 from botschool import config, problems
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 
 EXPERIMENT = """[EXP]
 environment = ErPredprey

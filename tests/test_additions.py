@@ -231,7 +231,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from botschool.evolution.algorithm import algorithm
-from botschool.hyperparameters import hyper
+from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 

@@ -12,7 +12,7 @@ from gymnasium import spaces
 from botschool import config, problems, wrappers
 from botschool.envs.wrappers import AliveBonus
 from botschool.errors import BotschoolError
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes, making
 from botschool.problems.spaces import Flattener, fitted, interface
 from running import TESTS, experiment, run_seeds, same, write_experiment

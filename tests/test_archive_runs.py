@@ -10,7 +10,7 @@ from botschool.analysis.tournament import Contest
 from botschool.evolution.algorithms.halloffame import SAVED
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.run import evolve
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 from running import same
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from botschool import arena, problems
 from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from reference_arena import KHEPERA, MARXBOT, World
 from strategies import REPEATABLE
 

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from botschool import arena, samples
+from botschool import arena
+from botschool.arenas import samples
 from botschool.errors import BotschoolError
 from reference_arena import KHEPERA, MARXBOT, off
 from strategies import REPEATABLE

@@ -9,7 +9,7 @@ import pytest
 from botschool import problems
 from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 
 NAME = "BalanceBotBulletEnv-v0"

@@ -9,7 +9,7 @@ import pytest
 
 from botschool import config, problems
 from botschool.envs.morphology import LENGTH, MORPHOLOGY_SIZE, SEGMENTS, THICKNESS, decode
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 from running import contents, experiment, finished_run, run_seeds, same, write_experiment
 

@@ -15,7 +15,7 @@ from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.record import STAT
 from botschool.evolution.replicate import replicate
 from botschool.evolution.run import evolve
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 from running import contents, finish, run_seeds, same, start
 

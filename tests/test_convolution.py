@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from botschool import config, problems
 from botschool.net import Network, NetworkSpec
-from botschool.policy import Image, Policy
+from botschool.policies.policy import Image, Policy
 from botschool.problems import Episodes
 from botschool.problems.spaces import Flattener
 from botschool.rl import environments

@@ -12,9 +12,10 @@ import pytest
 import tiny_course
 from botschool.course import film_agent
 from botschool.errors import BotschoolError
-from botschool.grading import batch, extras
-from botschool.grading.exercise import exercise_numbers, load_exercise, submission_file
-from botschool.grading.skeleton import skeleton
+from botschool.grading.classes import batch
+from botschool.grading.copies.skeleton import skeleton
+from botschool.grading.declare import extras
+from botschool.grading.declare.exercise import exercise_numbers, load_exercise, submission_file
 from running import call, environment_of_command
 
 ROOT = Path(__file__).parents[1]

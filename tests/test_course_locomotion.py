@@ -9,8 +9,8 @@ from botschool import config
 from botschool.course import locomotion, recordings
 from botschool.course.locomotion import Runner
 from botschool.evolution.run import Run, evolve
-from botschool.grading.exercise import load_exercise
-from botschool.grading.submission import grade
+from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.judge.submission import grade
 
 ROOT = Path(__file__).parents[1]
 ROBOTS = ("Hopper", "HalfCheetah", "Ant", "Walker2D", "Humanoid")

@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 
 import botschool.envs.native
 from botschool import _core, arena, config, problems
+from botschool.arenas.plan import Cylinder, Light, Plan, Robot, Wall, Zone
+from botschool.arenas.section import REWARDS, WORDS
 from botschool.config import PolicyConfig
 from botschool.evolution.run import Run, evolve
-from botschool.plan import Cylinder, Light, Plan, Robot, Wall, Zone
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems.native import NativeProblem
 from botschool.render.scenes import make_scene, scene_of
-from botschool.section import REWARDS, WORDS
 from reference_arena import KHEPERA, MARXBOT, World
 from reference_sensors import Declared
 from running import run_seeds, same, write_experiment

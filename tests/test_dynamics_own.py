@@ -9,7 +9,7 @@ import pytest
 
 from botschool import _core, problems
 from botschool.config import PolicyConfig
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 
 PI = math.pi
 INFOS = {info["name"]: info for info in _core.native_problems()}

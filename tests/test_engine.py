@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from botschool import _core, problems
 from botschool.config import PolicyConfig
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 from strategies import REPEATABLE, random_normalisation
 

@@ -11,7 +11,7 @@ import botschool.envs
 from botschool import _core, arena
 from botschool.envs.simulation import Simulation
 from botschool.errors import BotschoolError
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import make
 
 gymnasium.register_envs(botschool.envs)

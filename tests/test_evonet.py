@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from botschool import problems
 from botschool.config import PolicyConfig
 from botschool.net import Network, NetworkSpec, PyEvonet
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from reference_network import (
     ACTIVATIONS,
     ReferenceNetwork,

@@ -14,17 +14,19 @@ import pytest
 from rich.console import Console
 
 from botschool.errors import BotschoolError
-from botschool.grading import batch, confined, judging
-from botschool.grading import exercise as exercises
-from botschool.grading.checks import NotDone, Wrong, expect_array, plain, show
-from botschool.grading.confined import fork_server
-from botschool.grading.exercise import load_exercise
-from botschool.grading.hints import next_hints, read_hints
-from botschool.grading.judging import GraderFault, grade_task
-from botschool.grading.report import Screen, notice
-from botschool.grading.skeleton import skeleton, write_skeletons
-from botschool.grading.student import Student
-from botschool.grading.submission import Submission, grade
+from botschool.grading.classes import batch
+from botschool.grading.copies.skeleton import skeleton, write_skeletons
+from botschool.grading.declare import exercise as exercises
+from botschool.grading.declare.checks import NotDone, Wrong, expect_array, plain, show
+from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.judge import judging
+from botschool.grading.judge.judging import GraderFault, grade_task
+from botschool.grading.judge.submission import Submission, grade
+from botschool.grading.report.hints import next_hints, read_hints
+from botschool.grading.report.screen import Screen, notice
+from botschool.grading.run import confined
+from botschool.grading.run.confined import fork_server
+from botschool.grading.run.student import Student
 from botschool.sandbox import paths
 from tiny_course import FILE, FOLDER, HINTS, SOLUTION, make_course, submit
 

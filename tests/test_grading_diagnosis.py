@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from botschool.grading import diagnosis
-from botschool.grading.comparison import Comparison
-from botschool.grading.diagnosis import DETECTORS, diagnose
+from botschool.grading.declare import diagnosis
+from botschool.grading.declare.comparison import Comparison
+from botschool.grading.declare.diagnosis import DETECTORS, diagnose
 
 seeds = st.integers(0, 2**32 - 1)
 quickly = settings(max_examples=60, deadline=None, derandomize=True)

@@ -6,11 +6,11 @@ import signal
 
 import pytest
 
-from botschool.grading import batch
-from botschool.grading import student as students
-from botschool.grading.confined import MachineFault, fork_server
-from botschool.grading.exercise import load_exercise
-from botschool.grading.submission import grade, grade_task
+from botschool.grading.classes import batch
+from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.judge.submission import grade, grade_task
+from botschool.grading.run import student as students
+from botschool.grading.run.confined import MachineFault, fork_server
 from botschool.sandbox import usage
 from tiny_course import SOLUTION, make_course, submit
 

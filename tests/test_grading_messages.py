@@ -14,12 +14,12 @@ from botschool.grading import (
     expect_fields,
     went_on,
 )
-from botschool.grading.confined import fork_server
-from botschool.grading.exercise import Exercise as Declared
-from botschool.grading.exercise import load_exercise
-from botschool.grading.looking import same
-from botschool.grading.submission import grade
-from botschool.grading.values import apart, kind, pasted, show
+from botschool.grading.declare.exercise import Exercise as Declared
+from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.declare.values import apart, kind, pasted, show
+from botschool.grading.judge.looking import same
+from botschool.grading.judge.submission import grade
+from botschool.grading.run.confined import fork_server
 from tiny_course import FILE, SOLUTION, make_course, submit
 
 
@@ -83,7 +83,7 @@ def test_no_python_is_said_once_with_line_and_caret(graded):
     ],
 )
 def test_what_keeps_a_file_from_loading(graded, line, words, monkeypatch):
-    monkeypatch.setattr("botschool.grading.submission.LOADING_SECONDS", 1)
+    monkeypatch.setattr("botschool.grading.judge.submission.LOADING_SECONDS", 1)
     assert words in graded(line).banner
 
 

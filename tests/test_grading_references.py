@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 from botschool.grading import Exercise, Student, Wrong, expect_close
-from botschool.grading.confined import fork_server
-from botschool.grading.exercise import exercise_numbers, load_exercise
+from botschool.grading.declare.exercise import exercise_numbers, load_exercise
+from botschool.grading.declare.references import functions_of, pruned
+from botschool.grading.judge.submission import grade
 from botschool.grading.packed import pack, unpack
-from botschool.grading.references import functions_of, pruned
-from botschool.grading.submission import grade
+from botschool.grading.run.confined import fork_server
 from tiny_course import FILE, submit
 
 ROOT = Path(__file__).parents[1]

@@ -2,8 +2,8 @@
 
 import pytest
 
-from botschool.grading.checks import Wrong
-from botschool.grading.student import Student
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.run.student import Student
 from tiny_course import submit
 
 NAMES = (

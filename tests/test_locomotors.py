@@ -12,7 +12,7 @@ import botschool.envs  # noqa: F401  (registers the locomotors)
 from botschool import problems
 from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 
 pytest.importorskip("pybullet")

@@ -12,7 +12,7 @@ from botschool import _core, config, problems
 from botschool.analysis.tournament import Contest, play, summarised
 from botschool.evolution.algorithm import ALGORITHMS as ALGORITHMS_BY_NAME
 from botschool.evolution.coevolution import Coevolution
-from botschool.hyperparameters import PolicyConfig
+from botschool.policies.hyperparameters import PolicyConfig
 from botschool.problems import Episodes
 from duel_runs import ALGORITHMS, FACE, run, write
 from running import TESTS, contents, same

@@ -11,7 +11,7 @@ pytest.importorskip("pettingzoo")
 
 from botschool import problems
 from botschool.errors import BotschoolError
-from botschool.hyperparameters import PolicyConfig
+from botschool.policies.hyperparameters import PolicyConfig
 from botschool.problems import Episodes
 from duel_runs import FACE, run, write
 from running import TESTS

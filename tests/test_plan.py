@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from botschool import arena, config, problems
+from botschool.arenas.plan import Cylinder, Light, Plan, Robot, Wall, Zone
+from botschool.arenas.section import REWARDS, WORDS, ArenaConfig
 from botschool.errors import BotschoolError
-from botschool.plan import Cylinder, Light, Plan, Robot, Wall, Zone
-from botschool.section import REWARDS, WORDS, ArenaConfig
 from running import write_experiment
 from strategies import REPEATABLE
 from test_arena import refused

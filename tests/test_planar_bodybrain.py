@@ -14,7 +14,7 @@ from botschool import _core, problems
 from botschool.config import PolicyConfig
 from botschool.envs.morphology import MORPHOLOGY_SIZE, decode
 from botschool.errors import BotschoolError
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 from botschool.render.replay import write_replay
 from botschool.render.scenes import make_scene

@@ -10,7 +10,7 @@ from gymnasium.utils.env_checker import check_env
 import botschool.envs  # noqa: F401 (registers the environments)
 from botschool import _core, problems
 from botschool.config import PolicyConfig
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.render.replay import write_replay
 from botschool.render.scenes import make_scene
 from test_replay import held, unpacked

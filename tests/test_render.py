@@ -12,7 +12,7 @@ import pytest
 from botschool import problems
 from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems.transition import Transition
 from botschool.render import panel, scenes, shapes, video, window
 from botschool.render.scene import SCENES

@@ -11,7 +11,7 @@ from botschool import problems
 from botschool.evolution.evaluate import Evaluator
 from botschool.evolution.record import STAT
 from botschool.evolution.run import Run, evolve
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems.base import Episodes
 from botschool.render.watch import PostEvaluation
 from running import ALGORITHMS, experiment, run_seeds, same

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from botschool.grading.skeleton import skeleton
+from botschool.grading.copies.skeleton import skeleton
 
 FOLDER, FILE = "ex03_tiny", "tiny.py"
 

@@ -1,7 +1,8 @@
 """Experiment files: the text of an .ini file <-> a typed, checked `Experiment`.
 
-Hyperparameters are declared in botschool.hyperparameters and, those of an algorithm, in its file of
-botschool.evolution.algorithms; reading, checking and listing all follow from these declarations.
+Hyperparameters are declared in botschool.policies.hyperparameters and, those of an algorithm, in
+its file of botschool.evolution.algorithms; reading, checking and listing all follow from these
+declarations.
 """
 
 from __future__ import annotations
@@ -14,17 +15,17 @@ from pathlib import Path
 from typing import Any
 
 import botschool.evolution.algorithms  # noqa: F401  (fills ALGORITHMS)
+from botschool.arenas.plan import PROBLEM, Plan, PlanError
+from botschool.arenas.robots import MODELS, find
+from botschool.arenas.section import WORDS, ArenaConfig
+from botschool.arenas.things import KINDS
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.algorithms.coevo2 import Coevo2Config
 from botschool.evolution.algorithms.openaies import OpenAIESConfig
 from botschool.evolution.algorithms.sss import SSSConfig
-from botschool.hyperparameters import NO_YES, PolicyConfig, conflicts, hyper
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
-from botschool.plan import PROBLEM, Plan, PlanError
-from botschool.robots import MODELS, find
-from botschool.section import WORDS, ArenaConfig
-from botschool.things import KINDS
+from botschool.policies.hyperparameters import NO_YES, PolicyConfig, conflicts, hyper
 from botschool.wrappers import keywords, parse
 
 __all__ = [
@@ -99,7 +100,7 @@ class Experiment:
     algo: Any
     """The hyperparameters of `exp.algo`, in the dataclass that its file declares."""
     arena: Any = None
-    """What the section [ARENA] declares (botschool.section.ArenaConfig), None without one."""
+    """What the section [ARENA] declares (arenas.section.ArenaConfig), None without one."""
     path: Path | None = field(default=None, compare=False)
 
     @property

@@ -15,7 +15,7 @@ from speed import best_call
 from botschool import config
 from botschool.envs.bullet import hushed
 from botschool.envs.locomotors import Locomotor
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes, make
 
 BODIES = ("Hopper", "HalfCheetah", "Ant", "Walker2D", "Humanoid")

@@ -11,7 +11,7 @@ from report import Table, rate
 from speed import rates
 
 from botschool import config
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes, make
 
 ROOT = Path(__file__).parents[2]

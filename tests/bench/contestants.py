@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from botschool import config, problems
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 
 ENVIRONMENTS, STEPS, HIDDEN, SEED = 1024, 1000, 10, 1

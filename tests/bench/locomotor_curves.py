@@ -24,7 +24,7 @@ from report import Table, machine
 from botschool import config
 from botschool.analysis.runs import BEST_POST, STEPS, read_stat
 from botschool.evolution.record import RunFiles
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes, make
 from botschool.wrappers import parse
 

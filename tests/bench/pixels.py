@@ -18,7 +18,7 @@ from report import Table
 from botschool import config, problems
 from botschool.analysis.plots import plot_stat
 from botschool.net import Network, NetworkSpec
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes, Outcome
 from botschool.problems.making import make_env
 from botschool.wrappers import parse

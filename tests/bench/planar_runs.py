@@ -20,7 +20,7 @@ from botschool import _core, config, problems
 from botschool.analysis.runs import read_stat
 from botschool.evolution.record import RunFiles
 from botschool.evolution.run import Run, evolve
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 
 REPOSITORY = Path(__file__).parents[2]

@@ -9,7 +9,7 @@ import sys
 from report import Table, rate
 from speed import CASES, Batch, rates
 
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 
 _SGEMM = """
 import sys, time

@@ -13,7 +13,7 @@ from report import Table, rate, verdict
 from speed import best_call, rates
 
 from botschool import config, problems
-from botschool.policy import Interface, Policy
+from botschool.policies.policy import Interface, Policy
 from botschool.problems import Episodes
 
 DATA = Path(__file__).parents[2] / "data"

@@ -16,7 +16,7 @@ from botschool.config import Experiment
 from botschool.evolution.algorithms.sides import everyone
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.run import Run
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 from botschool.problems.native import NativeProblem
 

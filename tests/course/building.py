@@ -24,8 +24,8 @@ from functools import cache
 from itertools import groupby
 from pathlib import Path
 
-from botschool.grading.exercise import Exercise, folder_of, load_exercise
-from botschool.grading.skeleton import skeleton
+from botschool.grading.copies.skeleton import skeleton
+from botschool.grading.declare.exercise import Exercise, folder_of, load_exercise
 
 ROOT = Path(__file__).parents[2]
 HERE = Path(__file__).parent

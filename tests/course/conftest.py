@@ -4,8 +4,8 @@ import contextlib
 
 import pytest
 
-from botschool.grading import submission
-from botschool.grading.confined import fork_server
+from botschool.grading.judge import submission
+from botschool.grading.run.confined import fork_server
 
 
 @pytest.fixture(scope="session")

@@ -11,10 +11,10 @@ import psutil
 import pytest
 
 import building
-from botschool.grading import starting
-from botschool.grading.exercise import load_exercise
-from botschool.grading.release import release
-from botschool.grading.showing import show
+from botschool.grading.copies import starting
+from botschool.grading.copies.release import release
+from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.report.showing import show
 from browser import Browser, find_browser
 
 pytestmark = pytest.mark.course

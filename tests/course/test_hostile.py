@@ -25,8 +25,8 @@ import psutil
 import pytest
 
 import building
-from botschool.grading.confined import fork_server
-from botschool.grading.submission import grade_task
+from botschool.grading.judge.submission import grade_task
+from botschool.grading.run.confined import fork_server
 from botschool.sandbox import process, seccomp
 
 pytestmark = pytest.mark.course

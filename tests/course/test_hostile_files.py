@@ -6,8 +6,8 @@ import time
 import pytest
 
 import building
-from botschool.grading.confined import fork_server
-from botschool.grading.submission import grade_task
+from botschool.grading.judge.submission import grade_task
+from botschool.grading.run.confined import fork_server
 
 pytestmark = pytest.mark.course
 

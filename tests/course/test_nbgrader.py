@@ -16,10 +16,10 @@ import pytest
 
 import building
 from botschool.errors import BotschoolError
-from botschool.grading.cells import Unreadable, definitions, plain_python, scripts, whole
-from botschool.grading.leaks import find_leaks
+from botschool.grading.copies.leaks import find_leaks
 from botschool.grading.nbgrader import make_course
 from botschool.grading.notebook import grade_cell
+from botschool.grading.run.cells import Unreadable, definitions, plain_python, scripts, whole
 
 REGION = re.compile(
     r"^( *)### BEGIN SOLUTION (task (\d+\.\d+): [^\n]+)\n(.*?)^ *### END SOLUTION\n?",

@@ -9,11 +9,11 @@ import re
 import pytest
 
 import building
-from botschool.grading.batch import Grades, Job
-from botschool.grading.hints import read_hints
-from botschool.grading.leaks import find_leaks
-from botschool.grading.release import release, released_files
-from botschool.grading.skeleton import pairs
+from botschool.grading.classes.batch import Grades, Job
+from botschool.grading.copies.leaks import find_leaks
+from botschool.grading.copies.release import release, released_files
+from botschool.grading.copies.skeleton import pairs
+from botschool.grading.report.hints import read_hints
 
 pytestmark = pytest.mark.course
 

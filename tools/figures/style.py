@@ -87,7 +87,7 @@ def write(picture: Image.Image, name: str, colours: int = 256) -> None:
 
 def made(number: int, file: str) -> Path:
     """What the solution of an exercise has made; runs it if it is not there."""
-    from botschool.grading.showing import show
+    from botschool.grading.report.showing import show
 
     path = ROOT / "results" / f"ex{number:02d}" / file
     if not path.is_file():

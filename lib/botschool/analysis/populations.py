@@ -14,7 +14,7 @@ import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.evolution.evaluate import mean
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 
 POPULATIONS = re.compile(r"S(?P<seed>\d+)G(?P<generation>\d+)\.npy", re.ASCII)
 """Names of the files."""

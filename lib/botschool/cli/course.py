@@ -180,7 +180,7 @@ def nbgrader(
 @app.command()
 def skeletons() -> None:
     """Generate the exercises' skeletons from the solutions (edited files are left alone)."""
-    from botschool.grading.skeleton import write_skeletons
+    from botschool.grading.copies.skeleton import write_skeletons
     from botschool.paths import course_root
 
     for path in write_skeletons(course_root()):

@@ -16,8 +16,8 @@ from botschool.cluster.connection import Connection
 from botschool.cluster.dispatch import Crew, counted
 from botschool.cluster.worker import bits
 from botschool.config import Experiment, to_dict
-from botschool.hyperparameters import PolicyConfig
-from botschool.policy import Policy
+from botschool.policies.hyperparameters import PolicyConfig
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.transition import Transition
 

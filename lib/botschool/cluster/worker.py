@@ -22,7 +22,7 @@ from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithms.ascent import Ascent
 from botschool.evolution.algorithms.drawing import Cloud
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes, Problem
 from botschool.seeds import generator
 

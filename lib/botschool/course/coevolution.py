@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from botschool import arena as arenas
 from botschool import problems
+from botschool.arenas import arena as arenas
 from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
-from botschool.net import Network
 from botschool.paths import course_root
-from botschool.policy import Policy
+from botschool.policies.net import Network
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 from botschool.problems.base import Problem
 

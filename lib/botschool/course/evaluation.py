@@ -9,7 +9,7 @@ import numpy as np
 from botschool import problems
 from botschool.config import PolicyConfig
 from botschool.config import load as load_experiment
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from botschool import arena as arenas
+from botschool.arenas import arena as arenas
 from botschool.course.files import genotype_file
 from botschool.paths import course_root
 from botschool.render.shapes import PALETTE

@@ -10,7 +10,7 @@ import numpy as np
 
 from botschool import _core, problems
 from botschool.config import Exp, Experiment, OpenAIESConfig, PolicyConfig
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems.transition import Transition
 
 POLICY = {

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems.native import NativeProblem
 
 

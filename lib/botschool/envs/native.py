@@ -11,9 +11,9 @@ import numpy as np
 from gymnasium import spaces
 
 from botschool import config
+from botschool.arenas.plan import Plan
 from botschool.envs.simulation import RENDER_MODES, Simulation
 from botschool.errors import BotschoolError
-from botschool.plan import Plan
 from botschool.problems.native import INFOS
 
 
@@ -28,7 +28,7 @@ class NativeEnv(gymnasium.Env):
     problem: its name in experiment files, such as ErDiscrim. noise: standard deviation of an
     arena's infrared readings; None is the problem's own. robots: kinds of its wheeled robots, () is
     the problem's own. morphology: parameters of a body that evolves, None for zeros. arena: of
-    ErArena, a botschool.plan.Plan with one robot, or an experiment file with a section [ARENA];
+    ErArena, a botschool.arena.Plan with one robot, or an experiment file with a section [ARENA];
     None is the default plan. Raises BotschoolError.
     """
 

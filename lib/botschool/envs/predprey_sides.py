@@ -15,7 +15,7 @@ from botschool import config
 from botschool.config import PolicyConfig
 from botschool.envs.simulation import RENDER_MODES, Simulation
 from botschool.errors import BotschoolError
-from botschool.policy import Interface, Policy
+from botschool.policies.policy import Interface, Policy
 from botschool.problems.native import INFOS
 
 PROBLEM = "ErPredprey"

@@ -8,8 +8,8 @@ import gymnasium
 import numpy as np
 
 from botschool import _core
+from botschool.arenas.plan import Plan
 from botschool.errors import BotschoolError
-from botschool.plan import Plan
 from botschool.problems.native import INFOS, NativeProblem
 from botschool.problems.transition import Transition
 from botschool.render.scenes import scene_of, with_frames

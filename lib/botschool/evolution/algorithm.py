@@ -132,7 +132,7 @@ class Entry:
     """What `algo = NAME` says in experiment files."""
     explanation: str
     config: type
-    """The dataclass of its hyperparameters, made with botschool.hyperparameters.hyper."""
+    """The dataclass of its hyperparameters, made with botschool.policies.hyperparameters.hyper."""
     make: type
     """Its class: an Algorithm, or with `competitive` a Competition."""
     competitive: bool

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from botschool import _core
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems import Episodes, Outcome, Problem
 from botschool.seeds import POST_EVALUATION_SEED
 

@@ -1,6 +1,6 @@
 """Grading: exercises, the isolated runner, scores. A grader file needs only what is named here."""
 
-from botschool.grading.checks import (
+from botschool.grading.declare.checks import (
     Mismatch,
     Wrong,
     expect,
@@ -9,9 +9,9 @@ from botschool.grading.checks import (
     expect_fields,
     show,
 )
-from botschool.grading.ends import expect_ends, went_on
-from botschool.grading.exercise import Exercise, Task
-from botschool.grading.student import Student
+from botschool.grading.declare.ends import expect_ends, went_on
+from botschool.grading.declare.exercise import Exercise, Task
+from botschool.grading.run.student import Student
 
 __all__ = [
     "Exercise",

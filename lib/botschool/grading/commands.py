@@ -15,10 +15,9 @@ from pathlib import Path
 from rich.console import Console
 
 from botschool.errors import BotschoolError
-from botschool.grading.batch import STATE, Grades, Job, make_state
-from botschool.grading.checks import Wrong
-from botschool.grading.debug import DirectStudent
-from botschool.grading.exercise import (
+from botschool.grading.classes.batch import STATE, Grades, Job, make_state
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.exercise import (
     Exercise,
     course_root,
     exercise_numbers,
@@ -26,10 +25,11 @@ from botschool.grading.exercise import (
     load_exercise,
     submission_file,
 )
-from botschool.grading.report import Screen, counting, notice
-from botschool.grading.secret import grading_secret
-from botschool.grading.stored import digest, remember
-from botschool.grading.submission import Result, grade
+from botschool.grading.declare.secret import grading_secret
+from botschool.grading.judge.submission import Result, grade
+from botschool.grading.report.screen import Screen, counting, notice
+from botschool.grading.report.stored import digest, remember
+from botschool.grading.run.debug import DirectStudent
 from botschool.terminal import exits_on_signals
 
 
@@ -88,7 +88,7 @@ def hint_command(what: str) -> None:
     from rich.markdown import Markdown
     from rich.padding import Padding
 
-    from botschool.grading.hints import next_hints
+    from botschool.grading.report.hints import next_hints
 
     number, task = _named(what)
     if not task:
@@ -116,7 +116,7 @@ def hint_command(what: str) -> None:
 @exits_on_signals()
 def progress_command(again: bool, workers: int | None) -> None:
     """Prints the table of all exercises, as they were last graded; again: grades them now."""
-    from botschool.grading.progress import stored_result, summary, table
+    from botschool.grading.report.progress import stored_result, summary, table
 
     root = course_root()
     console = Console(highlight=False)
@@ -154,7 +154,7 @@ def _points(result: Result) -> list[tuple[str, int, int]]:
 @exits_on_signals()
 def watch_command(what: str, submission: str | None) -> None:
     """Grades after every save, until Ctrl-C."""
-    from botschool.grading.watching import watch
+    from botschool.grading.report.watching import watch
 
     number, task = _named(what)
     exercise = load_exercise(number)
@@ -193,7 +193,7 @@ def start_command(what: str, notebook: bool) -> None:
 
     notebook: then opens it as a notebook, until Ctrl-C.
     """
-    from botschool.grading.starting import open_notebook, start
+    from botschool.grading.copies.starting import open_notebook, start
 
     number, root = _named(what)[0], course_root()
     exercise = load_exercise(number, root)
@@ -214,7 +214,7 @@ def start_command(what: str, notebook: bool) -> None:
 
 def reset_command(what: str) -> None:
     """Puts a student's file back to its beginning and keeps the old one."""
-    from botschool.grading.starting import reset
+    from botschool.grading.copies.starting import reset
 
     file, kept = reset(_named(what)[0], course_root())
     name = os.path.relpath(file)
@@ -226,8 +226,8 @@ def reset_command(what: str) -> None:
 
 def show_command(what: str, submission: str | None, opens: bool) -> None:
     """Runs a finished exercise, names what it has made, and opens it."""
-    from botschool.grading.answers import answers
-    from botschool.grading.showing import make_page, open_page, show
+    from botschool.grading.report.answers import answers
+    from botschool.grading.report.showing import make_page, open_page, show
 
     number = _named(what)[0]
     made = show(number, submission)
@@ -253,7 +253,7 @@ def answers_command(what: str) -> None:
     """Prints what the solution measured, after full marks."""
     from rich.markdown import Markdown
 
-    from botschool.grading.answers import answers
+    from botschool.grading.report.answers import answers
 
     text = answers(_named(what)[0], course_root())
     Console(highlight=False).print(Markdown(text))
@@ -261,7 +261,7 @@ def answers_command(what: str) -> None:
 
 def release_command(folder: Path, exercises: str, answers: bool) -> None:
     """Makes the students' copy, or brings it up to date."""
-    from botschool.grading.release import release
+    from botschool.grading.copies.release import release
 
     numbers = None if exercises == "all" else _numbers(exercises)
     done = release(course_root(), folder, numbers, answers)
@@ -288,7 +288,7 @@ def grade_all_command(
     folder: Path, output: Path, exercise: str, workers: int | None, fresh: bool
 ) -> None:
     """Grades a class and says where the results are."""
-    from botschool.grading.collect import PAGES, TABLE, grade_all
+    from botschool.grading.classes.collect import PAGES, TABLE, grade_all
 
     root = course_root()
     numbers = exercise_numbers(root) if exercise == "all" else [_named(exercise)[0]]

@@ -13,14 +13,14 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError
-from botschool.grading.exercise import (
+from botschool.grading.copies.skeleton import BEGIN
+from botschool.grading.declare.exercise import (
     Exercise,
     course_root,
     exercise_numbers,
     folder_of,
     load_exercise,
 )
-from botschool.grading.skeleton import BEGIN
 from botschool.output import written_whole
 
 CONFIG = "nbgrader_config.py"
@@ -102,7 +102,7 @@ def configure(c: Any, folder: Path, course: Path) -> None:
     from nbgrader.coursedir import CourseDirectory
     from nbgrader.preprocessors import ClearSolutions, Execute
 
-    from botschool.grading.preprocessors import (
+    from botschool.grading.copies.preprocessors import (
         ClearToSkeleton,
         Grade,
         Restore,

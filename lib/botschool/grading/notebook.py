@@ -10,10 +10,10 @@ import warnings
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.checks import Wrong
-from botschool.grading.confined import fork_server
-from botschool.grading.exercise import load_exercise
-from botschool.grading.submission import Submission, TaskResult
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.judge.submission import Submission, TaskResult
+from botschool.grading.run.confined import fork_server
 
 MAX_PRINTED = 1500
 """Characters of what a task's code printed that are shown."""

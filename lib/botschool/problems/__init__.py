@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from botschool.arenas.plan import PROBLEM, Plan
 from botschool.errors import BotschoolError
-from botschool.plan import PROBLEM, Plan
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.native import NATIVE, NativeProblem
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from botschool.errors import BotschoolError
-from botschool.hyperparameters import PolicyConfig
-from botschool.policy import Interface, Policy
+from botschool.policies.hyperparameters import PolicyConfig
+from botschool.policies.policy import Interface, Policy
 from botschool.problems.transition import Transition
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from botschool import wrappers
 from botschool.errors import BotschoolError
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems.making import make_env
 from botschool.problems.python import PythonProblem
 from botschool.problems.spaces import Flattener, Unsupported, fitted, interface

@@ -8,12 +8,12 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from botschool import _core
+from botschool.arenas.plan import PROBLEM, Plan
+from botschool.arenas.robots import RobotModel, cast
 from botschool.errors import BotschoolError
-from botschool.plan import PROBLEM, Plan
-from botschool.policy import Interface, Policy
+from botschool.policies.policy import Interface, Policy
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.transition import Transition
-from botschool.robots import RobotModel, cast
 
 INFOS = {info["name"]: info for info in _core.native_problems()}
 """What lib/arena/problems says of each native problem, by its name in C++."""
@@ -30,9 +30,10 @@ BATCH_STEPS = 20_000_000
 class NativeProblem(Problem):
     """A problem whose dynamics are in C++.
 
-    robots: kinds of its wheeled robots (botschool.robots), one for all or one each; () is the
-    problem's own. plan: what is declared for ErArena, None for the default. instruction_set: one of
-    `_core.instruction_sets()`; "" is the best (all give the same bits). Raises BotschoolError.
+    robots: kinds of its wheeled robots (botschool.arenas.robots), one for all or one each; () is
+    the problem's own. plan: what is declared for ErArena, None for the default. instruction_set:
+    one of `_core.instruction_sets()`; "" is the best (all give the same bits). Raises
+    BotschoolError.
     """
 
     native = True

@@ -11,8 +11,8 @@ import numpy as np
 
 from botschool import wrappers
 from botschool.errors import BotschoolError
-from botschool.hyperparameters import PolicyConfig
-from botschool.pair import Pair
+from botschool.policies.hyperparameters import PolicyConfig
+from botschool.policies.pair import Pair
 from botschool.problems.python import PythonProblem
 from botschool.problems.spaces import Flattener, Unsupported, fitted, interface
 from botschool.problems.transition import Transition

@@ -10,7 +10,7 @@ import numpy as np
 
 from botschool.errors import BotschoolError, said
 from botschool.inifile import shown
-from botschool.policy import Policy
+from botschool.policies.policy import Policy
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.transition import Transition
 

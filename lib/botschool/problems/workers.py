@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from botschool.errors import BotschoolError
-from botschool.hyperparameters import PolicyConfig
+from botschool.policies.hyperparameters import PolicyConfig
 from botschool.problems.base import Episodes, Interrupted, Outcome
 
 # A batch is cut into this many chunks per worker: small enough to even out long episodes.

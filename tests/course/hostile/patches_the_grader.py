@@ -15,7 +15,7 @@ def hostile(*arguments, **options):
         if name.startswith(("botschool", "pytest", "_pytest", "unittest")):
             for each in ("expect", "expect_array", "expect_close", "raises", "approx", "grade"):
                 setattr(module, each, yes)
-    checks = sys.modules["botschool.grading.checks"]
+    checks = sys.modules["botschool.grading.declare.checks"]
     checks.Wrong = checks.NotDone = type("Right", (Exception,), {})
-    sys.modules["botschool.grading.exercise"].Task.max_points = 0
+    sys.modules["botschool.grading.declare.exercise"].Task.max_points = 0
     return True

@@ -15,7 +15,7 @@ import numpy as np
 
 from botschool.evolution.algorithm import algorithm
 from botschool.evolution.algorithms.halloffame import HallOfFame, HallOfFameConfig
-from botschool.hyperparameters import hyper
+from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 

@@ -18,7 +18,7 @@ from botschool.evolution.algorithm import Initial, algorithm
 from botschool.evolution.algorithms.archive import ArchiveConfig
 from botschool.evolution.algorithms.halloffame import HallOfFame
 from botschool.evolution.algorithms.sides import SIDES, mean
-from botschool.hyperparameters import NO_YES, hyper
+from botschool.policies.hyperparameters import NO_YES, hyper
 from botschool.seeds import generator
 
 UNKNOWN = 0.5

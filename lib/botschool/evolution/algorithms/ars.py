@@ -19,7 +19,7 @@ import numpy as np
 
 from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
 from botschool.evolution.algorithms.drawing import draw
-from botschool.hyperparameters import NO_YES, hyper
+from botschool.policies.hyperparameters import NO_YES, hyper
 from botschool.seeds import generator
 
 

@@ -22,8 +22,8 @@ from botschool.evolution.algorithms.gaussian import (
     refuse_large,
     within_limits,
 )
-from botschool.hyperparameters import NO_YES, hyper
 from botschool.linear import eigen, exp, log, product, weighted
+from botschool.policies.hyperparameters import NO_YES, hyper
 
 CONDITION = 1e14
 """The largest ratio of two eigenvalues of C that is used."""

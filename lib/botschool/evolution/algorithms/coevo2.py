@@ -33,7 +33,7 @@ from botschool.evolution.algorithms.sides import (
     seen_by,
     unknown,
 )
-from botschool.hyperparameters import WEIGHT_DECAY, hyper
+from botschool.policies.hyperparameters import WEIGHT_DECAY, hyper
 from botschool.seeds import generator
 
 SUB_GENERATIONS = 20

@@ -11,8 +11,8 @@ import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithm import Initial, mean_absolute
-from botschool.hyperparameters import hyper
 from botschool.linear import log
+from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 LARGEST = 5000

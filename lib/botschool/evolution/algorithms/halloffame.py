@@ -22,7 +22,7 @@ from botschool.evolution.algorithm import Initial, Play
 from botschool.evolution.algorithms.drawing import draw, mirrored, remembering
 from botschool.evolution.algorithms.openaies import climb
 from botschool.evolution.algorithms.sides import PREDATORS, PREY, SIDES, everyone, mean, means
-from botschool.hyperparameters import WEIGHT_DECAY, hyper
+from botschool.policies.hyperparameters import WEIGHT_DECAY, hyper
 
 SAVED = 10
 """Individuals of a side that a run keeps in its files."""

@@ -17,7 +17,7 @@ import numpy as np
 from botschool.evolution.algorithm import Initial, algorithm
 from botschool.evolution.algorithms.halloffame import HallOfFame, HallOfFameConfig
 from botschool.evolution.algorithms.sides import SIDES
-from botschool.hyperparameters import hyper
+from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 LOOKED_AT = 10

@@ -21,7 +21,7 @@ import numpy as np
 
 from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
 from botschool.evolution.algorithms.drawing import draw
-from botschool.hyperparameters import NO_YES, WEIGHT_DECAY, hyper
+from botschool.policies.hyperparameters import NO_YES, WEIGHT_DECAY, hyper
 from botschool.seeds import generator
 
 BETA1, BETA2, EPSILON = 0.9, 0.999, 1e-8

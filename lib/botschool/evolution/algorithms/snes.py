@@ -22,8 +22,8 @@ from botschool.evolution.algorithms.gaussian import (
     utilities,
     within_limits,
 )
-from botschool.hyperparameters import hyper
 from botschool.linear import exp, log, weighted
+from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
-from botschool.hyperparameters import hyper
+from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 

@@ -23,8 +23,8 @@ from botschool.evolution.algorithms.gaussian import (
     utilities,
     within_limits,
 )
-from botschool.hyperparameters import hyper
 from botschool.linear import exp, log, product, weighted
+from botschool.policies.hyperparameters import hyper
 
 TERMS = 18
 """Of the series of an exponential whose argument is at most 1: the next is below rounding."""

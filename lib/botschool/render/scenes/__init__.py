@@ -9,14 +9,14 @@ from importlib import import_module
 import gymnasium
 import numpy as np
 
+from botschool.arenas.plan import Plan
+from botschool.arenas.robots import RobotModel, cast
 from botschool.errors import BotschoolError
-from botschool.plan import Plan
 from botschool.problems import Problem
 from botschool.problems.native import INFOS, NATIVE
 from botschool.problems.transition import Transition
 from botschool.render.scene import SCENES, Scene
 from botschool.render.scenes.meters import MeterScene
-from botschool.robots import RobotModel, cast
 
 for _module in pkgutil.iter_modules(__path__):
     import_module(f"{__name__}.{_module.name}")

@@ -7,9 +7,9 @@ from math import pi, radians
 
 import numpy as np
 
+from botschool.arenas.robots import RobotModel
 from botschool.render.scene import Scene
 from botschool.render.shapes import arc, arrow, rectangle, ring
-from botschool.robots import RobotModel
 
 CAMERA_SECTORS = 8
 

@@ -6,11 +6,11 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from botschool.plan import Plan
+from botschool.arenas.plan import Plan
+from botschool.arenas.robots import RobotModel
 from botschool.render.scene import draws
 from botschool.render.scenes.arenas import CAMERA_SECTORS, ArenaScene, Look, infrared_numbers
 from botschool.render.shapes import rectangle, ring
-from botschool.robots import RobotModel
 
 COLOURS = ("blue", "orange", "short pole", "object")
 SECTORS = 8

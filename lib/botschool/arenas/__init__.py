@@ -1,0 +1,1 @@
+"""Arenas of wheeled robots: declare them, and step them by hand."""

@@ -1,0 +1,104 @@
+"""The section [ARENA] of experiment files: its keys, and the words that it knows.
+
+What they mean together is in botschool.arenas.plan.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, make_dataclass
+from typing import Any
+
+from botschool import _core
+from botschool.arenas.things import KINDS, LONGEST, Thing
+from botschool.errors import BotschoolError
+from botschool.inifile import nearest, shown
+from botschool.policies.hyperparameters import hyper
+
+WORDS = _core.declarations()
+"""The names and the greatest numbers that lib/arena/robots/declaration.hpp has."""
+REWARDS = {
+    "avoid": "fast, straight and away from things",
+    "explore": "1 for each cell of 8 x 8 that is new",
+    "near-cylinder": "1 near a cylinder",
+    "near-light": "1 near a light",
+    "on-zone": "1 on a zone",
+    "same-zone": "1 while all robots are on the same zone",
+    "every-zone": "1 while there is a robot on every zone",
+    "together": "the way of robots that stay near each other",
+}
+
+
+def sensors_of(text: str) -> tuple[str, ...]:
+    """The sensors that a text names. Raises ValueError."""
+    names = tuple(name.strip().lower() for name in str(text).split(","))
+    for name in names:
+        if name not in WORDS["sensors"]:
+            near = nearest(name, WORDS["sensors"])
+            raise ValueError(f"there is no sensor '{shown(name)}': {near}")
+        if names.count(name) > 1:
+            raise ValueError(f"the sensor {name} is named twice")
+    return names
+
+
+def _length(default: float, explanation: str) -> Any:
+    return hyper(default, explanation, above=0, high=LONGEST)
+
+
+@dataclass
+class Scalars:
+    """Its keys but for the things that stand in the arena."""
+
+    width: float = _length(400.0, "of the arena, mm")
+    height: float = _length(400.0, "of the arena, mm")
+    steps: int = hyper(1000, "longest episode, in steps of 0.1 s", low=1, high=1000000)
+    sensors: str = hyper(
+        "infrared",
+        "what every robot senses, in this order",
+        check=sensors_of,
+        form=f"names separated by commas, of {', '.join(WORDS['sensors'])}",
+    )
+    noise: float = hyper(
+        0.0, "standard deviation of that of all readings but time and bias", low=0, high=10
+    )
+    reward: str = hyper("avoid", "what is paid in a step", choices=REWARDS)
+    distance: float = _length(60.0, "what is near: mm between edges")
+    collisions: str = hyper(
+        "block",
+        "what a collision does",
+        choices={"block": "the robot stays where it was", "end": "the episode ends, unpaid"},
+    )
+    light_distance: float = _length(200.0, "mm at which a light is half as bright")
+    laser_beams: int = hyper(8, "beams of the laser", low=1, high=WORDS["beams"])
+    laser_angle: float = hyper(360.0, "degrees that they cover around ahead", above=0, high=360)
+    laser_range: float = _length(500.0, "how far they reach, mm")
+
+
+def reader(key: str, cls: type[Thing]) -> Callable[[str], Thing]:
+    """Reads the text of that key; what is wrong with it begins with the key."""
+
+    def read(text: str) -> Thing:
+        try:
+            return cls.read(text)
+        except (ValueError, BotschoolError) as error:
+            raise ValueError(f"{key}: {str(error).rstrip('.')}") from None
+
+    return read
+
+
+def _lines() -> list[tuple[str, type, Any]]:
+    """The keys robot1, robot2 ... of a file."""
+    made = []
+    for kind, cls in KINDS.items():
+        form = ", ".join(("KIND" if f.name == "kind" else f"{f.name} NUMBER") for f in fields(cls))
+        for number in range(1, WORDS[f"{kind}s"] + 1):
+            check = reader(f"{kind}{number}", cls)
+            line = hyper("", f"{kind} {number} of the arena", check=check, form=form)
+            made.append((f"{kind}{number}", str, line))
+    return made
+
+
+ArenaConfig = make_dataclass(
+    "ArenaConfig", _lines(), bases=(Scalars,), namespace={"__module__": __name__}
+)
+ArenaConfig.__doc__ = """Section [ARENA]: what `environment = ErArena` is."""

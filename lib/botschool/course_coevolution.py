@@ -1,1 +1,0 @@
-from botschool.course.coevolution import *  # noqa: F403  (files written before it moved)

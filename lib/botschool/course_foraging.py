@@ -1,1 +1,0 @@
-from botschool.course.foraging import *  # noqa: F403  (files written before it moved)

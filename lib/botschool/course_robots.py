@@ -1,1 +1,0 @@
-from botschool.course.robots import *  # noqa: F403  (files written before it moved)

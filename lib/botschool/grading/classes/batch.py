@@ -1,0 +1,295 @@
+"""Grades many submissions, each in a process of its own, and keeps results by content.
+
+A submission that breaks or holds up its grader's process harms no other one. What was graded
+before is not graded again until the submission, the grader or botschool changes.
+"""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import functools
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from botschool.errors import BotschoolError
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.exercise import Exercise, folder_of, load_exercise
+from botschool.grading.declare.secret import DEFAULT, VARIABLE
+from botschool.grading.judge.submission import Result, grade
+from botschool.grading.run.confined import MachineFault, machine_fault, submission_files
+from botschool.output import save_bytes
+from botschool.sandbox.paths import IMPORT_ROOT
+from botschool.sandbox.scratch import remove_tree
+from botschool.sandbox.server import interpreter
+
+STATE = ".botschool"
+"""In the course folder: what the commands remember."""
+MAX_KEPT = 5000
+"""Results that are remembered; those not asked for longest are forgotten first."""
+SPARE_SECONDS = 60
+WALL_FACTOR = 5
+"""A grader's process may take so many times the limits of its tasks, with 5 seconds more for each,
+and SPARE_SECONDS: in the time that passes, with other programs beside it."""
+MACHINE_FAULT = 75
+"""Exit code of a grader's process, as EX_TEMPFAIL of sysexits.h."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """A submission's file, of an exercise."""
+
+    number: int
+    file: Path
+
+
+class Grades:
+    """Grades submissions of the course in a folder, and remembers their results.
+
+    A result is a dict: exercise, title, points, max_points, tasks (with what they printed),
+    pictures ([name, base64]), missing, and problem (why there is none; "").
+    """
+
+    def __init__(self, root: Path, fresh: bool = False, secret: str | None = None) -> None:
+        """fresh: grade again what was graded before; secret: else BOTSCHOOL_GRADING_SEED's."""
+        self._root = root
+        self._fresh = fresh
+        self._secret = secret or os.environ.get(VARIABLE) or DEFAULT
+        self._cache = root / STATE / "grades"
+        self._exercises: dict[int, Exercise] = {}
+        self._running: set[subprocess.Popen] = set()
+        self._stopped = threading.Event()
+
+    def exercise(self, number: int) -> Exercise:
+        """The exercise as its grader declares it."""
+        if number not in self._exercises:
+            self._exercises[number] = load_exercise(number, self._root)
+        return self._exercises[number]
+
+    def of(
+        self,
+        jobs: Iterable[Job],
+        workers: int,
+        report: Callable[[Job, dict], None] = lambda job, result: None,
+    ) -> dict[Job, dict[str, Any]]:
+        """The results of all jobs; reports each as soon as it is there.
+
+        Where the machine was at fault (MachineFault, a grader that was killed or took too long)
+        a job is done again at the end, while nothing else runs.
+        """
+        results, again = {}, []
+        with ThreadPoolExecutor(workers) as pool:
+            try:
+                futures = {pool.submit(self._result, job): job for job in dict.fromkeys(jobs)}
+                for future in as_completed(futures):
+                    job, result = futures[future], future.result()
+                    if result is None:
+                        again.append(job)
+                    else:
+                        results[job] = result
+                        report(job, result)
+                for job in again:
+                    results[job] = pool.submit(self._result, job, alone=True).result()
+                    report(job, results[job])
+            except BaseException:
+                self._stopped.set()
+                for process in list(self._running):
+                    process.kill()
+                pool.shutdown(cancel_futures=True)
+                raise
+        self._forget()
+        return results
+
+    def _forget(self) -> None:
+        with contextlib.suppress(OSError):
+            kept = sorted(self._cache.glob("*.json"), key=lambda path: -path.stat().st_mtime_ns)
+            for path in kept[MAX_KEPT:]:
+                path.unlink()
+
+    def _result(self, job: Job, alone: bool = False) -> dict[str, Any] | None:
+        """None: to be done again, alone."""
+        try:
+            key = self._key(job)
+        except Wrong as error:
+            return self.nothing(job.number, str(error))
+        place = self._cache / f"{key}.json"
+        if not self._fresh:
+            with contextlib.suppress(OSError, ValueError):
+                result = json.loads(place.read_bytes())
+                place.touch()
+                return result
+        result = self._grade(job, alone)
+        if result is None:
+            return None
+        if not result["problem"] and not self._stopped.is_set():
+            with contextlib.suppress(OSError, BotschoolError):
+                make_state(self._root)
+                self._cache.mkdir(exist_ok=True)
+                save_bytes(place, json.dumps(result).encode())
+        return result
+
+    def _grade(self, job: Job, alone: bool) -> dict[str, Any] | None:
+        exercise = self.exercise(job.number)
+        try:
+            exercise.require()
+        except BotschoolError as error:
+            return self.nothing(job.number, str(error))
+        times = [1 + bool(task.needs) for task in exercise.tasks]  # as often as it may be run
+        seconds = [n * (task.seconds + 5) for n, task in zip(times, exercise.tasks, strict=True)]
+        limit = WALL_FACTOR * sum(seconds) + SPARE_SECONDS
+        temporary = Path(tempfile.mkdtemp(prefix="botschool-"))
+        lifeline, ours = os.pipe()
+        arguments = str(job.number), str(job.file), str(lifeline), "alone" if alone else ""
+        environment = os.environ | {
+            "TMPDIR": str(temporary),
+            "BOTSCHOOL_COURSE": str(self._root),
+            VARIABLE: self._secret,
+        }
+        try:
+            process = subprocess.Popen(
+                interpreter("botschool.grading.classes.batch", *arguments),
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                pass_fds=(lifeline,),
+                start_new_session=True,
+            )
+            self._running.add(process)
+            if self._stopped.is_set():
+                process.kill()
+            try:
+                out, errors = process.communicate(timeout=limit)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
+                reason = f"The grading took longer than {limit:.0f} seconds."
+                return self.nothing(job.number, reason) if alone else None
+            finally:
+                self._running.discard(process)
+            if process.returncode == 0:
+                return json.loads(out)
+            if not alone and (process.returncode == MACHINE_FAULT or process.returncode < 0):
+                return None
+            lines = errors.decode(errors="replace").strip().splitlines()
+            reason = lines[-1] if lines else f"exit code {process.returncode}"
+            if process.returncode == MACHINE_FAULT:
+                return self.nothing(job.number, reason)
+            return self.nothing(job.number, f"The grader failed: {reason}.")
+        finally:
+            os.close(lifeline)
+            os.close(ours)
+            remove_tree(temporary)
+
+    def nothing(self, number: int, problem: str) -> dict[str, Any]:
+        """The result of a submission that cannot be graded."""
+        exercise = self.exercise(number)
+        tasks = [
+            {"id": t.id, "title": t.title, "points": 0, "max_points": t.max_points, "message": "",
+             "printed": ""}
+            for t in exercise.tasks
+        ]  # fmt: skip
+        maximum = sum(task.max_points for task in exercise.tasks)
+        return {
+            "exercise": number, "title": exercise.title, "points": 0, "max_points": maximum,
+            "tasks": tasks, "pictures": [], "missing": [], "problem": problem,
+            "banner": "",
+        }  # fmt: skip
+
+    def _key(self, job: Job) -> str:
+        digest = hashlib.sha256(f"{self._secret}\n{_versions(self._root, job.number)}".encode())
+        for path in submission_files(job.file):
+            name = str(path.relative_to(job.file.parent)).encode(errors="surrogateescape")
+            digest.update(hashlib.sha256(name).digest())
+            try:
+                digest.update(hashlib.sha256(path.read_bytes()).digest())
+            except OSError as error:
+                raise Wrong(f"{path.name} cannot be read ({error.strerror}).") from None
+        return digest.hexdigest()
+
+
+def to_record(result: Result) -> dict[str, Any]:
+    """A result as plain data, without pictures that come twice."""
+    tasks = [asdict(task) for task in result.tasks]
+    pictures = {}
+    for task in tasks:
+        del task["missing"]
+        for name, content in task.pop("pictures"):
+            pictures.setdefault(content, name)
+    return {
+        "exercise": result.exercise,
+        "title": result.title,
+        "points": result.points,
+        "max_points": result.max_points,
+        "tasks": tasks,
+        "pictures": [[name, base64.b64encode(c).decode()] for c, name in pictures.items()],
+        "missing": result.missing,
+        "problem": "",
+        "banner": result.banner,
+    }
+
+
+@functools.lru_cache(maxsize=64)
+def _versions(root: Path, number: int) -> str:
+    """What a result depends on beside the submission."""
+    stamps = [sys.version, str(number)]
+    package = IMPORT_ROOT / "botschool"
+    for top in (package, folder_of(number, root)):
+        for path in sorted(top.rglob("*") if top == package else top.glob("test_*.py")):
+            if path.suffix in (".py", ".so", ".pyd"):
+                status = path.stat()
+                stamps.append(f"{path} {status.st_size} {status.st_mtime_ns}")
+    return "\n".join(stamps)
+
+
+def make_state(root: Path) -> Path:
+    """The folder of what the commands remember. Raises OSError where it cannot be written to."""
+    folder = root / STATE
+    if not folder.is_dir():
+        folder.mkdir()
+        (folder / ".gitignore").write_text("*\n")
+    if not os.access(folder, os.W_OK):
+        raise PermissionError(f"no permission to write in {folder}")
+    return folder
+
+
+def main() -> None:
+    """Grades a file (argument 2) of an exercise (argument 1); the result goes to stdout as JSON.
+
+    Argument 3: a pipe's descriptor; when its other end is closed, the grading is ended.
+    Argument 4: "alone" if nothing else is graded meanwhile.
+    The exit code is MACHINE_FAULT if the machine was at fault.
+    """
+    number, file, lifeline = int(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3])
+    threading.Thread(target=_end_with, args=(lifeline,), daemon=True).start()
+    out = os.dup(1)
+    os.dup2(2, 1)  # whatever a grader prints is no part of the result
+    try:
+        record = to_record(grade(load_exercise(number), file, alone=sys.argv[4] == "alone"))
+    except MachineFault as error:
+        print(error, file=sys.stderr)
+        sys.exit(MACHINE_FAULT)
+    except (MemoryError, OSError) as error:
+        fault = machine_fault(error)
+        print(fault, file=sys.stderr)
+        sys.exit(MACHINE_FAULT if isinstance(fault, MachineFault) else 1)
+    except BotschoolError as error:
+        sys.exit(str(error))
+    with open(out, "w", encoding="ascii") as stream:
+        json.dump(record, stream)
+
+
+def _end_with(pipe: int) -> None:
+    """Ends this process, and so its fork server and children, when a pipe is closed."""
+    os.read(pipe, 1)
+    os._exit(1)

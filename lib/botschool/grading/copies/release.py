@@ -1,0 +1,279 @@
+"""A copy of the repository for students: everything to build and work with, and no answers."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.grading.copies.leaks import find_leaks
+from botschool.grading.copies.skeleton import pairs, skeleton
+from botschool.grading.declare.exercise import exercise_numbers, folder_of, load_exercise
+from botschool.grading.packed import pack
+from botschool.grading.report.answers import PACKED, pack_answers
+from botschool.output import written_whole
+from botschool.sandbox.scratch import remove_tree
+
+RELEASED = (
+    "lib", "data", "exercises", "tools", "docs", "Makefile", "pyproject.toml", "constraints.txt",
+    "LICENSE", ".gitignore",
+)  # fmt: skip
+"""At the top of the repository; everything else stays (envs/ is what exercise 10 builds)."""
+MANIFEST = ".release.json"
+"""In the copy: the digest of every file as it was released, and the skeletons' texts."""
+START = "exercises/README.md"
+"""Where students start: this is the copy's own README.md too."""
+_WITHHELD = re.compile(
+    r"docs/(instructor|answer|solution|architecture|algorithms|chapter|cluster|results\.)|^lib/.*\.md$|^tools/figures/"
+    r"|(^|/)(__pycache__|\..*_cache|results)/"
+    r"|\.(pyc|so|pyd|dylib|dll|ipynb|egg-info)$|(^|/)(?!\.gitignore$)\.[^/]*$",
+    re.IGNORECASE,
+)
+_NOT_RELEASED = re.compile(
+    r"^[^\n]*\bBEGIN NOT RELEASED\b.*?\bEND NOT RELEASED\b[^\n]*\n", re.DOTALL | re.MULTILINE
+)
+"""Lines of a text that the copy does not have."""
+
+
+@dataclass
+class Released:
+    """What a release has done."""
+
+    files: int
+    """How many the copy has."""
+    written: int
+    """How many of them are new or changed."""
+    edited: list[str] = field(default_factory=list)
+    """Those that were left alone, because they are not as they were released."""
+
+
+def release(
+    root: Path, target: Path, numbers: set[int] | None = None, with_answers: bool = False
+) -> Released:
+    """Makes the copy, or brings it up to date. numbers: exercises; None is all of them.
+
+    with_answers: their solutions' texts come packed, to be shown after full marks.
+
+    A new copy is made whole or not at all. In one that is there already, exercises that it has
+    stay, and files that were edited since are left alone; .git is never touched. Raises
+    BotschoolError.
+    """
+    root, target = root.resolve(), target.absolute()
+    manifest = _check(root, target)
+    for number in sorted(numbers or ()):
+        folder_of(number, root)
+    numbers = set(exercise_numbers(root) if numbers is None else numbers)
+    answered = numbers if with_answers else set()
+    for name in manifest:
+        if found := re.match(r"exercises/ex(\d\d)_", name):
+            numbers = numbers | {int(found[1])}
+            answered = answered | ({int(found[1])} if name.endswith(f"/{PACKED}") else set())
+    with _temporary(target) as made:
+        _build(root, made, numbers)
+        _add_answers(root, made, answered)
+        leaks = find_leaks(root, (path for path in made.rglob("*") if path.is_file()))
+        if leaks:
+            path, line = leaks[0]
+            raise BotschoolError(
+                f"{path.relative_to(made)} tells a part of a solution ('{line[:60]}'): nothing was "
+                "released; take it out and try again."
+            )
+        files = _digests(made)
+        skeletons = {
+            name: (made / name).read_text(encoding="utf-8")
+            for name in (place.relative_to(root).as_posix() for _, place in pairs(root))
+            if name in files
+        }
+        text = json.dumps({"files": files, "skeletons": skeletons}, indent=1, sort_keys=True)
+        (made / MANIFEST).write_text(text + "\n", encoding="utf-8")
+        if not target.is_dir() or not any(target.iterdir()):
+            made.chmod(0o755)
+            if target.is_dir():
+                target.rmdir()
+            made.rename(target)
+            return Released(len(files), len(files))
+        try:
+            return _update(made, target, manifest, files)
+        except OSError as error:
+            raise BotschoolError(
+                f"{error.filename} cannot be written ({error.strerror}): the copy is not up to "
+                "date yet, try again."
+            ) from None
+
+
+def _check(root: Path, target: Path) -> dict[str, str]:
+    """The digests of a copy that is there, {} for a new one. Raises BotschoolError."""
+    if not (root / "solutions").is_dir():
+        raise BotschoolError(f"{root} holds no solutions: it is a student's copy already.")
+    if target.is_symlink() or (target.exists() and not target.is_dir()):
+        raise BotschoolError(f"{target} is no folder: name a new one.")
+    for name in (*RELEASED, "solutions"):
+        if target.resolve().is_relative_to(root / name):
+            raise BotschoolError(f"{target} lies inside the course's {name}: choose another place.")
+    if not target.is_dir() or {path.name for path in target.iterdir()} <= {".git"}:
+        return {}
+    if not (target / MANIFEST).is_file():
+        raise BotschoolError(
+            f"{target} is not empty, and no copy made by botschool release: name a new folder."
+        )
+    try:
+        return dict(json.loads((target / MANIFEST).read_text(encoding="utf-8"))["files"])
+    except (OSError, ValueError, KeyError, TypeError):
+        raise BotschoolError(
+            f"{target / MANIFEST} is damaged, so it cannot be told what was edited: name a new "
+            "folder."
+        ) from None
+
+
+@contextmanager
+def _temporary(target: Path) -> Iterator[Path]:
+    """A folder beside the target, removed at the end if it is still there."""
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        made = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent))
+    except OSError as error:
+        raise BotschoolError(f"{target} cannot be made ({error.strerror}).") from None
+    try:
+        yield made
+    finally:
+        if made.exists():
+            remove_tree(made)
+
+
+def _build(root: Path, made: Path, numbers: set[int]) -> None:
+    """Writes the whole copy into an empty folder."""
+    for path in released_files(root, numbers):
+        place = made / path.relative_to(root)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(path, place)
+        _change(place, lambda text: _NOT_RELEASED.sub("", text))
+    for solution, place in pairs(root):
+        if _number(place, root) in numbers:
+            released = made / place.relative_to(root)
+            released.parent.mkdir(parents=True, exist_ok=True)
+            text = skeleton(solution.read_text(encoding="utf-8"))
+            released.write_text(text, encoding="utf-8", newline="\n")
+    for grader in made.glob("exercises/ex[0-9][0-9]_*/test_*.py"):
+        references = load_exercise(int(grader.parent.name[2:4]), root).references
+        _change(grader, partial(pack, references=references))
+    start = made / START
+    if start.is_file():
+        _change(start, lambda text: _rows(text, start.parent))
+        text = start.read_text(encoding="utf-8").replace("](ex", "](exercises/ex")
+        (made / "README.md").write_text(text, encoding="utf-8", newline="\n")
+
+
+def _add_answers(root: Path, made: Path, numbers: set[int]) -> None:
+    for text in root.glob("solutions/ex[0-9][0-9]_*/README.md"):
+        folder = made / "exercises" / text.parent.name
+        if folder.is_dir() and int(text.parent.name[2:4]) in numbers:
+            packed = pack_answers(text.read_text(encoding="utf-8"))
+            (folder / PACKED).write_text(packed, encoding="ascii", newline="\n")
+
+
+def _change(path: Path, change) -> None:
+    """Rewrites a text file, if it is one."""
+    try:
+        text = path.read_bytes().decode()
+    except UnicodeDecodeError:
+        return
+    changed = change(text)
+    if changed != text:
+        path.write_text(changed, encoding="utf-8", newline="\n")
+
+
+def _rows(text: str, folder: Path) -> str:
+    """A text without those rows of its tables that link to exercises which are not there."""
+    return "".join(
+        line
+        for line in text.splitlines(keepends=True)
+        if not line.startswith("|")
+        or all((folder / name).is_file() for name in re.findall(r"\]\((ex[^)]+)\)", line))
+    )
+
+
+def _update(made: Path, target: Path, before: dict[str, str], files: dict[str, str]) -> Released:
+    """Brings files up to date that are as they were released, and removes those given up."""
+    done = Released(len(files), 0)
+    for name, digest in files.items():
+        present = _digest(target, name)
+        if present == digest:
+            continue
+        if present is not None and present != before.get(name):
+            done.edited.append(name)
+            continue
+        place = target / name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        with written_whole(place) as temporary:
+            shutil.copy2(made / name, temporary)
+        done.written += 1
+    for name in before.keys() - files.keys():
+        if _digest(target, name) == before[name]:
+            (target / name).unlink()
+    with written_whole(target / MANIFEST) as temporary:
+        shutil.copy2(made / MANIFEST, temporary)
+    return done
+
+
+def _digests(folder: Path) -> dict[str, str]:
+    """path -> digest of all files in a folder."""
+    names = (path.relative_to(folder) for path in sorted(folder.rglob("*")) if path.is_file())
+    return {name.as_posix(): _digest(folder, name.as_posix()) for name in names}
+
+
+def _digest(folder: Path, name: str) -> str | None:
+    """Of a file's content; None if nothing is there, "" if it is no plain file or behind a link."""
+    place = folder
+    for part in Path(name).parts:
+        place = place / part
+        if place.is_symlink():
+            return ""
+        if not place.exists():
+            return None if place.parent.is_dir() else ""
+    if not place.is_file():
+        return ""
+    return hashlib.sha256(place.read_bytes()).hexdigest()
+
+
+def released_files(root: Path, numbers: set[int] | None = None) -> list[Path]:
+    """What is copied; the exercises' own files are generated anew."""
+    generated = {place for _, place in pairs(root)}
+    return [
+        path
+        for path in _candidates(root)
+        if path.relative_to(root).parts[0] in RELEASED
+        and not _WITHHELD.search(path.relative_to(root).as_posix())
+        and not path.is_symlink()
+        and path.is_file()
+        and path not in generated
+        and (numbers is None or _number(path, root) in {None, *numbers})
+    ]
+
+
+def _number(path: Path, root: Path) -> int | None:
+    """The exercise that a file belongs to, if it does to one."""
+    found = re.match(
+        r"(?:exercises|docs/images/course)/ex(\d\d)_", path.relative_to(root).as_posix()
+    )
+    return int(found[1]) if found else None
+
+
+def _candidates(root: Path) -> list[Path]:
+    """Files that belong to the repository: without what git ignores, where there is git."""
+    command = ["git", "-C", str(root), "ls-files", "-z", "--cached", "--others"]
+    try:
+        done = subprocess.run([*command, "--exclude-standard"], capture_output=True, check=True)
+        names = done.stdout.decode(errors="surrogateescape").split("\0")
+        return sorted({root / name for name in names if name})
+    except (OSError, subprocess.CalledProcessError):
+        tops = [root / name for name in RELEASED]
+        return sorted(path for top in tops for path in (top, *top.rglob("*")) if path.is_file())

@@ -1,0 +1,116 @@
+"""A student's file at its beginning, and as a notebook: `botschool start` and `botschool reset`."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from importlib.util import find_spec
+from itertools import count
+from pathlib import Path
+from urllib.parse import quote
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.batch import make_state
+from botschool.grading.copies.release import MANIFEST
+from botschool.grading.copies.skeleton import skeleton
+from botschool.grading.declare.exercise import folder_of, load_exercise
+from botschool.output import save_bytes
+
+
+def original(number: int, root: Path) -> str:
+    """The skeleton of an exercise's file: of its solution, or as it was released.
+
+    Raises BotschoolError where there is neither.
+    """
+    folder, file = folder_of(number, root).name, load_exercise(number, root).file
+    solution = root / "solutions" / folder / file
+    if solution.is_file():
+        return skeleton(solution.read_text(encoding="utf-8"))
+    try:
+        released = json.loads((root / MANIFEST).read_text(encoding="utf-8"))
+        return released["skeletons"][f"exercises/{folder}/{file}"]
+    except (OSError, ValueError, KeyError, TypeError):
+        raise BotschoolError(
+            f"How {file} began is not kept here ({MANIFEST} is missing or damaged)."
+        ) from None
+
+
+def start(number: int, root: Path) -> tuple[Path, bool]:
+    """The student's file, and whether it was missing and has been made. Raises BotschoolError."""
+    file = folder_of(number, root) / load_exercise(number, root).file
+    if file.exists():
+        return file, False
+    save_bytes(file, original(number, root).encode())
+    return file, True
+
+
+def reset(number: int, root: Path) -> tuple[Path, Path | None]:
+    """Puts the student's file back to its beginning.
+
+    Returns it and what the old one is called now, None if it was as it began (or missing). Raises
+    BotschoolError.
+    """
+    text = original(number, root)
+    file, made = start(number, root)
+    if made or file.read_bytes() == text.encode():
+        return file, None
+    names = (file.with_name(f"{file.stem}_old{n}{file.suffix}") for n in count(1))
+    kept = next(name for name in names if not name.exists())
+    save_bytes(kept, file.read_bytes())
+    save_bytes(file, text.encode())
+    return file, kept
+
+
+VIEWER = {
+    "@jupyterlab/docmanager-extension:plugin": {"defaultViewers": {"python": "Jupytext Notebook"}}
+}
+"""JupyterLab's setting that opens Python files as notebooks."""
+
+
+def notebook_command(file: Path, root: Path) -> list[str]:
+    """Opens a file of the course as a notebook in JupyterLab; what is saved stays Python."""
+    place = quote(file.resolve().relative_to(root.resolve()).as_posix())
+    root_user = hasattr(os, "geteuid") and os.geteuid() == 0  # as in many containers
+    return [
+        sys.executable,
+        "-m",
+        "jupyterlab",
+        *(["--allow-root"] if root_user else []),
+        f"--ServerApp.root_dir={root.resolve()}",
+        # a workspace of its own: another may have the file open as text
+        f"--LabApp.default_url=/lab/workspaces/{file.stem}/tree/{place}",
+    ]
+
+
+def notebook_variables(root: Path) -> dict[str, str]:
+    """What JupyterLab finds in the environment: VIEWER, for this course, in a folder of ours.
+
+    Raises BotschoolError.
+    """
+    try:
+        folder = make_state(root.resolve()) / "jupyter"
+        (folder / "labconfig").mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BotschoolError(f"{root} cannot be written to ({error.strerror}).") from None
+    save_bytes(folder / "labconfig" / "default_setting_overrides.json", json.dumps(VIEWER).encode())
+    others = filter(None, [os.environ.get("JUPYTER_CONFIG_PATH")])
+    return os.environ | {"JUPYTER_CONFIG_PATH": os.pathsep.join([str(folder), *others])}
+
+
+def open_notebook(number: int, file: Path, root: Path) -> None:
+    """Runs JupyterLab with the file open, until Ctrl-C. Raises BotschoolError."""
+    if not all(map(find_spec, ("jupyterlab", "jupytext"))):
+        raise BotschoolError(
+            "A notebook needs JupyterLab and jupytext: install them and open it with 'make "
+            f"notebook-ex{number}'."
+        )
+    before = signal.signal(signal.SIGINT, lambda *_: None)  # Ctrl-C is JupyterLab's
+    try:
+        done = subprocess.run(notebook_command(file, root), env=notebook_variables(root))
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if done.returncode != 0:
+        raise BotschoolError("JupyterLab ended with an error, see above.")

@@ -1,0 +1,1 @@
+"""Declare an exercise: its tasks, and what its checks say about answers."""

@@ -1,0 +1,152 @@
+"""What grader files say about answers, in sentences for the learner."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from botschool.grading.declare import diagnosis
+from botschool.grading.declare.values import FEW, apart, arrays_apart, kind, show
+from botschool.sandbox.exceptions import nearest
+
+
+class Wrong(Exception):
+    """A check failed; the message is the sentence that the learner reads."""
+
+
+class Mismatch(Wrong):
+    """An answer that differs from what was expected; `diagnosis` looks for a likely cause."""
+
+    def __init__(
+        self,
+        sentence: str,
+        got: np.ndarray,
+        wanted: np.ndarray,
+        mistakes: dict[str, Any] | None = None,
+    ) -> None:
+        super().__init__(sentence)
+        self.got, self.wanted, self.mistakes = got, wanted, mistakes or {}
+
+
+class NotDone(Wrong):
+    """The task has not been started: the skeleton's NotImplementedError came back."""
+
+
+def expect(condition: bool, sentence: str) -> None:
+    """Raises Wrong(sentence) unless the condition holds."""
+    if not condition:
+        raise Wrong(sentence)
+
+
+def expect_fields(said: str, value: Any, *keys: str) -> list[Any]:
+    """The values of these keys of a dict, which may have others."""
+    expect(isinstance(value, dict), f"{said} {_came(said)} {kind(value)}, but a dict is needed.")
+    for key in keys:
+        if key not in value:
+            near = nearest(key, list(value)[:100])
+            has = f" (it has {near!r}: rename that)" if near else ""
+            raise Wrong(f"{said} {_came(said)} a dict without {key!r}{has}.")
+    return [value[key] for key in keys]
+
+
+def expect_array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    """The value as a float64 array of this shape, all finite; `said` names the call."""
+    array = _array(said, value, shape)
+    if array.shape != shape:
+        hint = diagnosis.of_shapes(array.shape, shape)
+        raise Wrong(f"{_but(said, value, shape)} {hint}".rstrip())
+    bad = ~np.isfinite(array)
+    if bad.any():
+        raise Wrong(_not_finite(said, array, bad))
+    return array
+
+
+def expect_close(
+    said: str,
+    value: Any,
+    expected: Any,
+    tolerance: float = 1e-9,
+    mistakes: dict[str, Any] | None = None,
+) -> None:
+    """The value equals the expected number or array, within a relative and absolute tolerance.
+
+    mistakes: what typical mistakes make of it, each by a sentence that names the mistake ("The
+    biases are left out."). Raises Mismatch, for which a likely cause is looked for.
+    """
+    wanted = np.asarray(expected, dtype=np.float64)
+    array = _array(said, value, wanted.shape)
+    if array.shape != wanted.shape:
+        raise Mismatch(_but(said, value, wanted.shape), array, wanted, mistakes)
+    got = expect_array(said, value, wanted.shape)
+    close = np.isclose(got, wanted, rtol=tolerance, atol=tolerance)
+    if not close.all():
+        raise Mismatch(_unequal(said, got, wanted, close), got, wanted, mistakes)
+
+
+def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    """The value as an array of numbers, of any shape."""
+    if value is None or isinstance(value, (str, dict)):
+        raise Wrong(_but(said, value, shape))
+    try:
+        array = np.asarray(value)
+    except (ValueError, TypeError, OverflowError):
+        array = np.asarray(None)
+    if array.dtype.kind not in "biuf":
+        raise Wrong(
+            f"{said} {_came(said)} {kind(value)}, which is no array of numbers: one of shape "
+            f"{shape} is needed."
+        )
+    return array.astype(np.float64)
+
+
+def _but(said: str, value: Any, shape: tuple[int, ...]) -> str:
+    """The sentence about a value of another kind or shape."""
+    needed = f"an array of shape {shape}" if shape else "a single number"
+    if value is None:
+        end = "" if _came(said) == "is" else ": does it end without `return`?"
+        return f"{said} {_came(said)} None, but {needed} is needed{end}"
+    was = kind(value)
+    if isinstance(value, list) and (inner := np.shape(np.asarray(value))) and len(inner) > 1:
+        was += f" (shape {inner})"
+    return f"{said} {_came(said)} {was}, but {needed} was expected."
+
+
+def _not_finite(said: str, array: np.ndarray, bad: np.ndarray) -> str:
+    where = np.unravel_index(int(np.argmax(bad)), bad.shape)
+    place = f" at [{', '.join(map(str, where))}]" if array.ndim else ""
+    what = "NaN" if np.isnan(array[where]) else "infinity"
+    causes = {
+        "NaN": "0 / 0, 0 * log(0), infinity minus infinity, or the root of a negative number",
+        "infinity": "a division by 0, the logarithm of 0, or np.exp of a large number",
+    }
+    many = f" ({int(bad.sum())} of {bad.size} numbers are NaN or infinity)" if bad.size > 1 else ""
+    return f"{said} holds NaN or infinity: {what}{place}{many}. It comes of {causes[what]}."
+
+
+def _unequal(said: str, got: np.ndarray, wanted: np.ndarray, close: np.ndarray) -> str:
+    came = f"{said} {_came(said)}"
+    if got.ndim == 0:
+        one, other = apart(float(got), float(wanted))
+        return f"{came} {one}, but {other} was expected."
+    if got.size <= FEW:
+        one, other = arrays_apart(got, wanted)
+        return f"{came} {one}, but {other} was expected."
+    where = np.unravel_index(int(np.argmin(close)), close.shape)
+    place = ", ".join(map(str, where))
+    one, other = apart(float(got[where]), float(wanted[where]))
+    wrong = int((~close).sum())
+    return (
+        f"{came} {show(got)}; at [{place}] it is {one}, but {other} was expected "
+        f"({'all' if wrong == got.size else wrong} of {got.size} numbers differ)."
+    )
+
+
+def _came(said: str) -> str:
+    """The verb: `said` names a call, as "rank(x)", or a part of an answer, as "play(x): best"."""
+    return "is" if "): " in said else "returned"
+
+
+def plain(text: str) -> str:
+    """A submission's text without what would steer a terminal or turn the writing around."""
+    return "".join(c if c in "\n\t" or c.isprintable() or c == " " else "\ufffd" for c in text)

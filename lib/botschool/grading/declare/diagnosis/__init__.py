@@ -1,0 +1,49 @@
+"""Likely causes of a wrong answer: what was got against what was wanted.
+
+A detector is a function of a Comparison. It returns a sentence if the cause that it knows explains
+the whole difference, to rounding, and None otherwise. They are asked in the order of places.py
+(shapes, values that stand elsewhere, order) and then of numbers.py (what was made of the right
+numbers), and the first sentence is said. A sentence names the mistake, never the right numbers.
+To add one: write the function, decorate it with @detector, and give its example in
+tests/test_grading_diagnosis.py, which also sees to it that all are silent about random numbers.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from botschool.grading.declare.comparison import MAX_NUMBERS, Comparison, alike
+from botschool.grading.declare.diagnosis import numbers, places
+from botschool.grading.declare.diagnosis.places import of_shapes
+from botschool.grading.declare.diagnosis.registry import Detector
+
+__all__ = ["DETECTORS", "diagnose", "of_shapes"]
+
+DETECTORS: tuple[Detector, ...] = (*places.DETECTORS, *numbers.DETECTORS)
+
+
+def diagnose(
+    got: Any,
+    wanted: Any,
+    arguments: tuple = (),
+    answer: Any = None,
+    mistakes: dict[str, Any] | None = None,
+) -> str:
+    """A sentence about the likely cause, or "".
+
+    mistakes: sentence -> what this mistake makes of the answer; these are looked at first.
+    """
+    got, wanted = np.asarray(got, dtype=np.float64), np.asarray(wanted, dtype=np.float64)
+    sizes_fit = 0 < got.size <= MAX_NUMBERS and 0 < wanted.size <= MAX_NUMBERS
+    if not sizes_fit or not (np.all(np.isfinite(got)) and np.all(np.isfinite(wanted))):
+        return ""
+    found = Comparison(got, wanted, arguments, answer)
+    if alike(got, wanted):
+        return ""
+    for text, made in (mistakes or {}).items():
+        if alike(got, made) and not alike(wanted, made):
+            return text
+    with np.errstate(all="ignore"):
+        return next((text for each in DETECTORS if (text := each(found))), "")

@@ -1,0 +1,194 @@
+"""Detectors of numbers that are made of the right ones, and of where the difference is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from botschool.grading.declare.comparison import Comparison, alike
+from botschool.grading.declare.diagnosis.registry import Detector, adding_to
+
+DETECTORS: list[Detector] = []
+detector = adding_to(DETECTORS)
+
+# --- numbers that are made of the right ones
+
+
+@detector
+def wrong_sign(c: Comparison) -> str | None:
+    if c.same(-c.wanted):
+        return "Right but for the sign: it is turned around."
+    if c.got.shape == c.wanted.shape and alike(np.abs(c.got), np.abs(c.wanted)):
+        wrong = int(np.sum(np.sign(c.got) != np.sign(c.wanted)))
+        if np.all(c.got >= 0) and c.varied:
+            return "Right but for the sign: that of negative values is lost."
+        return f"Right but for the sign of {wrong} of {c.got.size} values."
+    return None
+
+
+@detector
+def one_more_or_less(c: Comparison) -> str | None:
+    whole = np.all(c.wanted == np.round(c.wanted))
+    for step, word in ((1, "more"), (-1, "less")):
+        if whole and c.same(c.wanted + step):
+            each = "Each number is" if c.wanted.ndim else "It is"
+            return f"{each} one {word} than expected (off by one: where does the counting begin?)."
+    return None
+
+
+@detector
+def degrees(c: Comparison) -> str | None:
+    if c.same(np.degrees(c.wanted)):
+        return "These are degrees, but radians are asked for."
+    if c.same(np.radians(c.wanted)):
+        return "These are radians, but degrees are asked for."
+    return None
+
+
+@detector
+def whole_turns(c: Comparison) -> str | None:
+    if c.got.shape != c.wanted.shape:
+        return None
+    turns = (c.got - c.wanted) / (2 * np.pi)
+    if np.any(np.abs(turns) > 0.5) and np.allclose(turns, np.round(turns), rtol=0, atol=1e-6):
+        return "Right but for whole turns of 2 pi: in which range is the angle asked for?"
+    return None
+
+
+@detector
+def a_known_factor(c: Comparison) -> str | None:
+    if not c.telling:
+        return None
+    each = "Each number is" if c.wanted.ndim else "It is"
+    known = (
+        (2.0, "twice what was expected: is a factor 1/2 missing, or a sum taken for a mean of 2?"),
+        (
+            0.5,
+            "half of what was expected: is a factor 1/2 too much, or a mean of 2 taken for a sum?",
+        ),
+        (1 / np.log(2), "in bits: the natural logarithm (np.log) is asked for, not np.log2."),
+        (1 / np.log(10), "by np.log10: the natural logarithm (np.log) is asked for."),
+        (100.0, "100 times what was expected: a share is asked for, not per cent."),
+    )
+    for factor, text in known:
+        if c.same(factor * c.wanted):
+            return f"{each} {text}"
+    for n in c.counts:
+        if c.same(n * c.wanted):
+            return f"{each} {n} times what was expected, and {n} is a count here: a sum for a mean?"
+        if c.same(c.wanted / n):
+            return f"{each} 1/{n} of what was expected, and {n} is a count here: a mean for a sum?"
+    for n in sorted({2, *(n + step for n in c.counts for step in (-1, 0, 1))}):
+        for power in (1, 0.5, -0.5, -1):
+            if c.same(c.wanted * ((n - 1) / n) ** power):
+                return (
+                    f"It is as if n and n - 1 were mixed up (n = {n}) in a mean, a variance or a "
+                    "standard deviation: see ddof in NumPy, correction in torch."
+                )
+    return None
+
+
+_FORMULAS: tuple[tuple[Callable[[np.ndarray], np.ndarray], str], ...] = (
+    (np.square, "It is the square of what was expected: is a root missing?"),
+    (np.sqrt, "It is the square root of what was expected."),
+    (np.log, "It is the logarithm of what was expected: is np.exp missing?"),
+    (np.exp, "It is the exponential of what was expected: is np.log missing?"),
+    (np.arctanh, "It is what was expected before tanh: apply np.tanh at the end."),
+    (np.tanh, "It is the tanh of what was expected: one tanh too much."),
+    (
+        lambda x: np.tanh(np.log(x / (1 - x))),
+        "It is tanh where the logistic function is asked for.",
+    ),
+    (
+        lambda x: 1 / (1 + np.exp(-np.arctanh(x))),
+        "It is the logistic function where tanh is asked for.",
+    ),
+    (lambda x: np.log(x / (1 - x)), "It is what was expected before the logistic function."),
+    (np.reciprocal, "It is 1 divided by what was expected: is a fraction upside down?"),
+    (lambda x: 1 - x, "It is 1 minus what was expected."),
+)
+
+
+@detector
+def a_formula_too_much_or_missing(c: Comparison) -> str | None:
+    if not c.telling or (c.wanted.size > 1 and c.varied < 2):
+        return None
+    return next((text for function, text in _FORMULAS if c.same(function(c.wanted))), None)
+
+
+@detector
+def rounded(c: Comparison) -> str | None:
+    if c.got.shape != c.wanted.shape or not np.all(c.got == np.round(c.got)) or c.wanted.size < 3:
+        return None
+    for function in (np.trunc, np.floor, np.round):
+        if np.array_equal(c.got, function(c.wanted)) and np.any(c.got):
+            return (
+                "The fractions are cut off: whole numbers were kept. An array of integers (as made "
+                "of [0, 0], or with dtype=int) cannot hold others; // divides without rest."
+            )
+    return None
+
+
+@detector
+def added_up(c: Comparison) -> str | None:
+    if not c.in_rows:
+        return None
+    if c.same(np.cumsum(c.wanted, axis=0)):
+        return "Each value holds those before it, too: something is not set back to 0."
+    if c.same(np.cumsum(c.wanted[::-1], axis=0)[::-1]):
+        return "Each value holds those after it, too."
+    return None
+
+
+@detector
+def in_proportion(c: Comparison) -> str | None:
+    few = 3 if np.all(c.wanted == np.round(c.wanted)) else 2
+    if c.got.shape != c.wanted.shape or c.varied < few or not np.any(c.got):
+        return None
+    largest = np.unravel_index(int(np.abs(c.wanted).argmax()), c.wanted.shape)
+    factor = float(c.got[largest] / c.wanted[largest])
+    if factor and c.same(factor * c.wanted):
+        return (
+            f"Each number is {factor:.6g} times what was expected: a factor is missing or too much."
+        )
+    return None
+
+
+@detector
+def a_constant_added(c: Comparison) -> str | None:
+    if c.got.shape != c.wanted.shape or len(np.unique(c.wanted)) < 3:
+        return None
+    constant = float((c.got - c.wanted).flat[0])
+    if c.same(c.wanted + constant) and abs(constant) > 1e-4 * np.ptp(c.wanted):
+        return f"Each number is what was expected {'+-'[constant < 0]} {abs(constant):.6g}."
+    return None
+
+
+# --- where the difference is
+
+
+@detector
+def at_one_end(c: Comparison) -> str | None:
+    """Only one of many differs, at an end."""
+    if not c.in_rows:
+        return None
+    if alike(c.got[1:], c.wanted[1:]):
+        return "Only the first one differs; all after it are right."
+    if alike(c.got[:-1], c.wanted[:-1]):
+        return "Only the last one differs; all before it are right."
+    return None
+
+
+@detector
+def not_where_negative(c: Comparison) -> str | None:
+    """Right where a sign is positive, or the other way round: half of the cases was forgotten."""
+    if c.got.shape != c.wanted.shape or c.got.size < 6:
+        return None
+    right = np.isclose(c.got, c.wanted, rtol=1e-5, atol=1e-9)
+    if not 2 < right.sum() < right.size - 2:
+        return None
+    for name, which in (("negative", c.wanted < 0), ("positive", c.wanted > 0)):
+        if np.array_equal(~right, which):
+            return f"It differs wherever a {name} number was expected, and only there."
+    return None

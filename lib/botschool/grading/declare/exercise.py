@@ -1,0 +1,191 @@
+"""Exercises, their tasks and checks, and where to find them."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import os
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.grading.declare.extras import missing_packages
+from botschool.grading.declare.references import pruned
+from botschool.grading.declare.secret import DEFAULT, VARIABLE
+from botschool.grading.run.student import Student
+from botschool.paths import course_root
+
+POINTS = 100
+"""What every exercise is worth."""
+
+
+@dataclass
+class Task:
+    """A numbered task of an exercise: its checks are run one after another in one child."""
+
+    id: str
+    title: str
+    seconds: float
+    memory: int
+    imports: tuple[str, ...] = ()
+    needs: tuple[str, ...] = ()
+    """Tasks whose functions a submission calls in this one."""
+    refused: tuple[str, ...] = ()
+    checks: list[tuple[int, str, Callable[[Student], None]]] = field(default_factory=list)
+
+    def check(self, points: int) -> Callable:
+        """Decorates a check: a function of a Student that raises Wrong when it is not passed."""
+
+        def keep(function: Callable[[Student], None]) -> Callable[[Student], None]:
+            self.checks.append((points, function.__name__, function))
+            return function
+
+        return keep
+
+    @property
+    def max_points(self) -> int:
+        return sum(points for points, _, _ in self.checks)
+
+
+class Exercise:
+    """An exercise as its grader file declares it.
+
+    exercise = Exercise(3, "Evolution strategy", file="evolution_strategy.py")
+    population = exercise.task("3.1", "The initial population")
+
+    @population.check(10)
+    def has_the_right_shape(student): ...
+    """
+
+    def __init__(
+        self,
+        number: int,
+        title: str,
+        file: str,
+        imports: tuple[str, ...] = (),
+        extras: tuple[str, ...] = (),
+    ) -> None:
+        """What the exercise is called, the file that students write, and what it needs.
+
+        imports: modules that take long to import; no task's time is used up by them. extras: of
+        pyproject.toml, whose packages the exercise needs; `make test-exN` reads them from the
+        grader's text, so they stand there as extras=("rl",), and installs them. A grader imports
+        these packages inside its functions, so that it can be loaded without them.
+        """
+        self.number = number
+        self.title = title
+        self.file = file
+        self.imports = imports
+        self.extras = extras
+        self.tasks: list[Task] = []
+        self.references = ""
+        """Our own functions of the tasks that others need, as a Python file (references.py)."""
+
+    def task(
+        self,
+        id: str,
+        title: str,
+        seconds: float = 20,
+        memory: int = 4096,
+        needs: tuple[str, ...] = (),
+        refused: tuple[str, ...] = (),
+    ) -> Task:
+        """Adds a task; seconds: processor time of all its checks; memory: MB beyond the imports.
+
+        needs: ids of tasks whose functions students call in this one. If one of these does not
+        pass, this one is also graded with ours in its place.
+        refused: functions of libraries that are the answer, as of refused.refuse.
+        """
+        self.tasks.append(Task(id, title, seconds, memory, self.imports, needs, refused))
+        return self.tasks[-1]
+
+    def needed(self, task: Task) -> list[Task]:
+        """The tasks that a task builds on, directly or by way of others, in their order."""
+        found: set[str] = set()
+        waiting = [*task.needs]
+        while waiting:
+            if (id := waiting.pop()) not in found:
+                found.add(id)
+                waiting += self.find(id).needs
+        return [each for each in self.tasks if each.id in found]
+
+    def require(self) -> None:
+        """Raises BotschoolError that says what to install if a package is not installed."""
+        missing = missing_packages(self.extras)
+        if missing:
+            listed = " and ".join(filter(None, [", ".join(missing[:-1]), missing[-1]]))
+            raise BotschoolError(
+                f"Exercise {self.number} needs {listed}: install what it needs with "
+                f"'make test-ex{self.number}' or 'pip install botschool[{','.join(self.extras)}]'."
+            )
+
+    def seed(self, index: int) -> int:
+        """A grading seed; they follow from BOTSCHOOL_GRADING_SEED, an instructor's secret."""
+        secret = os.environ.get(VARIABLE) or DEFAULT
+        digest = hashlib.sha256(f"{secret}:{self.number}:{index}".encode()).digest()
+        return int.from_bytes(digest[:4], "little") % 2**31
+
+    def find(self, task: str) -> Task:
+        """The task with that id. Raises BotschoolError."""
+        for each in self.tasks:
+            if each.id == task:
+                return each
+        known = ", ".join(each.id for each in self.tasks)
+        raise BotschoolError(f"Exercise {self.number} has no task {task}; its tasks are {known}.")
+
+
+def folder_of(number: int, root: Path | None = None) -> Path:
+    """exercises/exNN_name. Raises BotschoolError."""
+    root = root or course_root()
+    found = sorted((root / "exercises").glob(f"ex{number:02d}_*"))
+    if not found:
+        have = ", ".join(map(str, exercise_numbers(root)))
+        raise BotschoolError(f"There is no exercise {number}; there are {have}.")
+    return found[0]
+
+
+def exercise_numbers(root: Path) -> list[int]:
+    """The exercises that are there: those with a grader."""
+    graders = (root / "exercises").glob("ex[0-9][0-9]_*/test_*.py")
+    return sorted({int(path.parent.name[2:4]) for path in graders})
+
+
+def load_exercise(number: int, root: Path | None = None) -> Exercise:
+    """What the exercise's grader file declares."""
+    folder = folder_of(number, root)
+    graders = sorted(folder.glob("test_*.py"))
+    if not graders:
+        raise BotschoolError(f"{folder} holds no grader file test_*.py: restore it.")
+    name = f"grader_{number}"
+    spec = importlib.util.spec_from_file_location(name, graders[0])
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module  # dataclasses look their module up
+    spec.loader.exec_module(module)
+    exercise = module.exercise
+    solution = (root or course_root()) / "solutions" / folder.name / exercise.file
+    if not exercise.references and solution.is_file():
+        needed = {id for task in exercise.tasks for id in task.needs}
+        exercise.references = pruned(solution.read_text(encoding="utf-8"), needed)
+    return exercise
+
+
+def submission_file(number: int, submission: str | None, root: Path | None = None) -> Path:
+    """The file to grade: the student's own, the reference (`solutions`), or in another folder."""
+    root = root or course_root()
+    folder, exercise = folder_of(number, root), load_exercise(number, root)
+    if submission is None:
+        places = [folder]
+    else:
+        base = Path(submission)
+        if submission == "solutions" and not base.is_dir():
+            base = root / "solutions"
+        places = [base / folder.name, base]
+    for place in places:
+        if (place / exercise.file).is_file():
+            return place / exercise.file
+    raise BotschoolError(
+        f"There is no {exercise.file} in {' or '.join(map(str, places))}: "
+        "name another folder with --submission FOLDER, or SUBMISSION=FOLDER for make."
+    )

@@ -1,0 +1,1 @@
+"""Judge a submission: points for each task, and what is missing."""

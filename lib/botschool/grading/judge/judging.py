@@ -1,0 +1,166 @@
+"""A task's checks on a submission's file: points, and sentences about what is missing."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import TypeVar
+
+from botschool.errors import BotschoolError
+from botschool.grading.declare.checks import Wrong, plain
+from botschool.grading.declare.exercise import Task
+from botschool.grading.judge.looking import Failure, failure_of, looked_at_again
+from botschool.grading.run.confined import MachineFault, machine_fault
+from botschool.grading.run.failures import Origin
+from botschool.grading.run.student import Student
+from botschool.grading.run.timelimit import TookTooLong, processor_time_limit
+from botschool.sandbox import ForkServer
+
+T = TypeVar("T")
+CHECK_SECONDS = 20
+"""Processor time that a check may use in the grader's own thread; our solutions need up to 3."""
+MAX_DIAGNOSED, DIAGNOSIS_SECONDS = 2, 2.0
+"""Failed checks of a task whose calls are looked at again; processor time for that."""
+
+
+@dataclass
+class TaskResult:
+    """What a submission got for a task."""
+
+    id: str
+    title: str
+    points: int
+    max_points: int
+    message: str
+    """Why points are missing, in sentences; empty for full marks."""
+    printed: str = ""
+    """The beginning of what the submission printed."""
+    missing: list[str] = field(default_factory=list)
+    """What this system could not confine, in words."""
+    pictures: list[tuple[str, bytes]] = field(default_factory=list)
+    """(name, PNG) of those beside the submission's file after the task."""
+
+
+class GraderFault(BotschoolError):
+    """A check failed by a fault of its own, not by what a submission did."""
+
+
+def grade_task(
+    task: Task,
+    file: Path,
+    server: ForkServer,
+    alone: bool = True,
+    origin: Origin | None = None,
+    references: dict | None = None,
+) -> TaskResult:
+    """Runs a task's checks on a file, in a child of its own; alone: as of `grade`.
+
+    origin: where the lines of the file come from. references: as of Student; nothing is then shown
+    of what the submission prints, draws, or says in exceptions. Raises BotschoolError.
+    """
+    return tried_twice(partial(_grade_task, task, file, server, origin, references), alone)
+
+
+def _grade_task(
+    task: Task,
+    file: Path,
+    server: ForkServer,
+    origin: Origin | None,
+    references: dict | None,
+    tried: bool,
+) -> TaskResult:
+    result = TaskResult(task.id, task.title, 0, task.max_points, "")
+    problems: list[str] = []
+    failed: list[tuple[int, Failure]] = []
+    student = None
+    try:
+        student = Student(
+            file, task.seconds, task.memory, server, tried, origin, references, task.refused
+        )
+        for worth, _, check in task.checks:
+            problem = _problem(task, check, student)
+            if problem is None:
+                result.points += worth
+            else:
+                failed.append((len(problems), problem))
+                problems.append(problem.text)
+        student.stop()
+        if references is None:
+            result.printed = plain(student.printed)
+            result.pictures = student.pictures()
+        result.missing = student.missing
+        for at, failure in [pair for pair in failed if pair[1].pasted][:1]:
+            problems[at] += f"\n  To try it: {failure.pasted}"
+        for at, failure in _diagnosable(failed):
+            limits = DIAGNOSIS_SECONDS, task.memory, server, True
+            again = partial(Student, file, *limits, origin, references, task.refused)
+            problems[at] += looked_at_again(failure, again)
+    except Wrong as error:
+        problems.append(str(error))
+    finally:
+        if student is not None:
+            student.close()
+    # the same exception at the same line is said once, though several checks meet it
+    said: dict[str, str] = {}
+    for each in problems:
+        said.setdefault(each.partition(" raised ")[2] or each, each)
+    result.message = plain("\n".join(said.values()))
+    return result
+
+
+def _diagnosable(failed: list[tuple[int, Failure]]) -> list[tuple[int, Failure]]:
+    """The first failures without a known cause, one of each function."""
+    by_name = {each.name: (at, each) for at, each in reversed(failed) if each.unexplained}
+    return sorted(by_name.values(), key=lambda pair: pair[0])[:MAX_DIAGNOSED]
+
+
+def _problem(task: Task, check: Callable[[Student], None], student: Student) -> Failure | None:
+    """Why a check is not passed; None when it is."""
+    answers = student.answers
+    before = student.seconds_left
+    try:
+        with processor_time_limit(CHECK_SECONDS):
+            check(student)
+    except TookTooLong:
+        return Failure(f"{student.said} returned something that takes too long to judge.")
+    except Wrong as error:
+        return failure_of(error, student, before - student.seconds_left)
+    except BotschoolError:
+        raise  # the grader's own trouble, not the submission's
+    except OSError as error:
+        fault = machine_fault(error)
+        if isinstance(fault, MachineFault):
+            raise fault from error
+        return Failure(_unjudged(task, student, answers, error))
+    except Exception as error:
+        return Failure(_unjudged(task, student, answers, error))
+    return None
+
+
+def _unjudged(task: Task, student: Student, answers: int, error: Exception) -> str:
+    """An exception in a check: a sentence. Raises GraderFault if no answer can have caused it."""
+    said = f"{type(error).__name__}: {str(error)[:200]}"
+    # with nothing from the submission at hand, or by a name that is not there
+    if student.answers == answers or isinstance(error, (NameError, ImportError)):
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        raise GraderFault(
+            f"The grader of task {task.id} has a fault, which is not the submission's "
+            f"({said}, in {Path(place.filename).name} line {place.lineno}): it must be mended."
+        ) from error
+    return (
+        f"{student.said} returned something that cannot be judged ({said}). If it is what the "
+        "task asks for, tell your instructor."
+    )
+
+
+def tried_twice(attempt: Callable[[bool], T], alone: bool) -> T:
+    """attempt(whether it was tried before), once more after a MachineFault if nobody else runs."""
+    try:
+        return attempt(False)
+    except MachineFault:
+        if not alone:
+            raise
+    return attempt(True)

@@ -1,0 +1,279 @@
+"""What a student hands in, and what it gets."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import tempfile
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.exercise import Exercise, Task
+from botschool.grading.declare.references import functions_of, pruned
+from botschool.grading.judge.judging import TaskResult, grade_task, tried_twice
+from botschool.grading.run.cells import Script, Unreadable, scripts
+from botschool.grading.run.confined import (
+    fork_server,
+    submission_files,
+)
+from botschool.grading.run.failures import Origin
+from botschool.grading.run.student import Student
+from botschool.sandbox import ForkServer
+
+LOADING_SECONDS = 10
+"""Processor time for all that a file or a notebook does besides defining functions."""
+_CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
+_DEFINITION = re.compile(r"^(async def|def|class)\b", re.MULTILINE)
+_NAME = re.compile(r"^\s*(?:async\s+def|def|class)\s+(\w+)", re.MULTILINE)
+_DOES, _PLACE = ("does", "do"), ("its", "their")
+_NOT_GRADED = "Not graded: mend the file first, as said above."
+
+
+@dataclass
+class Result:
+    """What a submission got for an exercise."""
+
+    exercise: int
+    title: str
+    tasks: list[TaskResult]
+    banner: str = ""
+    """What is to be mended before anything else: why the file cannot be loaded."""
+
+    @property
+    def points(self) -> int:
+        return sum(task.points for task in self.tasks)
+
+    @property
+    def max_points(self) -> int:
+        return sum(task.max_points for task in self.tasks)
+
+    @property
+    def missing(self) -> list[str]:
+        """What this system could not confine, in words."""
+        return list(dict.fromkeys(each for task in self.tasks for each in task.missing))
+
+    def to_json(self) -> dict:
+        """The form of `botschool grade --json`."""
+        shown = ("id", "title", "points", "max_points", "message")
+        tasks = [{name: getattr(task, name) for name in shown} for task in self.tasks]
+        return {
+            "exercise": self.exercise,
+            "points": self.points,
+            "max_points": self.max_points,
+            "banner": self.banner,
+            "tasks": tasks,
+        }
+
+
+def grade(
+    exercise: Exercise,
+    file: Path,
+    report: Callable[[TaskResult], None] = lambda result: None,
+    tasks: Iterable[Task] | None = None,
+    server: ForkServer | None = None,
+    alone: bool = True,
+    announce: Callable[[str], None] = lambda banner: None,
+) -> Result:
+    """Grades a submission's file; reports each task as soon as it is judged.
+
+    announce: is called before, with the banner if there is one. tasks: else all; server: else one
+    is made and closed.
+    alone: whether no others are graded at the same time; what may be the fault of the machine is
+    then tried once more. Raises BotschoolError, of which MachineFault says that it was its fault.
+    """
+    if server is None:
+        with fork_server(exercise.imports) as own:
+            return grade(exercise, file, report, tasks, own, alone, announce)
+    results = []
+    with Submission(file, server, alone=alone, exercise=exercise) as submission:
+        if submission.banner:
+            announce(submission.banner)
+        for task in exercise.tasks if tasks is None else tasks:
+            results.append(submission.grade(task))
+            report(results[-1])
+    return Result(exercise.number, exercise.title, results, submission.banner)
+
+
+class Submission:
+    """A file, ready to be graded: as it is if it can be loaded, else what its cells define.
+
+    So a part that fails, or is no Python, costs no points of others: alike in a script, whose
+    cells begin at lines `# %%`, and in a notebook.
+    """
+
+    def __init__(
+        self,
+        file: Path,
+        server: ForkServer,
+        sources: list[str] | None = None,
+        name: str = "",
+        alone: bool = True,
+        exercise: Exercise | None = None,
+    ) -> None:
+        """sources: of a notebook (the file), the texts of its code cells; name: of its script.
+
+        alone: as of `grade`. exercise: what its tasks need of each other is graded with our
+        functions, too.
+        """
+        self._alone = alone
+        self._given = file
+        self._sources = sources
+        self._server = server
+        self._exercise = exercise
+        self._base = Path(tempfile.mkdtemp(prefix="botschool-"))
+        self._file = self._base / "submission" / (name or file.name)
+        self._script: Script | None = None
+        self._starts: list[int] = []
+        self._results: dict[str, TaskResult] = {}
+        self._lost: dict[str, str] = {}
+        self._failure = ""
+        self.banner = ""
+        """Why the file, or a part of it, cannot be loaded; in some lines."""
+
+    def __enter__(self) -> Submission:
+        try:
+            self._prepare()
+        except (Wrong, Unreadable) as error:
+            self.banner, self._failure = self.banner or str(error), _NOT_GRADED
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        shutil.rmtree(self._base, ignore_errors=True)
+
+    def grade(self, task: Task) -> TaskResult:
+        """Grades a task; lines in the message are those of the file, or of a notebook's cell."""
+        if self._failure:
+            return TaskResult(task.id, task.title, 0, task.max_points, self._failure)
+        if task.id not in self._results:
+            result = self._attempt(task)
+            if self._exercise is not None and result.points < result.max_points:
+                result = self._with_references(task, result)
+            self._results[task.id] = result
+        return self._results[task.id]
+
+    def _attempt(self, task: Task, references: dict | None = None) -> TaskResult:
+        file = self._file if self._script else self._given
+        origin = Origin(self._place if self._script else None, self._lost)
+        return grade_task(task, file, self._server, self._alone, origin, references)
+
+    def _with_references(self, task: Task, result: TaskResult) -> TaskResult:
+        """The result, or a better one with our functions of tasks that do not pass."""
+        exercise, own = self._exercise, f"not done yet: task {task.id}:"
+        if not exercise.references or not task.needs or own in result.message:
+            return result
+        needed = exercise.needed(task)
+        functions = functions_of(exercise.references)
+        broken = [
+            each
+            for each in needed
+            if each.id in functions and self.grade(each).points < each.max_points
+        ]
+        if not broken:
+            return result
+        names = [name for each in broken for name in functions[each.id]]
+        source = pruned(exercise.references, [each.id for each in needed])
+        again = self._attempt(task, {"source": source, "names": names})
+        which = " and ".join(f"{each.id} ({', '.join(functions[each.id])})" for each in broken)
+        yours = f"It calls yours of task {which}, which {_DOES[len(broken) > 1]} not pass yet"
+        if again.points <= result.points:
+            lines = [f"{yours}; with ours in their place this task fails as well.", again.message]
+            result.message = "\n".join(filter(None, [lines[1] or result.message, lines[0]]))
+            return result
+        full = again.points == again.max_points
+        end = "and gets all of its points" if full else "and still loses points"
+        note = f"{yours}: graded with ours in {_PLACE[len(names) > 1]} place, {end}."
+        result.points = again.points
+        result.message = "\n".join(filter(None, [note, again.message]))
+        return result
+
+    def _prepare(self) -> None:
+        if self._sources is not None:
+            everything, defined = scripts(self._sources)
+            self._write(everything)
+        file = self._file if self._script else self._given
+        place = self._place if self._script else None
+        trouble = tried_twice(partial(_trouble, file, self._server, Origin(place)), self._alone)
+        if trouble is None:
+            return
+        self.banner = getattr(trouble, "banner", str(trouble))
+        if self._sources is not None:
+            self.banner = self.banner.replace("Your file", "The notebook", 1)
+        if self._sources is None:
+            everything, defined = scripts(self._cells())
+        if not _DEFINITION.search(defined.text):
+            raise Wrong(_NOT_GRADED)
+        self._write(defined)
+        self.banner += (
+            "\nUntil then only functions, classes and imports count, with the names that they use."
+        )
+        parts = self._sources if self._sources is not None else _CELL.split(self._text())
+        for number in defined.left_out:
+            part = self._cell(number)
+            names = _NAME.findall(parts[number - 1])
+            lost = f" ({', '.join(names)})" if names else ""
+            self.banner += f"\n{part[:1].upper()}{part[1:]} is no Python: left out{lost}."
+            self._lost |= dict.fromkeys(names, part)
+
+    def _text(self) -> str:
+        return self._given.read_bytes().decode("utf-8", "replace").replace("\r\n", "\n")
+
+    def _cells(self) -> list[str]:
+        """Of a script; notes the line before each."""
+        cells = _CELL.split(self._text())
+        self._starts = [0]
+        for cell in cells:
+            self._starts.append(self._starts[-1] + cell.count("\n"))
+        return cells
+
+    def _write(self, script: Script) -> None:
+        if self._script is None:
+            self._file.parent.mkdir()
+            for path in submission_files(self._given):
+                place = self._file.parent / path.relative_to(self._given.parent)
+                if path != self._given and path.suffix != ".ipynb" and place != self._file:
+                    place.parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copyfile(path, place, follow_symlinks=False)
+        self._script = script
+        self._file.write_bytes(script.text.encode("utf-8", "replace"))
+
+    def _place(self, line: int) -> str:
+        """Where a line of the script stands in the file, or in which cell of the notebook."""
+        if not 1 <= line <= len(self._script.places):
+            return f"line {line}"
+        number, inside = self._script.places[line - 1]
+        if self._sources is None:
+            return f"{self._given.name}:{self._starts[number - 1] + inside}"
+        return f"line {inside} of {self._cell(number)}"
+
+    def _cell(self, number: int) -> str:
+        if self._sources is None:
+            first, last = self._starts[number - 1 : number + 1]
+            return f"the part from line {first + 1} to {last}"
+        lines = [line.strip() for line in self._sources[number - 1].splitlines() if line.strip()]
+        shown = lines[0] if lines else ""
+        return f"the cell '{shown[:40]}{'...' if len(shown) > 40 else ''}'"
+
+
+def _trouble(file: Path, server: ForkServer, origin: Origin, tried: bool) -> Wrong | None:
+    """Why a submission's file cannot be loaded; None if it can.
+
+    Raises Wrong when it may not be.
+    """
+
+    def loads(module):
+        return True
+
+    student = Student(file, LOADING_SECONDS, server=server, tried=tried, origin=origin)
+    try:
+        student.run(loads, said="the code outside functions")
+    except Wrong as error:
+        return error
+    finally:
+        student.close()
+    return None

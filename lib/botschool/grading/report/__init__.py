@@ -1,0 +1,1 @@
+"""Report to a learner: the screen, pages, hints, progress."""

@@ -1,0 +1,82 @@
+"""Hints, one more each time. A HINTS.md has a section `## N.T` with a numbered list per task."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.batch import make_state
+from botschool.grading.declare.exercise import folder_of
+from botschool.output import save_bytes
+
+FILE = "HINTS.md"
+_SECTION = re.compile(r"^##\s+(?:Task\s+)?(\d+\.\d+)\b", re.IGNORECASE)
+_ITEM = re.compile(r"^(\d+)[.)]\s+")
+
+
+def read_hints(text: str) -> dict[str, list[str]]:
+    """task -> its hints, from the text of a HINTS.md."""
+    hints: dict[str, list[str]] = {}
+    task, fenced = None, False
+    for line in text.splitlines():
+        fenced ^= line.lstrip().startswith("```")
+        heading = None if fenced else _SECTION.match(line)
+        if heading:
+            task = heading[1]
+            hints[task] = []
+        elif line.startswith("#") and not fenced:
+            task = None
+        elif task and not fenced and _ITEM.match(line):
+            hints[task].append(_ITEM.sub("", line))
+        elif task and hints[task]:
+            hints[task][-1] += "\n" + line
+    return {task: [_unindented(each) for each in found] for task, found in hints.items()}
+
+
+def _unindented(hint: str) -> str:
+    first, *rest = hint.rstrip().split("\n")
+    return "\n".join([first, *(re.sub(r"^ {1,3}", "", line) for line in rest)])
+
+
+def next_hints(task: str, root: Path) -> tuple[list[str], int, bool]:
+    """(hints of a task to show now, how many there are, whether the last one is new).
+
+    Remembers in the course folder how many were shown. Raises BotschoolError.
+    """
+    path = folder_of(int(task.split(".")[0]), root) / FILE
+    try:
+        hints = read_hints(path.read_text(encoding="utf-8")).get(task)
+    except OSError:
+        raise BotschoolError(f"There are no hints: {path} cannot be read.") from None
+    if not hints:
+        raise BotschoolError(f"There are no hints for task {task} in {path}.")
+    place = _memory(root)
+    shown = _read(place)
+    before = shown.get(task, 0)
+    now = min(before + 1, len(hints))
+    shown[task] = now
+    save_bytes(place, json.dumps(shown, indent=1, sort_keys=True).encode())
+    return hints[:now], len(hints), now > before
+
+
+def _memory(root: Path) -> Path:
+    """Where it is kept how many hints were shown: the course folder, or else the user's."""
+    try:
+        return make_state(root) / "hints.json"
+    except OSError:
+        import typer
+
+        folder = Path(typer.get_app_dir("botschool"))
+        folder.mkdir(parents=True, exist_ok=True)
+        return folder / "hints.json"
+
+
+def _read(place: Path) -> dict[str, int]:
+    try:
+        shown = json.loads(place.read_text())
+    except (OSError, ValueError):
+        return {}
+    items = shown.items() if isinstance(shown, dict) else []
+    return {task: many for task, many in items if isinstance(many, int) and many > 0}

@@ -1,0 +1,119 @@
+"""What a learner sees of a grading, on the screen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from shlex import quote
+
+from rich.console import Console
+from rich.markup import escape
+from rich.padding import Padding
+
+from botschool.grading.judge.submission import Result, TaskResult
+
+MAX_MESSAGE_LINES = 12
+"""Lines of a task's message on the screen."""
+MAX_OUTPUT_LINES = 8
+"""Lines of what a task's code printed."""
+
+
+class Screen:
+    """Prints each task when it is judged, then the points and what to do next."""
+
+    def __init__(self, console: Console | None = None) -> None:
+        self.console = console or Console(highlight=False)
+        self._file = Path()
+
+    def start(self, number: int, title: str, file: Path) -> None:
+        """The heading."""
+        file = file.resolve()
+        self._file = file.relative_to(Path.cwd()) if file.is_relative_to(Path.cwd()) else file
+        self.console.print(f"[bold]Exercise {number}. {escape(title)}[/]")
+        self.console.print(f"[dim]{escape(str(self._file))}[/]", soft_wrap=True)
+
+    def banner(self, text: str) -> None:
+        """What is to be mended before anything else."""
+        first, *others = text.splitlines()
+        self.console.print(f"[bold red]{escape(first)}[/]")
+        for line in others:
+            self.console.print(Padding(escape(line), (0, 0, 0, 1)))
+
+    def task(self, result: TaskResult) -> None:
+        """One task: its points, and why some are missing."""
+        mark = {True: "[green]✓[/]", False: "[red]✗[/]"}[result.points == result.max_points]
+        if result.message.startswith("not done yet") and result.points == 0:
+            mark = "[dim]·[/]"
+        self.console.print(
+            f" {mark} {result.id:<5} {escape(result.title):<44} "
+            f"{result.points:>3} of {result.max_points}"
+        )
+        if result.message:
+            self._indented(result.message.splitlines(), MAX_MESSAGE_LINES, "")
+        if result.printed.strip():
+            printed = f"printed: {result.printed.strip()}"
+            self._indented(printed.splitlines(), MAX_OUTPUT_LINES, "dim")
+
+    def end(self, result: Result, whole: bool = True) -> None:
+        """Points, the next step, and what this system could not confine.
+
+        whole: the tasks are all that the exercise has.
+        """
+        if result.missing:
+            self.console.print(f"[yellow]{notice(result.missing)}[/]")
+        self.console.print(f"[bold]{result.points} of {result.max_points} points[/]")
+        missing = [task for task in result.tasks if task.points < task.max_points]
+        if not missing and not whole:
+            self.console.print(
+                f"[green]Task {result.tasks[-1].id} done![/] All tasks: "
+                f"botschool grade {result.exercise}"
+            )
+            return
+        if not missing:
+            own = "exercises" in self._file.parts
+            run = f"botschool show {result.exercise}" if own else f"python {quote(str(self._file))}"
+            self.console.print(
+                f"[green]All done![/] See what you have made: {escape(run)}", soft_wrap=True
+            )
+            return
+        task = missing[0]
+        self.console.print(
+            f"Next: task {task.id}. After a change: botschool grade {task.id}   "
+            f"A hint: botschool hint {task.id}",
+            soft_wrap=True,
+        )
+
+    def _indented(self, lines: list[str], longest: int, style: str) -> None:
+        if len(lines) > longest:
+            lines = [*lines[:longest], f"... and {len(lines) - longest} more lines"]
+        for line in lines:
+            self.console.print(Padding(escape(line), (0, 0, 0, 9)), style=style)
+
+
+@contextmanager
+def counting(
+    what: str, console: Console
+) -> Iterator[tuple[Callable[[int], None], Callable[[], None]]]:
+    """A progress bar on a terminal: gives start(count) and step(). It vanishes at the end."""
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    columns = (f"{what}", BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    hidden = not console.is_terminal
+    with Progress(*columns, console=console, transient=True, disable=hidden) as bar:
+        task = bar.add_task(what, total=None)
+        yield (lambda count: bar.update(task, total=count)), (lambda: bar.advance(task))
+
+
+def notice(missing: list[str]) -> str:
+    """What the grader could not confine on this system, in a sentence; "" if nothing."""
+    if not missing:
+        return ""
+    return (
+        f"Notice: this system cannot confine a submission's {_listed(missing)}; grade only "
+        "files that you trust here."
+    )
+
+
+def _listed(words: list[str]) -> str:
+    return " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))

@@ -1,0 +1,1 @@
+"""Run a submission in a child process, and explain what goes wrong in its code."""

@@ -1,0 +1,217 @@
+"""Sentences about what went wrong in a submission's own code, with the learner's own lines."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from botschool.grading.declare.checks import NotDone, Wrong, plain
+
+Place = Callable[[int], str]
+"""From a line of the file to words for the learner."""
+MAX_LINE = 100
+"""Characters of a line that is shown."""
+MAX_FILE = 2**20
+"""Characters of a file whose lines are shown."""
+MAX_CALLS = 3
+"""Places on the way to where the program was."""
+_NO_NUMBERS = {
+    "Tensor": "a tensor: .detach().numpy() or .item() gives its numbers",
+    "Parameter": "a tensor: .detach().numpy() or .item() gives its numbers",
+    "function": "a function itself: parentheses call it",
+    "builtin_function_or_method": "a function itself: parentheses call it",
+    "method": "a method itself: parentheses call it",
+    "generator": "a generator: list(...) makes a list of it",
+    "map": "a map: list(...) makes a list of it",
+    "zip": "a zip: list(...) makes a list of it",
+    "range": "a range: list(...) makes a list of it",
+    "filter": "a filter: list(...) makes a list of it",
+    "dict_keys": "the keys of a dict: list(...) makes a list of them",
+    "dict_values": "the values of a dict: list(...) makes a list of them",
+    "set": "a set, which has no order: make a list",
+    "ellipsis": "the three dots: write your own code in their place",
+}
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a file comes from that was made of parts of another."""
+
+    place: Place | None = None
+    """Words for a line of it; else its name and the line's number are said."""
+    lost: dict[str, str] = field(default_factory=dict)
+    """Functions that stand in parts which are no Python -> words for the part."""
+
+
+_ADVICE = (
+    (
+        r"matmul: |shapes .* not aligned|mat1 and mat2 shapes",
+        "The last axis of the left one must be as long as the first but one of the right one: "
+        "transpose one (.T), or exchange the two sides.",
+    ),
+    (
+        r"could not be broadcast|could not broadcast|must match the size of tensor",
+        "Arrays of these shapes cannot be combined number by number: print .shape of both.",
+    ),
+    (r"'NoneType'", "Something is None: does a function end without `return`?"),
+    (
+        r"too many values to unpack|not enough values to unpack",
+        "In Gymnasium reset returns (observation, info), and step returns (observation, reward, "
+        "terminated, truncated, info).",
+    ),
+    (
+        r"for .*: 'list' and|bad operand type for unary .*'list'|multiply sequence by non-int",
+        "A list is no array: np.array(...) makes one that can be computed with.",
+    ),
+    (
+        r"'float' object cannot be interpreted|(indices must be|expected a sequence of) integers",
+        "A whole number is needed here: use // for /, or int(...).",
+    ),
+    (
+        r"does not require grad|on Tensor that requires grad|on a Tensor that requires grad",
+        "torch cannot follow through NumPy, .item() or .detach(): compute the loss with torch, and "
+        "take numbers out of it only afterwards.",
+    ),
+    (
+        r"setting an array element with a sequence|inhomogeneous shape",
+        "The parts of an array must have the same length: print the length of each.",
+    ),
+)
+"""Patterns of what exceptions say -> what that mostly means to a beginner."""
+
+
+class SourceLines:
+    """The lines of a submission's files, as they were handed in."""
+
+    def __init__(self, file: Path, origin: Origin, quiet: bool = False) -> None:
+        """quiet: whether nothing is to be shown of what exceptions say."""
+        self._file, self._place = file, origin.place
+        self.lost, self.quiet = origin.lost, quiet
+        self._texts: dict[str, list[str]] = {}
+
+    def at(self, name: str, line: int) -> tuple[str, str]:
+        """(where it is in words, the text) of a line of a file in the submission's folder."""
+        name = plain(name)[:80]
+        own = name == self._file.name and self._place is not None
+        where = self._place(line) if own else f"{name}:{line}"
+        lines = self.lines(name)
+        text = lines[line - 1] if 0 < line <= len(lines) else ""
+        return where, plain(text.expandtabs(4))
+
+    def shown(self, name: Any, line: Any) -> str:
+        """A line to put below a sentence; "" if there is none."""
+        if not isinstance(name, str) or type(line) is not int:
+            return ""
+        where, text = self.at(name, line)
+        return f"\n  {where}: {text.strip()[:MAX_LINE]}" if text.strip() else f"\n  {where}"
+
+    def lines(self, name: str = "") -> list[str]:
+        """Of a file beside the submission's own, or of that; [] if it is not there."""
+        name = name or self._file.name
+        if name not in self._texts:
+            path = self._file.parent / name
+            inside = ".." not in Path(name).parts and not Path(name).is_absolute()
+            raw = b""
+            with contextlib.suppress(OSError):
+                if inside and path.is_file() and not path.is_symlink():
+                    with path.open("rb") as file:
+                        raw = file.read(MAX_FILE)
+            self._texts[name] = re.split(r"\r\n|\r|\n", raw.decode("utf-8", "replace"))
+        return self._texts[name]
+
+    def defined(self, name: str) -> int | None:
+        """The line of the file where a function or class of this name begins, indented or not."""
+        pattern = re.compile(rf"\s*(async\s+def|def|class)\s+{re.escape(name)}\b")
+        found = [n for n, line in enumerate(self.lines(), 1) if pattern.match(line)]
+        return found[0] if found else None
+
+
+def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
+    """The exception for a child's answer that tells of one (sandbox.exceptions.explain)."""
+    name, text, near, call = (
+        plain(str(answer.get(key) or "")[:500]) for key in ("error", "text", "near", "call")
+    )
+    text = "" if source.quiet and name not in ("Missing", "NotPlain") else text
+    place = source.shown(answer.get("file"), answer.get("line"))
+    if answer.get("loading"):
+        return Unloadable(name, text, near, answer, source)
+    if name == "NotPlain":
+        return Wrong(
+            f"{said} returned {_no_numbers(text)}, but numbers, lists or arrays are needed."
+        )
+    if name == "NotImplementedError":
+        return NotDone(f"not done yet{f': {text}' if text else ''}")
+    if name == "Missing":
+        return Wrong(_missing(text, near, source))
+    if name == "Signature":
+        return Wrong(
+            f"{said} cannot be called like this: {text}. Yours is {call}: take the parameters that "
+            "the exercise's file gives it."
+        )
+    colon = f": {text}" if text else ""
+    means = [advice for pattern, advice in _ADVICE if re.search(pattern, text)][:1]
+    below = place + "".join(f"\n  {advice}" for advice in means)
+    return Wrong(f"{said} raised {name}{colon}{_suggested(near, text)}{below}")
+
+
+def where_it_was(calls: list[tuple[str, int]], source: SourceLines) -> str:
+    """Lines to put below a sentence: where a program was, and who called that."""
+    text = ""
+    for number, (name, line) in enumerate(calls[:MAX_CALLS]):
+        shown = source.shown(name, line).strip()
+        text += f"\n  {'It was at' if number == 0 else 'called from'} {shown}"
+    return text
+
+
+class Unloadable(Wrong):
+    """The file cannot be loaded; `banner` says so to the learner, with its line and a caret."""
+
+    def __init__(
+        self, name: str, text: str, near: str, answer: dict[str, Any], source: SourceLines
+    ) -> None:
+        colon = f": {text}" if text else ""
+        file, line = answer.get("file"), answer.get("line")
+        known = isinstance(file, str) and type(line) is int
+        where = f"\n{_marked(file, line, answer.get('column'), source)}" if known else ""
+        syntax = name in ("SyntaxError", "IndentationError", "TabError")
+        what = "Your file is no Python yet" if syntax else "Your file cannot be loaded"
+        self.banner = f"{what}. Mend this first:{where}\n  {name}{colon}{_suggested(near, text)}"
+        at = f" in {source.at(file, line)[0]}" if known else ""
+        super().__init__(f"Your file cannot be loaded: {name}{at}{colon}")
+
+
+def _marked(file: str, line: int, column: Any, source: SourceLines) -> str:
+    """A line with a caret below it."""
+    where, text = source.at(file, line)
+    shown = f"  {where}\n    {text.strip()[:MAX_LINE]}"
+    if type(column) is not int or column < 1:
+        return shown
+    indent = len(text) - len(text.lstrip())
+    return f"{shown}\n    {' ' * max(0, min(column - 1 - indent, MAX_LINE))}^"
+
+
+def _missing(name: str, near: str, source: SourceLines) -> str:
+    text = f"there is no function {name} in your file"
+    if part := source.lost.get(name):
+        return f"{name} cannot be read: {part} is no Python, as said above."
+    if line := source.defined(name):
+        where, code = source.at(source._file.name, line)
+        inner = code != code.lstrip()
+        why = "it is indented, and so belongs to what is above it" if inner else "it is not reached"
+        return f"{text}: one stands at {where}, but {why}."
+    if near:
+        return f"{text}; there is {near}: give it the name {name} again."
+    return f"{text}: its name must be as the exercise's file gives it."
+
+
+def _suggested(near: str, text: str) -> str:
+    return f". Did you mean {near}?" if near and "Did you mean" not in text else ""
+
+
+def _no_numbers(text: str) -> str:
+    found = re.fullmatch(r"an object of type (\w+)", text)
+    return _NO_NUMBERS.get(found[1], text) if found else text

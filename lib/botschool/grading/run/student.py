@@ -1,0 +1,215 @@
+"""A submission, in a child process of its own: calls in, plain data out."""
+
+from __future__ import annotations
+
+import errno
+import inspect
+import os
+import textwrap
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.values import argument, pasted
+from botschool.grading.run.confined import (
+    MachineFault,
+    fork_server,
+    machine_fault,
+    scratch_copy,
+    start_child,
+)
+from botschool.grading.run.failures import Origin, SourceLines, explained, where_it_was
+from botschool.grading.run.refused import refuse
+from botschool.sandbox import Allowance, Child, ForkServer, Limits
+from botschool.sandbox.usage import is_full
+
+
+class Student:
+    """The file of a submission, ready to be called.
+
+    All calls together are limited to `seconds` of processor time, and generously in the time that
+    passes (sandbox.Allowance). A child that died, hung or was killed is replaced at the next call,
+    so that later checks are judged on their own.
+    """
+
+    def __init__(
+        self,
+        file: Path,
+        seconds: float = 20,
+        memory: int = 4096,
+        server: ForkServer | None = None,
+        tried: bool = True,
+        origin: Origin | None = None,
+        references: dict[str, Any] | None = None,
+        refused: tuple[str, ...] = (),
+    ) -> None:
+        """memory: MB of address space; server: else one of its own; refused: as of Exercise.task.
+
+        origin: where the lines of the file come from, if that is made of parts of another.
+        references: of sandbox.Child, functions to put in the place of the submission's own.
+        tried: whether a fault that may be the machine's has been met before, and the submission
+        is to blame if it comes again and nothing speaks against the machine.
+        Raises Wrong when the submission is too large.
+        """
+        self._file = Path(file)
+        self._memory = memory * 2**20
+        self._allowance = Allowance(seconds)
+        self._tried = tried
+        self._refused = refused
+        self._child: Child | None = None
+        self._printed = ""
+        self.missing: list[str] = []
+        """What this system could not confine, in words."""
+        self.answers = 0
+        """How many requests the submission has answered."""
+        self.said = "your file"
+        """The last call, as the learner would write it."""
+        self.pasted = ""
+        """The same to paste into Python; "" if it is too long, or no call of a function."""
+        self.request: dict[str, Any] = {}
+        """The last one."""
+        self.answer: Any = None
+        """To the last request."""
+        self._references = references
+        self._source = SourceLines(self._file, origin or Origin(), quiet=references is not None)
+        self._scratch = scratch_copy(self._file)
+        self._server = server
+        self._own: ForkServer | None = None
+
+    def call(self, name: str, *arguments: Any, **options: Any) -> Any:
+        """Calls a function of the submission; what it returns, as plain data.
+
+        Raises Wrong with a sentence when it fails, hangs or returns something else.
+        """
+        shown = [*map(argument, arguments), *(f"{k}={argument(v)}" for k, v in options.items())]
+        self.said = f"{name}({', '.join(shown)})"
+        self.pasted = pasted(name, arguments, options)
+        return self._request({"name": name, "arguments": arguments, "options": options})
+
+    def run(self, driver: Callable[..., Any], *arguments: Any, said: str | None = None) -> Any:
+        """Runs a function of the grader's inside the child, as driver(student_module, ...).
+
+        The driver must import what it needs itself. What it reports is no more trustworthy than
+        the submission: check it again.
+        """
+        self.said, self.pasted = said or f"{driver.__name__}(...)", ""
+        return self._request(_driven(driver, *arguments))
+
+    def twice(self, request: dict[str, Any]) -> dict[str, Any] | None:
+        """The answers to a request that is made twice, and its arguments after the first time.
+
+        {"answers", "arguments"}, or None when that fails. Nothing that counts depends on it.
+        """
+        try:
+            found = self._request(request | {"twice": True})
+        except Wrong:
+            return None
+        fine = isinstance(found, dict) and isinstance(found.get("answers"), list)
+        return found if fine and len(found["answers"]) == 2 else None
+
+    @property
+    def printed(self) -> str:
+        """The beginning of what the submission has printed."""
+        return self._printed + (self._child.printed() if self._child else "")
+
+    @property
+    def seconds_left(self) -> float:
+        """What is left of the time."""
+        return self._allowance.left
+
+    def scratch(self, name: str) -> Path:
+        """A file that the submission has written beside its own, as a copy that stays as it is."""
+        try:
+            return self._scratch.copy(name)
+        except OSError as error:
+            fault = machine_fault(error)
+            if isinstance(fault, MachineFault):
+                raise fault from None
+            raise Wrong(f"{self.said} should have written the file {name}, but has not.") from None
+
+    def pictures(self) -> list[tuple[str, bytes]]:
+        """(name, content) of the PNG files beside the submission's file; few and small ones."""
+        return self._scratch.pictures()
+
+    def stop(self) -> None:
+        """Kills the child, if there is one; the next call starts another."""
+        if self._child is not None:
+            self._child.kill()
+            self._printed = self.printed
+            self._child = None
+
+    def close(self) -> None:
+        """Kills the child and removes the scratch copy."""
+        self.stop()
+        if self._own is not None:
+            self._own.close()
+        self._scratch.remove()
+
+    def _request(self, request: dict[str, Any]) -> Any:
+        self.request, self.answer = request, None
+        if self.seconds_left <= 0:
+            raise Wrong("the task's time was used up by the checks before.")
+        first = self._child is None
+        if first:
+            if self._server is None:
+                self._server = self._own = fork_server()
+            limits = Limits(self.seconds_left, self._memory)
+            self._child = start_child(
+                self._server, self._scratch, self._file, limits, self._references
+            )
+            self.missing = self._child.missing
+        try:
+            if first and self._refused:
+                self._child.ask(_driven(refuse, list(self._refused)), self._allowance)
+            answer = self._child.ask(request, self._allowance)
+        except TimeoutError:
+            where = where_it_was(self._child.where(), self._source)
+            self.stop()
+            slept = ": it waits instead of computing" if self._allowance.slept else ""
+            raise Wrong(
+                f"{self.said} did not return within the task's {self._allowance.seconds:g} "
+                f"seconds{slept}.{where}"
+            ) from None
+        except ValueError:
+            self.stop()
+            raise Wrong(f"{self.said} sent back something that is no plain data.") from None
+        if answer is None:
+            reason = self._child.ending()
+            self._blame_the_machine_for_a_kill()
+            self.stop()
+            raise Wrong(f"The program ended while {self.said} was running: {reason}.")
+        self.answers += 1
+        self._blame_the_machine_for_a_full_disk(answer)
+        if "error" in answer:
+            raise explained(answer, self.said, self._source)
+        if "value" not in answer:
+            raise Wrong(f"{self.said} sent back something that is no plain data.")
+        self.answer = answer["value"]
+        return self.answer
+
+    def _blame_the_machine_for_a_kill(self) -> None:
+        """Raises MachineFault for one that the grader did not make."""
+        if not self._child.was_killed():
+            return
+        memory = self._child.memory_ran_out()
+        if memory or not self._tried:
+            why = "for lack of memory" if memory else "from outside"
+            raise MachineFault(
+                f"A process of the grading was killed {why} while {self.said} was running: close "
+                "other programs, or use fewer workers (-w), and grade again."
+            )
+
+    def _blame_the_machine_for_a_full_disk(self, answer: dict[str, Any]) -> None:
+        """Raises MachineFault if the submission could not write because of others."""
+        full = os.strerror(errno.ENOSPC) in str(answer.get("text"))
+        if full and (is_full(self._scratch.root) or not self._tried):
+            raise MachineFault(
+                f"The disk was full while {self.said} was running: free some space and grade again."
+            )
+
+
+def _driven(driver: Callable[..., Any], *arguments: Any) -> dict[str, Any]:
+    """The request that runs a driver."""
+    source = textwrap.dedent(inspect.getsource(driver))
+    return {"driver": source, "name": driver.__name__, "arguments": arguments}

@@ -1,0 +1,1 @@
+"""Policies: their hyperparameters, their networks, and how they fit a problem."""
