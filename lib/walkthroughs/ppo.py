@@ -1,4 +1,7 @@
-"""PPO, proximal policy optimisation, whole and in one file. Read it from top to bottom.
+"""PPO, proximal policy optimisation. Read it from top to bottom: the whole method is here.
+
+The rest is not PPO: options and folders (shared.py), the picture (ppo_picture.py), and environments
+by name (botschool).
 
 A policy network acts in several environments at once, and a value network (the critic) learns to
 predict the return that will follow. What went better than predicted is made more probable, what
@@ -368,7 +371,12 @@ def main() -> None:
         history = train(h, writer.add_scalar, print)
     returns = evaluate(history.agent, h.env, episodes=20, seed=10_000)
     print(f"20 new episodes without exploring: {returns.mean():.1f} +- {returns.std():.1f}")
-    draw(history, f"PPO on {h.env}, seed {h.seed}", folder / "learning.png")
+    draw(
+        history.episodes,
+        history.indicators,
+        f"PPO on {h.env}, seed {h.seed}",
+        folder / "learning.png",
+    )
     print(f"TensorBoard: tensorboard --logdir {folder}")
 
 
