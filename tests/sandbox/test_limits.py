@@ -72,7 +72,7 @@ def test_sizes_of_mapped_files_that_may_not_be_seen(monkeypatch, tmp_path):
         return known(path, **options)
 
     monkeypatch.setattr(usage.os, "stat", refuse)
-    assert usage.removed_bytes(os.getpid(), tmp_path, 1000) == 1000
-    assert usage.removed_bytes(os.getpid(), tmp_path / "other", 1000) == 0
+    assert usage.removed(os.getpid(), tmp_path, 1000).size == 1000
+    assert usage.removed(os.getpid(), tmp_path / "other", 1000).size == 0
     libc.munmap(address, 4096)
-    assert usage.removed_bytes(os.getpid(), tmp_path, 1000) == 0
+    assert usage.removed(os.getpid(), tmp_path, 1000).size == 0

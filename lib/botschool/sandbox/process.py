@@ -24,6 +24,8 @@ MAX_OUTPUT = 16 * 2**20
 """Bytes that it may print."""
 MAX_FILE = 64 * 2**20
 """Bytes of a written file."""
+MAX_WRITTEN_IN_ALL = 2**30
+"""Bytes that it may write to the disk, removed and overwritten ones too."""
 MAX_THREADS = 64
 WHERE_SECONDS, MAX_TRACE = 1.0, 2**16
 """For an answer to where it is; bytes of it."""
@@ -71,6 +73,7 @@ class Child:
         self._output, its_output = os.pipe()
         os.set_blocking(self._requests, False)
         try:
+            scratch.enter(server)
             self._pid = server.start(to_child, from_child, its_output, scratch.folder)
         except SandboxError:
             self._close_pipes()
@@ -120,6 +123,9 @@ class Child:
         answer = None if message is None else protocol.unpack(message)
         if answer is not None and not isinstance(answer, dict):
             raise ValueError("not an answer")
+        if answer is not None and "error" in answer and (full := self._scratch.is_full()):
+            self._end(full)
+            return None
         return answer
 
     def where(self) -> list[tuple[str, int]]:
@@ -155,7 +161,7 @@ class Child:
         code = self._wait(1)
         if code is None:
             return "it closed its connection"
-        if self._reason:
+        if self._reason and code == -signal.SIGKILL:
             return self._reason
         if code == -getattr(signal, "SIGXCPU", 0):
             return "it used too much time"
@@ -217,8 +223,22 @@ class Child:
 
     def _look(self) -> None:
         while not self._closed.wait(POLL_SECONDS) and self._code is None:
-            if usage.threads(self._pid) > MAX_THREADS:
-                self._end(f"it started more than {MAX_THREADS} threads")
-            removed = usage.removed_bytes(self._pid, self._scratch.root, MAX_FILE)
-            if reason := self._scratch.trouble(removed):
+            try:
+                reason = self._trouble()
+            except BaseException as error:  # what cannot be watched does not run
+                reason = f"it could not be watched ({type(error).__name__})"
+            if reason:
                 self._end(reason)
+
+    def _trouble(self) -> str:
+        """Return which limit it exceeds, in words; "" if none."""
+        if usage.threads(self._pid) > MAX_THREADS:
+            return f"it started more than {MAX_THREADS} threads"
+        if usage.has_lost_its_leader(self._pid):
+            return "it ended its first thread while others ran on"
+        if self._scratch.in_memory:  # the kernel counts
+            return self._scratch.is_full()
+        if usage.written_bytes(self._pid) > MAX_WRITTEN_IN_ALL:
+            return f"it wrote more than {MAX_WRITTEN_IN_ALL // 2**20} MB to the disk in all"
+        removed = usage.removed(self._pid, self._scratch.root, MAX_FILE)
+        return self._scratch.trouble(removed.size, removed.count)

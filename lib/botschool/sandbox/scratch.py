@@ -12,8 +12,12 @@ import stat
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from botschool.sandbox.errors import Refused
+
+if TYPE_CHECKING:
+    from botschool.sandbox.server import ForkServer
 
 MAX_COPIED, MAX_COPIED_FILES = 50 * 2**20, 2000
 """Bytes and files that are copied."""
@@ -23,6 +27,8 @@ MAX_DEPTH = 20
 """Levels of folders."""
 MAX_PICTURES, MAX_PICTURE, MAX_PICTURE_SIDE = 4, 600_000, 4000
 """Number; bytes and pixels of each."""
+_FILE = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+_FOLDER = _FILE | getattr(os, "O_DIRECTORY", 0)
 _PNG = b"\x89PNG\r\n\x1a\n"
 
 
@@ -39,49 +45,70 @@ class Scratch:
         self.root = self._base / "scratch"
         self.folder = self.root / "submission"
         self._safe = self._base / "safe"  # where the untrusted code cannot write
+        self.in_memory = False
+        """Whether `root` is a file system in memory, which only the children see by this name."""
+        self._server: ForkServer | None = None
+        self._top: int | None = None  # a descriptor of `root`
         try:
             self.folder.mkdir(parents=True)
             self._safe.mkdir()
+            self._top = os.open(self.root, _FOLDER)
             for path in regular_files(file, skip):
                 target = self.folder / path.relative_to(file.parent)
                 target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(_content(path, MAX_COPIED))
+                target.write_bytes(_content(os.open(path, _FILE), MAX_COPIED))
         except BaseException:
             self.remove()
             raise
 
-    def trouble(self, removed: int = 0) -> str:
-        """Which limit the written files exceed, in words; "" if none.
+    def enter(self, server: ForkServer) -> None:
+        """Put the copy into memory, for children of this server, where the system allows it."""
+        if self._server is server:
+            return
+        self._server = server
+        top = server.mount(self.root, MAX_WRITTEN + 2**20, MAX_WRITTEN_FILES + 10)
+        if top is None:
+            return
+        os.close(self._top)
+        self._top, self.in_memory = top, True
+        shutil.copytree(self.root, f"/proc/self/fd/{top}", dirs_exist_ok=True)
 
-        removed: bytes of files that were removed and are still on the disk.
+    def is_full(self) -> str:
+        """Return which limit of the memory is reached, in words; "" if none."""
+        if not self.in_memory:
+            return ""
+        status = os.statvfs(self._top)
+        if (status.f_blocks - status.f_bfree) * status.f_frsize > MAX_WRITTEN:
+            return _too_much()
+        return _too_many() if status.f_files - status.f_ffree > MAX_WRITTEN_FILES else ""
+
+    def trouble(self, size: int = 0, count: int = 0) -> str:
+        """Return which limit the written files exceed, in words; "" if none.
+
+        size, count: of files that were removed and are still on the disk.
         """
-        size, count = removed, 0
         try:
-            for _, entry, depth in _entries(self.root):
+            for _, entry, depth in _entries(self.root, vanishing=True):
                 count += 1
                 # a file that vanishes meanwhile counts nothing
                 with contextlib.suppress(FileNotFoundError):
                     size += entry.stat(follow_symlinks=False).st_blocks * 512
                 if count > MAX_WRITTEN_FILES:
-                    return f"it wrote more than {MAX_WRITTEN_FILES} files"
+                    return _too_many()
                 if depth > MAX_DEPTH:
                     return f"it made folders more than {MAX_DEPTH} levels deep"
                 if size > MAX_WRITTEN:
                     break
-        except FileNotFoundError:
-            return ""
         except OSError:
             return "it made a folder that cannot be read"
-        if size > MAX_WRITTEN:
-            return f"it wrote more than {MAX_WRITTEN // 2**20} MB of files"
-        return ""
+        return _too_much() if size > MAX_WRITTEN else ""
 
     def copy(self, name: str) -> Path:
         """A copy of a file in `folder`, out of the untrusted code's reach.
 
         Raises OSError when there is none, or no regular one of a reasonable size.
         """
-        content = _content(self.folder / name, MAX_WRITTEN, within=self._base)
+        content = _content(self._open(name), MAX_WRITTEN)
         place = self._safe / name
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(content)
@@ -91,17 +118,51 @@ class Scratch:
         """(name, content) of PNG files in `folder`, at most MAX_PICTURES."""
         found = []
         with contextlib.suppress(OSError):
-            names = sorted(entry.name for entry in os.scandir(self.folder))
+            names = sorted(self._names())
             for name in [name for name in names if name.lower().endswith(".png")][:100]:
                 with contextlib.suppress(OSError):
-                    content = _content(self.folder / name, MAX_PICTURE, within=self._base)
+                    content = _content(self._open(name), MAX_PICTURE)
                     if _is_picture(content) and len(found) < MAX_PICTURES:
                         found.append((name, content))
         return found
 
     def remove(self) -> None:
         """Removes everything; the untrusted code must no longer run."""
+        if self._top is not None:
+            os.close(self._top)
+            self._top = None
         remove_tree(self._base)
+
+    def _names(self) -> list[str]:
+        """Return the names in `folder`. Raises OSError."""
+        folder = os.open(self.folder.name, _FOLDER, dir_fd=self._top)
+        try:
+            return os.listdir(folder)
+        finally:
+            os.close(folder)
+
+    def _open(self, name: str) -> int:
+        """Open a file below `folder` for reading, by no link. Raises OSError."""
+        *folders, last = Path(name).parts
+        if Path(name).is_absolute() or ".." in (*folders, last):
+            raise OSError(f"{name} lies elsewhere")
+        at = os.dup(self._top)
+        try:
+            for part in (self.folder.name, *folders):
+                inner = os.open(part, _FOLDER, dir_fd=at)
+                os.close(at)
+                at = inner
+            return os.open(last, _FILE, dir_fd=at)
+        finally:
+            os.close(at)
+
+
+def _too_much() -> str:
+    return f"it wrote more than {MAX_WRITTEN // 2**20} MB of files"
+
+
+def _too_many() -> str:
+    return f"it wrote more than {MAX_WRITTEN_FILES} files"
 
 
 def regular_files(file: Path, skip: Callable[[str, int], bool] = _keep_all) -> list[Path]:
@@ -131,12 +192,23 @@ def regular_files(file: Path, skip: Callable[[str, int], bool] = _keep_all) -> l
     return sorted(found)
 
 
-def _entries(root: Path, hidden: bool = True) -> Iterator[tuple[str, os.DirEntry, int]]:
-    """(path, entry, depth) of everything below a folder; links are not followed."""
+def _entries(
+    root: Path, hidden: bool = True, vanishing: bool = False
+) -> Iterator[tuple[str, os.DirEntry, int]]:
+    """Give (path, entry, depth) of everything below a folder; links are not followed.
+
+    vanishing: whether folders that are gone by the time they are read are passed over.
+    """
     folders = [(str(root), 1)]
     while folders:
         folder, depth = folders.pop()
-        with os.scandir(folder) as entries:
+        try:
+            opened = os.scandir(folder)
+        except FileNotFoundError:
+            if vanishing:
+                continue
+            raise
+        with opened as entries:
             for entry in entries:
                 if not hidden and (entry.name.startswith(".") or entry.name == "__pycache__"):
                     continue
@@ -145,17 +217,17 @@ def _entries(root: Path, hidden: bool = True) -> Iterator[tuple[str, os.DirEntry
                     folders.append((entry.path, depth + 1))
 
 
-def _content(path: Path, most: int, within: Path | None = None) -> bytes:
-    """The bytes of a regular file. Raises OSError for a link, a pipe, or too much."""
-    if within is not None and not path.parent.resolve().is_relative_to(within.resolve()):
-        raise OSError(f"{path.name} lies elsewhere")
-    flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
-    with open(os.open(path, flags), "rb") as file:
-        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-            raise OSError(f"{path.name} is no file")
-        content = file.read(most + 1)
+def _content(opened: int, most: int) -> bytes:
+    """Return the bytes of a regular file, and close it. Raises OSError for a pipe, or too much."""
+    try:
+        if not stat.S_ISREG(os.fstat(opened).st_mode):
+            raise OSError("no file")
+        with open(opened, "rb", closefd=False) as file:
+            content = file.read(most + 1)
+    finally:
+        os.close(opened)
     if len(content) > most:
-        raise OSError(f"{path.name} is too large")
+        raise OSError("too large")
     return content
 
 

@@ -17,10 +17,10 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from botschool.sandbox import child
+from botschool.sandbox import child, namespace
 from botschool.sandbox.confine import end_with
 from botschool.sandbox.errors import SandboxError
 from botschool.sandbox.paths import IMPORT_ROOT, is_packages
@@ -29,6 +29,7 @@ START_SECONDS = 180
 """Limit for the imports, and for the start of a child."""
 POLL_SECONDS = 0.005
 """Between two looks at whether a child has ended."""
+_CLOSE_ON_EXEC = getattr(socket, "MSG_CMSG_CLOEXEC", 0)
 _FORK_AFTER_IMPORTS = sys.platform == "linux"  # elsewhere libraries may not survive a fork
 
 
@@ -72,18 +73,36 @@ class ForkServer:
 
         Raises SandboxError.
         """
-        with self._lock:
-            self._link.settimeout(START_SECONDS)
-            try:
-                if not self._ready:
-                    self._ready = json.loads(self._answers.readline())
-                request = json.dumps({"folder": str(folder)}).encode() + b"\n"
-                socket.send_fds(self._link, [request], [requests, answers, output])
-                return json.loads(self._answers.readline())
-            except (OSError, ValueError):
-                raise SandboxError(
-                    f"The confined child process did not start: {self._last_line()}."
-                ) from None
+        with self._lock, self._asked():
+            request = json.dumps({"folder": str(folder)}).encode() + b"\n"
+            socket.send_fds(self._link, [request], [requests, answers, output])
+            return json.loads(self._answers.readline())
+
+    def mount(self, folder: Path, size: int, files: int) -> int | None:
+        """Put a file system in memory on a folder, as this server and its children see it.
+
+        size, files: its bytes, and number of files and folders. Return a descriptor of it for this
+        process; None where that is not allowed. It ends when the folder is removed. Raises
+        SandboxError.
+        """
+        with self._lock, self._asked():
+            request = {"mount": str(folder), "size": size, "files": files}
+            self._link.sendall(json.dumps(request).encode() + b"\n")
+            _, descriptors, _, _ = socket.recv_fds(self._link, 100, 1, _CLOSE_ON_EXEC)
+            return descriptors[0] if descriptors else None
+
+    @contextlib.contextmanager
+    def _asked(self) -> Iterator[None]:
+        """Wait until the imports are made; raises SandboxError for an answer that does not come."""
+        self._link.settimeout(START_SECONDS)
+        try:
+            if not self._ready:
+                self._ready = json.loads(self._answers.readline())
+            yield
+        except (OSError, ValueError):
+            raise SandboxError(
+                f"The confined child process did not start: {self._last_line()}."
+            ) from None
 
     def ended(self, pid: int, seconds: float) -> int | None:
         """Waits until a child has ended; its exit code as of Popen.returncode, None if it runs.
@@ -158,6 +177,7 @@ def main() -> None:
     Ends when the other end of the socket is closed.
     """
     link, modules = socket.socket(fileno=int(sys.argv[1])), sys.argv[2:]
+    enclosed = namespace.enter(os.environ["HOME"])  # before a library starts threads
     if _FORK_AFTER_IMPORTS:
         _import(modules)
     link.sendall(b"true\n")
@@ -168,6 +188,9 @@ def main() -> None:
         request = json.loads(message)
         if "ended" in request:
             answer = _ended(request["ended"], request["seconds"])
+        elif "mount" in request:
+            _mount(link, request, enclosed)
+            continue
         else:
             server, answer = os.getpid(), os.fork()
             if answer == 0:
@@ -185,6 +208,17 @@ def _import(modules: list[str]) -> None:
     ctypes.CDLL(None).fflush(None)  # what C libraries have printed belongs to no child
 
 
+def _mount(link: socket.socket, request: dict, enclosed: bool) -> None:
+    """Answer with a descriptor of the folder that is mounted, or none."""
+    folder = request["mount"]
+    if not enclosed or not namespace.mount(folder, request["size"], request["files"]):
+        link.sendall(b"false\n")
+        return
+    top = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    socket.send_fds(link, [b"true\n"], [top])
+    os.close(top)
+
+
 def _ended(pid: int, seconds: float) -> int | None:
     deadline = time.monotonic() + seconds
     while True:
@@ -196,16 +230,23 @@ def _ended(pid: int, seconds: float) -> int | None:
         time.sleep(POLL_SECONDS)
 
 
+def _close_all_but(kept: set[int]) -> None:
+    """Close all descriptors but these, whatever their numbers."""
+    for name in os.listdir("/dev/fd"):
+        if int(name) not in kept:
+            with contextlib.suppress(OSError):  # the one that listed them
+                os.close(int(name))
+
+
 def _become_child(modules: list[str], descriptors: list[int], folder: str) -> None:
     """In the forked process: closes what belongs to the server and serves requests."""
     code = 1
     try:
         os.setsid()
-        *pipes, output = (os.dup2(fd, 100 + n) for n, fd in enumerate(descriptors))
+        *pipes, output = descriptors
         os.dup2(output, 1)
         os.dup2(output, 2)
-        os.closerange(3, 100)
-        os.close(output)
+        _close_all_but({0, 1, 2, *pipes})
         os.chdir(folder)
         if not _FORK_AFTER_IMPORTS:
             _import(modules)
