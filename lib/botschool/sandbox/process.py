@@ -206,7 +206,7 @@ class Child:
 
     def _end(self, reason: str) -> None:
         if not self._closed.is_set():
-            self._reason = reason
+            self._reason = self._reason or reason
             self._kill_group()
 
     def _drain(self) -> None:
@@ -229,6 +229,7 @@ class Child:
                 reason = f"it could not be watched ({type(error).__name__})"
             if reason:
                 self._end(reason)
+                return
 
     def _trouble(self) -> str:
         """Return which limit it exceeds, in words; "" if none."""
