@@ -146,11 +146,11 @@ def change(name):
             os.rename(f"{name}_{number}", f"{name}{number}")
 
 def go():
-    os.mkdir("z")
     for name in "ab":
         threading.Thread(target=change, args=(name,), daemon=True).start()
     for number in range(8):
-        os.close(write(f"z/{number}"))
+        os.mkdir(f"z{number}")
+        os.close(write(f"z{number}/file"))
     time.sleep(9)
     return "LEAKED"
 """,

@@ -76,3 +76,32 @@ def test_sizes_of_mapped_files_that_may_not_be_seen(monkeypatch, tmp_path):
     assert usage.removed(os.getpid(), tmp_path / "other", 1000).size == 0
     libc.munmap(address, 4096)
     assert usage.removed(os.getpid(), tmp_path, 1000).size == 0
+
+
+@pytest.mark.parametrize("fault", [ValueError, MemoryError, PermissionError, SystemExit])
+def test_what_cannot_be_watched_does_not_run(sandboxed, monkeypatch, fault):
+    def fail(pid):
+        raise fault
+
+    monkeypatch.setattr(usage, "threads", fail)
+    one = sandboxed("import time\ndef nap(): time.sleep(20)\n")
+    assert one.ask("nap") is None
+    assert one.child.ending() == f"it could not be watched ({fault.__name__})"
+
+
+def test_exit_is_not_mistaken_for_a_limit(sandboxed):
+    one = sandboxed("import os\ndef leave(): os._exit(3)\n")
+    assert one.ask("leave") is None
+    assert one.child.ending() == "it called exit, so nothing came back"
+
+
+def test_a_file_that_does_not_fit_is_the_fault_of_the_code(sandboxed, monkeypatch):
+    """Not of the machine's disk: the caller is told so even where the code has caught nothing."""
+    monkeypatch.setattr(scratch, "MAX_WRITTEN", 20 * 2**20)
+    monkeypatch.setattr(process, "POLL_SECONDS", 60)
+    one = sandboxed("def write():\n    open('x', 'wb').write(bytes(50 * 2**20))\n")
+    if not one.scratch.in_memory:
+        pytest.skip("this system allows no mount namespace")
+    assert one.ask("write") is None
+    assert one.child.ending() == "it wrote more than 20 MB of files"
+    one.child.kill()

@@ -1,6 +1,7 @@
 """The folder of untrusted code: what is copied into it, read from it, and removed with it."""
 
 import os
+from pathlib import Path
 
 import pytest
 
@@ -89,4 +90,91 @@ def test_pictures_are_few_and_small(file):
     (one.folder / "2.png").write_bytes(header + size * 2 + bytes(700_000))
     (one.folder / "a.png").symlink_to("/etc/passwd")
     assert [name for name, _ in one.pictures()] == ["3.png", "4.png", "5.png"]
+    one.remove()
+
+
+def test_folders_that_vanish_hide_nothing(file, monkeypatch):
+    """Of which the names are read, and which are renamed before they are looked into."""
+    one = Scratch(file)
+    monkeypatch.setattr(scratch, "MAX_WRITTEN", 2**20)
+    (one.root / "vanishing").mkdir()
+    (one.root / "full").mkdir()
+    (one.root / "full" / "file").write_bytes(bytes(2**21))
+    scandir = os.scandir
+
+    def vanish(path):
+        if str(path).endswith("vanishing"):
+            raise FileNotFoundError
+        return scandir(path)
+
+    monkeypatch.setattr(scratch.os, "scandir", vanish)
+    for _ in range(3):
+        assert one.trouble() == "it wrote more than 1 MB of files"
+    monkeypatch.undo()
+    one.remove()
+
+
+@pytest.fixture
+def in_memory(server, file):
+    """A scratch folder in memory, with its server."""
+    one = Scratch(file)
+    one.enter(server)
+    if not one.in_memory:
+        pytest.skip("this system allows no mount namespace")
+    yield one
+    one.remove()
+
+
+def mounts(server):
+    return [
+        line.split()[1] for line in Path(f"/proc/{server._process.pid}/mounts").open()
+    ]  # fmt: skip
+
+
+def test_the_memory_is_of_limited_size_and_goes_with_the_folder(server, in_memory):
+    place = Path(f"/proc/{server._process.pid}/root{in_memory.folder}")
+    assert (place / "untrusted.py").exists()
+    assert str(in_memory.root) in mounts(server)
+    assert str(in_memory.root) not in Path("/proc/self/mounts").read_text()
+    with pytest.raises(OSError, match="No space left"), open(place / "large", "wb") as large:
+        for _ in range(300):
+            large.write(bytes(2**20))
+    assert not (in_memory.folder / "large").exists()  # which is the disk, here
+    assert in_memory.is_full() == "it wrote more than 256 MB of files"
+    with pytest.raises(OSError):
+        in_memory.copy("large")
+    (place / "large").unlink()
+    assert in_memory.is_full() == ""
+    (place / "small").write_text("1")
+    assert in_memory.copy("small").read_text() == "1"
+    in_memory.remove()
+    assert str(in_memory.root) not in mounts(server)
+
+
+def test_files_stay_for_the_next_child_of_a_server(server, in_memory):
+    Path(f"/proc/{server._process.pid}/root{in_memory.folder}/left").write_text("1")
+    in_memory.enter(server)
+    assert in_memory.copy("left").read_text() == "1"
+
+
+def test_folders_named_like_pictures_leave_no_descriptors_open(file):
+    one = Scratch(file)
+    for number in range(20):
+        (one.folder / f"{number}.png").mkdir()
+    before = len(os.listdir("/dev/fd"))
+    assert one.pictures() == []
+    assert len(os.listdir("/dev/fd")) == before
+    one.remove()
+
+
+def test_a_folder_that_became_a_link_is_not_followed(file, tmp_path):
+    one = Scratch(file)
+    (tmp_path / "secret").mkdir()
+    (tmp_path / "secret" / "best.txt").write_text("1")
+    (tmp_path / "secret" / "best.png").write_text("1")
+    one.folder.rename(one.root / "moved")
+    one.folder.symlink_to(tmp_path / "secret")
+    with pytest.raises(OSError):
+        one.copy("best.txt")
+    assert one.pictures() == []
     one.remove()
