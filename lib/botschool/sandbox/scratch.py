@@ -8,12 +8,12 @@ from __future__ import annotations
 import contextlib
 import os
 import shutil
-import stat
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from botschool.sandbox.errors import Refused
+from botschool.sandbox.errors import CannotRead, Refused
+from botschool.sandbox.inside import is_foreign, read_inside
 
 MAX_COPIED, MAX_COPIED_FILES = 50 * 2**20, 2000
 """Bytes and files that are copied."""
@@ -38,14 +38,16 @@ class Scratch:
         self._base = Path(tempfile.mkdtemp(prefix="botschool-"))
         self.root = self._base / "scratch"
         self.folder = self.root / "submission"
+        self._own = self.folder.relative_to(self._base)
         self._safe = self._base / "safe"  # where the untrusted code cannot write
         try:
             self.folder.mkdir(parents=True)
             self._safe.mkdir()
             for path in regular_files(file, skip):
-                target = self.folder / path.relative_to(file.parent)
+                name = path.relative_to(file.parent)
+                target = self.folder / name
                 target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(_content(path, MAX_COPIED))
+                target.write_bytes(_content(file.parent, name, MAX_COPIED))
         except BaseException:
             self.remove()
             raise
@@ -81,7 +83,7 @@ class Scratch:
 
         Raises OSError when there is none, or no regular one of a reasonable size.
         """
-        content = _content(self.folder / name, MAX_WRITTEN, within=self._base)
+        content = _content(self._base, self._own / name, MAX_WRITTEN)
         place = self._safe / name
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(content)
@@ -94,7 +96,7 @@ class Scratch:
             names = sorted(entry.name for entry in os.scandir(self.folder))
             for name in [name for name in names if name.lower().endswith(".png")][:100]:
                 with contextlib.suppress(OSError):
-                    content = _content(self.folder / name, MAX_PICTURE, within=self._base)
+                    content = _content(self._base, self._own / name, MAX_PICTURE)
                     if _is_picture(content) and len(found) < MAX_PICTURES:
                         found.append((name, content))
         return found
@@ -107,12 +109,15 @@ class Scratch:
 def regular_files(file: Path, skip: Callable[[str, int], bool] = _keep_all) -> list[Path]:
     """A file, those beside it and in sub-folders; links, hidden files and caches are left out.
 
+    So are hard links to files of others than the folder's owner.
     skip(name, depth): whether to leave out a file, too; depth is 1 beside `file`.
-    Raises Refused when there are more than MAX_COPIED bytes or MAX_COPIED_FILES.
+    Raises Refused when there are more than MAX_COPIED bytes or MAX_COPIED_FILES, CannotRead.
     """
     if file.is_symlink() or not file.is_file():
         raise Refused(f"{file.name} is a link or no file: hand in the file itself.")
-    found, total = [], 0
+    found, total, top = [], 0, file.parent.stat()
+    if is_foreign(file.stat(), top):
+        raise Refused(f"{file.name} is a link to somebody else's file: hand in the file itself.")
     too_large = Refused(
         f"The folder of {file.name} holds more than {MAX_COPIED // 2**20} MB or "
         f"{MAX_COPIED_FILES} files: remove what does not belong to the exercise."
@@ -122,12 +127,15 @@ def regular_files(file: Path, skip: Callable[[str, int], bool] = _keep_all) -> l
             if len(found) > MAX_COPIED_FILES or depth > MAX_DEPTH:
                 raise too_large
             if entry.is_file(follow_symlinks=False) and not skip(entry.name, depth):
+                status = entry.stat(follow_symlinks=False)
+                if is_foreign(status, top):
+                    continue
                 found.append(Path(path))
-                total += entry.stat(follow_symlinks=False).st_size
+                total += status.st_size
                 if total > MAX_COPIED:
                     raise too_large
     except OSError as error:
-        raise Refused(f"The folder of {file.name} cannot be read ({error.strerror}).") from None
+        raise CannotRead(f"The folder of {file.name} cannot be read ({error.strerror}).") from None
     return sorted(found)
 
 
@@ -145,17 +153,11 @@ def _entries(root: Path, hidden: bool = True) -> Iterator[tuple[str, os.DirEntry
                     folders.append((entry.path, depth + 1))
 
 
-def _content(path: Path, most: int, within: Path | None = None) -> bytes:
-    """The bytes of a regular file. Raises OSError for a link, a pipe, or too much."""
-    if within is not None and not path.parent.resolve().is_relative_to(within.resolve()):
-        raise OSError(f"{path.name} lies elsewhere")
-    flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
-    with open(os.open(path, flags), "rb") as file:
-        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-            raise OSError(f"{path.name} is no file")
-        content = file.read(most + 1)
+def _content(top: Path, name: str | Path, most: int) -> bytes:
+    """The bytes of a regular file below a folder. Raises OSError for a link, or too much."""
+    content = read_inside(top, name, most)
     if len(content) > most:
-        raise OSError(f"{path.name} is too large")
+        raise OSError(f"{name} is too large")
     return content
 
 
