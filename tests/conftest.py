@@ -16,6 +16,14 @@ def pytest_xdist_auto_num_workers():
     return min(8, len(os.sched_getaffinity(0)) if known else os.cpu_count() or 1)
 
 
+@pytest.fixture(scope="session", autouse=True)
+def own_settings(tmp_path_factory):
+    """A folder for the settings of the user, who trusts other courses; his own stays as it is."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CONFIG_HOME", str(tmp_path_factory.mktemp("settings")))
+        yield
+
+
 @pytest.fixture
 def command(capfd, monkeypatch):
     """Calls the command in this process: (exit code, standard output, standard error)."""

@@ -26,6 +26,7 @@ from botschool.grading.copies.leaks import find_leaks
 from botschool.grading.copies.release import MANIFEST, release
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.secret import grading_secret
+from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
 from botschool.grading.report.progress import table
 from botschool.grading.report.screen import Screen
@@ -43,6 +44,7 @@ PNG = base64.b64decode(
 @pytest.fixture
 def course(tmp_path, monkeypatch):
     root = make_course(tmp_path / "course")
+    trust(root)
     monkeypatch.setenv("BOTSCHOOL_COURSE", str(root))
     return root
 

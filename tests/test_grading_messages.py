@@ -16,6 +16,7 @@ from botschool.grading import (
 )
 from botschool.grading.declare.exercise import Exercise as Declared
 from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.declare.trust import trust
 from botschool.grading.declare.values import apart, kind, pasted, show
 from botschool.grading.judge.looking import same
 from botschool.grading.judge.submission import grade
@@ -31,7 +32,9 @@ def server():
 
 @pytest.fixture(scope="module")
 def course(tmp_path_factory):
-    return make_course(tmp_path_factory.mktemp("course") / "course")
+    root = make_course(tmp_path_factory.mktemp("course") / "course")
+    trust(root)
+    return root
 
 
 @pytest.fixture

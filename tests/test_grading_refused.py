@@ -28,6 +28,41 @@ def by_a_later_import():
     from colorsys import rgb_to_hsv
     return rgb_to_hsv(0, 0, 0)
 
+def again():
+    import sys
+    for name in ("fractions", "colorsys"):
+        sys.modules.pop(name, None)
+
+def by_a_second_import():
+    again()
+    from colorsys import rgb_to_hsv
+    return rgb_to_hsv(0, 0, 0)
+
+def by_a_second_module():
+    again()
+    import fractions
+    return int(fractions.Fraction(1, 3).limit_denominator(2))
+
+def by_a_reload():
+    import importlib
+    return int(importlib.reload(fractions).Fraction(1, 3).limit_denominator(2))
+
+def without_finders():
+    import sys
+    again()
+    sys.meta_path[:] = [each for each in sys.meta_path if "importlib" in str(each)]
+    sys.path_importer_cache.clear()
+    import colorsys
+    return colorsys.rgb_to_hsv(0, 0, 0)
+
+def by_an_own_loader():
+    from importlib.machinery import SourceFileLoader
+    from importlib.util import module_from_spec, spec_from_file_location
+    spec = spec_from_file_location("other", fractions.__file__)
+    other = module_from_spec(spec)
+    spec.loader.exec_module(other)
+    return int(other.Fraction(1, 3).limit_denominator(2))
+
 def by_hand():
     import colorsys
     return [int(Fraction(6, 3)), colorsys.hsv_to_rgb(0, 0, 1)[0]]
@@ -51,6 +86,11 @@ def student(tmp_path):
         ("by_a_module", "fractions.Fraction.limit_denominator"),
         ("by_a_name_of_its_own", "functools.total_ordering"),
         ("by_a_later_import", "colorsys.rgb_to_hsv"),
+        ("by_a_second_import", "colorsys.rgb_to_hsv"),
+        ("by_a_second_module", "fractions.Fraction.limit_denominator"),
+        ("by_a_reload", "fractions.Fraction.limit_denominator"),
+        ("without_finders", "colorsys.rgb_to_hsv"),
+        ("by_an_own_loader", "other.Fraction.limit_denominator"),
     ],
 )
 def test_a_refused_function_says_so(student, function, name):

@@ -17,6 +17,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.copies.release import MANIFEST, release
 from botschool.grading.declare.exercise import exercise_numbers, load_exercise
 from botschool.grading.declare.extras import missing_packages
+from botschool.grading.declare.trust import trust
 from botschool.grading.report.answers import unpack_answers
 from running import call, environment_of_command
 from tiny_course import FILE, FOLDER, SOLUTION, make_course
@@ -199,6 +200,7 @@ def test_start_page(copy):
 def course(tmp_path):
     """A small course of the exercises 3 and 4."""
     root = make_course(tmp_path / "course")
+    trust(root)
     for top in ("exercises", "solutions"):
         shutil.copytree(root / top / FOLDER, root / top / "ex04_more")
     rows = "| 3 | [Tiny](ex03_tiny/README.md) |\n| 4 | [More](ex04_more/README.md) |\n"

@@ -47,3 +47,25 @@ def test_aliases_do_not_hold_up_the_grader(tmp_path):
     assert result.points == 0
     assert "has an alias" in result.message
     assert time.process_time() - start < 10  # of this process: minutes without a limit
+
+
+AGAIN = """
+def master(table):
+    import sys
+    import botschool.analysis.tournament
+    for name in [each for each in sys.modules if each.startswith("botschool")]:
+        del sys.modules[name]
+    from botschool.analysis.tournament import summarised
+    mean, prey = summarised(table, 1)
+    return {"predators": mean.mean, "prey": prey.mean}
+"""
+
+
+@pytest.mark.parametrize("again", [AGAIN, AGAIN.replace("del sys.modules[name]", "pass")])
+def test_the_librarys_answer_is_refused_though_it_is_imported_again(tmp_path, again):
+    loaded = building.exercise(15)
+    file = building.write(tmp_path, 15, building.inserted(building.source(15).skeleton, again))
+    with fork_server(loaded.imports) as server:
+        result = grade_task(loaded.find("15.3"), file, server)
+    assert result.points == 0
+    assert "write it yourself: botschool.analysis.tournament.summarised" in result.message

@@ -117,6 +117,16 @@ def show(
         show_command(exercise, submission, opens)
 
 
+@app.command(epilog="Example: botschool trust ~/course")
+def trust(
+    folder: Annotated[Path, typer.Argument(help="The course's folder.", metavar="FOLDER")],
+) -> None:
+    """Let botschool run the graders of a course that you got from somebody you trust."""
+    from botschool.grading.commands import trust_command
+
+    trust_command(folder)
+
+
 @app.command(epilog="Example: botschool release ../course-for-students --exercises 1-3")
 def release(
     folder: Annotated[
@@ -159,10 +169,15 @@ def grade_all(
         bool, typer.Option("--fresh", help="Grade again what has not changed since.")
     ] = False,
 ) -> None:
-    """For instructors: grade a class into a table and a page of feedback per student."""
+    """For instructors: grade a class into a table and a page of feedback per student.
+
+    What cannot be graded by a fault of this machine gets an empty cell in the table, and exit code
+    1 says so.
+    """
     from botschool.grading.commands import grade_all_command
 
-    grade_all_command(folder, output, exercise, workers, fresh)
+    if not grade_all_command(folder, output, exercise, workers, fresh):
+        raise typer.Exit(1)
 
 
 @app.command(epilog="Example: botschool nbgrader results/nbgrader")

@@ -13,9 +13,10 @@ from collections import Counter
 from pathlib import Path
 
 from rich.console import Console
+from rich.markup import escape
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.batch import STATE, Grades, Job, make_state
+from botschool.grading.classes.batch import Grades, Job, secret_for_others
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import (
     Exercise,
@@ -25,15 +26,18 @@ from botschool.grading.declare.exercise import (
     load_exercise,
     submission_file,
 )
-from botschool.grading.declare.secret import grading_secret
+from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import Result, grade
 from botschool.grading.report.screen import Screen, counting, notice
 from botschool.grading.report.stored import digest, remember
+from botschool.grading.run.confined import close_class
 from botschool.grading.run.debug import DirectStudent
+from botschool.grading.run.temporary import temporary_files_within
 from botschool.terminal import exits_on_signals
 
 
 @exits_on_signals()
+@temporary_files_within()
 def grade_command(what: str, submission: str | None, as_json: bool, debug: bool) -> bool:
     """Grades exercise "3" or task "3.2" and prints the report; True for full marks."""
     number, task = _named(what)
@@ -42,6 +46,7 @@ def grade_command(what: str, submission: str | None, as_json: bool, debug: bool)
         exercise.find(what)
     file = submission_file(number, submission)
     exercise.require()
+    kept = _prepare_for_others(exercise, submission, file)
     graded = digest(file)
     if debug:
         if not task:
@@ -61,7 +66,24 @@ def grade_command(what: str, submission: str | None, as_json: bool, debug: bool)
         print(json.dumps(result.to_json(), indent=1))
     else:
         screen.end(result, whole=not task)
+        if kept:
+            screen.console.print(f"[dim]{escape(kept)}[/]", soft_wrap=True)
     return result.points == result.max_points
+
+
+def _prepare_for_others(exercise: Exercise, submission: str | None, file: Path) -> str:
+    """Let the seeds follow from a secret, and close the class, for the work of somebody else.
+
+    Returns a sentence on where the secret is; "" for the student's own file.
+    """
+    if submission is None:
+        return ""
+    exercise.secret, kept = secret_for_others(course_root())
+    student = file.resolve().parent
+    for name in (folder_of(exercise.number).name, "exercises"):
+        student = student.parent if student.name == name else student
+    close_class(student, student.parent)
+    return kept
 
 
 def debug_task(exercise: Exercise, id: str, file: Path) -> bool:
@@ -152,6 +174,7 @@ def _points(result: Result) -> list[tuple[str, int, int]]:
 
 
 @exits_on_signals()
+@temporary_files_within()
 def watch_command(what: str, submission: str | None) -> None:
     """Grades after every save, until Ctrl-C."""
     from botschool.grading.report.watching import watch
@@ -161,6 +184,7 @@ def watch_command(what: str, submission: str | None) -> None:
     tasks = [exercise.find(what)] if task else exercise.tasks
     file = submission_file(number, submission)
     exercise.require()
+    _prepare_for_others(exercise, submission, file)
     asked = False
 
     class Remembering(Screen):
@@ -259,6 +283,14 @@ def answers_command(what: str) -> None:
     Console(highlight=False).print(Markdown(text))
 
 
+def trust_command(folder: Path) -> None:
+    """Remember that the user trusts a course. Raises BotschoolError where there is none."""
+    if not (folder / "exercises").is_dir():
+        raise BotschoolError(f"{folder} holds no exercises/: name the folder of a course.")
+    trust(folder)
+    print(f"{folder.resolve()}: botschool will run this course's graders.")
+
+
 def release_command(folder: Path, exercises: str, answers: bool) -> None:
     """Makes the students' copy, or brings it up to date."""
     from botschool.grading.copies.release import release
@@ -286,30 +318,30 @@ def _numbers(text: str) -> set[int]:
 @exits_on_signals()
 def grade_all_command(
     folder: Path, output: Path, exercise: str, workers: int | None, fresh: bool
-) -> None:
-    """Grades a class and says where the results are."""
-    from botschool.grading.classes.collect import PAGES, TABLE, grade_all
+) -> bool:
+    """Grades a class and says where the results are; True if all could be graded."""
+    from botschool.grading.classes.collect import PAGES, TABLE, grade_all, total_of
 
     root = course_root()
     numbers = exercise_numbers(root) if exercise == "all" else [_named(exercise)[0]]
     for number in numbers:
         folder_of(number, root)
     console = Console(highlight=False)
-    try:
-        state = make_state(root)
-    except OSError:
-        state = root / STATE
-    secret, said = grading_secret(state)
+    secret, said = secret_for_others(root)
+    close_class(folder, output)
     with counting("Grading", console) as (start, step):
         table = grade_all(
             folder, output, numbers, root, _workers(workers), fresh, secret, start, step
         )
     results = [result for _, all_of in table for result in all_of]
-    totals = [sum(result["points"] for result in all_of) for _, all_of in table]
+    all_totals = [total_of(all_of) for _, all_of in table]
+    totals = [total for total in all_totals if total is not None]
     problems = [(one, r) for one, all_of in table for r in all_of if r["problem"]]
     maximum = sum(result["max_points"] for result in table[0][1])
-    mean = sum(totals) / len(totals)
-    console.print(f"{len(totals)} submissions, {mean:.1f} of {maximum} points on average.")
+    average = f"{sum(totals) / len(totals):.1f} of {maximum} points on average" if totals else ""
+    ungraded = len(table) - len(totals)
+    left = f"{ungraded} not graded and not counted" if ungraded else ""
+    console.print(", ".join(filter(None, [f"{len(table)} submissions", average, left])) + ".")
     if problems:
         names = list(dict.fromkeys(one.student for one, _ in problems))
         shown = ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
@@ -318,6 +350,7 @@ def grade_all_command(
     if said:
         console.print(said, markup=False, soft_wrap=True)
     _notice(console, results)
+    return not ungraded
 
 
 def _named(what: str) -> tuple[int, str]:

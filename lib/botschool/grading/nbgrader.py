@@ -21,6 +21,7 @@ from botschool.grading.declare.exercise import (
     folder_of,
     load_exercise,
 )
+from botschool.grading.run.confined import close_class
 from botschool.output import written_whole
 
 CONFIG = "nbgrader_config.py"
@@ -110,6 +111,7 @@ def configure(c: Any, folder: Path, course: Path) -> None:
     )
 
     os.environ["BOTSCHOOL_COURSE"] = str(Path(course).resolve())
+    close_class(folder)
     # nbgrader calls `alembic`, which lies beside it, by its name alone
     os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     c.CourseDirectory.course_id = "botschool"

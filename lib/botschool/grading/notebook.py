@@ -5,15 +5,18 @@ from __future__ import annotations
 import contextlib
 import io
 import json
+import os
 import re
 import warnings
 from pathlib import Path
 
 from botschool.errors import BotschoolError
+from botschool.grading.classes.batch import secret_for_others
 from botschool.grading.declare.checks import Wrong
-from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.declare.exercise import Exercise, course_root, load_exercise
+from botschool.grading.judge.judging import GraderFault
 from botschool.grading.judge.submission import Submission, TaskResult
-from botschool.grading.run.confined import fork_server
+from botschool.grading.run.confined import MachineFault, close_class, fork_server
 
 MAX_PRINTED = 1500
 """Characters of what a task's code printed that are shown."""
@@ -45,16 +48,28 @@ def report(result: TaskResult, banner: str = "") -> str:
     return "\n".join(lines)
 
 
+class NotGraded(BotschoolError):
+    """This machine cannot grade; a notebook shows the sentence, without a traceback."""
+
+    def _render_traceback_(self) -> list[str]:
+        return [f"Not graded: {self}"]
+
+
 def grade_cell(task: str) -> float:
     """Grades a task of the notebook in the present folder, as saved; prints why points are missing.
 
-    Returns the points, so that nbgrader gives them as partial credit.
+    Returns the points, so that nbgrader gives them as partial credit. Raises NotGraded where this
+    machine cannot grade, since that is no 0.
     """
     with contextlib.redirect_stderr(io.StringIO()), warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
             return _grade_here(task)
-        except (BotschoolError, Wrong, OSError) as error:
+        except (MachineFault, GraderFault, OSError) as error:
+            raise NotGraded(str(error)) from None
+        except NotGraded:
+            raise
+        except (BotschoolError, Wrong) as error:
             print(error)
             return 0.0
 
@@ -65,6 +80,11 @@ def _grade_here(task: str) -> float:
         raise BotschoolError(f"'{task}' names no task: give one as '3.2'.")
     exercise = load_exercise(int(number))
     asked = exercise.find(task)
+    try:
+        exercise.require()
+    except BotschoolError as error:
+        raise NotGraded(str(error)) from None
+    _prepare_for_others(exercise)
     path = Path.cwd() / Path(exercise.file).with_suffix(".ipynb")
     sources = code_cells(path)
     if _changed(sources):
@@ -76,6 +96,19 @@ def _grade_here(task: str) -> float:
         result = submission.grade(asked)
     print(report(result, submission.banner))
     return float(result.points)
+
+
+def _prepare_for_others(exercise: Exercise) -> None:
+    """Let the seeds follow from a secret, and close the class, where an instructor grades.
+
+    That is where the course has its solutions, or nbgrader runs the notebook.
+    """
+    root = course_root()
+    if (root / "solutions").is_dir() or os.environ.get("NBGRADER_EXECUTION") == "autograde":
+        exercise.secret, _ = secret_for_others(root)
+    for folder in Path.cwd().parents:
+        if (folder / "nbgrader_config.py").is_file():
+            close_class(folder)
 
 
 def _changed(sources: list[str]) -> bool:

@@ -7,3 +7,7 @@ class SandboxError(Exception):
 
 class Refused(Exception):
     """Files that are not copied into a sandbox: too many, too large, links, or unreadable."""
+
+
+class CannotRead(Refused):
+    """The caller may not read the files, or cannot at this time."""

@@ -8,13 +8,13 @@ from __future__ import annotations
 import contextlib
 import os
 import shutil
-import stat
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from botschool.sandbox.errors import Refused
+from botschool.sandbox.errors import CannotRead, Refused
+from botschool.sandbox.inside import is_foreign, read_inside
 
 if TYPE_CHECKING:
     from botschool.sandbox.server import ForkServer
@@ -44,6 +44,7 @@ class Scratch:
         self._base = Path(tempfile.mkdtemp(prefix="botschool-"))
         self.root = self._base / "scratch"
         self.folder = self.root / "submission"
+        self._own = Path(self.folder.name)  # below `root`
         self._safe = self._base / "safe"  # where the untrusted code cannot write
         self.in_memory = False
         """Whether `root` is a file system in memory, which only the children see by this name."""
@@ -54,9 +55,10 @@ class Scratch:
             self._safe.mkdir()
             self._top = os.open(self.root, _FOLDER)
             for path in regular_files(file, skip):
-                target = self.folder / path.relative_to(file.parent)
+                name = path.relative_to(file.parent)
+                target = self.folder / name
                 target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(_content(os.open(path, _FILE), MAX_COPIED))
+                target.write_bytes(_content(file.parent, name, MAX_COPIED))
         except BaseException:
             self.remove()
             raise
@@ -108,7 +110,7 @@ class Scratch:
 
         Raises OSError when there is none, or no regular one of a reasonable size.
         """
-        content = _content(self._open(name), MAX_WRITTEN)
+        content = _content(self._top, self._own / name, MAX_WRITTEN)
         place = self._safe / name
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(content)
@@ -121,7 +123,7 @@ class Scratch:
             names = sorted(self._names())
             for name in [name for name in names if name.lower().endswith(".png")][:100]:
                 with contextlib.suppress(OSError):
-                    content = _content(self._open(name), MAX_PICTURE)
+                    content = _content(self._top, self._own / name, MAX_PICTURE)
                     if _is_picture(content) and len(found) < MAX_PICTURES:
                         found.append((name, content))
         return found
@@ -141,21 +143,6 @@ class Scratch:
         finally:
             os.close(folder)
 
-    def _open(self, name: str) -> int:
-        """Open a file below `folder` for reading, by no link. Raises OSError."""
-        *folders, last = Path(name).parts
-        if Path(name).is_absolute() or ".." in (*folders, last):
-            raise OSError(f"{name} lies elsewhere")
-        at = os.dup(self._top)
-        try:
-            for part in (self.folder.name, *folders):
-                inner = os.open(part, _FOLDER, dir_fd=at)
-                os.close(at)
-                at = inner
-            return os.open(last, _FILE, dir_fd=at)
-        finally:
-            os.close(at)
-
 
 def _too_much() -> str:
     return f"it wrote more than {MAX_WRITTEN // 2**20} MB of files"
@@ -168,12 +155,15 @@ def _too_many() -> str:
 def regular_files(file: Path, skip: Callable[[str, int], bool] = _keep_all) -> list[Path]:
     """A file, those beside it and in sub-folders; links, hidden files and caches are left out.
 
+    So are hard links to files of others than the folder's owner.
     skip(name, depth): whether to leave out a file, too; depth is 1 beside `file`.
-    Raises Refused when there are more than MAX_COPIED bytes or MAX_COPIED_FILES.
+    Raises Refused when there are more than MAX_COPIED bytes or MAX_COPIED_FILES, CannotRead.
     """
     if file.is_symlink() or not file.is_file():
         raise Refused(f"{file.name} is a link or no file: hand in the file itself.")
-    found, total = [], 0
+    found, total, top = [], 0, file.parent.stat()
+    if is_foreign(file.stat(), top):
+        raise Refused(f"{file.name} is a link to somebody else's file: hand in the file itself.")
     too_large = Refused(
         f"The folder of {file.name} holds more than {MAX_COPIED // 2**20} MB or "
         f"{MAX_COPIED_FILES} files: remove what does not belong to the exercise."
@@ -183,12 +173,15 @@ def regular_files(file: Path, skip: Callable[[str, int], bool] = _keep_all) -> l
             if len(found) > MAX_COPIED_FILES or depth > MAX_DEPTH:
                 raise too_large
             if entry.is_file(follow_symlinks=False) and not skip(entry.name, depth):
+                status = entry.stat(follow_symlinks=False)
+                if is_foreign(status, top):
+                    continue
                 found.append(Path(path))
-                total += entry.stat(follow_symlinks=False).st_size
+                total += status.st_size
                 if total > MAX_COPIED:
                     raise too_large
     except OSError as error:
-        raise Refused(f"The folder of {file.name} cannot be read ({error.strerror}).") from None
+        raise CannotRead(f"The folder of {file.name} cannot be read ({error.strerror}).") from None
     return sorted(found)
 
 
@@ -217,17 +210,11 @@ def _entries(
                     folders.append((entry.path, depth + 1))
 
 
-def _content(opened: int, most: int) -> bytes:
-    """Return the bytes of a regular file, and close it. Raises OSError for a pipe, or too much."""
-    try:
-        if not stat.S_ISREG(os.fstat(opened).st_mode):
-            raise OSError("no file")
-        with open(opened, "rb", closefd=False) as file:
-            content = file.read(most + 1)
-    finally:
-        os.close(opened)
+def _content(top: Path | int, name: str | Path, most: int) -> bytes:
+    """Return the bytes of a regular file below a folder. Raises OSError for a link, or too much."""
+    content = read_inside(top, name, most)
     if len(content) > most:
-        raise OSError("too large")
+        raise OSError(f"{name} is too large")
     return content
 
 

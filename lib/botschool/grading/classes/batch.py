@@ -25,9 +25,10 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Exercise, folder_of, load_exercise
-from botschool.grading.declare.secret import DEFAULT, VARIABLE
+from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
 from botschool.grading.judge.submission import Result, grade
-from botschool.grading.run.confined import MachineFault, machine_fault, submission_files
+from botschool.grading.run.confined import MachineFault, Unread, machine_fault, submission_files
+from botschool.grading.run.temporary import temporary_folder
 from botschool.output import save_bytes
 from botschool.sandbox.paths import IMPORT_ROOT
 from botschool.sandbox.scratch import remove_tree
@@ -57,7 +58,8 @@ class Grades:
     """Grades submissions of the course in a folder, and remembers their results.
 
     A result is a dict: exercise, title, points, max_points, tasks (with what they printed),
-    pictures ([name, base64]), missing, and problem (why there is none; "").
+    pictures ([name, base64]), missing, problem (why there are no points; ""), and graded: False
+    if the grader or its machine is to blame for that, so that the 0 points mean nothing.
     """
 
     def __init__(self, root: Path, fresh: bool = False, secret: str | None = None) -> None:
@@ -68,6 +70,7 @@ class Grades:
         self._cache = root / STATE / "grades"
         self._exercises: dict[int, Exercise] = {}
         self._running: set[subprocess.Popen] = set()
+        self._temporary: Path | None = None
         self._stopped = threading.Event()
 
     def exercise(self, number: int) -> Exercise:
@@ -88,7 +91,7 @@ class Grades:
         a job is done again at the end, while nothing else runs.
         """
         results, again = {}, []
-        with ThreadPoolExecutor(workers) as pool:
+        with temporary_folder() as self._temporary, ThreadPoolExecutor(workers) as pool:
             try:
                 futures = {pool.submit(self._result, job): job for job in dict.fromkeys(jobs)}
                 for future in as_completed(futures):
@@ -121,7 +124,9 @@ class Grades:
         try:
             key = self._key(job)
         except Wrong as error:
-            return self.nothing(job.number, str(error))
+            return self.nothing(job.number, str(error), graded=not isinstance(error, Unread))
+        except OSError as error:
+            return self.nothing(job.number, f"A file cannot be read ({error.strerror}).", False)
         place = self._cache / f"{key}.json"
         if not self._fresh:
             with contextlib.suppress(OSError, ValueError):
@@ -143,11 +148,11 @@ class Grades:
         try:
             exercise.require()
         except BotschoolError as error:
-            return self.nothing(job.number, str(error))
+            return self.nothing(job.number, str(error), graded=False)
         times = [1 + bool(task.needs) for task in exercise.tasks]  # as often as it may be run
         seconds = [n * (task.seconds + 5) for n, task in zip(times, exercise.tasks, strict=True)]
         limit = WALL_FACTOR * sum(seconds) + SPARE_SECONDS
-        temporary = Path(tempfile.mkdtemp(prefix="botschool-"))
+        temporary = Path(tempfile.mkdtemp(prefix="botschool-", dir=self._temporary))
         lifeline, ours = os.pipe()
         arguments = str(job.number), str(job.file), str(lifeline), "alone" if alone else ""
         environment = os.environ | {
@@ -174,7 +179,7 @@ class Grades:
                 process.kill()
                 process.communicate()
                 reason = f"The grading took longer than {limit:.0f} seconds."
-                return self.nothing(job.number, reason) if alone else None
+                return self.nothing(job.number, reason, graded=False) if alone else None
             finally:
                 self._running.discard(process)
             if process.returncode == 0:
@@ -184,15 +189,18 @@ class Grades:
             lines = errors.decode(errors="replace").strip().splitlines()
             reason = lines[-1] if lines else f"exit code {process.returncode}"
             if process.returncode == MACHINE_FAULT:
-                return self.nothing(job.number, reason)
-            return self.nothing(job.number, f"The grader failed: {reason}.")
+                return self.nothing(job.number, reason, graded=False)
+            return self.nothing(job.number, f"The grader failed: {reason}.", graded=False)
         finally:
             os.close(lifeline)
             os.close(ours)
             remove_tree(temporary)
 
-    def nothing(self, number: int, problem: str) -> dict[str, Any]:
-        """The result of a submission that cannot be graded."""
+    def nothing(self, number: int, problem: str, graded: bool = True) -> dict[str, Any]:
+        """Return a result without points.
+
+        graded: whether they are what the submission deserves; else it was not graded.
+        """
         exercise = self.exercise(number)
         tasks = [
             {"id": t.id, "title": t.title, "points": 0, "max_points": t.max_points, "message": "",
@@ -203,7 +211,7 @@ class Grades:
         return {
             "exercise": number, "title": exercise.title, "points": 0, "max_points": maximum,
             "tasks": tasks, "pictures": [], "missing": [], "problem": problem,
-            "banner": "",
+            "banner": "", "graded": graded,
         }  # fmt: skip
 
     def _key(self, job: Job) -> str:
@@ -211,10 +219,7 @@ class Grades:
         for path in submission_files(job.file):
             name = str(path.relative_to(job.file.parent)).encode(errors="surrogateescape")
             digest.update(hashlib.sha256(name).digest())
-            try:
-                digest.update(hashlib.sha256(path.read_bytes()).digest())
-            except OSError as error:
-                raise Wrong(f"{path.name} cannot be read ({error.strerror}).") from None
+            digest.update(hashlib.sha256(path.read_bytes()).digest())
         return digest.hexdigest()
 
 
@@ -236,6 +241,7 @@ def to_record(result: Result) -> dict[str, Any]:
         "missing": result.missing,
         "problem": "",
         "banner": result.banner,
+        "graded": True,
     }
 
 
@@ -250,6 +256,14 @@ def _versions(root: Path, number: int) -> str:
                 status = path.stat()
                 stamps.append(f"{path} {status.st_size} {status.st_mtime_ns}")
     return "\n".join(stamps)
+
+
+def secret_for_others(root: Path) -> tuple[str, str]:
+    """Return the secret to grade other people's work with, and a sentence on where it is kept."""
+    try:
+        return grading_secret(make_state(root))
+    except OSError:
+        return grading_secret(root / STATE)
 
 
 def make_state(root: Path) -> Path:

@@ -30,6 +30,8 @@ class Submission:
     folder: Path
     files: dict[int, Path] = field(default_factory=dict)
     problems: dict[int, str] = field(default_factory=dict)
+    unread: set[int] = field(default_factory=set)
+    """Exercises whose folder cannot be read: not graded, which is no 0."""
 
     @property
     def student(self) -> str:
@@ -72,6 +74,7 @@ def _find(one: Submission, number: int, exercise: str, file: str) -> None:
                 return
         except (OSError, RuntimeError):  # unreadable, or links in a circle
             one.problems[number] = f"The folder of {file} cannot be read."
+            one.unread.add(number)
             return
     one.problems[number] = f"There is no {file}."
 
@@ -89,11 +92,15 @@ def grade_all(
 ) -> list[tuple[Submission, list[dict[str, Any]]]]:
     """Grades every submission and writes grades.csv and feedback/STUDENT.html into `output`.
 
-    secret: of the grading seeds, else as of batch.Grades.
+    Raises BotschoolError, before it starts, if this machine lacks what an exercise that was handed
+    in needs. secret: of the grading seeds, else as of batch.Grades.
     start(count) is called with the number of files, report() after each of them.
     """
     grades = Grades(root, fresh, secret)
     submissions = find_submissions(folder, numbers, grades, root)
+    for number in numbers:
+        if any(number in one.files for one in submissions):
+            grades.exercise(number).require()
     names = page_names([one.folder.name for one in submissions])
     _check_own(output, names)
     jobs = {
@@ -109,7 +116,9 @@ def grade_all(
 
     def all_of(one: Submission) -> list[dict[str, Any]]:
         return [
-            done[one.folder, n] if n in one.files else grades.nothing(n, one.problems[n])
+            done[one.folder, n]
+            if n in one.files
+            else grades.nothing(n, one.problems[n], graded=n not in one.unread)
             for n in numbers
         ]
 
@@ -134,6 +143,13 @@ def grade_all(
     table = [(one, all_of(one)) for one in submissions]
     save_bytes(output / TABLE, _table(table, names).encode("utf-8-sig", "replace"))
     return table
+
+
+def total_of(results: list[dict[str, Any]]) -> int | None:
+    """Return a student's points in all exercises; None if one of them was not graded."""
+    if not all(result["graded"] for result in results):
+        return None
+    return sum(result["points"] for result in results)
 
 
 def page_names(folders: list[str]) -> list[str]:
@@ -161,12 +177,14 @@ def _table(table: list[tuple[Submission, list[dict]]], names: list[str]) -> str:
     for (one, results), name in zip(table, names, strict=True):
         points = []
         for result in results:
-            points += [result["points"], *(task["points"] for task in result["tasks"])]
-        total = sum(result["points"] for result in results)
+            all_of = [result["points"], *(task["points"] for task in result["tasks"])]
+            points += all_of if result["graded"] else [""] * len(all_of)
+        total = total_of(results)
         notes = " ".join(
             f"Exercise {r['exercise']}: {r['problem']}" for r in results if r["problem"]
         )
-        writer.writerow([_cell(one.student), total, *points, _cell(f"{PAGES}/{name}"), notes])
+        shown = "" if total is None else total
+        writer.writerow([_cell(one.student), shown, *points, _cell(f"{PAGES}/{name}"), notes])
     return stream.getvalue()
 
 

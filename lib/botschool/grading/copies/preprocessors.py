@@ -23,8 +23,9 @@ from nbgrader.api import Gradebook
 from nbgrader.preprocessors import NbGraderPreprocessor
 
 from botschool.errors import BotschoolError
+from botschool.grading.classes.batch import secret_for_others
 from botschool.grading.copies.skeleton import BEGIN, skeleton
-from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.declare.exercise import course_root, load_exercise
 from botschool.grading.judge.submission import Submission, TaskResult
 from botschool.grading.notebook import report
 from botschool.grading.run.confined import fork_server
@@ -166,6 +167,8 @@ class Grade(NbGraderPreprocessor):
         if not tests:
             raise BotschoolError("The assignment has no test cells: generate it again.")
         exercise = load_exercise(int(task_of(_grade_id(tests[0])).partition(".")[0]))
+        exercise.require()
+        exercise.secret, _ = secret_for_others(course_root())
         name = resources["nbgrader"]["notebook"] + ".ipynb"
         path = Path(resources["metadata"]["path"]) / name
         with (

@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -18,6 +18,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.copies.leaks import find_leaks
 from botschool.grading.copies.skeleton import pairs, skeleton
 from botschool.grading.declare.exercise import exercise_numbers, folder_of, load_exercise
+from botschool.grading.declare.trust import check_trusted, trust
 from botschool.grading.packed import pack
 from botschool.grading.report.answers import PACKED, pack_answers
 from botschool.output import written_whole
@@ -68,6 +69,7 @@ def release(
     BotschoolError.
     """
     root, target = root.resolve(), target.absolute()
+    check_trusted(root)  # a repository's settings name programs that git runs
     manifest = _check(root, target)
     for number in sorted(numbers or ()):
         folder_of(number, root)
@@ -100,6 +102,8 @@ def release(
             if target.is_dir():
                 target.rmdir()
             made.rename(target)
+            with suppress(BotschoolError):  # else the copy can be used all the same, elsewhere
+                trust(target)
             return Released(len(files), len(files))
         try:
             return _update(made, target, manifest, files)

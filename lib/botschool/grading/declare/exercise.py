@@ -14,6 +14,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.declare.extras import missing_packages
 from botschool.grading.declare.references import pruned
 from botschool.grading.declare.secret import DEFAULT, VARIABLE
+from botschool.grading.declare.trust import check_trusted
 from botschool.grading.run.student import Student
 from botschool.paths import course_root
 
@@ -80,6 +81,8 @@ class Exercise:
         self.imports = imports
         self.extras = extras
         self.tasks: list[Task] = []
+        self.secret = ""
+        """What the grading seeds follow from; "" for BOTSCHOOL_GRADING_SEED, or else DEFAULT."""
         self.references = ""
         """Our own functions of the tasks that others need, as a Python file (references.py)."""
 
@@ -122,8 +125,8 @@ class Exercise:
             )
 
     def seed(self, index: int) -> int:
-        """A grading seed; they follow from BOTSCHOOL_GRADING_SEED, an instructor's secret."""
-        secret = os.environ.get(VARIABLE) or DEFAULT
+        """A grading seed; they follow from the instructor's secret (secret.py)."""
+        secret = self.secret or os.environ.get(VARIABLE) or DEFAULT
         digest = hashlib.sha256(f"{secret}:{self.number}:{index}".encode()).digest()
         return int.from_bytes(digest[:4], "little") % 2**31
 
@@ -153,7 +156,11 @@ def exercise_numbers(root: Path) -> list[int]:
 
 
 def load_exercise(number: int, root: Path | None = None) -> Exercise:
-    """What the exercise's grader file declares."""
+    """What the exercise's grader file declares.
+
+    Runs that file. Raises BotschoolError where there is none, or for a course without trust.
+    """
+    check_trusted(root or course_root())
     folder = folder_of(number, root)
     graders = sorted(folder.glob("test_*.py"))
     if not graders:

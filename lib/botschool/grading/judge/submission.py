@@ -22,6 +22,8 @@ from botschool.grading.run.confined import (
 from botschool.grading.run.failures import Origin
 from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
+from botschool.sandbox.inside import read_inside
+from botschool.sandbox.scratch import MAX_COPIED
 
 LOADING_SECONDS = 10
 """Processor time for all that a file or a notebook does besides defining functions."""
@@ -221,7 +223,8 @@ class Submission:
             self._lost |= dict.fromkeys(names, part)
 
     def _text(self) -> str:
-        return self._given.read_bytes().decode("utf-8", "replace").replace("\r\n", "\n")
+        content = read_inside(self._given.parent, self._given.name, MAX_COPIED)
+        return content.decode("utf-8", "replace").replace("\r\n", "\n")
 
     def _cells(self) -> list[str]:
         """Of a script; notes the line before each."""
@@ -235,10 +238,11 @@ class Submission:
         if self._script is None:
             self._file.parent.mkdir()
             for path in submission_files(self._given):
-                place = self._file.parent / path.relative_to(self._given.parent)
+                name = path.relative_to(self._given.parent)
+                place = self._file.parent / name
                 if path != self._given and path.suffix != ".ipynb" and place != self._file:
                     place.parent.mkdir(parents=True, exist_ok=True)
-                    shutil.copyfile(path, place, follow_symlinks=False)
+                    place.write_bytes(read_inside(self._given.parent, name, MAX_COPIED))
         self._script = script
         self._file.write_bytes(script.text.encode("utf-8", "replace"))
 

@@ -101,10 +101,16 @@ def page(student: str, results: list[dict[str, Any]]) -> str:
     return _PAGE.substitute(
         generator=GENERATOR,
         student=escape(student),
-        points=sum(result["points"] for result in results),
+        points=_points(results),
         maximum=sum(result["max_points"] for result in results),
         sections="\n".join(map(_section, results)),
     )
+
+
+def _points(results: list[dict[str, Any]]) -> str:
+    """The sum, or a dash if one of them was not graded."""
+    graded = all(result["graded"] for result in results)
+    return str(sum(int(result["points"]) for result in results)) if graded else "&ndash;"
 
 
 def _section(result: dict[str, Any]) -> str:
@@ -112,7 +118,7 @@ def _section(result: dict[str, Any]) -> str:
     return _SECTION.substitute(
         number=int(result["exercise"]),
         title=escape(result["title"]),
-        points=int(result["points"]),
+        points=_points([result]),
         maximum=int(result["max_points"]),
         percent=round(100 * result["points"] / max(1, result["max_points"])),
         problem=f'<p class="problem">{escape(problem)}</p>\n' if problem else "",

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import errno
+import json
 import os
+import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,7 +13,9 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
+from botschool.grading.run.temporary import PREFIX
 from botschool.sandbox import Child, ForkServer, Limits, Refused, SandboxError, Scratch, paths
+from botschool.sandbox.errors import CannotRead
 from botschool.sandbox.scratch import regular_files
 
 IMPORTS = ("gymnasium.envs.classic_control", "numpy.random", "botschool.evolution.run")
@@ -20,8 +24,16 @@ _PRIVATE = ("solutions", "exercises", "tests", "results", "build", ".git", ".bot
 """Of a course folder: what no submission may read."""
 
 
+CLASS = "BOTSCHOOL_CLASS"
+"""Of the environment: folders that close_class has closed, as JSON."""
+
+
 class MachineFault(BotschoolError):
     """What this machine did, and no submission: it was short of memory or disk, or killed."""
+
+
+class Unread(Wrong):
+    """What was handed in cannot be read, which says nothing about it."""
 
 
 SHORTAGES = tuple(
@@ -35,6 +47,8 @@ def translated() -> Iterator[None]:
     """Raises Wrong for what is refused, MachineFault for what this machine cannot do."""
     try:
         yield
+    except CannotRead as error:
+        raise Unread(str(error)) from None
     except Refused as error:
         raise Wrong(str(error)) from None
     except SandboxError as error:
@@ -91,11 +105,29 @@ def _is_grader(name: str, depth: int) -> bool:
     return depth == 1 and name.startswith("test_")
 
 
+def close_class(*folders: Path) -> None:
+    """Close the folders that hold submissions and their grades to all of them, in this process.
+
+    The folder of temporary files is closed, too: the copies of others lie there. Raises
+    BotschoolError for a folder that submissions must read.
+    """
+    data = paths.IMPORT_ROOT.resolve().parent / "data"
+    closed = [folder.resolve() for folder in folders]
+    temporary = Path(tempfile.gettempdir()).resolve()
+    closed.append(temporary.parent if temporary.name.startswith(PREFIX) else temporary)
+    if data in closed:
+        raise BotschoolError(
+            f"The submissions stand among the course's files in {data}, which each submission may "
+            "read: move them into a folder of their own."
+        )
+    os.environ[CLASS] = json.dumps([str(folder) for folder in closed])
+
+
 def readable(file: Path) -> list[Path]:
     """What a submission may read beside its copy.
 
     Not the course, nor the place where `file` was handed in, even if those lie below one of the
-    system's folders.
+    system's folders; nor what close_class has named.
     """
     import botschool._core
 
@@ -108,6 +140,7 @@ def readable(file: Path) -> list[Path]:
         for place in file.parents[:3]
         if not any(each.is_relative_to(place) for each in needed)
     ]
+    closed += map(Path, json.loads(os.environ.get(CLASS, "[]")))
     here = Path.cwd() / os.environ.get("BOTSCHOOL_COURSE", "")
     courses = {own.parent, here, *here.parents, *file.parents}
     closed += [

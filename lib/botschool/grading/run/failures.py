@@ -9,7 +9,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import NotDone, Wrong, plain
+from botschool.grading.run.confined import submission_files
+from botschool.sandbox.inside import read_inside
 
 Place = Callable[[int], str]
 """From a line of the file to words for the learner."""
@@ -110,18 +113,26 @@ class SourceLines:
         return f"\n  {where}: {text.strip()[:MAX_LINE]}" if text.strip() else f"\n  {where}"
 
     def lines(self, name: str = "") -> list[str]:
-        """Of a file beside the submission's own, or of that; [] if it is not there."""
+        """Return the lines of the submission's file, or of another one that was handed in with it.
+
+        `name` may come from the child. What is no file of the submission has no lines.
+        """
         name = name or self._file.name
         if name not in self._texts:
-            path = self._file.parent / name
-            inside = ".." not in Path(name).parts and not Path(name).is_absolute()
             raw = b""
             with contextlib.suppress(OSError):
-                if inside and path.is_file() and not path.is_symlink():
-                    with path.open("rb") as file:
-                        raw = file.read(MAX_FILE)
+                if name in self._names():
+                    raw = read_inside(self._file.parent, name, MAX_FILE)[:MAX_FILE]
             self._texts[name] = re.split(r"\r\n|\r|\n", raw.decode("utf-8", "replace"))
         return self._texts[name]
+
+    def _names(self) -> set[str]:
+        """Return the names of the submission's files, as paths in its folder."""
+        try:
+            files = submission_files(self._file)
+        except (BotschoolError, Wrong):
+            return set()
+        return {path.relative_to(self._file.parent).as_posix() for path in files}
 
     def defined(self, name: str) -> int | None:
         """The line of the file where a function or class of this name begins, indented or not."""

@@ -7,13 +7,15 @@ def refuse(module, names):
     """In the child: a function of this name raises a sentence, from wherever it was imported.
 
     names: as "package.module:function" or "package.module:Class.method", of functions written in
-    Python. Those of modules that are not imported yet follow as soon as they are. Functions keep
-    their identity and get other code, so that a name bound before is refused, too. Sent to the
-    child as source (Student.run), so it imports what it needs itself.
+    Python. Those of modules that are not imported yet follow as soon as they are, and each time
+    that the file of such a module is executed: by an import, by one after sys.modules was emptied,
+    or by a loader that the submission makes itself. Functions keep their identity and get other
+    code, so that a name bound before is refused, too. Sent to the child as source (Student.run),
+    so it imports what it needs itself.
     """
     import functools
-    import importlib.util
     import sys
+    from importlib.machinery import PathFinder, SourceFileLoader
 
     def close(place, attributes):
         for path in attributes:
@@ -35,28 +37,30 @@ def refuse(module, names):
             function.__defaults__ = function.__kwdefaults__ = None
             function.__code__ = names["make"]().__code__
 
-    class Finder:
-        """Closes functions of modules that are imported later."""
-
-        @staticmethod
-        def find_spec(name, path=None, target=None):
-            attributes = waiting.pop(name, None)
-            spec = importlib.util.find_spec(name) if attributes else None
-            if spec is None or spec.loader is None:
+    def file_of(name):
+        """The file of a module, found without importing what it is in; None if there is none."""
+        where = None
+        for at in range(1, name.count(".") + 2):
+            spec = PathFinder.find_spec(".".join(name.split(".")[:at]), where)
+            if spec is None:
                 return None
-            execute = spec.loader.exec_module
+            where = spec.submodule_search_locations
+        return spec.origin
 
-            def exec_module(place):
-                execute(place)
-                close(place, attributes)
-
-            spec.loader.exec_module = exec_module
-            return spec
-
-    waiting = {}
+    wanted, files = {}, {}
     for name in names:
         place, _, attribute = name.partition(":")
-        waiting.setdefault(place, []).append(attribute)
-    for place in [place for place in waiting if place in sys.modules]:
-        close(sys.modules[place], waiting.pop(place))
-    sys.meta_path.insert(0, Finder)
+        wanted.setdefault(place, []).append(attribute)
+    for place, attributes in wanted.items():
+        files[file_of(place)] = attributes
+        if place in sys.modules:
+            close(sys.modules[place], attributes)
+    files.pop(None, None)
+
+    def exec_module(self, place):
+        execute(self, place)
+        if attributes := files.get(getattr(self, "path", None)):
+            close(place, attributes)
+
+    execute = SourceFileLoader.exec_module
+    SourceFileLoader.exec_module = exec_module

@@ -1,0 +1,61 @@
+"""Which courses' graders may run: a grader runs as the user, unconfined.
+
+A folder with exercises/ may be a course, or what a student has handed in. Trusted are the course
+that botschool is installed from (a checkout, or a student's copy, after `make`), the one that
+BOTSCHOOL_COURSE names, and those that the user has named with `botschool trust` or has made with
+`botschool release`.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from shlex import quote
+
+from botschool.errors import BotschoolError
+from botschool.output import save_bytes
+from botschool.sandbox.paths import IMPORT_ROOT
+
+FILE = "trusted.json"
+"""In the user's folder of settings: the courses that he trusts."""
+
+
+def check_trusted(root: Path) -> None:
+    """Raise BotschoolError, which says what to do, for a course that the user does not trust."""
+    root = root.resolve()
+    named = os.environ.get("BOTSCHOOL_COURSE")
+    if root == IMPORT_ROOT.parent.resolve() or (named and root == Path(named).resolve()):
+        return
+    if str(root) in _trusted():
+        return
+    raise BotschoolError(
+        f"botschool does not know the course in {root}, and its graders run as programs of yours: "
+        f"if you trust whoever made it, say 'botschool trust {quote(str(root))}'."
+    )
+
+
+def trust(root: Path) -> None:
+    """Remember that the user trusts a course. Raises BotschoolError."""
+    place = _place()
+    try:
+        place.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BotschoolError(f"{place} cannot be written ({error.strerror}).") from None
+    known = sorted({*_trusted(), str(root.resolve())})
+    save_bytes(place, json.dumps(known, indent=1).encode())
+
+
+def _trusted() -> list[str]:
+    """Return the remembered courses; a damaged file holds none."""
+    try:
+        found = json.loads(_place().read_bytes())
+    except (OSError, ValueError):
+        return []
+    return [each for each in found if isinstance(each, str)] if isinstance(found, list) else []
+
+
+def _place() -> Path:
+    import typer
+
+    return Path(typer.get_app_dir("botschool")) / FILE

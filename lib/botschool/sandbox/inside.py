@@ -1,0 +1,54 @@
+"""Files below a folder, read without a link anywhere on the way."""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+_FOLDER = os.O_RDONLY | getattr(os, "O_DIRECTORY", 0)
+_NO_LINK = getattr(os, "O_NOFOLLOW", 0)
+_FILE = os.O_RDONLY | _NO_LINK | getattr(os, "O_NONBLOCK", 0)
+
+
+def read_inside(top: Path | int, name: str | Path, most: int) -> bytes:
+    """Return up to `most` + 1 bytes of a regular file below the folder `top` (a path or a descriptor).
+
+    Each part of `name` is opened from the folder before it, so a folder that becomes a link
+    meanwhile leads nowhere. Raises OSError for a name that leaves `top`, for a link, for what is
+    no regular file, and for another user's file (`is_foreign`).
+    """
+    parts = Path(name).parts
+    if not parts or Path(name).is_absolute() or ".." in parts:
+        raise OSError(f"{name} is not below the folder")
+    try:
+        descriptor = _opened(top, parts)
+    except ValueError:  # a null character, or one that no file name has
+        raise OSError("no file has such a name") from None
+    with open(descriptor, "rb") as file:
+        status = os.fstat(descriptor)
+        if not stat.S_ISREG(status.st_mode) or is_foreign(status, os.stat(top)):
+            raise OSError(f"{parts[-1]} is no regular file of the folder's owner")
+        return file.read(most + 1)
+
+
+def is_foreign(status: os.stat_result, top: os.stat_result) -> bool:
+    """Return whether a file is a hard link to a file of another user than the folder's owner."""
+    return status.st_nlink > 1 and status.st_uid != top.st_uid
+
+
+def _opened(top: Path | int, parts: tuple[str, ...]) -> int:
+    if os.open not in os.supports_dir_fd:  # Windows, which confines nothing in any case
+        path = top.joinpath(*parts)
+        if path.resolve() != top.resolve().joinpath(*parts):
+            raise OSError(f"{path.name} is behind a link")
+        return os.open(path, _FILE)
+    folder = os.dup(top) if isinstance(top, int) else os.open(top, _FOLDER)
+    try:
+        for part in parts[:-1]:
+            inner = os.open(part, _FOLDER | _NO_LINK, dir_fd=folder)
+            os.close(folder)
+            folder = inner
+        return os.open(parts[-1], _FILE, dir_fd=folder)
+    finally:
+        os.close(folder)
