@@ -12,7 +12,9 @@ _FILE = os.O_RDONLY | _NO_LINK | getattr(os, "O_NONBLOCK", 0)
 
 
 def read_inside(top: Path | int, name: str | Path, most: int) -> bytes:
-    """Return up to `most` + 1 bytes of a regular file below the folder `top` (a path or a descriptor).
+    """Return up to `most` + 1 bytes of a regular file below a folder.
+
+    top: the folder's path, or a descriptor of it.
 
     Each part of `name` is opened from the folder before it, so a folder that becomes a link
     meanwhile leads nowhere. Raises OSError for a name that leaves `top`, for a link, for what is
@@ -25,11 +27,14 @@ def read_inside(top: Path | int, name: str | Path, most: int) -> bytes:
         descriptor = _opened(top, parts)
     except ValueError:  # a null character, or one that no file name has
         raise OSError("no file has such a name") from None
-    with open(descriptor, "rb") as file:
+    try:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode) or is_foreign(status, os.stat(top)):
             raise OSError(f"{parts[-1]} is no regular file of the folder's owner")
-        return file.read(most + 1)
+        with open(descriptor, "rb", closefd=False) as file:
+            return file.read(most + 1)
+    finally:
+        os.close(descriptor)
 
 
 def is_foreign(status: os.stat_result, top: os.stat_result) -> bool:
