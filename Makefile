@@ -47,7 +47,7 @@ notebook-ex%: .venv/.module $$(call extras,$$*) .venv/.extra-notebook FORCE ## o
 WORKERS ?= auto
 PYTEST := $(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal
 
-.PHONY: test test-long check-course nbgrader figures skeletons bench results lint format sanitize
+.PHONY: test test-long fuzz check-course nbgrader figures skeletons bench results lint format sanitize
 test: .venv/.tests ## the tests that take seconds
 	@$(PYTEST)
 
@@ -56,6 +56,12 @@ test-long: .venv/.tests ## the tests that take minutes: whole runs, many seeds
 
 solution-ex%: .venv/.module $$(call extras,$$*) FORCE ## run the solution of exercise N in results/exNN
 	@$(BIN)/botschool show $* --submission solutions
+
+# As many seconds as there are: SECONDS=3600; some kinds of files: ONLY="ini wire"; one case again: CASE=12.
+SECONDS ?= 60
+SEED ?= 1
+fuzz: .venv/.tests ## damage files of every kind that the command reads, SECONDS=60, and see what it says
+	@$(BIN)/python tests/fuzz $(SECONDS) --seed $(SEED) $(if $(ONLY),--only "$(ONLY)") $(if $(CASE),--case $(CASE))
 
 skeletons: .venv/.module ## generate the exercises' files from the solutions
 	@$(BIN)/botschool skeletons

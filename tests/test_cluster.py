@@ -101,11 +101,13 @@ def test_any_candidates_are_drawn_again_to_the_bit(both):
     centres = generator(7, 4).standard_normal((2, 9))
     deviation = 0.02 if both else np.linspace(0.1, 1, 9)
     samples, candidates = draw(numbers, centres, 100, deviation, both)
-    again = wire.table(wire.packed(candidates.cloud))
+    again = wire.table(wire.packed(candidates.recipe[0]))
     assert samples.shape == (2, 100, 9) and len(again) == len(candidates) == (400 if both else 200)
     for rows in ([150, 151, 199], [3], range(len(candidates)), [0, 140, len(candidates) - 1]):
         assert (again.rows(np.array(rows)) == candidates[list(rows)]).all()
-    assert candidates[:5].cloud is None and (candidates + 1).cloud is None
+    assert candidates[:5].recipe is None and (candidates + 1).recipe is None
+    assert candidates.reshape(2, -1, 9).reshape(-1, 9).recipe == candidates.recipe
+    assert candidates.reshape(-1).recipe is None
 
 
 def test_an_ascent_is_followed_by_what_it_was_told(monkeypatch):

@@ -128,7 +128,7 @@ def test_the_probe_of_a_worker_has_an_environment_of_its_own(monkeypatch, tmp_pa
     monkeypatch.setattr(worker, "_made", {})
     monkeypatch.setattr(worker, "_tables", {b"own": wire.table(wire.pack(to_dict(own)))})
     monkeypatch.setattr(worker, "_threads", lambda: 1)
-    worker._hello({"experiment": b"own"})
+    worker._hello({"experiment": b"own", "files": {}})
     [(evaluates, _)] = worker._made.values()
     assert asked and evaluates not in asked
 

@@ -3,6 +3,7 @@
 import json
 import pickle
 import shutil
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -128,6 +129,10 @@ def test_foreign_checkpoints(refused, tmp_path):
     def resized(name):
         np.savez(path, **{**whole, name: whole[name][..., :-1]})
 
+    def no_array():
+        with ZipFile(path, "a") as archive:
+            archive.writestr("more", b"no array")
+
     files = {
         "another seed": (lambda: shutil.copy(path, results / "checkpointS2.npz"), ["of seed 1"]),
         "other arrays": (lambda: np.savez(path, steps=np.arange(3)), []),
@@ -149,6 +154,8 @@ def test_foreign_checkpoints(refused, tmp_path):
         "few vectors": (lambda: resized("evaluator.normalisation"), []),
         "narrow curve": (lambda: resized("record.stat"), []),
         "no generation": (lambda: filled("algorithm.generation", -1), []),
+        "a part that is no array": (no_array, []),
+        "parameters of nothing": (lambda: filled("algorithm.population", np.nan), []),
         "a share of nothing": (lambda: filled("evaluator.owed", np.nan), []),
         "an endless share": (lambda: filled("evaluator.owed", np.inf), []),
         "steps of nothing": (lambda: filled("record.stat", np.nan), []),

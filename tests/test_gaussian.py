@@ -282,3 +282,13 @@ def test_a_network_too_large_for_a_matrix_is_refused(algo, says, tmp_path, refus
     refused("es", "-f", path, "-o", tmp_path, says=("6000 parameters", says))
     path = write_experiment(tmp_path, algo="CMA-ES", policy={"nhiddens": 1000}, diagonal=1)
     assert run_seeds(load(path), tmp_path / "diagonal", steps=1)
+
+
+def test_a_covariance_that_is_not_finite_is_a_sentence():
+    """As the fuzzer found, of a checkpoint with numbers near the largest."""
+    algorithm = ALGORITHMS["CMA-ES"].make(
+        ALGORITHMS["CMA-ES"].config(), lambda index: np.zeros(3) + index, 1
+    )
+    algorithm.matrix.covariance[0, 0] = np.inf
+    with pytest.raises(BotschoolError, match="CMA-ES has broken down"):
+        algorithm.matrix.decompose()

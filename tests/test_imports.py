@@ -10,7 +10,7 @@ PACKAGE = Path(botschool.__file__).parent
 LAYERS = (
     {"errors", "__init__"},
     {"_core", "paths", "terminal", "seeds", "inifile", "output", "sandbox"},
-    {"linear", "wrappers"},
+    {"linear", "lock", "wrappers"},
     {"policies"},
     {"arenas"},
     {"arena", "net"},

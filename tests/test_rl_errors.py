@@ -1,16 +1,21 @@
 """`botschool rl` refuses in one sentence, before it leaves anything behind."""
 
+import re
 import shutil
 import sys
+from zipfile import ZipFile
 
+import numpy as np
 import pytest
 
+from botschool.analysis.trainings import TRAINING_EPISODES, read_curve
 from botschool.errors import BotschoolError
-from botschool.rl.agent import Agent
+from botschool.rl.agent import Agent, save_weights
 from botschool.rl.folder import RunFolder
 from botschool.rl.parameters import parse
 from botschool.rl.settings import Settings
 from botschool.rl.training import train
+from botschool.rl.weights import WEIGHTS
 from running import TESTS
 
 pytest.importorskip("stable_baselines3")
@@ -195,3 +200,64 @@ def test_an_output_folder_that_is_a_file(tmp_path, refused):
         *("rl", "train", "--algo", "ppo", "--env", "CartPole-v1", "-o", tmp_path / "results"),
         says=["cannot be written", "another folder"],
     )
+
+
+def renamed_array(copy):
+    path = copy.path / "evaluations.npz"
+    with open(path, "wb") as file:
+        np.save(file, np.arange(5.0))
+
+
+def words(copy):
+    text = np.array([["a", "b"]])
+    np.savez(copy.path / "evaluations.npz", timesteps=[1], results=text, ep_lengths=text)
+
+
+def no_columns(copy):
+    np.savez(copy.path / "evaluations.npz", timesteps=[[1]], results=[[1.0]], ep_lengths=[1])
+
+
+def damaged_header(copy):
+    path = copy.path / "evaluations.npz"
+    with ZipFile(path) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    members["results.npy"] = members["results.npy"].replace(b"'shape': (", b"'shape': ((")
+    with ZipFile(path, "w") as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+
+
+@pytest.mark.parametrize("damage", [renamed_array, words, no_columns, damaged_header])
+def test_evaluations_that_are_none(damage, copy, command):
+    damage(copy)
+    code, out, errors = command("rl", "list", copy.path)
+    assert (code, errors) == (0, "")
+    assert re.search(r"\s1\s+-\s+-\s+-", out), out
+    with pytest.raises(BotschoolError, match="evaluations"):
+        copy.evaluations()
+
+
+def test_a_log_without_its_steps_is_left_out(copy):
+    """As the fuzzer found: the curve has no mean of the training's own episodes then."""
+    (copy.path / "progress.csv").write_text("rollout/ep_rew_mean,time/fps\n20.5,1\n3,1\n")
+    assert np.isnan(read_curve(copy)[:, TRAINING_EPISODES]).all()
+
+
+@pytest.mark.parametrize("name", ["mean", "clip", "epsilon"])
+def test_a_scaling_of_other_observations_is_refused(name, tmp_path):
+    params = {"n_steps": 32, "batch_size": 32, "n_epochs": 1, "normalize": True}
+    run = train(
+        *("ppo", "CartPole-v1", tmp_path),
+        params=params,
+        steps=32,
+        envs=1,
+        evaluations=1,
+        episodes=1,
+    )
+    save_weights(run.best, run.path / WEIGHTS)
+    with np.load(run.path / WEIGHTS) as file:
+        arrays = dict(file)
+    arrays[f"normalisation.{name}"] = np.full(16, -1.0)
+    np.savez(run.path / WEIGHTS, **arrays)
+    with pytest.raises(BotschoolError, match="is damaged"):
+        Agent.load(run.path / WEIGHTS)

@@ -115,3 +115,11 @@ def test_without_a_display(monkeypatch, refused):
         pytest.skip("elsewhere there is a display")
     monkeypatch.delenv("DISPLAY", raising=False)
     refused("showrobot", "hopper", says="display")
+
+
+def test_a_joint_whose_name_is_not_utf_8(tmp_path, refused):
+    path = tmp_path / "arm.urdf"
+    path.write_bytes(ARM.replace("elbow", "Ellenb\xf6gen").encode("latin-1"))
+    sheet = tmp_path / "arm.png"
+    refused("showrobot", path, "--sheet", sheet, says=["arm.urdf has a joint", "not UTF-8"])
+    assert not sheet.exists()

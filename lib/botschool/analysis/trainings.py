@@ -82,6 +82,8 @@ def _training_episodes(run: RunFolder, steps: np.ndarray) -> np.ndarray:
         means = log["rollout/ep_rew_mean"]
     except (BotschoolError, KeyError):
         return np.full(len(steps), np.nan)
+    if len(log["steps"]) != len(means):  # the column of the steps is missing
+        return np.full(len(steps), np.nan)
     known = np.isfinite(means) & np.isfinite(log["steps"])
     if not known.any():
         return np.full(len(steps), np.nan)

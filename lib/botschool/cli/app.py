@@ -12,7 +12,7 @@ import signal
 import sys
 from contextlib import suppress
 from types import ModuleType
-from typing import Annotated
+from typing import Annotated, NoReturn
 
 import typer
 
@@ -67,8 +67,30 @@ def _options(
     """Options of `botschool` itself."""
 
 
-def main() -> None:
-    """Runs the command; errors for learners are one sentence and exit code 2."""
+def run() -> NoReturn:
+    """Run the command and exit; errors for learners are one sentence and exit code 2."""
+    code, stopped = 130, False
+
+    def stop(number: int, frame: object) -> None:
+        nonlocal stopped
+        stopped = True
+        raise KeyboardInterrupt
+
+    try:
+        if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
+            signal.signal(signal.SIGINT, stop)
+        code = _run()
+    except KeyboardInterrupt:
+        pass
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # all is done: impatience is no error
+    if stopped and code == 130:
+        print("Stopped.", file=sys.stderr)
+    sys.exit(code)
+
+
+def _run() -> int:
+    """Run the command; return the exit code."""
     with suppress(AttributeError):  # in a notebook
         sys.stdout.reconfigure(errors="backslashreplace")  # names that the terminal cannot show
     try:
@@ -97,9 +119,7 @@ def main() -> None:
             "choose another place."
         )
         code = _silence(code)
-    if code == 130:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # impatience is no error
-    sys.exit(code)
+    return code
 
 
 def _once(message: str) -> str:

@@ -80,18 +80,25 @@ class Batch:
         return len(self.episodes) - self._next
 
     def enter(self, chunk: slice, answer: dict) -> None:
-        """The outcome of a chunk. Raises ValueError for one of another shape."""
-        count = chunk.stop - chunk.start
+        """Enter the outcome of a chunk. Raises ValueError for one of another shape."""
+        count, wanted = chunk.stop - chunk.start, self.episodes.collect is not None
         fitness, steps, moments = answer["fitness"], answer["steps"], answer["moments"]
-        if fitness.shape[-1:] != (count,) or steps.shape != (count,):
-            raise ValueError("the outcome is not that of its episodes")
         if self.fitness is None:
-            self.fitness = np.empty((*fitness.shape[:-1], len(self.episodes)))
-        self.fitness[..., chunk], self.steps[chunk] = fitness, steps
-        if moments is not None:
-            if self.moments is None:
-                self.moments = np.zeros((len(self.episodes), moments.shape[1]))
-            self.moments[chunk] = moments
+            fitnesses = np.empty((*fitness.shape[:-1], len(self.episodes)))
+            collected = np.zeros((len(self.episodes), moments.shape[1])) if wanted else None
+        else:
+            fitnesses, collected = self.fitness, self.moments
+        if (
+            fitness.shape != (*fitnesses.shape[:-1], count)
+            or steps.shape != (count,)
+            or wanted != (moments is not None)
+            or (wanted and moments.shape != (count, collected.shape[1]))
+        ):
+            raise ValueError("the outcome is not that of its episodes")
+        self.fitness, self.moments = fitnesses, collected
+        fitnesses[..., chunk], self.steps[chunk] = fitness, steps
+        if wanted:
+            collected[chunk] = moments
         self._entered.add(chunk.start)
         self.left -= count
 
@@ -135,7 +142,7 @@ class _Part:
         """met: whether each meets many; single: whether single precision is all that counts."""
         self._genotypes = genotypes
         self._met, self._type = met, np.float32 if single else np.float64
-        self._cloud = genotypes.cloud if isinstance(genotypes, Drawn) else None
+        self._recipe = genotypes.recipe if isinstance(genotypes, Drawn) else None
         self._rows: dict[int, tuple[bytes, bytes]] = {}
         self._drawn: tuple[list[bytes], dict[bytes, bytes]] | None = None
 
@@ -148,9 +155,8 @@ class _Part:
         What is drawn is drawn again; who meets many is a table, sent once to each worker and kept
         there; all others are sent as they are.
         """
-        if self._cloud is not None:
-            (name, *told), tables = self._drawn = self._drawn or self._recipe()
-            told = told if self._cloud.origin else None
+        if self._recipe is not None:
+            (name, *told), tables = self._drawn = self._drawn or self._tables()
             return {"table": name, "told": told, "rows": numbers.astype(np.int32)}, tables
         if not self._met:
             return {"sent": self._genotypes[numbers].astype(self._type)}, {}
@@ -160,13 +166,10 @@ class _Part:
         chosen = [self._rows[number] for number in numbers.tolist()]
         return {"each": [name for name, _ in chosen]}, dict(chosen)
 
-    def _recipe(self) -> tuple[list[bytes], dict[bytes, bytes]]:
-        """Names of the tables by which the cloud is drawn again, in their order; and the tables."""
-        if self._cloud.origin is None:
-            tables = [wire.packed(self._cloud)]
-        else:
-            start, told = self._cloud.origin
-            tables = [wire.packed(start), *map(wire.pack, told)]
+    def _tables(self) -> tuple[list[bytes], dict[bytes, bytes]]:
+        """The recipe as tables: their names in its order, and the tables."""
+        first, *told = self._recipe
+        tables = [wire.packed(first), *map(wire.pack, told)]
         names = [wire.digest(data) for data in tables]
         return names, dict(zip(names, tables, strict=True))
 

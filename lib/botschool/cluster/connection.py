@@ -15,8 +15,8 @@ import uuid
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
-from importlib.util import find_spec
 from multiprocessing import resource_tracker
+from urllib.request import ProxyHandler, build_opener
 
 from botschool.cluster.address import Place
 from botschool.errors import BotschoolError, said
@@ -108,10 +108,16 @@ class Connection:
 
     @property
     def dashboard(self) -> str:
-        """Address of Dask's pictures of what goes on; "" if there are none, for lack of bokeh."""
+        """Return the address of Dask's dashboard; "" if none answers there.
+
+        Dask names an address for each scheduler, also for one without a dashboard or without bokeh.
+        """
         with suppress(Exception):
-            if self._cluster is None or find_spec("bokeh"):
-                return self._client.dashboard_link or ""
+            link = self._client.dashboard_link or ""
+            direct = build_opener(ProxyHandler({}))
+            with direct.open(link, timeout=ATTEMPT) as page:
+                if b"Dask needs" not in page.read(1000):  # of a scheduler without bokeh
+                    return link
         return ""
 
     def _start(self, workers: int) -> None:

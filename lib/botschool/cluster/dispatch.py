@@ -1,4 +1,4 @@
-"""Who of the workers does what: chunks out, answers in, and what to do when one is lost or late."""
+"""How work is assigned to workers: chunks out, answers in, what to do when one is lost or late."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from botschool import __version__
-from botschool.cluster import wire
+from botschool.cluster import answers, wire
 from botschool.cluster import worker as remote
 from botschool.cluster.bottleneck import Bottleneck
 from botschool.cluster.chunks import Batch, Pace, size
 from botschool.cluster.connection import Connection
+from botschool.cluster.files import Manifest
 from botschool.cluster.shelf import Shelf
 from botschool.errors import BotschoolError
 from botschool.problems import Interrupted
@@ -28,6 +29,10 @@ UNKNOWN = 30.0
 """The time that a chunk should take where nothing is known."""
 FAILURES = 5
 """Failures of a worker in a row after which it is left out."""
+UNREADABLE = "its answer cannot be read"
+HELLO = ("sentence", "failure", "version")
+OUTCOME = ("sentence", "failure", "lacks", "fitness")
+"""Kinds of answers to a greeting, and to a chunk."""
 LOSSES = 10
 """Times that a chunk may be lost with its worker; then evaluation stops."""
 
@@ -94,6 +99,7 @@ class Crew:
         self,
         connection: Connection,
         setup: bytes,
+        files: Manifest,
         bits: bytes | None,
         native: bool,
         least: float,
@@ -101,11 +107,11 @@ class Crew:
         say: Callable[[str], None],
         watch: Bottleneck,
     ) -> None:
-        """setup: the experiment as a table; bits: what each must compute, None if unknown;
-        least: seconds that a chunk should take."""
+        """setup: the experiment as a table; files: those that each must have; bits: what each must
+        compute, None if unknown; least: seconds that a chunk should take."""
         self._connection = connection
         self._setup, self._name = setup, wire.digest(setup)
-        self._bits, self._native, self._least = bits, native, least
+        self._files, self._bits, self._native, self._least = files, bits, native, least
         self._patience, self._say, self._watch = patience, say, watch
         self.workers: dict[str, Worker] = {}
         self._tasks: dict[int, Task | Worker] = {}
@@ -194,7 +200,7 @@ class Crew:
 
     def _greet(self, worker: Worker) -> None:
         """Asks a worker who it is."""
-        request = {"experiment": self._name, "needs": [self._name]}
+        request = {"experiment": self._name, "needs": [self._name], "files": self._files}
         message = wire.pack({**request, "tables": {self._name: self._setup}})
         worker.greeting = self._send(remote.hello, worker, message)
         self._tasks[worker.greeting] = worker
@@ -302,7 +308,7 @@ class Crew:
             content = {"failure": f"{type(answer).__name__}: {' '.join(str(answer).split())}"}
         else:
             self._watch.received += len(answer)
-            content = wire.unpack(answer)
+            content = _read(answer, HELLO if isinstance(task, Worker) else OUTCOME)
         if isinstance(task, Worker):
             self._met(worker, content)
         elif "lacks" in content:
@@ -324,6 +330,10 @@ class Crew:
         if said and "Cancelled" in said:  # it is gone, or the connection: it will be asked again
             self.workers.pop(worker.address, None)
             return
+        if "failure" in answer and worker.failures + 1 < FAILURES:
+            worker.failures += 1
+            self._greet(worker)
+            return
         if said:
             worker.left_out = f"it says: {said.rstrip('.')}."
         elif answer["version"] != __version__:
@@ -331,13 +341,15 @@ class Crew:
                 f"it has botschool {answer['version']}, and this is {__version__}: install the "
                 "same."
             )
+        elif answer["differs"]:
+            worker.left_out = _differing(answer["differs"])
         elif self._bits not in (None, answer["bits"]):
             worker.left_out = (
                 "it computes other bits than this machine: install the same botschool, numpy and "
                 "environments."
             )
         else:
-            worker.ready = True
+            worker.ready, worker.failures = True, 0
             worker.pace.threads = answer["threads"]
             worker.holds.put(self._name, len(self._setup))
             return
@@ -356,6 +368,12 @@ class Crew:
 
     def _done(self, task: Task, answer: dict) -> None:
         worker, batch, chunk = task.worker, task.batch, task.chunk
+        if not batch.done(chunk):
+            try:
+                batch.enter(chunk, answer)
+            except ValueError:
+                self._failed(task, UNREADABLE)
+                return
         worker.failures = 0
         steps = int(answer["steps"].sum())
         worker.pace.measured(chunk.stop - chunk.start, steps, answer["seconds"])
@@ -363,10 +381,25 @@ class Crew:
         now = time.monotonic()
         for following in list(worker.tasks.values())[:1]:
             following.since = now
-        if not batch.done(chunk):
-            batch.enter(chunk, answer)
         if not worker.tasks and not batch.waiting:
             self._watch.idle(worker.address, now)
+
+
+def _read(answer: bytes, kinds: tuple[str, ...]) -> dict:
+    """Return an answer of one of these kinds; a failure for anything else."""
+    try:
+        return answers.read(answer, kinds)
+    except ValueError:
+        return {"failure": UNREADABLE}
+
+
+def _differing(names: list[str]) -> str:
+    """Return the sentence about a worker with other files."""
+    others = f" (and {counted(len(names) - 1, 'other file')})" if len(names) > 1 else ""
+    return (
+        f"its {names[0]}{others} differs from this machine's: install the same files there and "
+        "start the worker again."
+    )
 
 
 def counted(number: int, what: str) -> str:

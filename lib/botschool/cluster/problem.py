@@ -9,7 +9,7 @@ import dask
 import numpy as np
 
 from botschool import problems
-from botschool.cluster import wire
+from botschool.cluster import files, wire
 from botschool.cluster.bottleneck import Bottleneck
 from botschool.cluster.chunks import LEAST, Batch
 from botschool.cluster.connection import Connection
@@ -58,7 +58,15 @@ class Distributed(Problem):
         self._connection = connection
         setup = wire.pack(to_dict(experiment))
         self._crew = Crew(
-            connection, setup, same, self.native, self._shortest, patience, say, self.watch
+            connection,
+            setup,
+            files.manifest(inner),
+            same,
+            self.native,
+            self._shortest,
+            patience,
+            say,
+            self.watch,
         )
 
     def policy(self, config: PolicyConfig) -> Policy:

@@ -1,8 +1,9 @@
-"""What goes over the wire: dicts of plain values and arrays as bytes, by msgpack. Nothing that is
-unpacked can be code."""
+"""What goes over the wire: dicts of plain values and arrays as bytes, by msgpack, after a checksum.
+Nothing that is unpacked can be code."""
 
 from __future__ import annotations
 
+import math
 import zlib
 from hashlib import blake2b
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import msgpack
 import numpy as np
 
+from botschool.errors import said
 from botschool.evolution.algorithms.ascent import Start
 from botschool.evolution.algorithms.drawing import Cloud
 
@@ -24,16 +26,32 @@ FIELDS = {
 """What a table of each kind holds, besides a stream."""
 WORTH = 64
 """Bytes from which whole numbers are compressed: seeds and places are regular."""
+LARGEST = 64_000_000
+"""Bytes that the compressed arrays of one message may become."""
+CHECKSUM = 4
+"""Bytes of the checksum before a message."""
 
 
 def pack(value: Any) -> bytes:
-    """Numbers, strings, bytes, arrays, and lists and dicts of such, as bytes."""
-    return msgpack.packb(value, default=_array, use_bin_type=True)
+    """Return numbers, strings, bytes, arrays, and lists and dicts of such, as bytes."""
+    data = msgpack.packb(value, default=_array, use_bin_type=True)
+    return _checksum(data) + data
 
 
 def unpack(data: bytes) -> Any:
-    """The reverse of `pack`; raises ValueError for anything else."""
-    return msgpack.unpackb(data, ext_hook=_from, raw=False, strict_map_key=False)
+    """Reverse `pack`. Raises ValueError for a damaged message and for anything else, also for one
+    whose arrays would become larger than LARGEST."""
+    content = memoryview(data)[CHECKSUM:]
+    if data[:CHECKSUM] != _checksum(content):
+        raise ValueError("the message is damaged")
+    try:
+        return msgpack.unpackb(content, ext_hook=_Arrays(), raw=False, strict_map_key=False)
+    except Exception as error:  # msgpack, zlib and numpy each have their own
+        raise ValueError(f"the message is none of botschool's ({said(error)})") from None
+
+
+def _checksum(data: bytes | memoryview) -> bytes:
+    return zlib.crc32(data).to_bytes(CHECKSUM, "little")
 
 
 def _array(value: Any) -> msgpack.ExtType:
@@ -43,17 +61,34 @@ def _array(value: Any) -> msgpack.ExtType:
         raise TypeError(f"{type(value).__name__} does not go over the wire")
     value = np.ascontiguousarray(value).view(np.ndarray)
     data, code = value.tobytes(), ARRAY
-    if value.dtype.kind in "iu" and len(data) >= WORTH:
+    if value.dtype.kind in "iu" and WORTH <= len(data) <= LARGEST // 8:
         data, code = zlib.compress(data, 1), PACKED
     return msgpack.ExtType(code, msgpack.packb([value.dtype.str, list(value.shape), data]))
 
 
-def _from(code: int, data: bytes) -> np.ndarray:
-    kind, shape, content = msgpack.unpackb(data)
-    if kind not in TYPES or code not in (ARRAY, PACKED):
-        raise ValueError(f"{kind} is no array of botschool's")
-    content = zlib.decompress(content) if code == PACKED else content
-    return np.frombuffer(content, dtype=kind).reshape(shape)
+class _Arrays:
+    """The arrays of one message, unpacked one after another."""
+
+    def __init__(self) -> None:
+        self._left = LARGEST
+
+    def __call__(self, code: int, data: bytes) -> np.ndarray:
+        kind, shape, content = msgpack.unpackb(data)
+        if kind not in TYPES or code not in (ARRAY, PACKED):
+            raise ValueError(f"{kind} is no array of botschool's")
+        if code == PACKED:
+            content = self._decompressed(content, np.dtype(kind).itemsize * math.prod(shape))
+        return np.frombuffer(content, dtype=kind).reshape(shape)
+
+    def _decompressed(self, content: bytes, size: int) -> bytes:
+        self._left -= size
+        if size < 1 or self._left < 0:
+            raise ValueError(f"its arrays have more than {LARGEST} bytes")
+        decompressor = zlib.decompressobj()
+        found = decompressor.decompress(content, size + 1)
+        if len(found) != size or not decompressor.eof:
+            raise ValueError("an array has another size than it says")
+        return found
 
 
 def digest(data: bytes) -> bytes:

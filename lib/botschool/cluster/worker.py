@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from botschool import __version__, config, problems
-from botschool.cluster import wire
+from botschool.cluster import files, wire
 from botschool.cluster.shelf import Shelf
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
@@ -41,7 +41,8 @@ _made: dict[bytes, tuple[Problem, Policy]] = {}
 
 
 def hello(message: bytes) -> bytes:
-    """Who this worker is: version, threads, and the bits of a probe of the experiment."""
+    """Return what this worker is: version, threads, which of its files differ from those of the
+    request, and the bits of a probe of the experiment."""
     return _answer(message, _hello)
 
 
@@ -75,7 +76,9 @@ def _answer(message: bytes, function: Callable[[dict], dict]) -> bytes:
 def _hello(request: dict) -> dict:
     _experiment(request["experiment"])
     experiment = config.from_dict(_tables[request["experiment"]])
-    return {"version": __version__, "threads": _threads(), "bits": bits(experiment)}
+    differs = files.differing(request["files"])
+    same = b"" if differs else bits(experiment)
+    return {"version": __version__, "threads": _threads(), "differs": differs, "bits": same}
 
 
 def bits(experiment: Experiment) -> bytes:
@@ -124,13 +127,13 @@ def _rows(part: dict) -> np.ndarray:
         return part["sent"].astype(np.float64)
     if "each" in part:
         return np.array([_tables[name] for name in part["each"]], dtype=np.float64)
-    told = part["told"]
-    cloud = _tables[part["table"]] if told is None else _followed(part["table"], tuple(told))
-    return cloud.rows(part["rows"])
+    return _cloud(part["table"], tuple(part["told"])).rows(part["rows"])
 
 
-def _followed(name: bytes, told: tuple[bytes, ...]) -> Cloud:
-    """The cloud that an ascent draws from after it was told this fitness."""
+def _cloud(name: bytes, told: tuple[bytes, ...]) -> Cloud:
+    """Return the cloud of a recipe: itself, or that of an ascent after it was told this fitness."""
+    if isinstance(_tables[name], Cloud):
+        return _tables[name]
     known, ascent, cloud = _ascents.get(name, (None, None, None))
     if known == told:
         return cloud

@@ -74,7 +74,7 @@ class Model:
         self.client = bullet.connect(window)
         try:
             self.robot = bullet.load_model(self.client, path, flags)
-            self.joints = self._find_joints()
+            self.joints = self._find_joints(path)
             if not self.joints:
                 raise BotschoolError(f"{path} has no joint that moves, so nothing can be shown.")
             self._find_size()
@@ -90,12 +90,18 @@ class Model:
                 physicsClientId=self.client,
             )
 
-    def _find_joints(self) -> list[Joint]:
+    def _find_joints(self, path: Path) -> list[Joint]:
         world, found = {"physicsClientId": self.client}, []
         kinds = (self.bullet.JOINT_REVOLUTE, self.bullet.JOINT_PRISMATIC)
         for i in range(self.bullet.getNumJoints(self.robot, **world)):
             info = self.bullet.getJointInfo(self.robot, i, **world)
-            name, low, high = info[1].decode(), info[8], info[9]
+            try:
+                name, low, high = info[1].decode(), info[8], info[9]
+            except UnicodeDecodeError:
+                raise BotschoolError(
+                    f"{path} has a joint whose name is not UTF-8: rename it, or save the file as "
+                    "UTF-8."
+                ) from None
             if info[2] not in kinds or name.startswith("ignore"):
                 continue
             slides = info[2] == self.bullet.JOINT_PRISMATIC

@@ -45,6 +45,8 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
         header = json.loads(str(state.pop("botschool")))
         version, owner = header["format"], header["seed"]
         saved = {section: dict(keys) for section, keys in header["experiment"].items()}
+        if not all(isinstance(value, np.ndarray) for value in state.values()):
+            raise ValueError("a part is no array")
     except Exception as error:  # a damaged file can fail in any way
         raise BotschoolError(
             f"{path} is no complete checkpoint of botschool ({_reason(error)}): restore it from a "

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from botschool.errors import BotschoolError
+from botschool.lock import locked
 from botschool.output import cannot_write, remove_leftovers, save_bytes, save_npy
 
 STAT = (
@@ -80,16 +83,22 @@ class RunFiles:
         return [path for file in self.all() for path in sorted(self.folder.glob(file.name))]
 
 
-def claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:
-    """Makes the folder ready for runs with these seeds.
+@contextmanager
+def claimed(folder: Path, seeds: list[int], resume: bool, force: bool) -> Iterator[None]:
+    """Make the folder ready for runs with these consecutive seeds, and hold it for them.
 
-    Results that exist are kept when resuming, removed with `force`, and an error otherwise.
+    Results that exist are kept when resuming, removed with `force`, and an error otherwise, as are
+    runs that another process writes.
     """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        _claim(folder, seeds, resume, force)
-    except OSError as error:
-        raise cannot_write(folder, error.strerror or str(error)) from error
+    which = f"seed {seeds[0]}" if len(seeds) == 1 else f"a seed from {seeds[0]} to {seeds[-1]}"
+    with ExitStack() as stack:
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            stack.enter_context(locked(folder, f"the run with {which}", seeds[0], len(seeds)))
+            _claim(folder, seeds, resume, force)
+        except OSError as error:
+            raise cannot_write(folder, error.strerror or str(error)) from error
+        yield
 
 
 def _claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:

@@ -10,7 +10,7 @@ from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.progress import print_lines, reporting
-from botschool.evolution.record import RunFiles, claim
+from botschool.evolution.record import RunFiles, claimed
 from botschool.evolution.run import Run, evolve
 from botschool.terminal import stoppable
 
@@ -45,7 +45,7 @@ def replicate(
         if cluster:
             problem = stack.enter_context(cluster(_say)).problem(experiment)
         runs = [kind(experiment, seed, workers, stopping, problem) for seed in seeds[:1]]
-        claim(folder, seeds, resume, force)
+        stack.enter_context(claimed(folder, seeds, resume, force))
         processes = min(workers, len(seeds))
         if processes > 1 and runs[0].problem.native and not cluster:
             from botschool.evolution.side_by_side import Task, evolve_all

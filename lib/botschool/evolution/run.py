@@ -252,7 +252,7 @@ class Run:
             ):
                 raise ValueError(f"{name} has another type or shape")
             counts = given.dtype.kind in "iu" and (given < 0).any()
-            lost = value.ndim == 0 and np.isfinite(value) and not np.isfinite(given)
+            lost = not free and np.isfinite(value).all() and not np.isfinite(given).all()
             if counts or lost:
                 raise ValueError(f"{name} holds what no run saves")
         for owner in self.checkpointed:

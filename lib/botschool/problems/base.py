@@ -131,6 +131,10 @@ class Problem(ABC):
         """Genotypes for `evaluate`, one part after another."""
         return np.concatenate(parts)
 
+    def modules(self) -> set[str]:
+        """Return the names of the modules that its environment is made of; of a native one none."""
+        return set()
+
     def status(self) -> str:
         """What a progress bar is to say of those who evaluate; often nothing."""
         return ""

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from botschool import wrappers
 from botschool.errors import BotschoolError, said
 from botschool.inifile import shown
 from botschool.policies.policy import Policy
@@ -85,6 +86,16 @@ class PythonProblem(Problem):
         finally:
             if render:
                 env.close()
+
+    def modules(self) -> set[str]:
+        """Return the modules that the experiment names, and those of the environment's classes."""
+        named = {self.name.partition(":")[0]} if ":" in self.name else set()
+        named |= {w.module for w in wrappers.parse(self.made.get("wrappers", "")) if w.module}
+        env = self._env
+        while env is not None:
+            named |= {kind.__module__ for kind in type(env).__mro__} - {"builtins", "abc", "typing"}
+            env = vars(env).get("env")
+        return named
 
     @abstractmethod
     def _episode(

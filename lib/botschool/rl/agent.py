@@ -121,7 +121,8 @@ def _fill(model: BaseAlgorithm, path: Path, normalised: bool) -> dict[str, np.nd
     if not normalised:
         return None
     with ZipFile(path) as archive:
-        return weights.read_scaling(archive.read(NORMALISATION))
+        scaling = weights.read_scaling(archive.read(NORMALISATION))
+    return weights.checked(scaling, model.observation_space.shape)
 
 
 def play(

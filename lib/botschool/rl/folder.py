@@ -20,12 +20,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
-from zipfile import BadZipFile
 
 import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.output import cannot_write, save_npz
+from botschool.rl.weights import numbers
 
 if TYPE_CHECKING:
     import gymnasium
@@ -110,17 +110,19 @@ class RunFolder:
         """Reads evaluations.npz. Raises BotschoolError."""
         path = self.path / EVALUATIONS
         try:
-            with np.load(path, allow_pickle=False) as arrays:
-                steps, returns, lengths = (
-                    arrays[name] for name in ("timesteps", "results", "ep_lengths")
-                )
+            arrays = numbers(path)
+            steps, returns, lengths = (
+                arrays[name] for name in ("timesteps", "results", "ep_lengths")
+            )
         except FileNotFoundError:
             raise BotschoolError(
                 f"{self.path} is no folder of a training with results: it has no {EVALUATIONS}."
             ) from None
-        except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+        except Exception:  # a damaged file can fail in any way
             raise BotschoolError(f"{path} is damaged: train again.") from None
-        if returns.ndim != 2 or not len(steps) == len(returns) == len(lengths) > 0:
+        if (steps.ndim, returns.ndim) != (1, 2) or lengths.shape != returns.shape:
+            raise BotschoolError(f"{path} holds no evaluations: train again.")
+        if not len(steps) == len(returns) > 0 or not returns.size:
             raise BotschoolError(f"{path} holds no evaluations: train again.")
         return Evaluations(steps, returns, lengths)
 

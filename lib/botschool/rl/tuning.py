@@ -22,7 +22,8 @@ import yaml
 
 from botschool.errors import BotschoolError
 from botschool.inifile import shown
-from botschool.output import save_bytes
+from botschool.lock import locked
+from botschool.output import cannot_write, save_bytes
 from botschool.rl.folder import Evaluations, name_of
 from botschool.rl.model import choose, require
 from botschool.rl.training import learn
@@ -242,7 +243,11 @@ def _short(value: Any) -> str:
 def tune_command(plan: Plan) -> bool:
     """`botschool rl tune`: prints a line for each trial; False when the user stopped it."""
     print(f"tuning {plan.algo} on {plan.env} in {plan.path}", flush=True)
-    with stoppable() as stopping:
+    try:
+        plan.path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise cannot_write(plan.path, error.strerror or str(error)) from error
+    with locked(plan.path, "the tuning"), stoppable() as stopping:
         done = tune(plan, lambda line: print(line, flush=True), stopping)
     if not done:
         print("stopped: the same command goes on.", file=sys.stderr)

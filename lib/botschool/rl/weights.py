@@ -72,7 +72,21 @@ def fill(path: Path, policy: BasePolicy, normalised: bool) -> dict[str, np.ndarr
             raise ValueError(f"{name} has another shape")
     given = {name: torch.from_numpy(arrays[name]) for name in wanted}
     policy.load_state_dict({**policy.state_dict(), **given})
-    return {name: arrays[f"{NORMALISATION}.{name}"] for name in SCALING} if normalised else None
+    if not normalised:
+        return None
+    scaling = {name: arrays[f"{NORMALISATION}.{name}"] for name in SCALING}
+    return checked(scaling, policy.observation_space.shape)
+
+
+def checked(scaling: dict[str, np.ndarray], shape: tuple[int, ...]) -> dict[str, np.ndarray]:
+    """Return the scaling of observations of this shape. Raises ValueError for any other."""
+    shapes = {"mean": shape, "variance": shape, "clip": (), "epsilon": ()}
+    for name, array in scaling.items():
+        if array.shape != shapes[name] or not np.isfinite(array).all():
+            raise ValueError(f"{name} does not fit the observations")
+    if (scaling["variance"] + scaling["epsilon"] <= 0).any() or scaling["clip"] <= 0:
+        raise ValueError("the observations cannot be scaled so")
+    return scaling
 
 
 def numbers(path: Path) -> dict[str, np.ndarray]:

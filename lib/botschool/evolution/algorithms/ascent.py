@@ -53,7 +53,7 @@ class Ascent:
         self._samples, candidates = draw(
             self._numbers, self.centres, start.samplesize, start.deviation
         )
-        candidates.cloud.origin = self.start, self.told
+        candidates.recipe = (self.start, *self.told)
         return candidates
 
     def climb(self, fitness: np.ndarray) -> None:

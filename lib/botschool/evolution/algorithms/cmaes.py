@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from botschool.errors import BotschoolError
 from botschool.evolution.algorithm import Initial, algorithm
 from botschool.evolution.algorithms.gaussian import (
     Gaussian,
@@ -109,7 +110,13 @@ class FullMatrix:
 
     def decompose(self) -> None:
         """Takes C into use: root = B D B', where C has eigenvectors B and eigenvalues D D."""
-        values, rows = eigen(self.covariance)
+        try:
+            values, rows = eigen(self.covariance)
+        except ValueError:
+            raise BotschoolError(
+                "CMA-ES has broken down: its covariance matrix holds numbers that are not finite, "
+                "so start anew with another seed (-s)."
+            ) from None
         deviations = np.sqrt(np.maximum(values, values[-1] / CONDITION))
         self.root = product(rows.T * deviations, rows)
 

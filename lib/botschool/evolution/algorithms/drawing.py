@@ -39,8 +39,6 @@ class Cloud:
     """Whether there are candidates on both sides of a centre: see `mirrored`."""
     stream: dict
     """State of the Philox generator that gives the directions, centre by centre."""
-    origin: tuple | None = None
-    """Of an ascent (ascent.py): its start, and the fitness of each step so far."""
     places: list[dict] = field(default_factory=list)
     """The stream after 0, STRIDE, 2 STRIDE ... directions, as far as it has been followed."""
 
@@ -88,9 +86,20 @@ class Cloud:
 
 
 class Drawn(np.ndarray):
-    """Candidates that can be drawn again; parts of them, or what is computed from them, cannot."""
+    """Candidates that can be drawn again; parts of them, or what is computed from them, cannot.
 
-    cloud: Cloud | None = None
+    A cluster reads `recipe`, and nothing else, of what an algorithm evaluates.
+    """
+
+    recipe: tuple | None = None
+    """Their Cloud; or where an ascent began (ascent.Start), and the fitness of each step since."""
+
+    def reshape(self, *shape, **options) -> np.ndarray:
+        """As numpy's; the same candidates in the same order keep their recipe."""
+        found = super().reshape(*shape, **options)
+        if found.shape[-1:] == self.shape[-1:]:
+            found.recipe = self.recipe
+        return found
 
 
 def candidates_of(centres: np.ndarray, samples: np.ndarray, deviation) -> np.ndarray:
@@ -117,11 +126,6 @@ def draw(
         candidates = mirrored(centres, samples, deviation)
     else:
         candidates = candidates_of(centres[:, None], samples, deviation)
-    return samples, remembering(candidates.reshape(-1, centres.shape[1]), cloud)
-
-
-def remembering(candidates: np.ndarray, cloud: Cloud | None) -> Drawn:
-    """The same candidates, which remember the cloud that they are from."""
-    drawn = candidates.view(Drawn)
-    drawn.cloud = cloud
-    return drawn
+    drawn = candidates.reshape(-1, centres.shape[1]).view(Drawn)
+    drawn.recipe = (cloud,)
+    return samples, drawn

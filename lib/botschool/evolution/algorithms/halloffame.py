@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from botschool.evolution.algorithm import Initial, Play
-from botschool.evolution.algorithms.drawing import draw, mirrored, remembering
+from botschool.evolution.algorithms.drawing import draw, mirrored
 from botschool.evolution.algorithms.openaies import climb
 from botschool.evolution.algorithms.sides import PREDATORS, PREY, SIDES, everyone, mean, means
 from botschool.policies.hyperparameters import WEIGHT_DECAY, hyper
@@ -135,7 +135,6 @@ class HallOfFame:
         archive = self.archives[1 - self.side]
         theirs = np.stack([archive[place] for place in places]).astype(np.float64)
         flat = candidates.reshape(-1, candidates.shape[2])
-        flat = remembering(flat, getattr(candidates, "cloud", None))
         if self.side == PREDATORS:
             met = play(flat, theirs, pairs)
         else:
@@ -151,7 +150,7 @@ class HallOfFame:
         """Draws a turn's directions and returns the candidates on both sides of each centre."""
         centres, config = self.centres[self.side], self.config
         self.samples, drawn = draw(numbers, centres, config.samplesize, config.noiseStdDev)
-        return remembering(drawn.reshape(len(centres), -1, centres.shape[1]), drawn.cloud)
+        return drawn.reshape(len(centres), -1, centres.shape[1])
 
     def _climb(self, fitness: np.ndarray) -> np.ndarray:
         """Moves the side's centres, and returns the best sample of each: (popsize, parameters)."""

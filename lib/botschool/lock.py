@@ -1,0 +1,70 @@
+"""Locks on output folders: two commands never write the same run."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.output import cannot_write
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None
+
+NAME = ".botschool.lock"
+TAKEN = (errno.EACCES, errno.EAGAIN)
+
+
+@contextmanager
+def locked(folder: Path, what: str, first: int = 0, count: int = 1) -> Iterator[None]:
+    """Hold the runs with numbers first, first + 1, ... of a folder, which must exist.
+
+    Raises BotschoolError if another process holds one of them; what: the sentence's subject, as
+    "the run with seed 1". The system ends a lock with its process, so a killed one leaves none.
+    Where the folder's file system has no locks, a line on stderr says so.
+    """
+    if fcntl is None:
+        yield
+        return
+    path = folder / NAME
+    file = _locked_file(path, what, first, count)
+    try:
+        yield
+    finally:
+        with suppress(OSError):
+            fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)  # the whole: nobody else needs it
+            path.unlink()
+        os.close(file)
+
+
+def _locked_file(path: Path, what: str, first: int, count: int) -> int:
+    while True:
+        try:
+            file = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+        except OSError as error:
+            raise cannot_write(path, error.strerror or str(error)) from error
+        try:
+            fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB, count, first)
+        except OSError as error:
+            if error.errno not in TAKEN:
+                print(
+                    f"warning: {path.parent} is on a file system without locks, so take care that "
+                    "no other command writes the same run.",
+                    file=sys.stderr,
+                )
+                return file
+            os.close(file)
+            raise BotschoolError(
+                f"Another command is writing {what} in {path.parent}: wait until it ends or stop "
+                "it, or choose another folder (-o)."
+            ) from None
+        with suppress(OSError):
+            if os.path.samestat(os.fstat(file), path.stat()):
+                return file
+        os.close(file)  # its last user has removed it meanwhile

@@ -1,0 +1,201 @@
+"""Damage every kind of file that the command reads, and see that it refuses in a sentence.
+
+    python tests/fuzz SECONDS [--seed 1] [--only 'ini wire'] [--case 12]
+
+Kinds take turns, each in a process of its own with limits of memory and time. What is found is
+printed with the command that repeats it; the exit code is 1 then.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import os
+import queue
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import traceback
+import warnings
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+SLICE = 20.0
+"""Seconds of a kind's turn."""
+HANG = 30.0
+"""Seconds of processor time after which a case hangs."""
+WAIT = 300.0
+"""Seconds by the clock after which it waits for something that does not come."""
+START = 300.0
+"""Seconds that a kind's preparation may take."""
+MEMORY = 4 << 30
+"""Bytes of address space."""
+
+
+def main() -> int:
+    """Run the fuzzers; return 1 if they have found something."""
+    arguments = _arguments()
+    if arguments.child:
+        _child(arguments)
+        return 0
+    from fuzz.kinds import KINDS
+
+    names = arguments.only.replace(",", " ").split() if arguments.only else list(KINDS)
+    if unknown := set(names) - KINDS.keys():
+        sys.exit(f"There is no kind {', '.join(unknown)}: choose from {', '.join(KINDS)}.")
+    end = time.monotonic() + arguments.seconds
+    cases, found = dict.fromkeys(names, 0), {}
+    with tempfile.TemporaryDirectory(prefix="fuzz") as folder:
+        while names and time.monotonic() < end:
+            for name in names:
+                seconds = min(SLICE, arguments.seconds / len(names), end - time.monotonic())
+                if seconds <= 0:
+                    break
+                _turn(name, arguments, Path(folder), max(seconds, 0.5), cases, found)
+            if arguments.case is not None:
+                break
+    print(f"{sum(cases.values())} cases in {arguments.seconds:.0f} s, {len(found)} finds:", end=" ")
+    print(", ".join(f"{name} {count}" for name, count in cases.items()))
+    return 1 if found else 0
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("seconds", type=float, nargs="?", default=60)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="", help="kinds, separated by spaces")
+    parser.add_argument("--case", type=int, help="this case alone, with its traceback")
+    parser.add_argument("--child", default="", help=argparse.SUPPRESS)
+    parser.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
+    parser.add_argument("--first", type=int, default=0, help=argparse.SUPPRESS)
+    return parser.parse_args()
+
+
+def _turn(name, arguments, folder, seconds, cases, found) -> None:
+    """Let a kind's process work for so long; start it again after each case that ends it."""
+    end = time.monotonic() + seconds
+    while True:
+        first = cases[name] if arguments.case is None else arguments.case
+        own = folder / name
+        own.mkdir(exist_ok=True)
+        command = [
+            sys.executable,
+            str(Path(__file__).parent),
+            str(max(0.5, end - time.monotonic())),
+        ]
+        command += ["--child", name, "--seed", str(arguments.seed), "--first", str(first)]
+        command += ["--folder", str(own)]
+        command += ["--case", str(first)] if arguments.case is not None else []
+        ended = _watched(name, command, cases, found, arguments)
+        if ended or arguments.case is not None or time.monotonic() >= end:
+            return
+
+
+def _watched(name, command, cases, found, arguments) -> bool:
+    """Whether the process ended by itself; what it reports is printed."""
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    lines: queue.SimpleQueue[str | None] = queue.SimpleQueue()
+
+    def listen() -> None:
+        for line in process.stdout:
+            lines.put(line)
+        lines.put(None)
+
+    threading.Thread(target=listen, daemon=True).start()
+    number, limit, tail, how = None, START, [], ""
+    while True:
+        try:
+            line = lines.get(timeout=limit)
+        except queue.Empty:
+            process.kill()
+            how = f"waits for more than {WAIT:.0f} s"
+            break
+        if line is None:
+            code = process.wait()
+            if code == -getattr(signal, "SIGPROF", 0):
+                how = f"takes more than {HANG:.0f} s of processor time"
+                break
+            how = "" if code == 0 else f"ends the process ({code}): {' '.join(tail[-3:])}"
+            break
+        word, _, rest = line.partition(" ")
+        if word == "CASE":
+            number, limit, tail = int(rest), WAIT, []
+            cases[name] = number + 1
+        elif word == "FIND":
+            _tell(name, number, rest.strip(), found, arguments)
+        else:
+            tail.append(line.strip())
+            if arguments.case is not None:
+                print(line, end="")
+    if how:
+        if number is None:
+            sys.exit(f"The fuzzer of {name} does not start: {' '.join(tail[-5:])}")
+        _tell(name, number, how, found, arguments)
+    return not how
+
+
+def _tell(name, number, what, found, arguments) -> None:
+    key = (name, what)
+    if key not in found:
+        found[key] = number
+        again = f"make fuzz ONLY={name} SEED={arguments.seed} CASE={number}"
+        print(f"{name}: {what}\n    {again}", flush=True)
+
+
+def _child(arguments: argparse.Namespace) -> None:
+    """Read damaged files until the time is over; report each on standard output."""
+    from fuzz.kinds import KINDS, BotschoolError
+
+    with contextlib.suppress(ImportError):
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    os.environ["MPLBACKEND"] = "agg"
+    report = os.fdopen(os.dup(1), "w", buffering=1)
+    warnings.simplefilter("ignore")
+    kind = KINDS[arguments.child](arguments.folder)
+    with contextlib.redirect_stdout(io.StringIO()):
+        valid = kind.valid()
+        path = kind.path()
+        path.write_bytes(valid[0])
+        kind.read(path)  # else each refusal would be for nothing
+    number, end = arguments.first, time.monotonic() + arguments.seconds
+    while time.monotonic() < end:
+        report.write(f"CASE {number}\n")
+        if hasattr(signal, "setitimer"):
+            signal.setitimer(signal.ITIMER_PROF, HANG)  # ends the process
+        chance = random.Random(f"{arguments.child} {arguments.seed} {number}")
+        path = kind.path()
+        path.write_bytes(kind.damage(valid, chance))
+        if arguments.case is not None:
+            report.write(f"the damaged file: {path.read_bytes()[:3000]!r}\n")
+        try:
+            with (
+                contextlib.redirect_stdout(io.StringIO()),
+                contextlib.redirect_stderr(io.StringIO()),
+            ):
+                kind.read(path)
+        except BotschoolError as error:
+            text = str(error)
+            if "\n" in text or not text.rstrip().endswith((".", "?")):
+                report.write(f"FIND says no sentence: {text!r}\n")
+        except BaseException as error:
+            place = traceback.extract_tb(error.__traceback__)
+            own = [each for each in place if "botschool" in each.filename] or place
+            where = f"{Path(own[-1].filename).name}:{own[-1].name}"
+            report.write(f"FIND raises {type(error).__name__} in {where}\n")
+            if arguments.case is not None:
+                report.write(traceback.format_exc())
+        if arguments.case is not None:
+            return
+        number += 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,517 @@
+"""The kinds of files that the command reads: valid ones, and what reads them.
+
+Each kind is a class with `valid()`, the bytes of some good files, and `read(path)`, which must
+return or raise BotschoolError for any file. `folder` is empty at first and the kind's own.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import random
+import re
+import zipfile
+from pathlib import Path
+
+import numpy as np
+
+from botschool import config, problems
+from botschool.errors import BotschoolError
+from fuzz.mutate import damaged
+
+ROOT = Path(__file__).parents[2]
+EXPERIMENTS = ROOT / "data" / "experiments"
+SMALL = """[EXP]
+environment = CartPole-v1
+algo = {algo}
+[POLICY]
+episodes = 1
+pepisodes = 1
+maxsteps = 20
+nhiddens = 3
+[ALGO]
+maxmsteps = 0.001
+saveeach = 60
+"""
+DUEL = """[EXP]
+environment = ErPredprey
+algo = coevo2
+[POLICY]
+nrobots = 2
+heterogeneous = 1
+episodes = 1
+pepisodes = 1
+maxsteps = 20
+nhiddens = 3
+[ALGO]
+popsize = 4
+selsize = 2
+samplesize = 2
+ngenerations = 2
+saveeach = 1
+"""
+
+
+class Kind:
+    """A kind of files."""
+
+    suffix = ""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def path(self) -> Path:
+        """Where the damaged file lies."""
+        return self.folder / f"damaged{self.suffix}"
+
+    def valid(self) -> list[bytes]:
+        raise NotImplementedError
+
+    def read(self, path: Path) -> None:
+        raise NotImplementedError
+
+    def damage(self, valid: list[bytes], chance: random.Random) -> bytes:
+        """Return a damaged file; half of those that are archives have a damaged member instead."""
+        data = chance.choice(valid)
+        if not zipfile.is_zipfile(io.BytesIO(data)) or chance.random() < 0.3:
+            return damaged(valid, chance)
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            members = {name: archive.read(name) for name in archive.namelist()}
+        name = chance.choice(list(members))
+        others = [members[name], *(m for n, m in members.items() if n.endswith(name[-4:]))]
+        members[name] = damaged(others, chance)
+        if chance.random() < 0.1:
+            del members[chance.choice(list(members))]
+        return archive_of(members)
+
+
+def archive_of(members: dict[str, bytes]) -> bytes:
+    """Return a zip archive, the same for the same members."""
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as archive:
+        for name, content in members.items():
+            archive.writestr(zipfile.ZipInfo(name), content)
+    return out.getvalue()
+
+
+class Ini(Kind):
+    """Experiment files, declared arenas among them."""
+
+    suffix = ".ini"
+
+    def valid(self) -> list[bytes]:
+        return [file.read_bytes() for file in sorted(EXPERIMENTS.glob("*.ini"))]
+
+    def read(self, path: Path) -> None:
+        experiment = config.load(path)
+        assert config.from_dict(config.to_dict(experiment)) == experiment
+        if experiment.exp.environment in problems.names() and not experiment.exp.wrappers:
+            problem = problems.of(experiment)
+            if experiment.policy.nhiddens < 200 and experiment.policy.nlayers < 3:
+                problem.policy(experiment.policy)
+
+
+class Evolved(Kind):
+    """What reads the files of a small run."""
+
+    text = SMALL.format(algo="OpenAI-ES")
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(folder)
+        self.ini = folder / "own.ini"
+        self.ini.write_text(self.text)
+        self.experiment = config.load(self.ini)
+
+    def evolve(self, folder: Path, **options) -> None:
+        from botschool.evolution.coevolution import Coevolution
+        from botschool.evolution.run import Run, evolve
+
+        folder.mkdir(exist_ok=True)
+        kind = Coevolution if self.experiment.competitive else Run
+        evolve(kind(self.experiment, 1), folder, **options)
+
+    def files(self, pattern: str) -> list[bytes]:
+        run = self.folder / "run"
+        if not run.exists():
+            self.evolve(run, generations=3)
+        return [file.read_bytes() for file in sorted(run.glob(pattern))]
+
+
+class Genotype(Evolved):
+    """Saved robots (-p -g)."""
+
+    suffix = ".npy"
+
+    def valid(self) -> list[bytes]:
+        return self.files("best*.npy")
+
+    def read(self, path: Path) -> None:
+        from botschool.cli.tournament import post_evaluate
+        from botschool.render.watch import Watching
+
+        watching = Watching(False, "none", None, None, 1)
+        post_evaluate(self.experiment, 1, str(path), self.folder, 1, watching)
+
+
+class Stat(Evolved):
+    """Learning curves (plotstat)."""
+
+    suffix = "S1.npy"
+
+    def path(self) -> Path:
+        return self.folder / "statS1.npy"
+
+    def valid(self) -> list[bytes]:
+        return self.files("stat*.npy")
+
+    def read(self, path: Path) -> None:
+        from botschool.analysis.plots import plot_ave, plot_stat
+
+        plot_stat([path], self.folder / "curve.png")
+        plot_ave([path.parent], self.folder / "average.png")
+
+
+class Fit(Evolved):
+    """.fit files (plotave)."""
+
+    def path(self) -> Path:
+        return self.folder / "S1.fit"
+
+    def valid(self) -> list[bytes]:
+        return self.files("*.fit")
+
+    def read(self, path: Path) -> None:
+        from botschool.analysis.plots import plot_ave
+
+        plot_ave([path.parent], self.folder / "average.png")
+
+
+class Checkpoint(Evolved):
+    """Checkpoints of one population (--resume)."""
+
+    def path(self) -> Path:
+        (self.folder / "damaged").mkdir(exist_ok=True)
+        return self.folder / "damaged" / "checkpointS1.npz"
+
+    def valid(self) -> list[bytes]:
+        return self.files("checkpoint*.npz")
+
+    def read(self, path: Path) -> None:
+        self.evolve(path.parent, resume=True, generations=5)
+
+
+class CheckpointSSS(Checkpoint):
+    """Of a steady-state algorithm."""
+
+    text = SMALL.format(algo="SSS")
+
+
+class CheckpointCMA(Checkpoint):
+    """Of CMA-ES."""
+
+    text = SMALL.format(algo="CMA-ES")
+
+
+class CheckpointDuel(Checkpoint):
+    """Of two sides."""
+
+    text = DUEL
+
+    def read(self, path: Path) -> None:
+        self.evolve(path.parent, resume=True, generations=2)
+
+
+class Archive(CheckpointDuel):
+    """Of two sides with archives."""
+
+    text = DUEL.replace("coevo2", "archive").replace("popsize = 4\nselsize = 2\n", "")
+
+
+class Populations(Evolved):
+    """Populations of a co-evolution (tournament)."""
+
+    text = DUEL
+
+    def path(self) -> Path:
+        (self.folder / "damaged").mkdir(exist_ok=True)
+        return self.folder / "damaged" / "S1G1.npy"
+
+    def valid(self) -> list[bytes]:
+        return self.files("S1G*.npy")
+
+    def read(self, path: Path) -> None:
+        from botschool.analysis import coevolution
+
+        valid = self.valid()
+        (path.parent / "S1G2.npy").write_bytes(valid[-1])
+        output = self.folder / "t.png"
+        coevolution.tournament(
+            self.experiment, path.parent, 1, None, None, 2, 1, output, False, None
+        )
+
+
+class Sample(Kind):
+    """Measured infrared tables."""
+
+    suffix = ".sample"
+
+    def valid(self) -> list[bytes]:
+        lines = ["8 4 2 5 2"]
+        for turn in range(2):
+            lines += [f"TURN {turn}", *["0.91 0.4 0 0 0.25 1 0.1 0.3"] * 4]
+        return ["\n".join([*lines, "END", ""]).encode()]
+
+    def read(self, path: Path) -> None:
+        from botschool.arenas.samples import load
+
+        load(path).core()
+
+
+class Urdf(Kind):
+    """Robots (showrobot)."""
+
+    suffix = ".urdf"
+
+    def valid(self) -> list[bytes]:
+        import pybullet_data
+
+        arm = (ROOT / "data" / "robots" / "balance_bot.urdf").read_bytes()
+        pole = Path(pybullet_data.getDataPath(), "cartpole.urdf").read_bytes()
+        return [arm, pole]
+
+    def read(self, path: Path) -> None:
+        from botschool.envs.showrobot import Model
+
+        Model(str(path)).close()
+
+
+class Training(Kind):
+    """Files in the folder of a training (rl list, plotstat, rl enjoy)."""
+
+    name = ""
+    enjoy = False
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(folder)
+        self.run = next((folder / "rl").glob("ppo/*"), None) or self._trained()
+        self.whole = (self.run / self.name).read_bytes()
+
+    def _trained(self) -> Path:
+        from botschool.rl.training import train
+
+        options = {"params": {"n_steps": 32, "batch_size": 32, "n_epochs": 1, "normalize": True}}
+        return train(
+            *("ppo", "CartPole-v1", self.folder / "rl"),
+            steps=64,
+            evaluations=2,
+            episodes=1,
+            **options,
+        ).path
+
+    def path(self) -> Path:
+        return self.run / self.name
+
+    def valid(self) -> list[bytes]:
+        return [self.whole]
+
+    def rezipped(self, data: bytes) -> bytes:
+        """Return an archive without its times, so that a case is the same again."""
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            members = {name: archive.read(name) for name in archive.namelist()}
+        started = re.compile(rb'"start_time": \d+')
+        return archive_of({name: started.sub(b'"start_time": 0', m) for name, m in members.items()})
+
+    def read(self, path: Path) -> None:
+        from botschool.analysis.plots import plot_stat
+        from botschool.rl.watch import list_command
+
+        list_command(self.folder / "rl")
+        plot_stat([self.run], self.folder / "curve.png")
+
+
+class Config(Training):
+    """config.yaml."""
+
+    name = "config.yaml"
+
+    def read(self, path: Path) -> None:
+        from botschool.rl.agent import Agent
+        from botschool.rl.watch import list_command
+
+        list_command(self.folder / "rl")
+        Agent.load(self.run / "best_model.zip")
+
+
+class Evaluations(Training):
+    """evaluations.npz."""
+
+    name = "evaluations.npz"
+
+
+class Progress(Training):
+    """progress.csv."""
+
+    name = "progress.csv"
+
+    def valid(self) -> list[bytes]:
+        table = "rollout/ep_rew_mean,time/fps,time/total_timesteps\n20.5,,32\n,700,64\n31,650,64\n"
+        return [table.encode()]
+
+    def read(self, path: Path) -> None:
+        from botschool.rl.folder import RunFolder
+
+        RunFolder(self.run).log()
+        super().read(path)
+
+
+class Model(Training):
+    """Models of Stable-Baselines3."""
+
+    name = "best_model.zip"
+
+    def valid(self) -> list[bytes]:
+        return [self.rezipped(self.whole)]
+
+    def read(self, path: Path) -> None:
+        from botschool.rl.agent import Agent, play
+
+        agent = Agent.load(path)
+        play(agent, [agent_env(self.run)], [1])
+
+
+class Weights(Model):
+    """Weights alone."""
+
+    name = "weights.npz"
+
+    def __init__(self, folder: Path) -> None:
+        from botschool.rl.agent import save_weights
+
+        run = next((folder / "rl").glob("ppo/*"), None) or self._trained_in(folder)
+        save_weights(run / "best_model.zip", run / self.name)
+        super().__init__(folder)
+
+    def _trained_in(self, folder: Path) -> Path:
+        self.folder = folder
+        return self._trained()
+
+
+def agent_env(run: Path):
+    """Return the environment of a training."""
+    from botschool.rl.folder import RunFolder
+
+    return RunFolder(run).make_env()
+
+
+class Notebook(Kind):
+    """Submitted notebooks."""
+
+    suffix = ".ipynb"
+
+    def valid(self) -> list[bytes]:
+        cells = [
+            {"cell_type": "code", "source": ["import numpy as np\n", "%time x = 1"]},
+            {"cell_type": "markdown", "source": "text"},
+            {"cell_type": "code", "source": "def f(x):\n    return x\n!ls\n"},
+        ]
+        return [json.dumps({"cells": cells, "nbformat": 4, "metadata": {}}).encode()]
+
+    def read(self, path: Path) -> None:
+        from botschool.grading.notebook import code_cells
+        from botschool.grading.run.cells import definitions, whole
+
+        sources = code_cells(path)
+        with contextlib.suppress(SyntaxError, ValueError, RecursionError, MemoryError):
+            whole(sources), definitions(sources)  # in a process of their own otherwise
+
+
+class Submission(Kind):
+    """Submitted scripts."""
+
+    suffix = ".py"
+
+    def valid(self) -> list[bytes]:
+        return [f.read_bytes() for f in sorted(ROOT.glob("solutions/ex0[1-4]*/*.py"))]
+
+    def read(self, path: Path) -> None:
+        from botschool.grading.judge.submission import Submission as Read
+        from botschool.grading.run.cells import definitions, whole
+
+        submission = Read(path, None)
+        with contextlib.suppress(SyntaxError, ValueError, RecursionError, MemoryError):
+            whole(submission._cells()), definitions(submission._cells())
+
+
+class Wire(Kind):
+    """Messages of a cluster: half of them with a checksum that is right."""
+
+    def valid(self) -> list[bytes]:
+        from botschool.cluster import wire
+
+        numbers = np.arange(100)
+        request = {
+            "parts": [{"sent": numbers[:90].reshape(10, 9) / 7}],
+            "candidate": numbers.astype(np.int32),
+            "seed": np.full(100, 5, dtype=np.uint64),
+            "needs": [b"name"],
+            "tables": {b"name": wire.pack(numbers / 3)},
+            "maxsteps": 10,
+        }
+        outcome = {
+            "fitness": numbers / 9,
+            "steps": numbers.astype(np.int32),
+            "moments": None,
+            "seconds": 0.1,
+        }
+        hello = {"version": "0.1.0", "threads": 2, "bits": b"12", "differs": ["a"]}
+        others = [{"lacks": [b"a"]}, {"sentence": "no."}, {"failure": "KeyError: 'a'"}]
+        return [wire.pack(each) for each in (request, outcome, hello, *others)]
+
+    def damage(self, valid: list[bytes], chance: random.Random) -> bytes:
+        from botschool.cluster import wire
+
+        data = damaged(valid, chance)
+        content = data[wire.CHECKSUM :]
+        return data if chance.random() < 0.3 else wire._checksum(content) + content
+
+    def read(self, path: Path) -> None:
+        from botschool.cluster import answers, wire, worker
+        from botschool.cluster.chunks import Batch
+        from botschool.problems import Episodes
+
+        data = path.read_bytes()
+        for function in (wire.unpack, wire.table):
+            with contextlib.suppress(ValueError):
+                function(data)
+        answers.read(worker._answer(data, lambda request: {"sentence": str(len(request))}))
+        with contextlib.suppress(ValueError):
+            answer = answers.read(data)
+            if "fitness" in answer:
+                Batch([], None, Episodes.of(np.arange(100), 1), 10).enter(slice(0, 100), answer)
+
+
+KINDS = {
+    "ini": Ini,
+    "genotype": Genotype,
+    "stat": Stat,
+    "fit": Fit,
+    "checkpoint": Checkpoint,
+    "checkpoint-sss": CheckpointSSS,
+    "checkpoint-cmaes": CheckpointCMA,
+    "checkpoint-duel": CheckpointDuel,
+    "archive": Archive,
+    "populations": Populations,
+    "sample": Sample,
+    "urdf": Urdf,
+    "config": Config,
+    "evaluations": Evaluations,
+    "progress": Progress,
+    "model": Model,
+    "weights": Weights,
+    "notebook": Notebook,
+    "submission": Submission,
+    "wire": Wire,
+}
+
+__all__ = ["KINDS", "BotschoolError", "Kind"]

@@ -1,0 +1,148 @@
+"""Two commands never write the same run; Ctrl-C at any moment is a sentence at most."""
+
+import errno
+import fcntl
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from botschool import lock
+from botschool.errors import BotschoolError
+from botschool.lock import NAME, locked
+from running import call, environment_of_command, finish, one_sentence, start, write_experiment
+
+posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals and locks")
+pytestmark = posix
+
+
+@pytest.fixture
+def evolving(tmp_path):
+    """A run of seed 5 in tmp_path/results, once it has begun."""
+    ini = write_experiment(tmp_path, maxmsteps=1000)
+    arguments = ("es", "-f", ini, "-o", tmp_path / "results")
+    process = start(*arguments, "-s", 5)
+    process.stdout.readline()
+    yield arguments, process
+    process.kill()
+    process.communicate()
+
+
+@pytest.mark.parametrize("how", ["--resume", "--force"])
+def test_a_run_that_another_command_writes_is_refused(how, evolving, tmp_path):
+    arguments, process = evolving
+    for seed, replications in ((5, 1), (3, 4)):
+        code, _, errors = call(*arguments, "-s", seed, "-n", replications, how)
+        one_sentence(code, errors, ["Another command is writing", str(tmp_path / "results")])
+    assert process.poll() is None
+    process.send_signal(signal.SIGINT)
+    code, _, errors = finish(process)
+    assert (code, errors) == (130, "")
+    assert not (tmp_path / "results" / NAME).exists()
+    assert call(*arguments, "-s", 5, how, "--generations", 1)[0] == 0
+
+
+def test_other_seeds_of_the_folder_are_free(evolving, tmp_path):
+    arguments, process = evolving
+    for seed in (4, 6):
+        assert call(*arguments, "-s", seed, "--generations", 1)[0] == 0
+    assert process.poll() is None and (tmp_path / "results" / NAME).exists()
+
+
+def test_a_killed_command_leaves_no_lock(evolving):
+    arguments, process = evolving
+    process.kill()
+    process.wait()
+    assert call(*arguments, "-s", 5, "--resume", "--generations", 1)[0] == 0
+
+
+def test_a_file_system_without_locks_is_a_warning(tmp_path, monkeypatch, capsys):
+    def refuse(*_):
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "lockf", refuse)
+    with locked(tmp_path, "the run with seed 1"):
+        pass
+    assert "warning: " in (said := capsys.readouterr().err) and "without locks" in said
+
+
+def test_a_lock_whose_file_was_removed_meanwhile_is_taken_anew(tmp_path, monkeypatch):
+    """Another command has removed the file between opening and locking it."""
+    lockf, removed = fcntl.lockf, []
+
+    def slow(file, *rest):
+        if not removed:
+            removed.append((tmp_path / NAME).unlink())
+        return lockf(file, *rest)
+
+    monkeypatch.setattr(fcntl, "lockf", slow)
+    with locked(tmp_path, "the run"):
+        other = "import sys; from botschool.lock import locked; from pathlib import Path\n"
+        other += "with locked(Path(sys.argv[1]), 'the run'): print('both')"
+        done = subprocess.run(
+            [sys.executable, "-c", other, tmp_path], capture_output=True, text=True
+        )
+        assert "Another command is writing the run" in done.stderr and not done.stdout
+
+
+def test_a_folder_that_cannot_be_written(tmp_path):
+    (tmp_path / NAME).mkdir()
+    with pytest.raises(BotschoolError, match="cannot be written"), locked(tmp_path, "the run"):
+        pass
+    assert lock.NAME == NAME
+
+
+EARLY = """
+import os, signal, sys
+from botschool.cli import main
+class Slow:
+    def find_spec(self, name, path=None, target=None):
+        if name == "{module}":
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Slow())
+sys.argv = ["botschool", "--version"]
+main()
+"""
+
+
+@pytest.mark.parametrize("module", ["botschool.cli.app", "typer", "botschool.cli.es"])
+def test_ctrl_c_while_the_command_is_imported(module):
+    done = subprocess.run(
+        [sys.executable, "-c", EARLY.format(module=module)], capture_output=True, text=True
+    )
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr == "Stopped before anything was done.\n"
+
+
+LATE = """
+import atexit, os, signal, sys, threading
+atexit.register(lambda: os.kill(os.getpid(), signal.SIGINT))
+threading._register_atexit(lambda: os.kill(os.getpid(), signal.SIGINT))
+from botschool.cli import main
+sys.argv = ["botschool", *sys.argv[1:]]
+main()
+"""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "errors"),
+    [(["--version"], 0, 0), (["es", "-f", "missing.ini"], 2, 1)],
+)
+def test_ctrl_c_while_the_command_exits(arguments, code, errors):
+    done = subprocess.run([sys.executable, "-c", LATE, *arguments], capture_output=True, text=True)
+    assert (done.returncode, done.stderr.count("\n")) == (code, errors), done.stderr
+
+
+def test_ctrl_c_in_the_middle_of_a_command_is_a_sentence(tmp_path):
+    """Of a command that saves nothing."""
+    os.mkfifo(tmp_path / "waits.ini")  # reading it takes for ever
+    process = start("es", "-f", tmp_path / "waits.ini", env=environment_of_command())
+    writer = os.open(tmp_path / "waits.ini", os.O_WRONLY)  # returns once it is being read
+    time.sleep(0.2)
+    process.send_signal(signal.SIGINT)
+    code, _, errors = finish(process)
+    os.close(writer)
+    assert (code, errors) == (130, "Stopped.\n")
