@@ -6,21 +6,19 @@
 #include "generated/problem_list.hpp"
 #include "rollout.hpp"
 
-namespace botschool {
+BOTSCHOOL_BEGIN
+
+// rollout.cpp
+std::size_t workspace(const void* entry, const Layout& layout, const Setting& setting);
+void run(const void* entry, const Layout& layout, const Jobs& jobs, Queue& queue, Recorder* recorder,
+         void* memory);
+
 namespace {
-
-/// Episodes in lockstep: one AVX-512 register of single-precision numbers.
-constexpr int kLanes = 16;
-
-template <template <int> class Problem>
-Info given(const Setting& setting) {
-  return Problem<1>::given(Problem<1>::info(), setting);
-}
 
 template <template <int> class Problem>
 Kernel kernel() {
-  using R = Rollout<Problem, kLanes>;
-  return {Problem<1>::info(), &given<Problem>, kLanes, &R::workspace, &R::run};
+  static const Entry made = entry<Problem>();
+  return {made.info, made.given, kLanes, &made, &workspace, &run};
 }
 
 template <template <int> class... Problem>
@@ -30,6 +28,9 @@ KernelTable table(ProblemList<Problem...>) {
 }
 
 }  // namespace
+BOTSCHOOL_END
+
+namespace botschool {
 
 #define TABLE_OF(isa) kernel_table_##isa
 #define TABLE(isa) TABLE_OF(isa)

@@ -1,7 +1,9 @@
-#include "planar.hpp"
-
 #include <iterator>
 
+#include "../../../evonet/isa.hpp"
+#include "planar.hpp"
+
+#define BOTSCHOOL_PHASE BOTSCHOOL_OUTLINE
 #include "bodies.hpp"
 #include "dynamics.hpp"
 
