@@ -11,7 +11,6 @@
 
 #include "cpu.hpp"
 #include "generated/problem_list.hpp"
-#include "kernel.hpp"
 
 namespace botschool {
 namespace {
@@ -95,7 +94,8 @@ void Engine::run(const Jobs& jobs, Queue& queue, Recorder* recorder) const {
   constexpr std::align_val_t alignment{64};
   const auto release = [&](void* p) { ::operator delete(p, alignment); };
   const std::unique_ptr<void, decltype(release)> workspace(
-      ::operator new(kernel_->workspace(kernel_->entry, layout_, jobs.setting), alignment), release);
+      ::operator new(kernel_->workspace(kernel_->entry, layout_, jobs.setting), alignment),
+      release);
   kernel_->run(kernel_->entry, layout_, jobs, queue, recorder, workspace.get());
 }
 

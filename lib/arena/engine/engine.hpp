@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "rollout.hpp"
+#include "kernel.hpp"
 #include "stepper.hpp"
 
 namespace botschool {

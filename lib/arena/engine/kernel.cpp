@@ -1,17 +1,12 @@
-// Compiled once per instruction set, with BOTSCHOOL_ISA naming it (see lib/CMakeLists.txt). Nothing
-// but the inner loops is compiled here, so no shared inline function can end up using instructions
-// that the machine lacks.
+// The table of kernels of one instruction set, which BOTSCHOOL_ISA names (lib/CMakeLists.txt). It, the
+// rollout and the problems are compiled with the flags of that instruction set and nothing else is, so
+// no shared inline function can end up using instructions that the machine lacks.
 #include "kernel.hpp"
 
 #include "generated/problem_list.hpp"
-#include "rollout.hpp"
+#include "simulation.hpp"
 
 BOTSCHOOL_BEGIN
-
-// rollout.cpp
-std::size_t workspace(const void* entry, const Layout& layout, const Setting& setting);
-void run(const void* entry, const Layout& layout, const Jobs& jobs, Queue& queue, Recorder* recorder,
-         void* memory);
 
 namespace {
 

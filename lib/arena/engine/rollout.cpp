@@ -1,4 +1,4 @@
-// What runs all problems, compiled once per instruction set like the problems themselves.
+// What runs the episodes of all problems. Compiled once for each instruction set, like the problems.
 #include "rollout.hpp"
 
 BOTSCHOOL_BEGIN

@@ -1,3 +1,4 @@
+// One problem step by step, whichever it is.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,7 @@ class Stepper {
   virtual int blocked() const = 0;
 };
 
-/// Defined where the problem is compiled (problem.cpp.in).
+/// Defined where the problem is compiled (stepping.hpp).
 template <template <int> class Problem>
 std::unique_ptr<Stepper> stepper();
 

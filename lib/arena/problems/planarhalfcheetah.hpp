@@ -24,13 +24,17 @@ inline constexpr Race kHalfCheetahRace0 = cheetah_race(true),
 template <int L>
 struct PlanarHalfCheetah0 : Runner<HalfCheetah, L> {
   PlanarHalfCheetah0() : Runner<HalfCheetah, L>(kHalfCheetahRace0) {}
-  static Info info() { return PlanarHalfCheetah0::describe("PlanarHalfCheetah-v0", kHalfCheetahRace0); }
+  static Info info() {
+    return PlanarHalfCheetah0::describe("PlanarHalfCheetah-v0", kHalfCheetahRace0);
+  }
 };
 
 template <int L>
 struct PlanarHalfCheetah5 : Runner<HalfCheetah, L> {
   PlanarHalfCheetah5() : Runner<HalfCheetah, L>(kHalfCheetahRace5) {}
-  static Info info() { return PlanarHalfCheetah5::describe("PlanarHalfCheetah-v5", kHalfCheetahRace5); }
+  static Info info() {
+    return PlanarHalfCheetah5::describe("PlanarHalfCheetah-v5", kHalfCheetahRace5);
+  }
 };
 
 BOTSCHOOL_END

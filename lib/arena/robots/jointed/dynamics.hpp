@@ -342,7 +342,7 @@ struct Dynamics {
     });
     whirl(square);
     hinges(action, h);
-    touch(ground, h);
+    if constexpr (!Body::pinned) touch(ground, h);
     factor();
     substitute();
     // then as this one makes them
