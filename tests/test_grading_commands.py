@@ -5,6 +5,7 @@ import contextlib
 import csv
 import ctypes
 import json
+import os
 import platform
 import re
 import signal
@@ -28,6 +29,7 @@ from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.secret import grading_secret
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
+from botschool.grading.report import showing
 from botschool.grading.report.progress import table
 from botschool.grading.report.screen import Screen
 from botschool.grading.report.showing import show
@@ -306,12 +308,29 @@ def test_release_needs_a_place_of_its_own(course, tmp_path):
     assert release(course, tmp_path / "empty").files > 0
 
 
+def test_a_long_run_says_that_it_goes_on(course, monkeypatch, capfd):
+    """And has one thread for the libraries whose threads would fight."""
+    monkeypatch.setattr(showing, "_PATIENCE", 0.2)
+    own = course / "exercises" / FOLDER / FILE
+    own.write_text(
+        f"{SOLUTION}\nimport os, time\ntime.sleep(1)\nprint(os.environ['OMP_NUM_THREADS'])\n"
+    )
+    show(3, None, course)
+    out, errors = capfd.readouterr()
+    assert "(tiny.py runs, " in errors and out.split()[-1] == os.environ["OMP_NUM_THREADS"]
+
+
 def test_a_finished_file_is_run_in_results(course):
     made = course.resolve() / "results" / "ex03" / "picture.txt"
     assert show(3, str(course / "solutions"), course) == [made]
     code, out, errors = call("show", "3", cwd=course)
-    assert code == 2 and "task 3.1" in errors and "ended with an error" in errors
-    (course / "exercises" / FOLDER / FILE).write_text(SOLUTION)
+    assert code == 2 and out == "" and errors.count("\n") < 4  # a sentence, no traceback
+    assert "3.1, 3.2 are not done yet in tiny.py" in " ".join(errors.split())
+    own = course / "exercises" / FOLDER / FILE
+    own.write_text(SOLUTION + "\n1 / 0\n")
+    code, out, errors = call("show", "3", cwd=course)
+    assert code == 2 and "ZeroDivisionError" in errors and "ended with an error" in errors
+    own.write_text(SOLUTION)
     code, out, errors = call("show", "3", cwd=course)
     assert (code, errors) == (0, "") and "made: results/ex03/picture.txt" in out
     (course / "solutions" / FOLDER / FILE).unlink()

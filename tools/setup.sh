@@ -1,7 +1,8 @@
 #!/bin/sh
-# One step of what the Makefile sets up: tools/setup.sh venv|tools|sources|module|extra NAME|tests|bench|sanitize
+# One step of what the Makefile sets up:
+# tools/setup.sh venv|tools|sources|module|extra NAME|pytest|tests|bench|sanitize
 # or a question: tools/setup.sh extras EXERCISE
-# Says in a line what it does; a tool's own output appears only when it fails.
+# Says in a line what it does, and on a terminal how far it is; a tool's own output appears only when it fails.
 set -u
 
 log=.venv/setup.log
@@ -75,7 +76,41 @@ check_compiler() {
 
 # quietly COMMAND...: its output goes to the log, and to the screen only if it fails
 quietly() {
-    "$@" >"$log" 2>&1 || show_failure
+    show_progress last_words
+    "$@" >"$log" 2>&1
+    failed=$?
+    hide_progress
+    [ "$failed" = 0 ] || show_failure
+}
+
+# show_progress QUESTION: on a terminal, a line that renews itself: the seconds, and what QUESTION answers
+show_progress() {
+    progress=
+    [ -t 1 ] || return 0
+    (
+        seconds=0
+        while sleep 1 && kill -0 $$ 2>/dev/null; do
+            seconds=$((seconds + 1))
+            printf '\r\033[K  %s s  %.66s' "$seconds" "$("$1")"
+        done
+    ) &
+    progress=$!
+}
+hide_progress() {
+    [ -n "$progress" ] || return 0
+    kill "$progress" 2>/dev/null && wait "$progress" 2>/dev/null
+    progress=
+    printf '\r\033[K'
+}
+trap 'hide_progress; wait; exit 130' INT TERM
+progress=
+
+last_words() { tail -n 1 "$log" 2>/dev/null; }
+
+compiled_files() {
+    now=$(find build/editable -name '*.o' -newer .venv/.began 2>/dev/null | wc -l)
+    all=$(grep -c '^build [^:]*\.o: ' build/editable/build.ninja 2>/dev/null)
+    if [ -f .venv/.module ]; then echo "$((now)) files compiled"; else echo "$((now)) of ${all:-all} files compiled"; fi
 }
 
 show_failure() {
@@ -95,7 +130,58 @@ pip_install() {
 }
 
 run_pip() {
-    PIP_USER=0 "$python" -m pip install --no-input --disable-pip-version-check -c constraints.txt "$@"
+    marked env PIP_USER=0 "$python" -m pip install --no-input --disable-pip-version-check -c constraints.txt "$@"
+}
+
+# install PACKAGES...: by uv, which takes 2 s where pip takes 17; what uv cannot do, pip does
+install() {
+    quietly run_install "$@"
+}
+
+run_install() {
+    run_uv "$@" || run_pip "$@"
+}
+
+run_uv() {
+    if [ -x .venv/bin/uv ]; then uv=.venv/bin/uv; else uv=$(command -v uv) || return 1; fi
+    (
+        eval "$("$python" -m pip config list 2>/dev/null | as_uv_has_it)"
+        marked env UV_INDEX_STRATEGY=unsafe-best-match "$uv" pip install --python "$python" -c constraints.txt "$@"
+    )
+}
+
+# What pip is told about indexes, wheels and certificates
+as_uv_has_it() {
+    sed -n -e "s/\\\\n/ /g" \
+        -e "s/^[^=]*\.index-url='\([^']*\)'$/export UV_DEFAULT_INDEX='\1'/p" \
+        -e "s/^[^=]*\.extra-index-url='\([^']*\)'$/export UV_INDEX='\1'/p" \
+        -e "s/^[^=]*\.cert='\([^']*\)'$/export SSL_CERT_FILE='\1'/p" \
+        -e "/\.find-links=/ { s/ /,/g; s/^[^=]*='\([^']*\)'$/export UV_FIND_LINKS='\1'/p; }"
+}
+
+# marked COMMAND...: leaves a mark while it runs, by which the next make sees that it was interrupted
+marked() {
+    mark=$(mktemp .venv/.installing-XXXXXX)
+    "$@"
+    marked=$?
+    rm -f "$mark"
+    return $marked
+}
+
+interrupted() {
+    for mark in .venv/.installing-*; do
+        [ -e "$mark" ] && return
+    done
+    return 1
+}
+
+# Packages of which files are missing or cut short are forgotten and installed again; the rest stays as it is.
+mend() {
+    say "The last installation was interrupted: installing again what is half there"
+    names=$("$python" tools/half_installed.py) || fail "the packages of .venv cannot be listed: 'make clean' removes it, for the next make to begin anew"
+    # shellcheck disable=SC2086
+    [ -z "$names" ] || pip_install --no-deps $names
+    rm -f .venv/.installing-*
 }
 
 # Which interpreter .venv was made with, and where: a virtual environment cannot be moved.
@@ -103,15 +189,12 @@ identity() {
     "$1" -c 'import os, sys; print(sys.version.split()[0], sys.base_prefix, os.getcwd())' 2>/dev/null
 }
 
-# pip was stopped while it wrote packages: any of them may be half there.
-half_installed() {
-    grep -q '^Installing collected packages' "$log" 2>/dev/null && ! grep -q '^Successfully installed' "$log"
-}
-
 make_venv() {
-    if [ -f .venv/.made ] && ! half_installed && [ "$(identity "$python")" = "$(cat .venv/.made)" ]; then
-        [ -z "${PYTHON:-}" ] && return
-        [ "$(identity "$PYTHON")" = "$(cat .venv/.made)" ] && return
+    if [ -f .venv/.made ] && [ "$(identity "$python")" = "$(cat .venv/.made)" ]; then
+        if [ -z "${PYTHON:-}" ] || [ "$(identity "$PYTHON")" = "$(cat .venv/.made)" ]; then
+            ! interrupted || mend
+            return
+        fi
     fi
     rmdir .venv 2>/dev/null
     if [ -e .venv ] && [ ! -f .venv/.ours ]; then
@@ -120,7 +203,9 @@ make_venv() {
     find_python
     check_python
     check_compiler
-    say "Making .venv with $("$candidate" -V) (a few seconds)"
+    why=
+    [ ! -f .venv/.made ] || why=", as the old one is of another Python or another folder"
+    say "Making .venv with $("$candidate" -V) (a few seconds)$why"
     mkdir -p build && rm -rf build/old-venv
     [ -e .venv ] && mv .venv build/old-venv
     rm -rf build/old-venv
@@ -130,22 +215,49 @@ make_venv() {
 
 install_tools() {
     say "Installing the build tools (a few seconds)"
-    pip_install scikit-build-core nanobind
+    have uv || run_pip --only-binary :all: uv >"$log" 2>&1  # where it has no wheel, pip installs all
+    install scikit-build-core nanobind
     # cmake and ninja, where the system has none that is new enough
     missing=$("$python" -c 'from scikit_build_core.build import get_requires_for_build_editable as requires
 print(*(r.replace(" ", "") for r in requires()))') || fail "pyproject.toml cannot be read by scikit-build-core"
     # shellcheck disable=SC2086
-    [ -z "$missing" ] || pip_install $missing
+    [ -z "$missing" ] || install $missing
 }
 
 build_module() {
     check_compiler
-    if [ -f .venv/.module ]; then say "Compiling what changed of the C++ module (up to a minute)"
+    touch .venv/.began
+    if [ -f .venv/.module ] && [ .venv/.module -nt .venv/.sources ] && [ .venv/.module -nt .venv/.tools ] &&
+        [ -f build/editable/build.ninja ]; then
+        say "Compiling what changed of the C++ module (up to a minute)"
+        show_progress compiled_files
+        recompile >"$log" 2>&1
+        failed=$?
     else
-        say "Installing packages and compiling the C++ module (one to three minutes)"
-        rm -rf build/editable
+        say "Compiling the C++ module and installing packages at the same time (about a minute on two free cores)"
+        [ -f .venv/.module ] || rm -rf build/editable
+        # packages come through the network while the compiler works
+        "$python" -c 'try: import tomllib
+except ImportError: import tomli as tomllib
+print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["dependencies"], sep="\n")' >.venv/.dependencies ||
+            fail "pyproject.toml cannot be read"
+        run_install -r .venv/.dependencies >.venv/packages.log 2>&1 &
+        packages=$!
+        show_progress compiled_files
+        run_pip --no-deps --no-build-isolation -e . >"$log" 2>&1
+        failed=$?
+        wait "$packages" || log=.venv/packages.log failed=1
     fi
-    pip_install --no-build-isolation -e .
+    hide_progress
+    [ "$failed" = 0 ] || show_failure
+}
+
+# Compiles and puts the module where it is imported from, without asking pip.
+recompile() {
+    PATH="$PWD/.venv/bin:$PATH" cmake --build build/editable --target _core &&
+        PATH="$PWD/.venv/bin:$PATH" cmake --install build/editable --strip --prefix "$PWD/build/installed" &&
+        place=$("$python" -c 'import sysconfig; print(sysconfig.get_path("platlib"))') &&
+        mv -f build/installed/botschool/_core* "$place/botschool/"
 }
 
 # The extras of pyproject.toml that an exercise (3, or a task of it, 3.2) needs: its grader says extras=("NAME",).
@@ -200,7 +312,11 @@ try_extra() {
             [ -z "${TORCH:-}" ] || set -- "$@" --extra-index-url https://download.pytorch.org/whl/cpu ;;
     esac
     shift
-    run_pip --only-binary "$package" "$@" >"$log" 2>&1 && return
+    show_progress last_words
+    run_pip --only-binary "$package" "$@" >"$log" 2>&1
+    failed=$?
+    hide_progress
+    [ "$failed" != 0 ] || return 0
     without_network || has_wheel "$package" || return 1
     show_failure
 }
@@ -230,10 +346,14 @@ install_extra() {
     touch ".venv/.extra-$1"
 }
 
+install_pytest() {
+    say "Installing pytest and what all tests need (a few seconds)"
+    install 'botschool[test]'
+}
+
 # All that the tests can use; tests of what has no wheel here are skipped.
 install_tests() {
-    say "Installing what the tests need (one to three minutes)"
-    pip_install 'botschool[test]'
+    say "Installing PyTorch, Box2D and other packages that some tests need (one to three minutes)"
     left=
     for extra in box2d pybullet atari rl; do
         if try_extra "$extra"; then touch ".venv/.extra-$extra"; else left="$left $extra"; fi
@@ -274,6 +394,7 @@ case $1 in
     module) build_module && touch .venv/.module ;;
     extra) install_extra "$2" ;;
     extras) extras_of "$2" ;;
+    pytest) install_pytest && touch .venv/.pytest ;;
     tests) install_tests && touch .venv/.tests ;;
     bench) install_bench && touch .venv/.bench ;;
     sanitize) build_sanitized ;;

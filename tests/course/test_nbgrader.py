@@ -137,11 +137,15 @@ def tampered(nb: dict) -> dict:
     answers = [cell for cell in nb["cells"] if cell["id"].startswith("task-")]
     tests[0]["source"] = "1000.0"
     tests[0]["metadata"]["nbgrader"]["points"] = 1000
-    tests[1]["metadata"]["nbgrader"].update(grade_id="mine", schema_version=99)
-    tests[2]["metadata"] = {}
-    nb["cells"].remove(tests[3])
+    for cell in tests[1:2]:  # a small exercise may have a single task
+        cell["metadata"]["nbgrader"].update(grade_id="mine", schema_version=99)
+    for cell in tests[2:3]:
+        cell["metadata"] = {}
+    for cell in tests[3:4]:
+        nb["cells"].remove(cell)
     answers[0]["metadata"]["nbgrader"].update(grade=True, points=500, grade_id=7)
-    answers[1]["metadata"] = {"nbgrader": ["strange"]}
+    for cell in answers[1:2]:
+        cell["metadata"] = {"nbgrader": ["strange"]}
     nb["metadata"] = {"kernelspec": {"name": "bash", "display_name": "x"}, "language": 5}
     marks = {"grade": True, "grade_id": "test-3-1", "points": 50, "solution": False}
     nb["cells"][2:2] = [code("50.0", nbgrader={**marks, "locked": True, "schema_version": 3})]

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "arena/engine/simulated.hpp"
 #include "check.hpp"
 
 using namespace botschool;
@@ -288,14 +289,15 @@ TEST(a_problem_of_many_observations_and_actuators_is_recorded) {
   const Jobs jobs{genotype.data(), genotype.size(), nullptr,  1,   &candidate, 0,
                   &seed,           &episode,        &collect, {5}, &fitness,   &steps,
                   moments.data()};
-  using Rolled = Rollout<Wide, 4>;
-  std::vector<double> workspace(Rolled::workspace(layout, jobs.setting) / sizeof(double) + 16);
-  void* place = workspace.data();
-  std::size_t room = workspace.size() * sizeof(double);
-  std::align(64, Rolled::workspace(layout, jobs.setting), place, room);
+  const Entry wide = entry<Wide>();
+  const std::size_t bytes = workspace(&wide, layout, jobs.setting);
+  std::vector<double> memory(bytes / sizeof(double) + 16);
+  void* place = memory.data();
+  std::size_t room = memory.size() * sizeof(double);
+  std::align(64, bytes, place, room);
   Last last;
   Once queue;
-  Rolled::run(layout, jobs, queue, &last, place);
+  run(&wide, layout, jobs, queue, &last, place);
   CHECK(last.steps == 5 && steps == 5);
   CHECK(std::fabs(last.total - fitness) < 1e-12);
   CHECK(std::fabs(last.last - last.first - fitness) < 1e-12);

@@ -11,7 +11,6 @@
 
 #include "cpu.hpp"
 #include "generated/problem_list.hpp"
-#include "kernel.hpp"
 
 namespace botschool {
 namespace {
@@ -49,61 +48,12 @@ class SharedQueue final : public Queue {
   std::ptrdiff_t count_;
 };
 
-template <template <int> class Problem>
-class ProblemStepper final : public Stepper {
- public:
-  ProblemStepper() {
-    ProblemStepper::set({Problem<1>::info().limit});
-    ProblemStepper::start(0, 0);
-  }
-  Info info() const override { return info_; }
-  void set(const Setting& setting) override {
-    problem_.set(setting);
-    info_ = Problem<1>::given(Problem<1>::info(), setting);
-  }
-  void set_body(const double* parameters) override {
-    body_.assign(parameters, parameters + info().body);
-  }
-  void start(std::uint64_t seed, std::uint32_t episode) override {
-    Random random(seed, episode, Stream::start);
-    problem_.build(0, body_.empty() ? nullptr : body_.data());
-    problem_.start(0, random);
-  }
-  void set_state(const double* state) override {
-    for (int i = 0; i < info().states; ++i) problem_.state[i][0] = state[i];
-    problem_.refresh(0);
-  }
-  void get_state(double* state) const override {
-    for (int i = 0; i < info().states; ++i) state[i] = problem_.state[i][0];
-  }
-  void bounds(double* low, double* high) const override {
-    std::fill(low, low + info().observations, -std::numeric_limits<double>::infinity());
-    std::fill(high, high + info().observations, std::numeric_limits<double>::infinity());
-    problem_.bounds(low, high);
-  }
-  void observe(double* observation) const override { problem_.observe(observation); }
-  bool step(const double* action, double& reward) override {
-    std::int64_t ended = 0;
-    problem_.step(action, &reward, &ended);
-    return ended != 0;
-  }
-  int objects() const override { return problem_.objects(); }
-  void get_objects(double* rows) const override { problem_.get_objects(rows); }
-  void set_objects(const double* rows) override { problem_.set_objects(rows); }
-  int blocked() const override { return problem_.blocked(); }
-
- private:
-  Problem<1> problem_{};
-  Info info_;
-  std::vector<double> body_;
-};
-
 template <template <int> class... Problem>
 std::unique_ptr<Stepper> find_stepper(const std::string& name, ProblemList<Problem...>) {
+  const KernelTable table = kernel_table_baseline();  // in the order of the list
   std::unique_ptr<Stepper> found;
-  ((Problem<1>::info().name == name ? void(found = std::make_unique<ProblemStepper<Problem>>())
-                                    : void()),
-   ...);
+  std::size_t i = 0;
+  ((table.kernel[i++].info.name == name ? void(found = stepper<Problem>()) : void()), ...);
   return found;
 }
 
@@ -144,8 +94,9 @@ void Engine::run(const Jobs& jobs, Queue& queue, Recorder* recorder) const {
   constexpr std::align_val_t alignment{64};
   const auto release = [&](void* p) { ::operator delete(p, alignment); };
   const std::unique_ptr<void, decltype(release)> workspace(
-      ::operator new(kernel_->workspace(layout_, jobs.setting), alignment), release);
-  kernel_->run(layout_, jobs, queue, recorder, workspace.get());
+      ::operator new(kernel_->workspace(kernel_->entry, layout_, jobs.setting), alignment),
+      release);
+  kernel_->run(kernel_->entry, layout_, jobs, queue, recorder, workspace.get());
 }
 
 void Engine::evaluate(const Jobs& jobs, int threads) const {

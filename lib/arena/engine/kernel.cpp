@@ -1,26 +1,19 @@
-// Compiled once per instruction set, with BOTSCHOOL_ISA naming it (see lib/CMakeLists.txt). Nothing
-// but the inner loops is compiled here, so no shared inline function can end up using instructions
-// that the machine lacks.
+// The table of kernels of one instruction set, which BOTSCHOOL_ISA names (lib/CMakeLists.txt). It, the
+// rollout and the problems are compiled with the flags of that instruction set and nothing else is, so
+// no shared inline function can end up using instructions that the machine lacks.
 #include "kernel.hpp"
 
 #include "generated/problem_list.hpp"
-#include "rollout.hpp"
+#include "simulation.hpp"
 
-namespace botschool {
+BOTSCHOOL_BEGIN
+
 namespace {
-
-/// Episodes in lockstep: one AVX-512 register of single-precision numbers.
-constexpr int kLanes = 16;
-
-template <template <int> class Problem>
-Info given(const Setting& setting) {
-  return Problem<1>::given(Problem<1>::info(), setting);
-}
 
 template <template <int> class Problem>
 Kernel kernel() {
-  using R = Rollout<Problem, kLanes>;
-  return {Problem<1>::info(), &given<Problem>, kLanes, &R::workspace, &R::run};
+  static const Entry made = entry<Problem>();
+  return {made.info, made.given, kLanes, &made, &workspace, &run};
 }
 
 template <template <int> class... Problem>
@@ -30,6 +23,9 @@ KernelTable table(ProblemList<Problem...>) {
 }
 
 }  // namespace
+BOTSCHOOL_END
+
+namespace botschool {
 
 #define TABLE_OF(isa) kernel_table_##isa
 #define TABLE(isa) TABLE_OF(isa)

@@ -1,11 +1,71 @@
-// The tables of kernels that arena/engine/kernel.cpp makes, one per instruction set.
+// What runs episodes: jobs, and the tables of kernels that arena/engine/kernel.cpp makes, one for each
+// instruction set.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+
+#include "../../evonet/layout.hpp"
+#include "problem.hpp"
 
 namespace botschool {
 
-struct Kernel;
+/// The scalar of evolution's networks.
+using Real = float;
+
+/// (candidate, seed, episode) triples to evaluate, and where the results go. Plain pointers into
+/// arrays of the caller's; see Engine::evaluate for their meaning.
+struct Jobs {
+  const double* genotypes;
+  std::size_t genotype_stride;
+  const double* normalisation;
+  std::size_t count;
+  const std::int32_t* candidate;  ///< of robot r in job j: candidate[r * count + j]
+  std::size_t robot_offset;       ///< a genotype's parameters of robot r begin at r * this
+  const std::uint64_t* seed;
+  const std::uint32_t* episode;
+  const std::uint8_t* collect;
+  Setting setting;
+  double* fitness;
+  std::int32_t* steps;
+  double* moments;
+};
+
+/// Hands out the numbers of jobs to whoever asks; -1 when none is left.
+class Queue {
+ public:
+  virtual std::ptrdiff_t next() = 0;
+
+ protected:
+  ~Queue() = default;
+};
+
+/// Is told each step of the first lane (for watching one episode).
+class Recorder {
+ public:
+  virtual void start(const double* state) = 0;
+  /// A robot's neurons; activation i is at activations[i * stride]. Robot by robot, before step().
+  virtual void neurons(const Real* activations, int stride) = 0;
+  virtual void step(const double* observation, const double* action, const double* state,
+                    double reward) = 0;
+
+ protected:
+  ~Recorder() = default;
+};
+
+/// One problem's episodes, built for one instruction set. Plain data: a shared inline function, such
+/// as a virtual destructor, could end up using instructions that the machine lacks.
+struct Kernel {
+  Info info;
+  Info (*given)(const Setting&);  ///< `info` as the caller's choices make it
+  int lanes;                      ///< episodes in lockstep
+  const void* entry;              ///< its Entry, of the instruction set (simulation.hpp)
+  /// Bytes that run() needs, 64-byte aligned.
+  std::size_t (*workspace)(const void* entry, const Layout&, const Setting&);
+  void (*run)(const void* entry, const Layout&, const Jobs&, Queue&, Recorder*, void* workspace);
+};
+
+/// All native problems, in the order of problem_list.hpp.
 struct KernelTable {
   const Kernel* kernel;
   std::size_t count;

@@ -1,113 +1,56 @@
-// Whole episodes of one problem, L at a time in lockstep. A lane whose episode has ended is refilled
+// Whole episodes of a problem, L at a time in lockstep. A lane whose episode has ended is refilled
 // with the next job; what happens in a lane depends on its own job alone. When no job is left and half
 // of the lanes are idle, the other half goes on by itself, if the problem's episodes can move.
 #pragma once
 
 #include <cstddef>
 #include <cstring>
-#include <new>
 
 #include "../../evonet/brain.hpp"
-#include "problem.hpp"
-
-namespace botschool {
-
-/// The scalar of evolution's networks.
-using Real = float;
-
-/// (candidate, seed, episode) triples to evaluate, and where the results go. Plain pointers into
-/// arrays of the caller's; see Engine::evaluate for their meaning.
-struct Jobs {
-  const double* genotypes;
-  std::size_t genotype_stride;
-  const double* normalisation;
-  std::size_t count;
-  const std::int32_t* candidate;  ///< of robot r in job j: candidate[r * count + j]
-  std::size_t robot_offset;       ///< a genotype's parameters of robot r begin at r * this
-  const std::uint64_t* seed;
-  const std::uint32_t* episode;
-  const std::uint8_t* collect;
-  Setting setting;
-  double* fitness;
-  std::int32_t* steps;
-  double* moments;
-};
-
-/// Hands out the numbers of jobs to whoever asks; -1 when none is left.
-class Queue {
- public:
-  virtual std::ptrdiff_t next() = 0;
-
- protected:
-  ~Queue() = default;
-};
-
-/// Is told each step of the first lane (for watching one episode).
-class Recorder {
- public:
-  virtual void start(const double* state) = 0;
-  /// A robot's neurons; activation i is at activations[i * stride]. Robot by robot, before step().
-  virtual void neurons(const Real* activations, int stride) = 0;
-  virtual void step(const double* observation, const double* action, const double* state,
-                    double reward) = 0;
-
- protected:
-  ~Recorder() = default;
-};
-
-/// One problem's episodes, built for one instruction set.
-struct Kernel {
-  Info info;
-  Info (*given)(const Setting&);  ///< `info` as the caller's choices make it
-  int lanes;                      ///< episodes in lockstep
-  /// Bytes that run() needs, 64-byte aligned.
-  std::size_t (*workspace)(const Layout&, const Setting&);
-  void (*run)(const Layout&, const Jobs&, Queue&, Recorder*, void* workspace);
-};
-
-}  // namespace botschool
+#include "kernel.hpp"
+#include "simulation.hpp"
 
 BOTSCHOOL_BEGIN
 
-template <template <int> class Problem, int L>
+template <int L>
 class Rollout {
  public:
   using Memory = BrainMemory<Real, L>;
 
-  static std::size_t workspace(const Layout& layout, const Setting& setting) {
-    const int robots = robots_in(setting);
-    return kHeader + robots * brain_bytes(layout) + observation_bytes(layout, robots) +
-           moments_bytes(layout) + action_bytes(robots) +
-           (record_bytes(layout, robots) + 63) / 64 * 64 + half_bytes(layout, setting);
+  static std::size_t workspace(const Entry& entry, const Layout& layout, const Setting& setting) {
+    const int robots = entry.given(setting).robots;
+    return made_by(entry).size + robots * brain_bytes(layout) + observation_bytes(layout, robots) +
+           moments_bytes(layout) + action_bytes(entry, robots) +
+           (record_bytes(entry, layout, robots) + 63) / 64 * 64 +
+           half_bytes(entry, layout, setting);
   }
 
-  static void run(const Layout& layout, const Jobs& jobs, Queue& queue, Recorder* recorder,
-                  void* workspace) {
+  static void run(const Entry& entry, const Layout& layout, const Jobs& jobs, Queue& queue,
+                  Recorder* recorder, void* workspace) {
     // lanes that never get a job compute too: with zeros, as leftovers may be slow (denormal)
-    std::memset(workspace, 0, Rollout::workspace(layout, jobs.setting));
-    auto* bytes = static_cast<unsigned char*>(workspace);
-    auto& problem = *new (bytes) Problem<L>();
-    problem.set(jobs.setting);
-    Rollout rollout(layout, jobs, queue, recorder, problem, bytes + kHeader);
+    std::memset(workspace, 0, Rollout::workspace(entry, layout, jobs.setting));
+    Rollout rollout(entry, layout, jobs, queue, recorder, static_cast<unsigned char*>(workspace));
     for (int l = 0; l < L; ++l) rollout.fill(l);
     rollout.group();
     rollout.run();
   }
 
  private:
-  template <template <int> class, int>
+  template <int>
   friend class Rollout;
-  using Half = Rollout<Problem, L / 2>;
   /// Fewer lanes than 8 leave registers half empty.
-  static constexpr bool kHalves = Problem<L>::movable && L >= 16;
+  static constexpr bool kHalves = L >= 16;
 
-  static std::size_t half_bytes(const Layout& layout, const Setting& setting) {
-    if constexpr (kHalves) return Half::workspace(layout, setting);
-    return 0;
+  static const Maker<L>& made_by(const Entry& entry) {
+    if constexpr (L == kLanes)
+      return entry.whole;
+    else
+      return entry.half;
   }
-  static constexpr std::size_t kHeader = (sizeof(Problem<L>) + 63) / 64 * 64;
-  static int robots_in(const Setting& setting) {
-    return Problem<L>::given(Problem<L>::info(), setting).robots;
+  static std::size_t half_bytes(const Entry& entry, const Layout& layout, const Setting& setting) {
+    if constexpr (kHalves)
+      if (entry.half.size) return Rollout<L / 2>::workspace(entry, layout, setting);
+    return 0;
   }
   static std::size_t brain_bytes(const Layout& layout) {
     return (Memory::size(layout) * sizeof(Real) + 63) / 64 * 64;
@@ -119,24 +62,26 @@ class Rollout {
     return 2 * layout.spec.inputs * L * sizeof(double);
   }
   /// Actuators of a robot.
-  static int actuators() {
-    const Info info = Problem<L>::info();
-    return info.discrete ? 1 : info.outputs;
+  static int actuators(const Info& info) { return info.discrete ? 1 : info.outputs; }
+  static std::size_t action_bytes(const Entry& entry, int robots) {
+    return robots * actuators(entry.info) * L * sizeof(double);
   }
-  static std::size_t action_bytes(int robots) { return robots * actuators() * L * sizeof(double); }
   /// Observations, actions and state of one lane.
-  static std::size_t record_bytes(const Layout& layout, int robots) {
-    return (robots * (layout.spec.inputs + actuators()) + kStates) * sizeof(double);
+  static std::size_t record_bytes(const Entry& entry, const Layout& layout, int robots) {
+    return (robots * (layout.spec.inputs + actuators(entry.info)) + entry.states) * sizeof(double);
   }
 
-  Rollout(const Layout& layout, const Jobs& jobs, Queue& queue, Recorder* recorder,
-          Problem<L>& problem, unsigned char* bytes)
-      : robots_(robots_in(jobs.setting)),
+  Rollout(const Entry& entry, const Layout& layout, const Jobs& jobs, Queue& queue,
+          Recorder* recorder, unsigned char* bytes)
+      : entry_(entry),
+        robots_(entry.given(jobs.setting).robots),
         layout_(layout),
         jobs_(jobs),
         queue_(queue),
         recorder_(recorder),
-        problem_(problem) {
+        problem_(*made_by(entry).make(bytes)) {
+    problem_.set(jobs.setting);
+    bytes += made_by(entry).size;
     observations_ = reinterpret_cast<Real*>(bytes);
     bytes += observation_bytes(layout, robots_);
     for (int r = 0; r < robots_; ++r) {
@@ -149,13 +94,14 @@ class Rollout {
     moments_ = reinterpret_cast<double*>(bytes);
     action_ = moments_ + 2 * layout.spec.inputs * L;
     record_ = action_ + robots_ * actions_ * L;
-    half_ =
-        reinterpret_cast<unsigned char*>(record_) + (record_bytes(layout, robots_) + 63) / 64 * 64;
+    half_ = reinterpret_cast<unsigned char*>(record_) +
+            (record_bytes(entry, layout, robots_) + 63) / 64 * 64;
   }
 
   void run() {
     while (active_ > 0) {
-      if (kHalves && !waiting_ && active_ <= L / 2 && !recorder_) return go_on_by_half();
+      if (kHalves && entry_.half.size && !waiting_ && active_ <= L / 2 && !recorder_)
+        return go_on_by_half();
       problem_.observe(observations_);
       if (collecting_ > 0) collect();
       for (int r = 0; r < robots_; ++r) {
@@ -178,9 +124,7 @@ class Rollout {
   /// Moves all episodes to half as many lanes and finishes them there.
   void go_on_by_half() {
     if constexpr (kHalves) {
-      auto& problem = *new (half_) Problem<L / 2>();
-      problem.set(jobs_.setting);
-      Half half(layout_, jobs_, queue_, nullptr, problem, half_ + Half::kHeader);
+      Rollout<L / 2> half(entry_, layout_, jobs_, queue_, nullptr, half_);
       int lane = 0;
       for (int l = 0; l < L; ++l)
         if (job_[l] >= 0) half.take(*this, l, lane++);
@@ -192,12 +136,12 @@ class Rollout {
 
   /// Goes on with the episode of another's lane.
   template <int W>
-  void take(const Rollout<Problem, W>& other, int from, int lane) {
+  void take(const Rollout<W>& other, int from, int lane) {
     job_[lane] = other.job_[from];
     total_[lane] = other.total_[from];
     steps_[lane] = other.steps_[from];
-    for (int i = 0; i < Problem<L>::info().states; ++i)
-      problem_.state[i][lane] = other.problem_.state[i][from];
+    for (int i = 0; i < entry_.info.states; ++i)
+      problem_.state[i * L + lane] = other.problem_.state[i * W + from];
     problem_.refresh(lane);
     for (int r = 0; r < robots_; ++r) {
       keys_[r][lane] = other.keys_[r][from];
@@ -235,7 +179,7 @@ class Rollout {
       for (int i = 0; i < 2 * layout_.spec.inputs; ++i) moments_[i * L + lane] = 0;
     }
     if (recorder_ && lane == 0) {
-      for (int i = 0; i < kStates; ++i) record_[i] = problem_.state[i][0];
+      for (int i = 0; i < entry_.states; ++i) record_[i] = problem_.state[i * L];
       recorder_->start(record_);
     }
   }
@@ -334,7 +278,7 @@ class Rollout {
   void choose_actions(int robot) {
     const Real* chosen = memory_[robot].actions;
     double* action = action_ + robot * actions_ * L;
-    if (Problem<L>::info().discrete) {
+    if (entry_.info.discrete) {
       int winner[L];
       Brain<Real, L>::argmax(chosen, layout_.spec.outputs, winner);
       for (int l = 0; l < L; ++l) action[l] = winner[l];
@@ -350,20 +294,20 @@ class Rollout {
     double* state = action + robots_ * actions_;
     for (int i = 0; i < robots_ * layout_.spec.inputs; ++i) observation[i] = observations_[i * L];
     for (int i = 0; i < robots_ * actions_; ++i) action[i] = action_[i * L];
-    for (int i = 0; i < kStates; ++i) state[i] = problem_.state[i][0];
+    for (int i = 0; i < entry_.states; ++i) state[i] = problem_.state[i * L];
     for (int r = 0; r < robots_; ++r) recorder_->neurons(memory_[r].activations, L);
     recorder_->step(observation, action, state, reward_[0]);
   }
 
-  static constexpr int kStates = sizeof(Problem<1>::state) / sizeof(double);
+  const Entry& entry_;
   const int robots_;
-  const int actions_ = actuators();
+  const int actions_ = actuators(entry_.info);
 
   const Layout& layout_;
   const Jobs& jobs_;
   Queue& queue_;
   Recorder* recorder_;
-  Problem<L>& problem_;
+  Simulation<L>& problem_;
   Memory memory_[kMaxRobots];
   Real* observations_;
   double* moments_;      ///< [2 * inputs * L]

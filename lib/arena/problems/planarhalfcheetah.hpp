@@ -22,13 +22,19 @@ inline constexpr Race kHalfCheetahRace0 = cheetah_race(true),
                       kHalfCheetahRace5 = cheetah_race(false);
 
 template <int L>
-struct PlanarHalfCheetah0 : Runner<HalfCheetah, kHalfCheetahRace0, L> {
-  static Info info() { return PlanarHalfCheetah0::describe("PlanarHalfCheetah-v0"); }
+struct PlanarHalfCheetah0 : Runner<HalfCheetah, L> {
+  PlanarHalfCheetah0() : Runner<HalfCheetah, L>(kHalfCheetahRace0) {}
+  static Info info() {
+    return PlanarHalfCheetah0::describe("PlanarHalfCheetah-v0", kHalfCheetahRace0);
+  }
 };
 
 template <int L>
-struct PlanarHalfCheetah5 : Runner<HalfCheetah, kHalfCheetahRace5, L> {
-  static Info info() { return PlanarHalfCheetah5::describe("PlanarHalfCheetah-v5"); }
+struct PlanarHalfCheetah5 : Runner<HalfCheetah, L> {
+  PlanarHalfCheetah5() : Runner<HalfCheetah, L>(kHalfCheetahRace5) {}
+  static Info info() {
+    return PlanarHalfCheetah5::describe("PlanarHalfCheetah-v5", kHalfCheetahRace5);
+  }
 };
 
 BOTSCHOOL_END

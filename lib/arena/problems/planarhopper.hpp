@@ -17,13 +17,15 @@ constexpr Race hopper_race(bool standard) {
 inline constexpr Race kHopperRace0 = hopper_race(true), kHopperRace5 = hopper_race(false);
 
 template <int L>
-struct PlanarHopper0 : Runner<Hopper, kHopperRace0, L> {
-  static Info info() { return PlanarHopper0::describe("PlanarHopper-v0"); }
+struct PlanarHopper0 : Runner<Hopper, L> {
+  PlanarHopper0() : Runner<Hopper, L>(kHopperRace0) {}
+  static Info info() { return PlanarHopper0::describe("PlanarHopper-v0", kHopperRace0); }
 };
 
 template <int L>
-struct PlanarHopper5 : Runner<Hopper, kHopperRace5, L> {
-  static Info info() { return PlanarHopper5::describe("PlanarHopper-v5"); }
+struct PlanarHopper5 : Runner<Hopper, L> {
+  PlanarHopper5() : Runner<Hopper, L>(kHopperRace5) {}
+  static Info info() { return PlanarHopper5::describe("PlanarHopper-v5", kHopperRace5); }
 };
 
 BOTSCHOOL_END

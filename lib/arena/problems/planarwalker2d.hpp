@@ -18,13 +18,15 @@ constexpr Race walker_race(bool standard) {
 inline constexpr Race kWalker2DRace0 = walker_race(true), kWalker2DRace5 = walker_race(false);
 
 template <int L>
-struct PlanarWalker2D0 : Runner<Walker2D, kWalker2DRace0, L> {
-  static Info info() { return PlanarWalker2D0::describe("PlanarWalker2D-v0"); }
+struct PlanarWalker2D0 : Runner<Walker2D, L> {
+  PlanarWalker2D0() : Runner<Walker2D, L>(kWalker2DRace0) {}
+  static Info info() { return PlanarWalker2D0::describe("PlanarWalker2D-v0", kWalker2DRace0); }
 };
 
 template <int L>
-struct PlanarWalker2D5 : Runner<Walker2D, kWalker2DRace5, L> {
-  static Info info() { return PlanarWalker2D5::describe("PlanarWalker2D-v5"); }
+struct PlanarWalker2D5 : Runner<Walker2D, L> {
+  PlanarWalker2D5() : Runner<Walker2D, L>(kWalker2DRace5) {}
+  static Info info() { return PlanarWalker2D5::describe("PlanarWalker2D-v5", kWalker2DRace5); }
 };
 
 BOTSCHOOL_END

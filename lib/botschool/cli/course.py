@@ -145,6 +145,8 @@ def release(
 ) -> None:
     """For instructors: make a copy of the repository for students, without solutions.
 
+    Call it in the repository: the installed package does not hold the exercises.
+
     In a copy that is there already, files that were edited since are left alone, and exercises
     that have their answers keep them.
     """

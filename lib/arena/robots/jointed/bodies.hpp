@@ -112,6 +112,7 @@ struct HalfCheetah : BodyBase {
 
 /// 0.4 m long and 0.1 m high; for tests.
 struct Box : BodyBase {
+  static constexpr bool uneven = true;
   static constexpr const char* name = "box";
   static constexpr Segment segments[]{{"box", -1, 0, 0, {}, {{0, 0, 0, 0.15, 0.05}}}};
   static constexpr Contact contacts[]{

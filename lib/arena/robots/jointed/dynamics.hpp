@@ -27,6 +27,11 @@
 #define BOTSCHOOL_EACH(i) [&](auto i)
 #endif
 
+/// A phase of a substep: inlined where lanes race, shared where one body is looked at (planar.cpp).
+#ifndef BOTSCHOOL_PHASE
+#define BOTSCHOOL_PHASE BOTSCHOOL_INLINE
+#endif
+
 BOTSCHOOL_BEGIN
 
 template <class F, std::size_t... I>
@@ -116,7 +121,7 @@ struct Dynamics {
   }
 
   /// Where the segments are, for given positions.
-  BOTSCHOOL_INLINE void place() {
+  BOTSCHOOL_PHASE void place() {
     upwards<n>(BOTSCHOOL_EACH(i) {
       constexpr Segment s = Body::segments[i];
       sine_cosine(position[2 + i], sine[i], cosine[i]);
@@ -131,7 +136,7 @@ struct Dynamics {
   }
 
   /// The mass matrix but for what hinges and the ground add, and the levers.
-  BOTSCHOOL_INLINE void inertia() {
+  BOTSCHOOL_PHASE void inertia() {
     mass[0][0] = mass[1][1] = number(numbers.all[0]);
     mass[1][0] = V(T(0));
     upwards<n>(BOTSCHOOL_EACH(j) {
@@ -149,14 +154,14 @@ struct Dynamics {
   }
 
   /// The forces of gravity, and no other.
-  BOTSCHOOL_INLINE void weigh(double gravity) {
+  BOTSCHOOL_PHASE void weigh(double gravity) {
     force[0] = V(T(0));
     force[1] = number(-gravity * numbers.all[0]);
     upwards<n>(BOTSCHOOL_EACH(j) { force[2 + j] = number(-gravity) * moment[j].x; });
   }
 
   /// Adds centripetal forces; `square`: of the segments' angular speeds.
-  BOTSCHOOL_INLINE void whirl(const V* square) {
+  BOTSCHOOL_PHASE void whirl(const V* square) {
     upwards<n>(BOTSCHOOL_EACH(j) {
       force[0] += square[j] * moment[j].x;
       force[1] += square[j] * moment[j].z;
@@ -189,7 +194,7 @@ struct Dynamics {
   /// Torques of the hinges. With a substep h, dampers answer to the mean of the speeds before and
   /// after it, which lets them be stiff: h / 2 damping joins the mass matrix. With h = 0 they answer
   /// to the speeds as they are.
-  BOTSCHOOL_INLINE void hinges(const V* action, T h) {
+  BOTSCHOOL_PHASE void hinges(const V* action, T h) {
     upwards<n - 1>(BOTSCHOOL_EACH(index) {
       constexpr int i = index + 1, k = i + 2, p = up(k);
       constexpr Hinge hinge = Body::segments[i].hinge;
@@ -216,7 +221,7 @@ struct Dynamics {
   /// hinges), and dragged by -friction N u / max(|u|, slip), with the u after the substep, since that
   /// is stiffer by far (implicit Euler, linearised).
   template <class Ground>
-  BOTSCHOOL_INLINE void touch(const Ground& ground, T h) {
+  BOTSCHOOL_PHASE void touch(const Ground& ground, T h) {
     Vec velocity[n];
     upwards<n>(BOTSCHOOL_EACH(i) {
       if constexpr (i == 0) {
@@ -293,7 +298,7 @@ struct Dynamics {
 
   /// mass = L^T D L from the leaves to the root, which keeps the zeros of a tree (Featherstone
   /// 2008, section 6.5). L is left below the diagonal of `mass`, and 1 / D in `inverse`.
-  BOTSCHOOL_INLINE void factor() {
+  BOTSCHOOL_PHASE void factor() {
     if constexpr (Body::pinned)
       upwards<n>(BOTSCHOOL_EACH(i) { mass[2 + i][0] = mass[2 + i][1] = V(T(0)); });
     downwards<size>(BOTSCHOOL_EACH(k) {
@@ -308,7 +313,7 @@ struct Dynamics {
   }
 
   /// Solves mass * acceleration = force after factor(); the acceleration is left in `force`.
-  BOTSCHOOL_INLINE void substitute() {
+  BOTSCHOOL_PHASE void substitute() {
     if constexpr (Body::pinned) force[0] = force[1] = V(T(0));
     downwards<size>(BOTSCHOOL_EACH(k) {
       ancestors<k>(BOTSCHOOL_EACH(i) { force[i] -= mass[k][i] * force[k]; });
@@ -337,7 +342,7 @@ struct Dynamics {
     });
     whirl(square);
     hinges(action, h);
-    touch(ground, h);
+    if constexpr (!Body::pinned) touch(ground, h);
     factor();
     substitute();
     // then as this one makes them

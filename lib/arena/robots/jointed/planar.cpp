@@ -1,7 +1,11 @@
 #include "planar.hpp"
 
 #include <iterator>
+#include <stdexcept>
 
+#include "../../../evonet/isa.hpp"
+
+#define BOTSCHOOL_PHASE BOTSCHOOL_OUTLINE
 #include "bodies.hpp"
 #include "dynamics.hpp"
 
@@ -66,6 +70,8 @@ class Planar final : public PlanarBody {
 
   void advance(double* state, const double* action, double* load, double h, int steps,
                const Surroundings& around, bool single) const override {
+    if (!Body::uneven && (around.slope != 0 || around.curvature != 0))
+      throw std::invalid_argument(std::string("body '") + name() + "' knows even ground only.");
     if (single)
       run<float>(state, action, load, h, steps, around);
     else
@@ -96,12 +102,14 @@ class Planar final : public PlanarBody {
     load(body, state, state + size);
     Lanes<T, 1> torque[n];
     for (int i = 0; i < n - 1; ++i) torque[i] = T(action[i]);
-    const bool flat = around.slope == 0 && around.curvature == 0;
     for (int s = 0; s < steps; ++s) {
-      if (flat)
+      if constexpr (!Body::uneven) {
         body.step(torque, Flat{}, T(h), around.gravity);
-      else
+      } else if (around.slope == 0 && around.curvature == 0) {
+        body.step(torque, Flat{}, T(h), around.gravity);
+      } else {
         body.step(torque, Curve{around.slope, around.curvature}, T(h), around.gravity);
+      }
     }
     for (int k = 0; k < size; ++k) {
       state[k] = body.position[k][0];

@@ -23,15 +23,17 @@ struct Race {
   int feet = -1;  ///< if not -1: contact points but the first `feet` must not touch the ground
 };
 
-template <class Body, const Race& race, int L>
+template <class Body, int L>
 struct Runner : ProblemBase {
+  explicit Runner(const Race& of) : race(of) {}
+
   static constexpr int kWidth = kRegister / 4 < L ? kRegister / 4 : L;
   using Moving = Dynamics<Body, float, kWidth>;
   using V = Lanes<float, kWidth>;
   static constexpr int n = Moving::n, size = Moving::size, contacts = Moving::contacts;
   static constexpr int kStates = 2 * size + contacts;
 
-  static Info describe(const char* name) {
+  static Info describe(const char* name, const Race& race) {
     Info info;
     info.name = name;
     info.observations = 2 * size - 1;
@@ -45,6 +47,7 @@ struct Runner : ProblemBase {
   /// Positions and speeds of x, z and each segment's angle; mean force of each contact point in the
   /// last step.
   double state[kStates][L];
+  const Race& race;
 
   void bounds(double* low, double* high) const {
     for (int i = size - 1; i < 2 * size - 1; ++i) {
@@ -142,7 +145,7 @@ struct Runner : ProblemBase {
   }
 
   /// Positive where the body has not fallen.
-  static V upright(const Moving& body) {
+  V upright(const Moving& body) const {
     const V height = body.position[1], pitch = body.position[2];
     V margin = smaller(height - number(race.lowest), number(race.highest) - height);
     margin = smaller(margin, number(race.lean) - larger(pitch, -pitch));

@@ -3,7 +3,7 @@
 //
 // A body is a tree of segments. Each has a frame of its own: its origin lies on the hinge to its
 // parent, and at angle 0 its axes are those of the world. The first segment is the root; its origin
-// moves freely unless the body is `pinned`.
+// moves freely unless the body is `pinned`: then it hangs in the air and touches nothing.
 #pragma once
 
 #include "../../engine/problem.hpp"
@@ -61,6 +61,7 @@ constexpr double kDensity = 1000;
 /// Defaults of what a table may leave out.
 struct BodyBase {
   static constexpr bool pinned = false;
+  static constexpr bool uneven = false;    ///< whether PlanarBody moves it on slopes, too
   static constexpr double total_mass = 0;  ///< to which all densities are scaled, if not 0
 };
 

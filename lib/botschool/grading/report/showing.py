@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
+import time
 import webbrowser
 from html import escape
 from pathlib import Path
@@ -15,6 +17,10 @@ from botschool.grading.declare.exercise import load_exercise, submission_file
 from botschool.output import save_bytes
 from botschool.paths import course_root
 
+_UNFINISHED = re.compile(r"^ *raise NotImplementedError\([\"']task (\d+\.\d+)\b", re.MULTILINE)
+"""What a skeleton has where an answer is to be written."""
+_PATIENCE = 30
+"""Seconds between the lines that say that a long run goes on."""
 PAGE = "all.html"
 """In results/exNN: what was made, on one page."""
 _TAGS = {
@@ -32,24 +38,53 @@ figure { margin: 2rem 0 } figcaption { color: #555 }
 def show(number: int, submission: str | None = None, root: Path | None = None) -> list[Path]:
     """Runs a submission's file (None: the student's own) and returns what it made or changed.
 
-    Raises BotschoolError when the file ends with an error.
+    Says every 30 seconds on stderr that it still runs. Raises BotschoolError when tasks of the file
+    are not done yet, and when it ends with an error.
     """
     root = (root or course_root()).resolve()
     load_exercise(number, root).require()
     file = submission_file(number, submission, root).resolve()
+    _require_finished(file, number)
     folder = root / "results" / f"ex{number:02d}"
     folder.mkdir(parents=True, exist_ok=True)
     before = _stamps(folder)
     variables = {"BOTSCHOOL_COURSE": str(root)}
     if not os.environ.get("DISPLAY"):
         variables["MPLBACKEND"] = "Agg"
-    done = subprocess.run([sys.executable, str(file)], cwd=folder, env=os.environ | variables)
-    if done.returncode != 0:
+    if _run(file, folder, os.environ | variables) != 0:
         raise BotschoolError(
             f"{file.name} ended with an error, see above; is it finished? 'botschool grade "
             f"{number}' says so."
         )
     return [path for path, stamp in _stamps(folder).items() if before.get(path) != stamp]
+
+
+def _require_finished(file: Path, number: int) -> None:
+    """Raise BotschoolError if a task's place in the skeleton is still empty."""
+    tasks = list(
+        dict.fromkeys(_UNFINISHED.findall(file.read_text(encoding="utf-8", errors="replace")))
+    )
+    if tasks:
+        named = f"task {tasks[0]} is" if len(tasks) == 1 else f"tasks {', '.join(tasks)} are"
+        raise BotschoolError(
+            f"{named} not done yet in {file.name}: 'botschool show {number}' runs a finished file, "
+            f"'botschool grade {number}' says what is done."
+        )
+
+
+def _run(file: Path, folder: Path, variables: dict[str, str]) -> int:
+    """Run a file in a folder and return its exit code; say now and then that it still runs."""
+    start = time.monotonic()
+    with subprocess.Popen([sys.executable, str(file)], cwd=folder, env=variables) as process:
+        while True:
+            try:
+                return process.wait(_PATIENCE)
+            except subprocess.TimeoutExpired:
+                seconds = time.monotonic() - start
+                print(f"({file.name} runs, {seconds:.0f} s; Ctrl-C stops it)", file=sys.stderr)
+            except BaseException:
+                process.terminate()
+                raise
 
 
 def _stamps(folder: Path) -> dict[Path, int]:
