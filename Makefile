@@ -82,7 +82,7 @@ figures: .venv/.tests ## draw the pictures of the exercises' texts anew (docs/im
 	@$(BIN)/python tools/figures $(ONLY)
 
 results: .venv/.bench ## measure all of docs/results.md anew and write it (half an hour)
-	@$(BIN)/python tests/bench/results.py
+	@$(BIN)/python tools/studies results
 
 lint: .venv/.tests ## check style: ruff and clang-format
 	@$(BIN)/ruff check --quiet .

@@ -2,6 +2,7 @@
 
 import os
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -53,3 +54,17 @@ def refused(command):
         return errors
 
     return call
+
+
+@pytest.fixture
+def studies(monkeypatch):
+    """Let a test import the modules of tools/studies and tests/bench; forget them afterwards."""
+    tests = Path(__file__).parent
+    folders = [tests.parent / "tools" / "studies", tests / "bench"]
+    for folder in folders:
+        monkeypatch.syspath_prepend(str(folder))
+    before = set(sys.modules)
+    yield
+    for name in set(sys.modules) - before:
+        if any((folder / f"{name}.py").exists() for folder in folders):
+            del sys.modules[name]

@@ -2,31 +2,21 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-HERE = Path(__file__).parent
+ROOT = Path(__file__).parents[1]
+pytestmark = pytest.mark.usefixtures("studies")
 FILES = ["planarhopper", "planarwalker2d", "planarhalfcheetah"]
-
-
-@pytest.fixture(autouse=True)
-def bench(monkeypatch):
-    monkeypatch.syspath_prepend(str(HERE / "bench"))
-    before = set(sys.modules)
-    yield
-    for name in set(sys.modules) - before:
-        if (HERE / "bench" / f"{name}.py").exists():
-            del sys.modules[name]
 
 
 def evolved(file):
     """The robot that comes with botschool."""
     from planar_runs import Robot
 
-    return Robot(file, np.load(HERE.parent / "data" / "genotypes" / f"{file}.npy"))
+    return Robot(file, np.load(ROOT / "data" / "genotypes" / f"{file}.npy"))
 
 
 @pytest.mark.parametrize("file", FILES)

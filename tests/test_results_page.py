@@ -1,31 +1,21 @@
 """The pages are what their data give, and all that are compared play the same networks."""
 
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-BENCH = Path(__file__).parent / "bench"
-
-
-@pytest.fixture(autouse=True)
-def bench(monkeypatch):
-    monkeypatch.syspath_prepend(str(BENCH))
-    before = set(sys.modules)
-    yield
-    for name in set(sys.modules) - before:
-        if (BENCH / f"{name}.py").exists():
-            del sys.modules[name]
+ROOT = Path(__file__).parents[1]
+pytestmark = pytest.mark.usefixtures("studies")
 
 
 def test_the_page_is_made_from_its_data():
-    import page
+    import results_page as page
 
     found = []
     for each in page.PAGES:
         text = each.read_text(encoding="utf-8")
-        assert page.filled(text, page.load()) == text, "run tests/bench/results.py --only"
+        assert page.filled(text, page.load()) == text, "run tools/studies results --only"
         found += page.re.findall(r"<!-- (?!end)(\w+) -->", text)
     assert sorted(page.BLOCKS) == sorted(found)
 
@@ -37,7 +27,7 @@ def test_the_page_of_algorithms_is_made_from_its_data():
     names = ("tried", "runs", "longer")
     tried, done, longer = (algorithms.Results(page.DATA / f"{name}.jsonl") for name in names)
     text = page.PAGE.read_text(encoding="utf-8")
-    assert page.filled(text, tried, done, longer) == text, "run tests/bench/algorithms.py page"
+    assert page.filled(text, tried, done, longer) == text, "run tools/studies algorithms page"
     assert page.seeds(done) == len(algorithms.SEEDS)
 
 
@@ -47,7 +37,7 @@ def test_what_tuning_gives_is_told_from_its_data():
     import tuned
 
     text = tuned.PAGE.read_text(encoding="utf-8")
-    assert tuned.filled(text) == text, "run tests/bench/tuned.py page"
+    assert tuned.filled(text) == text, "run tools/studies tuned page"
     for name, search in tuned.SEARCHES.items():
         measured = json.loads(search.data.read_text(encoding="utf-8"))
         assert [run["seed"] for run in measured["runs"]] == list(search.seeds)
@@ -58,7 +48,7 @@ def test_what_tuning_gives_is_told_from_its_data():
 def test_rows_of_other_locomotors_stay(tmp_path, name):
     import locomotor_curves
 
-    text = (BENCH.parents[1] / name).read_text(encoding="utf-8")
+    text = (ROOT / name).read_text(encoding="utf-8")
     page = tmp_path / "page.md"
     page.write_text(text, encoding="utf-8")
     locomotor_curves.put(page, {})
@@ -87,12 +77,12 @@ def test_the_page_of_clusters_is_made_from_its_data():
     import cluster_page as page
 
     text = page.PAGE.read_text(encoding="utf-8")
-    assert page.filled(text, page.load()) == text, "run tests/bench/cluster.py page"
+    assert page.filled(text, page.load()) == text, "run tools/studies cluster page"
     assert sorted(page.BLOCKS) == sorted(page.re.findall(r"<!-- (?!end)(\w+) -->", text))
 
 
 def test_a_block_without_data_stays():
-    import page
+    import results_page as page
 
     text = "<!-- ppo -->\nold\n<!-- end -->\n<!-- conditions -->\n<!-- end -->\n"
     made = page.filled(text, {})

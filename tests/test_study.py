@@ -5,43 +5,32 @@ import signal
 import sys
 import threading
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from botschool import config
 
-BENCH = Path(__file__).parent / "bench"
+pytestmark = pytest.mark.usefixtures("studies")
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
-
-
-@pytest.fixture(autouse=True)
-def bench(monkeypatch):
-    monkeypatch.syspath_prepend(str(BENCH))
-    before = set(sys.modules)
-    yield
-    for name in set(sys.modules) - before:
-        if (BENCH / f"{name}.py").exists():
-            del sys.modules[name]
 
 
 def tiny(monkeypatch):
     """A plan of two variants and one seed, as small as can be."""
-    import study_page
-    import study_plan
+    import coevolution_page
+    import coevolution_plan
 
-    variants = study_plan.VARIANTS[1:3]
-    for module in (study_plan, study_page):
+    variants = coevolution_plan.VARIANTS[1:3]
+    for module in (coevolution_plan, coevolution_page):
         monkeypatch.setattr(module, "VARIANTS", variants)
     changes = {
         "coevo2-random": {"popsize": 2, "selsize": 1, "samplesize": 1},
         "archive": {"samplesize": 1, "ncompetitors": 1},
     }
-    plan = study_plan.Plan(
+    plan = coevolution_plan.Plan(
         "tiny", "tiny", (0.02, 0.1), (1,), dict.fromkeys(changes, 1), changes
     )  # fmt: skip
-    monkeypatch.setattr(study_page, "PLANS", (plan,))
+    monkeypatch.setattr(coevolution_page, "PLANS", (plan,))
     return plan
 
 
@@ -49,7 +38,7 @@ def tiny(monkeypatch):
 
 
 def test_runs_differ_from_their_files_in_what_the_plan_says():
-    from study_plan import DATA, PLANS, VARIANTS
+    from coevolution_plan import DATA, PLANS, VARIANTS
 
     lengths = {"saveeach", "maxmsteps", "archivelen"}
     for plan in PLANS:
@@ -65,7 +54,7 @@ def test_runs_differ_from_their_files_in_what_the_plan_says():
 
 
 def test_experiment_files_say_the_same(tmp_path):
-    from study_plan import PLANS, runs
+    from coevolution_plan import PLANS, runs
 
     for plan in PLANS:
         for run in runs(tmp_path, plan)[:5]:
@@ -74,7 +63,7 @@ def test_experiment_files_say_the_same(tmp_path):
 
 
 def test_one_seed_of_all_comes_first_and_short_plans_end_first(tmp_path):
-    from study_plan import PLANS, VARIANTS, jobs
+    from coevolution_plan import PLANS, VARIANTS, jobs
 
     found = list(jobs(tmp_path))
     assert [run.variant for run, _ in found[:5]] == list(VARIANTS)
@@ -94,10 +83,10 @@ def test_one_seed_of_all_comes_first_and_short_plans_end_first(tmp_path):
 def test_from_runs_to_the_page(tmp_path, monkeypatch):
     """The first milestone, then the second, of one run only."""
     plan = tiny(monkeypatch)
-    from study_measure import measured
-    from study_page import behaviour, cross, progress, reached
-    from study_plan import complete, runs
-    from study_queue import Queue
+    from coevolution_measure import measured
+    from coevolution_page import behaviour, cross, progress, reached
+    from coevolution_plan import complete, runs
+    from coevolution_queue import Queue
 
     first, second = runs(tmp_path, plan)
     assert complete(tmp_path, plan) is None and first.reached() == 0
@@ -131,7 +120,7 @@ def test_from_runs_to_the_page(tmp_path, monkeypatch):
 def test_the_queue_is_stopped_and_goes_on(tmp_path, monkeypatch):
     """A request to stop reaches its runs, which end as they like."""
     plan = tiny(monkeypatch)
-    import study_queue
+    import coevolution_queue
 
     program = "import signal, sys; signal.signal(15, lambda *_: sys.exit(130)); signal.pause()"
 
@@ -140,32 +129,32 @@ def test_the_queue_is_stopped_and_goes_on(tmp_path, monkeypatch):
         return [sys.executable, "-c", program]
 
     with monkeypatch.context() as patch:
-        patch.setattr(study_queue, "command", patient)
-        queue = study_queue.Queue(tmp_path, (plan,))
+        patch.setattr(coevolution_queue, "command", patient)
+        queue = coevolution_queue.Queue(tmp_path, (plan,))
         threading.Timer(1.5, os.kill, (os.getpid(), signal.SIGTERM)).start()
         assert not queue.work(2)
     assert not queue.running and not queue.failed
     assert len(queue.waiting) == 2  # two of four had been begun
-    assert len(study_queue.Queue(tmp_path, (plan,)).waiting) == 4
+    assert len(coevolution_queue.Queue(tmp_path, (plan,)).waiting) == 4
     assert signal.getsignal(signal.SIGTERM) is not queue.stop
 
 
 def test_a_run_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
     plan = tiny(monkeypatch)
-    import study_queue
+    import coevolution_queue
 
-    right = study_queue.command
+    right = coevolution_queue.command
 
     def command(run, millions):
         line = right(run, millions)
         return [*line, "--no-such-option"] if run.variant.name == "archive" else line
 
-    monkeypatch.setattr(study_queue, "command", command)
-    queue = study_queue.Queue(tmp_path, (replace(plan, milestones=(0.01, 0.02)),))
+    monkeypatch.setattr(coevolution_queue, "command", command)
+    queue = coevolution_queue.Queue(tmp_path, (replace(plan, milestones=(0.01, 0.02)),))
     assert not queue.work(1)
     assert queue.failed == ["tiny archive 1"]
     assert "tiny archive 1: failed, see" in capsys.readouterr().out
-    assert [run.name for run, _ in study_queue.Queue(tmp_path, (plan,)).waiting] == [
+    assert [run.name for run, _ in coevolution_queue.Queue(tmp_path, (plan,)).waiting] == [
         "tiny archive 1",
         "tiny coevo2-random 1",
         "tiny archive 1",
@@ -176,7 +165,7 @@ def test_a_run_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
 
 
 def test_intervals_over_seeds():
-    from study_page import in_words, interval
+    from coevolution_page import in_words, interval
 
     mean, low, high = interval([1, 2, 3, 4, 5])  # deviation 1.5811, t 2.776
     assert (mean, low, high) == pytest.approx((3, 3 - 1.963, 3 + 1.963), abs=1e-3)
@@ -189,7 +178,7 @@ def test_intervals_over_seeds():
 
 
 def test_runs_with_different_numbers_of_times_are_not_ranked():
-    from study_page import verdict
+    from coevolution_page import verdict
 
     def run(times: int, gain: float) -> dict:
         rows, columns = np.indices((times, times)) / (times - 1)
@@ -210,8 +199,8 @@ def test_runs_with_different_numbers_of_times_are_not_ranked():
 
 def test_means_are_of_all_seeds():
     """Times differ: the mean is taken where all have been measured, or between two such times."""
+    from coevolution_figures import mean_curves
     from matplotlib.figure import Figure
-    from study_figures import mean_curves
 
     axes = Figure().subplots()
     mean_curves(axes, [[0, 5, 10], [0, 8]], [[0, 0.5, 1], [1, 1]], "black", "mean")
@@ -221,7 +210,7 @@ def test_means_are_of_all_seeds():
 
 def test_a_cross_test_is_between_strangers():
     """Runs a1, a2 of a variant, b1 of another; each beats its own competitors only."""
-    from study_page import by_variant, strangers, strength
+    from coevolution_page import by_variant, strangers, strength
 
     fitness = strangers(np.array([[1.0, 0.2, 0.4], [0.1, 1.0, 0.6], [0.3, 0.5, 1.0]]))
     own, names = ["a", "a", "b"], ["a", "b"]
@@ -235,8 +224,8 @@ def test_a_cross_test_is_between_strangers():
 def test_times_are_as_far_apart_in_steps(tmp_path, monkeypatch):
     """Generations get longer: those are chosen that are nearest to 0, 1, ... 10 million steps."""
     plan = tiny(monkeypatch)
-    import study_measure
-    from study_plan import runs
+    import coevolution_measure
+    from coevolution_plan import runs
 
     run = runs(tmp_path, plan)[0]
     run.home.mkdir(parents=True)
@@ -245,14 +234,14 @@ def test_times_are_as_far_apart_in_steps(tmp_path, monkeypatch):
     for generation in (0, 1, 2, 3, 4, 5, 6, 7):
         np.save(run.files.populations(generation), np.zeros(1))
     assert run.reached() == 14
-    assert study_measure.times(run, 10) == [0, 2, 3, 4, 5, 6]
+    assert coevolution_measure.times(run, 10) == [0, 2, 3, 4, 5, 6]
     run.files.populations(2).unlink()
-    assert study_measure.times(run, 10) == [0, 1, 3, 4, 5, 6]
+    assert coevolution_measure.times(run, 10) == [0, 1, 3, 4, 5, 6]
 
 
 def test_one_plan_alone(tmp_path, monkeypatch, capsys):
-    import study
-    from study_plan import PLANS
+    import coevolution
+    from coevolution_plan import PLANS
 
     asked = []
 
@@ -263,12 +252,12 @@ def test_one_plan_alone(tmp_path, monkeypatch, capsys):
         def work(self, processes):
             return True
 
-    monkeypatch.setattr(study, "Queue", Queue)
-    monkeypatch.setattr(study.os, "nice", lambda _: 0, raising=False)
+    monkeypatch.setattr(coevolution, "Queue", Queue)
+    monkeypatch.setattr(coevolution.os, "nice", lambda _: 0, raising=False)
     for what in ("run", "state"):
-        words = ["study.py", what, "--plan", PLANS[1].name, "--folder", str(tmp_path)]
+        words = ["coevolution", what, "--plan", PLANS[1].name, "--folder", str(tmp_path)]
         monkeypatch.setattr("sys.argv", words)
-        assert study.main() == 0
+        assert coevolution.main() == 0
     assert asked == [PLANS[1]]
     assert capsys.readouterr().out == f"{PLANS[1].name}: all have reached no milestone\n"
 
@@ -276,27 +265,31 @@ def test_one_plan_alone(tmp_path, monkeypatch, capsys):
 def test_what_was_measured_of_other_plans_stays(tmp_path, monkeypatch):
     import json
 
-    import study
-    import study_page
-    from study_plan import PLANS, StudyRun
+    import coevolution
+    import coevolution_page
+    from coevolution_plan import PLANS, StudyRun
 
     data, first = tmp_path / "study.json", PLANS[0].name
     data.write_text(json.dumps({"plans": {plan.name: {"old": 1} for plan in PLANS}}))
-    for module in (study, study_page):
+    for module in (coevolution, coevolution_page):
         monkeypatch.setattr(module, "DATA", data)
-    monkeypatch.setattr(study, "write", lambda: None)
-    monkeypatch.setattr(study, "measured", lambda _, plans: {p.name: {"new": 1} for p in plans})
+    monkeypatch.setattr(coevolution, "write", lambda: None)
+    monkeypatch.setattr(
+        coevolution, "measured", lambda _, plans: {p.name: {"new": 1} for p in plans}
+    )
     monkeypatch.setattr(StudyRun, "reached", lambda run: float(run.plan.name == first))
-    study.page(tmp_path, PLANS)
-    found = study_page.load()["plans"]
+    coevolution.page(tmp_path, PLANS)
+    found = coevolution_page.load()["plans"]
     assert found[first].keys() == {"measured", "new"}
     assert all(found[plan.name] == {"old": 1} for plan in PLANS[1:])
 
 
 def test_the_page_is_made_from_its_data():
-    import study_page
+    import coevolution_page
 
-    text = study_page.PAGE.read_text(encoding="utf-8")
-    data = study_page.load()
-    assert study_page.filled(text, data) == text, "run tests/bench/study.py page"
-    assert set(study_page.BLOCKS) == set(study_page.re.findall(r"<!-- (study_\w+) -->", text))
+    text = coevolution_page.PAGE.read_text(encoding="utf-8")
+    data = coevolution_page.load()
+    assert coevolution_page.filled(text, data) == text, "run tools/studies coevolution page"
+    assert set(coevolution_page.BLOCKS) == set(
+        coevolution_page.re.findall(r"<!-- (study_\w+) -->", text)
+    )

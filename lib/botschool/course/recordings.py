@@ -11,7 +11,7 @@ import numpy as np
 from botschool.course.files import episode_file
 
 RECORDED = "locomotors.npz"
-"""Episodes with the seed 1, for where PyBullet is not installed; tools/record_locomotors.py."""
+"""Episodes with the seed 1, for where PyBullet is missing; `tools/studies record_locomotors`."""
 STEPS = 30
 
 

@@ -1,5 +1,5 @@
 """docs/coevolution.md: its blocks `<!-- study_... -->` to `<!-- end -->` and the study's figures,
-made from docs/images/study.json."""
+made from tools/studies/data/coevolution.json."""
 
 from __future__ import annotations
 
@@ -7,17 +7,18 @@ import json
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+from coevolution_plan import PLANS, REPOSITORY, VARIANTS, Plan
 from report import Table
-from study_plan import PLANS, REPOSITORY, VARIANTS, Plan
 
 from botschool.analysis.tournament import PROGRESS, ROLES
 
 DOCS = REPOSITORY / "docs"
 PAGE = DOCS / "coevolution.md"
 IMAGES = DOCS / "images"
-DATA = IMAGES / "study.json"
+DATA = Path(__file__).parent / "data" / "coevolution.json"
 T_975 = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262)
 """97.5 % quantiles of Student's t distribution with 1, 2, ... degrees of freedom."""
 LONG = 100
@@ -94,7 +95,7 @@ def markdown(columns: list[str], rows: list[list[str]]) -> str:
 
 
 def picture(plan: Plan, name: str) -> str:
-    """The link to a figure that study_figures.draw makes."""
+    """The link to a figure that coevolution_figures.draw makes."""
     return f"![{name.capitalize()} of the {plan.name} runs](images/study_{plan.name}_{name}.png)"
 
 
@@ -312,7 +313,7 @@ def filled(text: str, data: dict) -> str:
 
 def write() -> None:
     """Writes the page and draws its figures."""
-    from study_figures import draw
+    from coevolution_figures import draw
 
     data = load()
     PAGE.write_text(filled(PAGE.read_text(encoding="utf-8"), data), encoding="utf-8")

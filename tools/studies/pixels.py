@@ -1,7 +1,7 @@
 """Robots that read images, measured on new episodes: docs/pixels.md.
 
     botschool es -f data/experiments/pong.ini -s 1 -o results/pixels/pong      likewise carracing
-    python tests/bench/pixels.py             measures what is in results/pixels, writes the page
+    python tools/studies pixels             measures what is in results/pixels, writes the page
 
 For each experiment: its robot with the best post-evaluation, ten random ones as evolution starts
 from, and random actions, each in new episodes; mean return with a 95 % interval (percentiles of
@@ -124,7 +124,3 @@ def main() -> None:
         marks = rf"(<!-- {block} -->\n).*?(<!-- end -->)"
         text = re.sub(marks, lambda m, t=table: f"{m[1]}{t}\n{m[2]}", text, flags=re.DOTALL)
     page.write_text(text, encoding="utf-8")
-
-
-if __name__ == "__main__":
-    main()

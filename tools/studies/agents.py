@@ -1,8 +1,8 @@
 """The trained agents in data/agents: trained, measured in new episodes, told on a page.
 
-    python tests/bench/agents.py train [ENV ...]     into results/agents; what is there stays
-    python tests/bench/agents.py keep [ENV ...]      their weights into data/agents, measured
-    python tests/bench/agents.py page                data/agents/README.md from what was measured
+    python tools/studies agents train [ENV ...]     into results/agents; what is there stays
+    python tools/studies agents keep [ENV ...]      their weights into data/agents, measured
+    python tools/studies agents page                data/agents/README.md from what was measured
 
 Without a name: all of PLAN that were trained.
 """
@@ -175,5 +175,5 @@ def page(_: list[str]) -> None:
     PAGE.write_text(filled(PAGE.read_text(encoding="utf-8"), shipped.agents()), encoding="utf-8")
 
 
-if __name__ == "__main__":
+def main() -> None:
     {"train": train, "keep": keep, "page": page}[sys.argv[1]](sys.argv[2:])

@@ -21,13 +21,13 @@ from algorithms import (
     WITH_PYCMA,
     chosen,
 )
-from figures import COLOURS, GREY, panel
 from matplotlib.figure import Figure
 from report import Table
+from results_figures import COLOURS, GREY, panel
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = DOCS / "algorithms.md"
-DATA = DOCS / "results" / "algorithms"
+DATA = Path(__file__).parent / "data" / "algorithms"
 NAMES = [method.name for method in METHODS]
 
 

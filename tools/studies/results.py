@@ -1,6 +1,6 @@
 """Measures what docs/results.md shows, and the planar runners of docs/bodies.md: `make results`.
 
-Each part leaves a file in docs/results (with commit, date and machine); tables and figures of the
+Each part leaves a file in data/ (with commit, date and machine); tables and figures of the
 pages are made from these files alone. `--only speed` measures one part anew, `--only` none: the
 pages are written from what is there. The machine should have nothing else to do.
 """
@@ -20,9 +20,9 @@ import ppo_compare
 import run
 import trained
 from comparison import notice
-from page import DATA, PLANAR_SPEED, SPEED, write
 from processes import Neighbours
 from report import commit, machine
+from results_page import DATA, PLANAR_SPEED, SPEED, write
 
 REPOSITORY = Path(__file__).parents[2]
 
@@ -86,7 +86,3 @@ def main() -> None:
     for name in PARTS if options.only is None else options.only:
         measure(name, options.quick)
     write()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,9 +1,8 @@
-"""What a cluster costs and how far it scales: measures, and writes the tables and the figure of
-docs/cluster.md.
+"""What a cluster costs and how far it scales, for docs/cluster.md.
 
-    .venv/bin/python tests/bench/cluster.py            # measures all, some minutes, then writes
-    .venv/bin/python tests/bench/cluster.py constants overhead    # only these parts
-    .venv/bin/python tests/bench/cluster.py page       # only writes, from docs/results/cluster
+    .venv/bin/python tools/studies cluster            # measures all, some minutes, then writes
+    .venv/bin/python tools/studies cluster constants overhead    # only these parts
+    .venv/bin/python tools/studies cluster page       # only writes, from data/cluster.json
 
 Constants are processor time, of which other programs take little away; whole turns are measured by
 the clock, the shortest of several.
@@ -15,7 +14,6 @@ import argparse
 import itertools
 import json
 import statistics
-import sys
 import time
 from collections.abc import Callable
 from contextlib import contextmanager
@@ -38,8 +36,6 @@ from botschool.config import Experiment
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.run import Limit, Run
 from botschool.problems import Episodes, Interrupted
-
-sys.path.append(str(Path(__file__).parents[1]))
 from clusters import Cable, port_of
 from clusters import Cluster as Machines
 
@@ -387,7 +383,3 @@ def main() -> None:
         if name != "page":
             measure(name)
     cluster_page.write()
-
-
-if __name__ == "__main__":
-    main()

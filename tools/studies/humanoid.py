@@ -1,7 +1,7 @@
 """How far trainings of PyBullet's Humanoid by SAC have come.
 
-    python tests/bench/humanoid.py FOLDER            prints the table
-    python tests/bench/humanoid.py FOLDER --write    renews docs/bodies.md and its figure
+    python tools/studies humanoid FOLDER            prints the table
+    python tools/studies humanoid FOLDER --write    renews docs/bodies.md and its figure
 
 FOLDER holds trainings of `botschool rl train --algo sac --env HumanoidBulletEnv-v5 -o FOLDER`. One
 that was stopped is told with the steps of its last post-evaluation.
@@ -122,7 +122,3 @@ def main() -> None:
     table_of(trained).show(markdown=True)
     if options.write:
         write(trained)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,10 +1,10 @@
 """The study of co-evolution: five ways to evolve predators and prey, five seeds each.
 
-    python tests/bench/study.py run      evolves (hours); stopped with Ctrl-C, it goes on next time
-    python tests/bench/study.py state    how far each run is
-    python tests/bench/study.py page     measures what is there and writes docs/coevolution.md
+    python tools/studies coevolution run      evolves for hours; goes on after Ctrl-C
+    python tools/studies coevolution state    how far each run is
+    python tools/studies coevolution page     measures what is there and writes the report
 
-What is compared is in study_plan.py. Runs lie in results/coevolution, or --folder. A run is
+What is compared is in coevolution_plan.py. Runs lie in results/coevolution, or --folder. A run is
 compared with runs only that have done as many steps. `--plan full` is for these runs alone; what
 the page says of plans that the folder has no runs of stays.
 """
@@ -18,11 +18,11 @@ import sys
 import time
 from pathlib import Path
 
+from coevolution_measure import measured
+from coevolution_page import DATA, load, write
+from coevolution_plan import PLANS, REPOSITORY, Plan, complete, runs
+from coevolution_queue import Queue
 from report import commit, machine
-from study_measure import measured
-from study_page import DATA, load, write
-from study_plan import PLANS, REPOSITORY, Plan, complete, runs
-from study_queue import Queue
 
 
 def run(folder: Path, plans: tuple[Plan, ...], processes: int) -> int:
@@ -62,7 +62,7 @@ def state(folder: Path, plans: tuple[Plan, ...]) -> None:
 
 
 def page(folder: Path, plans: tuple[Plan, ...]) -> None:
-    """Measures and writes; the data go to docs/images/study.json."""
+    """Measures and writes; the data go to tools/studies/data/coevolution.json."""
     stamp = {
         "commit": commit(),
         "date": time.strftime("%Y-%m-%d", time.gmtime()),
@@ -88,7 +88,3 @@ def main() -> int:
         return run(options.folder, plans, options.processes)
     (state if options.what == "state" else page)(options.folder, plans)
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

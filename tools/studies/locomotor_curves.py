@@ -1,7 +1,7 @@
 """How far runs of the locomotors have come, beside the published runs of 50 M steps.
 
-    python tests/bench/locomotor_curves.py FOLDER            prints the table
-    python tests/bench/locomotor_curves.py FOLDER --write    renews documents and robots
+    python tools/studies locomotor_curves FOLDER            prints the table
+    python tools/studies locomotor_curves FOLDER --write    renews documents and robots
 
 FOLDER holds a folder of runs for each robot, named as the robot, made with linear policies:
 `botschool es -f data/experiments/hopper_linear.ini -s 1 -o FOLDER/hopper`. --write renews the rows
@@ -225,7 +225,3 @@ def main() -> None:
     table_of(runs).show(markdown=True)
     if options.write:
         write(runs)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,5 +1,5 @@
 """Blocks of docs/results.md and docs/bodies.md, `<!-- NAME -->` to `<!-- end -->`, made from
-docs/results."""
+data/."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ from report import Table
 from trained import PROBLEMS
 
 DOCS = Path(__file__).parents[2] / "docs"
-DATA = DOCS / "results"
+DATA = Path(__file__).parent / "data"
 PAGES = (DOCS / "results.md", DOCS / "bodies.md")
+PARTS = ("box2d", "evolved", "planar", "planarspeed", "ppo", "speed", "trained")
 PUBLISHED_PPO = {"CartPole-v1": "500", "Pendulum-v1": "-172 +- 104", "Acrobot-v1": "-73.5 +- 18"}
 SPEED = ("others", "gymnasium", "workers", "runs", "memory")
 PLANAR_SPEED = ("runners", "runnerworkers")
@@ -27,8 +28,9 @@ SHARES = (10, 25, 50, 75, 100)
 def load() -> dict:
     """{part: what its file holds}; a part that was never measured is missing."""
     return {
-        file.stem: json.loads(file.read_text(encoding="utf-8"))
-        for file in sorted(DATA.glob("*.json"))
+        name: json.loads(file.read_text(encoding="utf-8"))
+        for name in PARTS
+        if (file := DATA / f"{name}.json").exists()
     }
 
 

@@ -1,19 +1,20 @@
 """Blocks of docs/cluster.md, `<!-- NAME -->` to `<!-- end -->`, and its figure, made from
-docs/results/cluster/scale.json."""
+tools/studies/data/cluster.json."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 from cluster_model import Load, Times, Wire, generation
-from page import DOCS, markdown, re
+from results_page import DOCS, markdown, re
 
 from botschool.cluster.chunks import LEAST
 
-DATA = DOCS / "results" / "cluster" / "scale.json"
+DATA = Path(__file__).parent / "data" / "cluster.json"
 PAGE = DOCS / "cluster.md"
 FIGURE = DOCS / "images" / "cluster.png"
 NETWORK = 2e-4

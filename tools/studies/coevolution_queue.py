@@ -9,7 +9,7 @@ import sys
 import time
 from pathlib import Path
 
-from study_plan import PLANS, Plan, StudyRun, jobs
+from coevolution_plan import PLANS, Plan, StudyRun, jobs
 
 POLL_SECONDS = 0.5
 

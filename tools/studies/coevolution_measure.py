@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from study_plan import PLANS, Plan, StudyRun, complete, runs
+from coevolution_plan import PLANS, Plan, StudyRun, complete, runs
 
 from botschool.analysis.populations import Population, Populations
 from botschool.analysis.tournament import Contest, play

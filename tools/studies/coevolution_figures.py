@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from figures import COLOURS, GREY, panel
 from matplotlib.figure import Figure
+from results_figures import COLOURS, GREY, panel
 
 from botschool.analysis.tournament import ROLES
 

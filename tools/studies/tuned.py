@@ -2,9 +2,9 @@
 
 On seeds that it has not seen; the blocks `tuned` of docs/chapter.md.
 
-    python tests/bench/tuned.py tune NAME       a search, or the rest of it, into results/tuned
-    python tests/bench/tuned.py measure NAME    trainings with and without, into docs/results/tuned
-    python tests/bench/tuned.py page            the blocks from these files
+    python tools/studies tuned tune NAME       a search, or the rest of it, into results/tuned
+    python tools/studies tuned measure NAME    trainings with and without, into tools/studies/data
+    python tools/studies tuned page            the blocks from these files
 
 The options are those of the commands in that page.
 """
@@ -44,7 +44,7 @@ class Search:
     def data(self) -> Path:
         """What was measured."""
         name = self.env.partition("-")[0].lower()
-        return REPOSITORY / "docs" / "results" / "tuned" / f"{name}.json"
+        return Path(__file__).parent / "data" / f"tuned_{name}.json"
 
 
 SEARCHES = {
@@ -149,5 +149,5 @@ def page() -> None:
     PAGE.write_text(filled(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
 
 
-if __name__ == "__main__":
+def main() -> None:
     {"tune": tune, "measure": measure, "page": page}[sys.argv[1]](*sys.argv[2:])

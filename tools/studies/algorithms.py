@@ -1,9 +1,11 @@
 """Evolutionary algorithms side by side on native problems, for docs/algorithms.md.
 
-    algorithms.py tune FOLDER       tries three settings of each on seeds 101 and 102
-    algorithms.py run FOLDER        runs seeds 1 to 10 of the best; both go on where they stopped
-    algorithms.py longer FOLDER     runs some of them four times as long
-    algorithms.py page FOLDER       takes the results into docs and writes the page's tables
+    python tools/studies algorithms tune FOLDER      tries three settings of each, seeds 101 and 102
+    python tools/studies algorithms run FOLDER       runs seeds 1 to 10 of the best
+    python tools/studies algorithms longer FOLDER    runs some of them four times as long
+    python tools/studies algorithms page FOLDER      keeps the results, writes the page's tables
+
+What is stopped goes on where it stopped.
 
 The problem, the policy and the number of candidates are those of the problem's experiment file.
 pycma is driven by the same evaluation, if it is installed (it is a dependency of the tests).
@@ -255,7 +257,3 @@ def main() -> None:
         from algorithms_page import write
 
         write(tried, done, longer)
-
-
-if __name__ == "__main__":
-    main()
