@@ -81,7 +81,7 @@ bench: .venv/.module ## the speed of evaluation beside gymnax, EnvPool and Gymna
 figures: .venv/.tests ## draw the pictures of the exercises' texts anew (docs/images/course)
 	@$(BIN)/python tools/figures $(ONLY)
 
-results: .venv/.bench ## measure all of docs/results.md anew and write it (half an hour)
+results: .venv/.bench ## measure all of docs/reports/results.md anew and write it (half an hour)
 	@$(BIN)/python tools/studies results
 
 lint: .venv/.tests ## check style: ruff and clang-format

@@ -17,7 +17,7 @@ OUTSIDE = re.compile(r"\b(?:FACTS|DESIGN|COURSE)\.md|\.\./shared\b|\bchapter\.tx
 """Documents that are not in the repository."""
 
 LINK = re.compile(r"\]\(\s*<?([^)\s>]+)")
-DOCUMENT = re.compile(r"(?<![\w./-])docs/[\w-]+\.md")
+DOCUMENT = re.compile(r"(?<![\w./-])docs/(?:reports/)?[\w-]+\.md")
 CITATION = re.compile(r'docs/specification\.md[`)]*,((?:(?:,| and|, and)? "[^"]+")+)')
 WRAPPED = re.compile(r"[ \t]*\n[ \t]*(?://+|#+|\*|>)?[ \t]*")
 """The end of a line, with what a comment begins the next one."""

@@ -44,7 +44,7 @@ def test_what_tuning_gives_is_told_from_its_data():
         assert f"<!-- tuned {name} -->" in text
 
 
-@pytest.mark.parametrize("name", ["docs/bodies.md", "data/genotypes/README.md"])
+@pytest.mark.parametrize("name", ["docs/reports/bodies.md", "data/genotypes/README.md"])
 def test_rows_of_other_locomotors_stay(tmp_path, name):
     import locomotor_curves
 

@@ -15,7 +15,7 @@ Look at the indicators while it runs: tensorboard --logdir results/walkthroughs
 
 Schulman and others, Proximal policy optimization algorithms, 2017 (arXiv 1707.06347); generalised
 advantage estimation: the same, 2016 (arXiv 1506.02438). Hyperparameters and indicators are named as
-in Stable-Baselines3, whose learning curves this file is compared with in docs/results.md.
+in Stable-Baselines3, whose learning curves this file is compared with in docs/reports/results.md.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Evolutionary algorithms side by side on native problems, for docs/algorithms.md.
+"""Evolutionary algorithms side by side on native problems, for docs/reports/algorithms.md.
 
     python tools/studies algorithms tune FOLDER      tries three settings of each, seeds 101 and 102
     python tools/studies algorithms run FOLDER       runs seeds 1 to 10 of the best

@@ -1,4 +1,4 @@
-"""Tables and figure of docs/algorithms.md, from runs of algorithms.py."""
+"""Tables and figure of docs/reports/algorithms.md, from runs of algorithms.py."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from report import Table
 from results_figures import COLOURS, GREY, panel
 
 DOCS = Path(__file__).parents[2] / "docs"
-PAGE = DOCS / "algorithms.md"
+PAGE = DOCS / "reports" / "algorithms.md"
 DATA = Path(__file__).parent / "data" / "algorithms"
 NAMES = [method.name for method in METHODS]
 

@@ -1,4 +1,4 @@
-"""What a cluster costs and how far it scales, for docs/cluster.md.
+"""What a cluster costs and how far it scales, for docs/reports/cluster.md.
 
     .venv/bin/python tools/studies cluster            # measures all, some minutes, then writes
     .venv/bin/python tools/studies cluster constants overhead    # only these parts
@@ -377,7 +377,7 @@ def measure(name: str) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Measures and writes docs/cluster.md's tables.")
+    parser = argparse.ArgumentParser(description="Measures and writes the report's tables.")
     parser.add_argument("parts", nargs="*", choices=[*PARTS, "page"], default=[*PARTS])
     for name in parser.parse_args().parts:
         if name != "page":

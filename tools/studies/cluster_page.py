@@ -1,4 +1,4 @@
-"""Blocks of docs/cluster.md, `<!-- NAME -->` to `<!-- end -->`, and its figure, made from
+"""Blocks of docs/reports/cluster.md, `<!-- NAME -->` to `<!-- end -->`, and its figure, made from
 tools/studies/data/cluster.json."""
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from results_page import DOCS, markdown, re
 from botschool.cluster.chunks import LEAST
 
 DATA = Path(__file__).parent / "data" / "cluster.json"
-PAGE = DOCS / "cluster.md"
+PAGE = DOCS / "reports" / "cluster.md"
 FIGURE = DOCS / "images" / "cluster.png"
 NETWORK = 2e-4
 """Seconds that a message and its answer take more between machines than inside one: assumed."""

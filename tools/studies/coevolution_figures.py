@@ -1,4 +1,4 @@
-"""The figures of the study in docs/coevolution.md."""
+"""The figures of the study in docs/reports/coevolution.md."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""docs/coevolution.md: its blocks `<!-- study_... -->` to `<!-- end -->` and the study's figures,
-made from tools/studies/data/coevolution.json."""
+"""Blocks of docs/reports/coevolution.md, `<!-- study_... -->` to `<!-- end -->`, and its
+figures, made from data/coevolution.json."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from report import Table
 from botschool.analysis.tournament import PROGRESS, ROLES
 
 DOCS = REPOSITORY / "docs"
-PAGE = DOCS / "coevolution.md"
+PAGE = DOCS / "reports" / "coevolution.md"
 IMAGES = DOCS / "images"
 DATA = Path(__file__).parent / "data" / "coevolution.json"
 T_975 = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262)
@@ -96,7 +96,7 @@ def markdown(columns: list[str], rows: list[list[str]]) -> str:
 
 def picture(plan: Plan, name: str) -> str:
     """The link to a figure that coevolution_figures.draw makes."""
-    return f"![{name.capitalize()} of the {plan.name} runs](images/study_{plan.name}_{name}.png)"
+    return f"![{name.capitalize()} of the {plan.name} runs](../images/study_{plan.name}_{name}.png)"
 
 
 def reached(data: dict) -> str:

@@ -1,7 +1,7 @@
 """How far trainings of PyBullet's Humanoid by SAC have come.
 
     python tools/studies humanoid FOLDER            prints the table
-    python tools/studies humanoid FOLDER --write    renews docs/bodies.md and its figure
+    python tools/studies humanoid FOLDER --write    renews docs/reports/bodies.md and its figure
 
 FOLDER holds trainings of `botschool rl train --algo sac --env HumanoidBulletEnv-v5 -o FOLDER`. One
 that was stopped is told with the steps of its last post-evaluation.
@@ -95,9 +95,9 @@ def draw(trained: list[Trained], picture: Path) -> None:
 
 
 def write(trained: list[Trained]) -> None:
-    """The table into docs/bodies.md, and the figure."""
+    """The table into docs/reports/bodies.md, and the figure."""
     draw(trained, ROOT / "docs" / "images" / "humanoid.png")
-    table, page = table_of(trained), ROOT / "docs" / "bodies.md"
+    table, page = table_of(trained), ROOT / "docs" / "reports" / "bodies.md"
     block = f"\n{table.markdown()}\n\n({table.about})\n"
     text, count = re.subn(
         "(<!-- BEGIN HUMANOID -->\n).*?(<!-- END HUMANOID -->)",

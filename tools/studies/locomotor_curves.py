@@ -5,9 +5,9 @@
 
 FOLDER holds a folder of runs for each robot, named as the robot, made with linear policies:
 `botschool es -f data/experiments/hopper_linear.ini -s 1 -o FOLDER/hopper`. --write renews the rows
-of these robots between the LOCOMOTORS markers of docs/bodies.md and data/genotypes/README.md, the
-best robot of each in data/genotypes, and the figure: docs/images/locomotors.png of all five, or
-docs/images/locomotors_ROBOT.png of fewer.
+of these robots between the LOCOMOTORS markers of docs/reports/bodies.md and of
+data/genotypes/README.md, the best robot of each in data/genotypes, and the figure:
+docs/images/locomotors.png of all five, or docs/images/locomotors_ROBOT.png of fewer.
 """
 
 from __future__ import annotations
@@ -196,7 +196,7 @@ def write(runs: dict[str, list[Seed]]) -> None:
             draw({robot: seeds}, images / f"locomotors_{robot}.png")
     cells = table_of(runs).rows
     put(
-        ROOT / "docs" / "bodies.md",
+        ROOT / "docs" / "reports" / "bodies.md",
         {r: [f"| {' | '.join(row)} |" for row in cells if row[0] == r] for r in runs},
     )
     rows = {}

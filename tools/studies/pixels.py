@@ -1,4 +1,4 @@
-"""Robots that read images, measured on new episodes: docs/pixels.md.
+"""Robots that read images, measured on new episodes: docs/reports/pixels.md.
 
     botschool es -f data/experiments/pong.ini -s 1 -o results/pixels/pong      likewise carracing
     python tools/studies pixels             measures what is in results/pixels, writes the page
@@ -118,7 +118,7 @@ def main() -> None:
     there = [name for name in EPISODES if (RUNS / name / "bestgS1.npy").exists()]
     returns = Table("", "", RETURNS, [measured(name) for name in there]).markdown()
     steps = Table("", "", STEPS, [step_of(*shape) for shape in SHAPES]).markdown()
-    page = DOCS / "pixels.md"
+    page = DOCS / "reports" / "pixels.md"
     text = page.read_text(encoding="utf-8")
     for block, table in (("returns", returns if there else "Not measured yet."), ("steps", steps)):
         marks = rf"(<!-- {block} -->\n).*?(<!-- end -->)"

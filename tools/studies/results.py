@@ -1,4 +1,4 @@
-"""Measures what docs/results.md shows, and the planar runners of docs/bodies.md: `make results`.
+"""Measures what docs/reports/results.md shows, and the planar runners of bodies.md: `make results`.
 
 Each part leaves a file in data/ (with commit, date and machine); tables and figures of the
 pages are made from these files alone. `--only speed` measures one part anew, `--only` none: the
@@ -79,7 +79,7 @@ def measure(name: str, quick: bool) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Measures and writes docs/results.md.")
+    parser = argparse.ArgumentParser(description="Measures and writes docs/reports/results.md.")
     parser.add_argument("--only", nargs="*", choices=PARTS, metavar="PART", help=" ".join(PARTS))
     parser.add_argument("--quick", action="store_true", help="to try the command, not to publish")
     options = parser.parse_args()

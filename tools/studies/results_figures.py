@@ -1,4 +1,4 @@
-"""The figures of docs/results.md and docs/bodies.md, from data/."""
+"""The figures of docs/reports/results.md and bodies.md, from data/."""
 
 from __future__ import annotations
 

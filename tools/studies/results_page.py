@@ -1,4 +1,4 @@
-"""Blocks of docs/results.md and docs/bodies.md, `<!-- NAME -->` to `<!-- end -->`, made from
+"""Blocks of docs/reports/results.md and bodies.md, `<!-- NAME -->` to `<!-- end -->`, made from
 data/."""
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from trained import PROBLEMS
 
 DOCS = Path(__file__).parents[2] / "docs"
 DATA = Path(__file__).parent / "data"
-PAGES = (DOCS / "results.md", DOCS / "bodies.md")
+PAGES = (DOCS / "reports" / "results.md", DOCS / "reports" / "bodies.md")
 PARTS = ("box2d", "evolved", "planar", "planarspeed", "ppo", "speed", "trained")
 PUBLISHED_PPO = {"CartPole-v1": "500", "Pendulum-v1": "-172 +- 104", "Acrobot-v1": "-73.5 +- 18"}
 SPEED = ("others", "gymnasium", "workers", "runs", "memory")
@@ -180,7 +180,7 @@ def filled(text: str, parts: dict) -> str:
 
 def write() -> None:
     """Writes the pages and their figures."""
-    import figures
+    import results_figures as figures
 
     parts = load()
     for page in PAGES:

@@ -34,7 +34,8 @@ MANIFEST = ".release.json"
 START = "exercises/README.md"
 """Where students start: this is the copy's own README.md too."""
 _WITHHELD = re.compile(
-    r"docs/(instructor|answer|solution|architecture|algorithms|chapter|cluster|results\.)|^lib/.*\.md$|^tools/(figures|studies)/"
+    r"docs/(reports/)?(instructor|answer|solution|architecture|algorithms|chapter|cluster|results\.)"
+    r"|^lib/.*\.md$|^tools/(figures|studies)/"
     r"|(^|/)(__pycache__|\..*_cache|results)/"
     r"|\.(pyc|so|pyd|dylib|dll|ipynb|egg-info)$|(^|/)(?!\.gitignore$)\.[^/]*$",
     re.IGNORECASE,
