@@ -15,6 +15,8 @@ message of the first of these tasks matches, and that no message matches which d
 mistake. Lines with `-` are lines of the solution, which must hold them once and without a gap; the
 lines with `+` take their place; the next `-` begins another change. Code that follows is put behind
 the solution's functions: what it defines takes the place of the solution's.
+
+The files of hostile/ have sections, too: a name, a line that says what is hostile, and code.
 """
 
 import ast
@@ -153,12 +155,25 @@ def read_case(number: int, title: str, text: str) -> Case:
     return Case(number, name, tasks, what, says[0] if says else None, tuple(changes), code)
 
 
+def sections(path: Path) -> list[tuple[str, str]]:
+    """Return what follows "# %%" and the text below it, for each section of a file."""
+    text = path.read_text(encoding="utf-8")
+    _, *parts = re.split(r"^# ?%% ?(.*)\n", text, flags=re.MULTILINE)
+    return list(zip(parts[::2], parts[1::2], strict=True))
+
+
 def cases(kind: str) -> list[Case]:
     """Return all cases of "mutants" or "alternatives"."""
     found = []
     for path in sorted((HERE / kind).glob("ex[0-9][0-9].py")):
-        text = path.read_text(encoding="utf-8")
-        _, *parts = re.split(r"^# ?%% ?(.*)\n", text, flags=re.MULTILINE)
-        sections = zip(parts[::2], parts[1::2], strict=True)
-        found += [read_case(int(path.stem[2:]), title, text) for title, text in sections]
+        found += [read_case(int(path.stem[2:]), title, text) for title, text in sections(path)]
     return found
+
+
+@cache
+def hostile() -> dict[str, str]:
+    """Return the code of each hostile submission, by name."""
+    paths = sorted((HERE / "hostile").glob("*.py"))
+    found = [section for path in paths for section in sections(path)]
+    assert len(dict(found)) == len(found), "two hostile submissions have one name"
+    return dict(found)

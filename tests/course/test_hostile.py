@@ -1,4 +1,4 @@
-"""Hostile submissions: hostile/*.py, each with a function `hostile` that replaces students' ones.
+"""Hostile submissions of hostile/*.py: a function `hostile` each, which replaces students' ones.
 
 It finds COURSE (a copy of the course with solutions), HOME, TEMPORARY (with somebody else's files),
 FRIEND (an address that listens), SEGMENT (shared memory of another program) and KNOWN (the files
@@ -31,7 +31,7 @@ from botschool.sandbox import process, seccomp
 
 pytestmark = pytest.mark.course
 
-KINDS = sorted(path.stem for path in (building.HERE / "hostile").glob("*.py"))
+KINDS = sorted(building.hostile())
 EXERCISES = [int(n) for n in os.environ.get("HOSTILE_EXERCISES", "3 1 8").split()]
 """As many as `make check-course` has time for; HOSTILE_EXERCISES names others."""
 for_each_exercise = pytest.mark.parametrize("number", EXERCISES, ids="ex{:02d}".format)
@@ -88,7 +88,7 @@ class Trap:
 
     def attack(self, number: int, kind: str) -> str:
         """What is added to a submission: the hostile function and what it attacks."""
-        text = (building.HERE / "hostile" / f"{kind}.py").read_text(encoding="utf-8")
+        text = building.hostile()[kind]
         one = building.source(number)
         known = [
             str(building.ROOT / "solutions" / one.folder / one.file),

@@ -1,7 +1,0 @@
-"""Reads address 0."""
-
-import ctypes
-
-
-def hostile(*arguments, **options):
-    return ctypes.string_at(0)

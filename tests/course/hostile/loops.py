@@ -1,6 +1,0 @@
-"""Never comes back."""
-
-
-def hostile(*arguments, **options):
-    while True:
-        pass
