@@ -13,7 +13,7 @@ import pytest
 from botschool import lock
 from botschool.errors import BotschoolError
 from botschool.lock import NAME, locked
-from running import call, environment_of_command, finish, one_sentence, start, write_experiment
+from running import call, finish, one_sentence, start, write_experiment
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals and locks")
 pytestmark = posix
@@ -95,8 +95,14 @@ def test_a_folder_that_cannot_be_written(tmp_path):
     assert lock.NAME == NAME
 
 
+def heeding_ctrl_c():
+    """Take Ctrl-C as a terminal's processes do: those of pytest-xdist ignore it."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 EARLY = """
 import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a process of pytest-xdist ignores it
 from botschool.cli import main
 class Slow:
     def find_spec(self, name, path=None, target=None):
@@ -139,7 +145,7 @@ def test_ctrl_c_while_the_command_exits(arguments, code, errors):
 def test_ctrl_c_in_the_middle_of_a_command_is_a_sentence(tmp_path):
     """Of a command that saves nothing."""
     os.mkfifo(tmp_path / "waits.ini")  # reading it takes for ever
-    process = start("es", "-f", tmp_path / "waits.ini", env=environment_of_command())
+    process = start("es", "-f", tmp_path / "waits.ini", preexec_fn=heeding_ctrl_c)
     writer = os.open(tmp_path / "waits.ini", os.O_WRONLY)  # returns once it is being read
     time.sleep(0.2)
     process.send_signal(signal.SIGINT)
