@@ -14,7 +14,6 @@ from botschool.course import film_agent
 from botschool.errors import BotschoolError
 from botschool.grading.classes import batch
 from botschool.grading.copies.skeleton import skeleton
-from botschool.grading.declare import extras
 from botschool.grading.declare.exercise import exercise_numbers, load_exercise, submission_file
 from running import call, environment_of_command
 
@@ -104,7 +103,9 @@ def _set_up_for(root, number):
 
 
 def test_an_exercise_without_its_packages_says_what_to_install(sixteen, monkeypatch):
-    monkeypatch.setattr(extras, "_installed", lambda name: name != "stable-baselines3")
+    monkeypatch.setattr(
+        "botschool.grading.declare.exercise._installed", lambda name: name != "stable-baselines3"
+    )
     exercise = load_exercise(13, sixteen[0])
     with pytest.raises(BotschoolError, match=r"needs stable-baselines3.*make test-ex13.*\[rl\]"):
         exercise.require()

@@ -17,7 +17,7 @@ import pytest
 from botschool.errors import BotschoolError
 from botschool.grading import commands
 from botschool.grading.classes import batch
-from botschool.grading.declare import extras
+from botschool.grading.declare import exercise as extras
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.judge.submission import grade
 from botschool.grading.notebook import grade_cell

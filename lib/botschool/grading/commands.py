@@ -28,8 +28,8 @@ from botschool.grading.declare.exercise import (
 )
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import Result, grade
+from botschool.grading.report.progress import digest, remember
 from botschool.grading.report.screen import Screen, counting, notice
-from botschool.grading.report.stored import digest, remember
 from botschool.grading.run.confined import close_class
 from botschool.grading.run.debug import DirectStudent
 from botschool.grading.run.temporary import temporary_files_within
@@ -177,7 +177,7 @@ def _points(result: Result) -> list[tuple[str, int, int]]:
 @temporary_files_within()
 def watch_command(what: str, submission: str | None) -> None:
     """Grades after every save, until Ctrl-C."""
-    from botschool.grading.report.watching import watch
+    from botschool.grading.report.screen import watch
 
     number, task = _named(what)
     exercise = load_exercise(number)
@@ -250,7 +250,7 @@ def reset_command(what: str) -> None:
 
 def show_command(what: str, submission: str | None, opens: bool) -> None:
     """Runs a finished exercise, names what it has made, and opens it."""
-    from botschool.grading.report.answers import answers
+    from botschool.grading.report.progress import answers
     from botschool.grading.report.showing import make_page, open_page, show
 
     number = _named(what)[0]
@@ -277,7 +277,7 @@ def answers_command(what: str) -> None:
     """Prints what the solution measured, after full marks."""
     from rich.markdown import Markdown
 
-    from botschool.grading.report.answers import answers
+    from botschool.grading.report.progress import answers
 
     text = answers(_named(what)[0], course_root())
     Console(highlight=False).print(Markdown(text))

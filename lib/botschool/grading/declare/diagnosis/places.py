@@ -7,8 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from botschool.grading.declare.comparison import Comparison, alike, arrays, parts
-from botschool.grading.declare.diagnosis.registry import Detector, adding_to
+from botschool.grading.declare.diagnosis.comparison import (
+    Comparison,
+    Detector,
+    adding_to,
+    alike,
+    arrays,
+    parts,
+)
 
 DETECTORS: list[Detector] = []
 detector = adding_to(DETECTORS)
