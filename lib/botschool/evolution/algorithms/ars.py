@@ -17,19 +17,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
+from botschool.evolution.algorithm import Initial, RunConfig, Stateful, algorithm, mean_absolute
 from botschool.evolution.algorithms.drawing import draw
 from botschool.policies.hyperparameters import NO_YES, hyper
 from botschool.seeds import generator
 
 
 @dataclass
-class ARSConfig:
+class ARSConfig(RunConfig):
     """Section [ALGO] of ARS."""
 
-    maxmsteps: float = hyper(
-        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
-    )
     stepsize: float = hyper(0.02, "step size", above=0, high=1000)
     samplesize: int = hyper(
         16, "directions per generation, two candidates each", low=1, high=1000000
@@ -37,9 +34,6 @@ class ARSConfig:
     ntop: int = hyper(0, "directions that count, the best (0 = all)", low=0, high=1000000)
     noiseStdDev: float = hyper(0.05, "standard deviation of perturbations", above=0, high=1000)
     symseed: int = hyper(1, "both candidates of a perturbation meet the same seed", choices=NO_YES)
-    saveeach: float = hyper(
-        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
-    )
 
 
 def shift(fitness: np.ndarray, samples: np.ndarray, ntop: int) -> np.ndarray:
@@ -62,8 +56,10 @@ def shift(fitness: np.ndarray, samples: np.ndarray, ntop: int) -> np.ndarray:
 
 
 @algorithm("ARS", "augmented random search", ARSConfig)
-class ARS:
+class ARS(Stateful):
     """ask() -> candidates to evaluate; tell(their fitness) -> one step of the centre."""
+
+    evolves = ("generation", "centre")
 
     def __init__(self, config: ARSConfig, initial: Initial, seed: int) -> None:
         """initial(index) gives a random genotype; the centre starts at number 0."""
@@ -107,12 +103,3 @@ class ARS:
     def average_parameter(self) -> float:
         """Average absolute parameter of the centre."""
         return mean_absolute(self.centre)
-
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed."""
-        return {"generation": np.array(self.generation), "centre": self.centre}
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        self.generation = int(state["generation"])
-        self.centre = state["centre"]

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
+from botschool.evolution.algorithm import Initial, RunConfig, Stateful, algorithm, mean_absolute
 from botschool.evolution.algorithms.drawing import draw
 from botschool.policies.hyperparameters import NO_YES, WEIGHT_DECAY, hyper
 from botschool.seeds import generator
@@ -83,12 +83,9 @@ def climb(
 
 
 @dataclass
-class OpenAIESConfig:
+class OpenAIESConfig(RunConfig):
     """Section [ALGO] of OpenAI-ES."""
 
-    maxmsteps: float = hyper(
-        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
-    )
     stepsize: float = hyper(0.01, "step size of Adam", above=0, high=1000)
     samplesize: int = hyper(
         20, "perturbations per generation, two candidates each", low=1, high=1000000
@@ -96,14 +93,13 @@ class OpenAIESConfig:
     noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
     wdecay: int = hyper(0, "pull of the centre towards 0", choices=WEIGHT_DECAY)
     symseed: int = hyper(1, "both candidates of a perturbation meet the same seed", choices=NO_YES)
-    saveeach: float = hyper(
-        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
-    )
 
 
 @algorithm("OpenAI-ES", "evolution strategy that follows an estimated gradient", OpenAIESConfig)
-class OpenAIES:
+class OpenAIES(Stateful):
     """ask() -> candidates to evaluate; tell(their fitness) -> one step of the centre."""
+
+    evolves = ("generation", "centre", "m", "v")
 
     def __init__(self, config: OpenAIESConfig, initial: Initial, seed: int) -> None:
         """initial(index) gives a random genotype; the centre starts at number 0."""
@@ -143,17 +139,3 @@ class OpenAIES:
     def average_parameter(self) -> float:
         """Average absolute parameter of the centre."""
         return mean_absolute(self.centre)
-
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed."""
-        return {
-            "generation": np.array(self.generation),
-            "centre": self.centre,
-            "m": self.m,
-            "v": self.v,
-        }
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        self.generation = int(state["generation"])
-        self.centre, self.m, self.v = state["centre"], state["m"], state["v"]
