@@ -23,7 +23,7 @@ from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution.progress import messages, print_lines
 from botschool.evolution.record import RunFiles
-from botschool.evolution.run import Run, evolve
+from botschool.evolution.run import Options, Run
 from botschool.terminal import progress_bars, unheard
 
 STOP = "stop"
@@ -36,19 +36,13 @@ class Task:
     kind: type[Run]
     experiment: Experiment
     folder: Path
-    workers: int
+    options: Options
     """Of each run."""
-    steps: int | None
-    resume: bool
-    generations: int | None
-    keep_every: int | None
-    terminal: bool
 
     def run(self, seed: int, stopping: Callable[[], bool], report: Callable[[Run], None]):
         """Evolves; gives whether it is finished and a sentence about it, "" if it has not begun."""
-        run = self.kind(self.experiment, seed, self.workers, stopping)
-        limits = (self.generations, self.keep_every)
-        done = evolve(run, self.folder, self.steps, self.resume, report, *limits)
+        run = self.kind(self.experiment, seed, self.options.workers, stopping)
+        done = self.options.evolve(run, self.folder, report)
         return done, run.ending(RunFiles(self.folder, seed), done)
 
 
@@ -58,7 +52,7 @@ def evolve_all(task: Task, seeds: list[int], processes: int, stopping: Callable[
     When the user stops it or one fails, all stop and save; then the failure is raised.
     """
     with ExitStack() as stack:
-        bars = stack.enter_context(progress_bars()) if task.terminal else None
+        bars = stack.enter_context(progress_bars()) if task.options.terminal else None
         processes = [stack.enter_context(Process(task)) for _ in range(processes)]
         crew = Crew(processes, seeds)
         try:
@@ -188,7 +182,7 @@ def _work(task: Task, connection: Connection) -> None:
     while True:
         seed = seeds.get()
         try:
-            with messages(task.terminal, connection.send) as report:
+            with messages(task.options.terminal, connection.send) as report:
                 ended = Ended(*task.run(seed, stop.is_set, report))
         except (BotschoolError, MemoryError, OSError) as error:
             connection.send(error)
