@@ -9,6 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -52,7 +53,7 @@ class Run:
     nor interruptions show in its files.
     """
 
-    checkpointed = ("algorithm", "evaluator", "record")
+    checkpointed: tuple[str, ...] = ("algorithm", "evaluator", "record")
     """Attributes that a checkpoint holds."""
     growing: tuple[str, ...] = ("record.",)
     """How names of arrays in a checkpoint begin that get longer with the run."""
@@ -63,6 +64,8 @@ class Run:
     together = True
     """Whether a post-evaluation may be evaluated together with the next generation's candidates.
     The files are the same without; it takes longer."""
+    algorithm: Any
+    record: Any
     budget: Limit
     """Where it ends by its experiment."""
     limit: Limit

@@ -53,8 +53,7 @@ def evolve_all(task: Task, seeds: list[int], processes: int, stopping: Callable[
     """
     with ExitStack() as stack:
         bars = stack.enter_context(progress_bars()) if task.options.terminal else None
-        processes = [stack.enter_context(Process(task)) for _ in range(processes)]
-        crew = Crew(processes, seeds)
+        crew = Crew([stack.enter_context(Process(task)) for _ in range(processes)], seeds)
         try:
             while crew.running:
                 for seed, message in crew.messages():
@@ -105,7 +104,8 @@ class Crew:
 
     def messages(self) -> Iterator[tuple[int, Any]]:
         """What comes within 0.2 seconds: seeds, and what `messages` or an end says of them."""
-        for connection in wait(list(self.running), timeout=0.2):
+        ready: list[Any] = wait(list(self.running), timeout=0.2)
+        for connection in ready:
             seed = self.running[connection]
             message = _received(connection, seed)
             if isinstance(message, Exception):

@@ -10,7 +10,9 @@ import signal
 import time
 import traceback
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
@@ -53,7 +55,8 @@ def grade_command(what: str, submission: str | None, as_json: bool, debug: bool)
             raise BotschoolError(f"--debug runs one task: say which, as botschool grade {number}.1")
         return debug_task(exercise, what, file)
     screen = Screen()
-    report, announce = screen.task, screen.banner
+    report: Callable[[Any], None] = screen.task
+    announce: Callable[[str], None] = screen.banner
     if as_json:
         report = announce = lambda shown: None
     if not as_json:

@@ -114,7 +114,7 @@ def _prepare_for_others(exercise: Exercise) -> None:
 def _changed(sources: list[str]) -> bool:
     """Whether a function was last run in a form that the saved notebook does not hold."""
     with contextlib.suppress(NameError, AttributeError):
-        ran = get_ipython().history_manager.input_hist_raw  # noqa: F821
+        ran = get_ipython().history_manager.input_hist_raw  # type: ignore[name-defined]  # noqa: F821
         last = {name: cell.strip() for cell in ran for name in _defined(cell)}
         saved = {source.strip() for source in sources}
         names = {name for source in sources for name in _defined(source)}

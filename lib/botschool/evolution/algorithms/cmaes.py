@@ -95,6 +95,9 @@ def effective(weights: np.ndarray) -> float:
 class FullMatrix:
     """A covariance matrix C and its symmetric root, C = root root; both (n, n)."""
 
+    covariance: np.ndarray
+    root: np.ndarray
+
     def __init__(self, n: int) -> None:
         self.covariance, self.root = np.eye(n), np.eye(n)
 

@@ -156,9 +156,9 @@ class Coevo2(Stateful):
 
         # evolve copies of them, then let them meet everyone
         config, stream = self.config, numbers.bit_generator.state
-        copies = [array[side, chosen] for array in (self.parameters, self.m, self.v)]
+        parameters, m, v = (array[side, chosen] for array in (self.parameters, self.m, self.v))
         rules = (config.samplesize, config.noiseStdDev, config.stepsize, config.wdecay)
-        ascent = Ascent(Start(*copies, stream, *rules))
+        ascent = Ascent(Start(parameters, m, v, stream, *rules))
         opponents = self.parameters[other, competitors]
         for _ in range(SUB_GENERATIONS):  # each one's offspring all meet all opponents
             met = _play(play, side, ascent.offspring(), opponents)

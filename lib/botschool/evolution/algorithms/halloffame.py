@@ -212,7 +212,8 @@ class HallOfFame(Stateful):
     def restore(self, state: dict[str, np.ndarray]) -> None:
         """Raise ValueError where archives and what is known of them do not fit."""
         super().restore(state)
-        self.archives = tuple(list(state[f"archive_{side}"]) for side in SIDES)
+        predators, prey = (list(state[f"archive_{side}"]) for side in SIDES)
+        self.archives = predators, prey
         for name in self.known:
             saved = [state[f"archive_{side}_{name}"] for side in SIDES]
             if [len(each) for each in saved] != [len(archive) for archive in self.archives]:

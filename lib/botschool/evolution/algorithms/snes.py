@@ -43,6 +43,8 @@ class SNES(Gaussian):
 
     evolves = ("generation", "mean", "sigma")
 
+    config: SNESConfig
+
     def __init__(self, config: SNESConfig, initial: Initial, seed: int) -> None:
         super().__init__(config, initial, seed)
         n = self.size

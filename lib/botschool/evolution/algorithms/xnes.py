@@ -70,6 +70,8 @@ class XNES(Gaussian):
 
     evolves = ("generation", "mean", "sigma", "shape")
 
+    config: XNESConfig
+
     def __init__(self, config: XNESConfig, initial: Initial, seed: int) -> None:
         super().__init__(config, initial, seed)
         n = self.size

@@ -93,7 +93,7 @@ def parts(answer: Any, depth: int = 0) -> list[tuple[str, Any]]:
     if depth > 2 or not isinstance(answer, (dict, list)):
         return found
     named = isinstance(answer, dict)
-    entries = answer.items() if named else enumerate(answer, 1)
+    entries = answer.items() if isinstance(answer, dict) else enumerate(answer, 1)
     for _, (key, value) in zip(range(50), entries, strict=False):
         if isinstance(value, dict) or (isinstance(value, list) and not arrays(value)):
             found += parts(value, depth + 1)

@@ -100,8 +100,9 @@ def exchanged(c: Comparison) -> str | None:
 
 @detector
 def along_the_other_axis(c: Comparison) -> str | None:
-    functions = {"mean": np.mean, "sum": np.sum, "maximum": np.max, "minimum": np.min,
-                 "deviation": np.std}  # fmt: skip
+    functions: dict[str, Any] = {
+        "mean": np.mean, "sum": np.sum, "maximum": np.max, "minimum": np.min, "deviation": np.std
+    }  # fmt: skip
     for table in (each for each in c.given if each.ndim == 2):
         for name, function in functions.items():
             for axis in (0, 1):
