@@ -17,10 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, RunConfig, Stateful, algorithm, mean_absolute
-from botschool.evolution.algorithms.drawing import draw
+from botschool.evolution.algorithm import RunConfig, algorithm
+from botschool.evolution.algorithms.openaies import AroundCentre
 from botschool.policies.hyperparameters import NO_YES, hyper
-from botschool.seeds import generator
 
 
 @dataclass
@@ -56,20 +55,8 @@ def shift(fitness: np.ndarray, samples: np.ndarray, ntop: int) -> np.ndarray:
 
 
 @algorithm("ARS", "augmented random search", ARSConfig)
-class ARS(Stateful):
+class ARS(AroundCentre):
     """ask() -> candidates to evaluate; tell(their fitness) -> one step of the centre."""
-
-    evolves = ("generation", "centre")
-
-    def __init__(self, config: ARSConfig, initial: Initial, seed: int) -> None:
-        """initial(index) gives a random genotype; the centre starts at number 0."""
-        self.config = config
-        self.seed = seed
-        self.generation = 0
-        numbers = np.arange(2 * config.samplesize, dtype=np.uint64)
-        self._own_seeds = numbers // np.uint64(2) if config.symseed else numbers
-        self._seeds_used = config.samplesize if config.symseed else 2 * config.samplesize
-        self.centre = initial(0)
 
     @staticmethod
     def conflicts(config: ARSConfig) -> Iterator[tuple[tuple[str, ...], str]]:
@@ -81,25 +68,9 @@ class ARS(Stateful):
                 f"set ntop = {config.samplesize}, or 0 for all directions",
             )
 
-    def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Candidates, shape (2 * samplesize, parameters), and the seed of each one's evaluation.
-
-        Candidates 2 b and 2 b + 1 are centre + noiseStdDev * e_b and centre - noiseStdDev * e_b.
-        """
-        numbers, config = generator(self.seed, self.generation), self.config
-        samples, candidates = draw(
-            numbers, self.centre[None], config.samplesize, config.noiseStdDev
-        )
-        self.samples = samples[0]
-        return candidates, self.seed + self.generation * self._seeds_used + self._own_seeds
-
     def tell(self, fitness: np.ndarray) -> None:
         """Moves the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
         config = self.config
         rising = shift(fitness, self.samples, config.ntop or config.samplesize)
         self.centre = self.centre + config.stepsize * rising
         self.generation += 1
-
-    def average_parameter(self) -> float:
-        """Average absolute parameter of the centre."""
-        return mean_absolute(self.centre)

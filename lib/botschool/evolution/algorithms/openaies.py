@@ -95,13 +95,12 @@ class OpenAIESConfig(RunConfig):
     symseed: int = hyper(1, "both candidates of a perturbation meet the same seed", choices=NO_YES)
 
 
-@algorithm("OpenAI-ES", "evolution strategy that follows an estimated gradient", OpenAIESConfig)
-class OpenAIES(Stateful):
-    """ask() -> candidates to evaluate; tell(their fitness) -> one step of the centre."""
+class AroundCentre(Stateful):
+    """Candidates on both sides of a centre; a subclass moves the centre when it is told fitness."""
 
-    evolves = ("generation", "centre", "m", "v")
+    evolves: tuple[str, ...] = ("generation", "centre")
 
-    def __init__(self, config: OpenAIESConfig, initial: Initial, seed: int) -> None:
+    def __init__(self, config: Any, initial: Initial, seed: int) -> None:
         """initial(index) gives a random genotype; the centre starts at number 0."""
         self.config = config
         self.seed = seed
@@ -111,8 +110,6 @@ class OpenAIES(Stateful):
         self._own_seeds = numbers // np.uint64(2) if config.symseed else numbers
         self._seeds_used = config.samplesize if config.symseed else count
         self.centre = initial(0)
-        self.m = np.zeros_like(self.centre)
-        self.v = np.zeros_like(self.centre)
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
         """Candidates, shape (2 * samplesize, parameters), and the seed of each one's evaluation.
@@ -126,6 +123,23 @@ class OpenAIES(Stateful):
         self.samples = samples[0]
         return candidates, self.seed + self.generation * self._seeds_used + self._own_seeds
 
+    def average_parameter(self) -> float:
+        """Average absolute parameter of the centre."""
+        return mean_absolute(self.centre)
+
+
+@algorithm("OpenAI-ES", "evolution strategy that follows an estimated gradient", OpenAIESConfig)
+class OpenAIES(AroundCentre):
+    """ask() -> candidates to evaluate; tell(their fitness) -> one step of the centre."""
+
+    evolves = (*AroundCentre.evolves, "m", "v")
+
+    def __init__(self, config: OpenAIESConfig, initial: Initial, seed: int) -> None:
+        """Start without momentum."""
+        super().__init__(config, initial, seed)
+        self.m = np.zeros_like(self.centre)
+        self.v = np.zeros_like(self.centre)
+
     def tell(self, fitness: np.ndarray) -> None:
         """Moves the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
         config = self.config
@@ -135,7 +149,3 @@ class OpenAIES(Stateful):
         step = config.stepsize * math.sqrt(1 - BETA2**t) / (1 - BETA1**t)
         self.centre = self.centre - step * m / (np.sqrt(v) + EPSILON)
         self.m, self.v, self.generation = m, v, t
-
-    def average_parameter(self) -> float:
-        """Average absolute parameter of the centre."""
-        return mean_absolute(self.centre)
