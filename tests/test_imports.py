@@ -8,6 +8,7 @@ import botschool
 PACKAGE = Path(botschool.__file__).parent
 
 LAYERS = (
+    {"moved"},
     {"errors", "__init__"},
     {"_core", "paths", "terminal", "seeds", "inifile", "output", "sandbox"},
     {"linear", "wrappers"},
