@@ -18,7 +18,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.batch import Grades, Job, secret_for_others
+from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import (
     Exercise,
@@ -26,6 +26,7 @@ from botschool.grading.declare.exercise import (
     exercise_numbers,
     folder_of,
     load_exercise,
+    secret_for_others,
     submission_file,
 )
 from botschool.grading.declare.trust import trust

@@ -11,9 +11,13 @@ import warnings
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.batch import secret_for_others
 from botschool.grading.declare.checks import Wrong
-from botschool.grading.declare.exercise import Exercise, course_root, load_exercise
+from botschool.grading.declare.exercise import (
+    Exercise,
+    course_root,
+    load_exercise,
+    secret_for_others,
+)
 from botschool.grading.judge.judging import GraderFault
 from botschool.grading.judge.submission import Submission, TaskResult
 from botschool.grading.run.confined import MachineFault, close_class, fork_server

@@ -25,7 +25,7 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import STATE, Exercise, folder_of, load_exercise, make_state
-from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
+from botschool.grading.declare.secret import DEFAULT, VARIABLE
 from botschool.grading.judge.submission import Result, grade
 from botschool.grading.run.confined import MachineFault, Unread, machine_fault, submission_files
 from botschool.grading.run.temporary import temporary_folder
@@ -254,14 +254,6 @@ def _versions(root: Path, number: int) -> str:
                 status = path.stat()
                 stamps.append(f"{path} {status.st_size} {status.st_mtime_ns}")
     return "\n".join(stamps)
-
-
-def secret_for_others(root: Path) -> tuple[str, str]:
-    """Return the secret to grade other people's work with, and a sentence on where it is kept."""
-    try:
-        return grading_secret(make_state(root))
-    except OSError:
-        return grading_secret(root / STATE)
 
 
 def main() -> None:

@@ -15,7 +15,7 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.references import pruned
-from botschool.grading.declare.secret import DEFAULT, VARIABLE
+from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
 from botschool.grading.declare.trust import check_trusted
 from botschool.paths import course_root
 
@@ -214,6 +214,14 @@ def make_state(root: Path) -> Path:
     if not os.access(folder, os.W_OK):
         raise PermissionError(f"no permission to write in {folder}")
     return folder
+
+
+def secret_for_others(root: Path) -> tuple[str, str]:
+    """Return the secret to grade other people's work with, and a sentence on where it is kept."""
+    try:
+        return grading_secret(make_state(root))
+    except OSError:
+        return grading_secret(root / STATE)
 
 
 def missing_packages(extras: tuple[str, ...]) -> list[str]:
