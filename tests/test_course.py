@@ -15,6 +15,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.classes import batch
 from botschool.grading.copies.skeleton import skeleton
 from botschool.grading.declare.exercise import exercise_numbers, load_exercise, submission_file
+from botschool.grading.declare.trust import trust
 from botschool.moved import MOVED
 from running import call, environment_of_command
 
@@ -99,6 +100,7 @@ def test_an_exercise_without_its_packages_says_what_to_install(sixteen, monkeypa
     monkeypatch.setattr(
         "botschool.grading.declare.exercise._installed", lambda name: name != "stable-baselines3"
     )
+    trust(sixteen[0])
     exercise = load_exercise(13, sixteen[0])
     with pytest.raises(BotschoolError, match=r"needs stable-baselines3.*make test-ex13.*\[rl\]"):
         exercise.require()
