@@ -84,9 +84,10 @@ figures: .venv/.tests ## draw the pictures of the exercises' texts anew (docs/im
 results: .venv/.bench ## measure all of docs/reports/results.md anew and write it (half an hour)
 	@$(BIN)/python tools/studies results
 
-lint: .venv/.tests ## check style: ruff and clang-format
+lint: .venv/.tests ## check style and types: ruff, mypy and clang-format
 	@$(BIN)/ruff check --quiet .
 	@$(BIN)/ruff format --check --quiet --diff .
+	@$(BIN)/mypy --no-error-summary
 	@$(BIN)/clang-format --dry-run --Werror $(CPP)
 
 format: .venv/.tests ## put the style right where a tool can
@@ -100,7 +101,7 @@ sanitize: .venv/.tools ## the C++ tests under address and undefined-behaviour sa
 # END NOT RELEASED
 
 clean: ## remove what the targets above set up; results stay
-	rm -rf .venv build .pytest_cache .ruff_cache .hypothesis
+	rm -rf .venv build .pytest_cache .ruff_cache .mypy_cache .hypothesis
 
 # Each step below leaves its stamp only when it is complete.
 .venv/.made: FORCE

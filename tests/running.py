@@ -10,6 +10,7 @@ import numpy as np
 
 from botschool import config
 from botschool.evolution.replicate import replicate
+from botschool.evolution.run import Options
 
 SENTENCE = re.compile(r"error: \S[^\n]*[.?]\n")
 TESTS = Path(__file__).parent
@@ -42,7 +43,8 @@ def experiment(folder, *arguments, **options):
 def run_seeds(experiment, folder, seeds=(1,), workers=1, steps=None, resume=False, force=False):
     """What `botschool es` does after reading the file; True if the runs were finished."""
     folder.mkdir(parents=True, exist_ok=True)
-    return replicate(experiment, list(seeds), folder, workers, steps, resume, force, False)
+    options = Options(workers=workers, steps=steps, resume=resume, force=force)
+    return replicate(experiment, list(seeds), folder, options)
 
 
 def finished_run(folder, environment="CartPole-v1", algo="SSS", normalize=1, **options):

@@ -230,23 +230,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.evolution.algorithm import algorithm
+from botschool.evolution.algorithm import RunConfig, Stateful, algorithm
 from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 
 @dataclass
-class ClimberConfig:
-    maxmsteps: float = hyper(1.0, "length of the run, in million steps", above=0, high=1e9)
+class ClimberConfig(RunConfig):
     jump: float = hyper(0.1, "standard deviation of a jump", above=0, high=10)
-    saveeach: float = hyper(60.0, "minutes between saves", low=0, high=1e6, free=True)
 
 
 @algorithm("climber", "a hill climber", ClimberConfig)
-class Climber:
+class Climber(Stateful):
+    evolves = ("generation", "centre", "best")
+
     def __init__(self, config, initial, seed):
         self.config, self.seed, self.generation = config, seed, 0
-        self.centre, self.best = initial(0), np.array(-np.inf)
+        self.centre, self.best = initial(0), -np.inf
 
     def ask(self):
         jump = generator(self.seed, self.generation).standard_normal(len(self.centre))
@@ -255,19 +255,11 @@ class Climber:
 
     def tell(self, fitness):
         if fitness[0] > self.best:
-            self.best, self.centre = np.array(fitness[0]), self.next
+            self.best, self.centre = float(fitness[0]), self.next
         self.generation += 1
 
     def average_parameter(self):
         return float(np.abs(self.centre).mean())
-
-    def state(self):
-        state = {"generation": np.array(self.generation)}
-        return state | {"centre": self.centre, "best": self.best}
-
-    def restore(self, state):
-        self.generation = int(state["generation"])
-        self.centre, self.best = state["centre"], state["best"]
 '''
 
 

@@ -14,7 +14,7 @@ from botschool import config, problems
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.record import STAT
 from botschool.evolution.replicate import replicate
-from botschool.evolution.run import evolve
+from botschool.evolution.run import Options, evolve
 from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 from running import contents, finish, run_seeds, same, start
@@ -278,9 +278,9 @@ def test_steps_end_a_run(own, tmp_path):
 
 def test_generations_end_runs_of_other_algorithms(tmp_path):
     other = running.experiment(tmp_path)
-    assert replicate(other, [3], tmp_path / "run", 1, None, False, False, False, generations=4)
+    assert replicate(other, [3], tmp_path / "run", Options(generations=4))
     assert len(np.load(tmp_path / "run" / "statS3.npy")) == 4 * 6
-    assert replicate(other, [3], tmp_path / "run", 1, None, True, False, False)
+    assert replicate(other, [3], tmp_path / "run", Options(resume=True))
     assert run_seeds(other, tmp_path / "whole", [3])
     assert same(tmp_path / "whole", tmp_path / "run")
 

@@ -177,7 +177,15 @@ def test_every_value_is_read_with_its_type(tmp_path):
     assert experiment.policy == PolicyConfig(
         2, 1, 3, 7, 1000, 0, 100, 30, 2, 1, 4, 5, 0, 3, 2, 2, 0.05, 1, 1, 0.5
     )
-    assert experiment.algo == OpenAIESConfig(0.25, 0.01, 250, 0.02, 2, 0, 0.5)
+    assert experiment.algo == OpenAIESConfig(
+        maxmsteps=0.25,
+        stepsize=0.01,
+        samplesize=250,
+        noiseStdDev=0.02,
+        wdecay=2,
+        symseed=0,
+        saveeach=0.5,
+    )
     assert experiment.path == tmp_path / "own.ini"
     for part in (experiment.policy, experiment.algo):
         for key, value in asdict(part).items():

@@ -23,17 +23,16 @@ from botschool.errors import BotschoolError
 from botschool.grading.classes import batch
 from botschool.grading.classes.collect import grade_all, page_names
 from botschool.grading.copies import starting
-from botschool.grading.copies.leaks import find_leaks
 from botschool.grading.copies.release import MANIFEST, release
+from botschool.grading.copies.skeleton import find_leaks
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.secret import grading_secret
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
 from botschool.grading.report import showing
 from botschool.grading.report.progress import table
-from botschool.grading.report.screen import Screen
+from botschool.grading.report.screen import Screen, watch
 from botschool.grading.report.showing import show
-from botschool.grading.report.watching import watch
 from botschool.sandbox import seccomp
 from running import call, environment_of_command, finish, one_sentence, start
 from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
@@ -231,7 +230,7 @@ def test_watch_ends_with_ctrl_c(course):
 def test_watch_ends_though_an_interrupt_was_dropped(course, monkeypatch, capsys):
     """As Python does with one that meets a destructor."""
     from botschool.grading import commands
-    from botschool.grading.report import watching
+    from botschool.grading.report import screen as watching
 
     def dropping(exercise, file, tasks, screen, wait):
         with contextlib.suppress(KeyboardInterrupt):

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from botschool.grading.declare import diagnosis
-from botschool.grading.declare.comparison import Comparison
 from botschool.grading.declare.diagnosis import DETECTORS, diagnose
+from botschool.grading.declare.diagnosis.comparison import Comparison
 
 seeds = st.integers(0, 2**32 - 1)
 quickly = settings(max_examples=60, deadline=None, derandomize=True)

@@ -17,8 +17,8 @@ import pytest
 from botschool.errors import BotschoolError
 from botschool.grading import commands
 from botschool.grading.classes import batch
-from botschool.grading.declare import extras
-from botschool.grading.declare.exercise import load_exercise
+from botschool.grading.declare import exercise as extras
+from botschool.grading.declare.exercise import load_exercise, secret_for_others
 from botschool.grading.judge.submission import grade
 from botschool.grading.notebook import grade_cell
 from botschool.grading.run import temporary
@@ -216,7 +216,7 @@ def test_a_table_of_recorded_answers_gets_no_points_from_others(course, tmp_path
     assert points("--submission", "solutions", cwd=tmp_path) == 100
     # the same as grade-all's
     secret = (course / ".botschool" / "secret").read_text().strip()
-    assert batch.secret_for_others(course)[0] == secret
+    assert secret_for_others(course)[0] == secret
     _, out, _ = call("grade", "3", "--submission", file.parent)
     assert "Grading seeds follow from the secret in" in " ".join(out.split())
 
@@ -455,7 +455,7 @@ def test_what_could_not_be_graded_is_an_empty_cell_and_no_part_of_an_average(
 
 FAULTY = """
 import sys
-from botschool.grading import batch
+from botschool.grading.classes import batch
 from botschool.sandbox import SandboxError, server, scratch
 
 def fail(*arguments, **options):

@@ -8,6 +8,7 @@ import botschool
 PACKAGE = Path(botschool.__file__).parent
 
 LAYERS = (
+    {"moved"},
     {"errors", "__init__"},
     {"_core", "paths", "terminal", "seeds", "inifile", "output", "sandbox"},
     {"linear", "lock", "wrappers"},
@@ -24,7 +25,14 @@ LAYERS = (
     {"envs"},
     {"rl"},
     {"analysis"},
-    {"course", "grading"},
+    {"course", "grading.packed", "grading.declare"},
+    {"grading.run"},
+    {"grading.judge"},
+    {"grading.notebook"},
+    {"grading.copies"},
+    {"grading.report"},
+    {"grading.classes"},
+    {"grading"},
     {"cli"},
     {"__main__"},
 )
@@ -68,21 +76,17 @@ IMPORTS = {name: imported(path, name) for name, path in MODULES.items()}
 
 
 def unit(module: str) -> str:
-    """The unit of LAYERS that a module belongs to."""
-    for units in LAYERS:
-        for each in units:
-            if module == each and "." in each:
-                return each
-    if module.startswith("evolution.algorithms."):
-        return "evolution.algorithms"
-    return module.partition(".")[0]
+    """The unit of LAYERS that a module belongs to: the innermost one that has it."""
+    while module and module not in RANK:
+        module = module.rpartition(".")[0]
+    return module
 
 
 RANK = {name: rank for rank, units in enumerate(LAYERS) for name in units}
 
 
 def test_every_module_has_a_layer():
-    assert {unit(name) for name in MODULES} <= set(RANK)
+    assert not [name for name in MODULES if not unit(name)]
 
 
 def test_nothing_imports_upwards():

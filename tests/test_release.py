@@ -15,10 +15,9 @@ import typer
 from botschool.cli.app import commands
 from botschool.errors import BotschoolError
 from botschool.grading.copies.release import MANIFEST, release
-from botschool.grading.declare.exercise import exercise_numbers, load_exercise
-from botschool.grading.declare.extras import missing_packages
+from botschool.grading.declare.exercise import exercise_numbers, load_exercise, missing_packages
 from botschool.grading.declare.trust import trust
-from botschool.grading.report.answers import unpack_answers
+from botschool.grading.packed import unpack_answers
 from running import call, environment_of_command
 from tiny_course import FILE, FOLDER, SOLUTION, make_course
 

@@ -7,11 +7,12 @@ on its threads and on the instruction set; its `exp` and `log` have variants too
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from botschool import _core
 
 
-def _doubles(values: np.ndarray) -> np.ndarray:
+def _doubles(values: ArrayLike) -> np.ndarray:
     return np.ascontiguousarray(values, dtype=np.float64)
 
 
@@ -28,12 +29,12 @@ def eigen(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return _core.symmetric_eigen(_doubles(matrix))
 
 
-def exp(values: np.ndarray) -> np.ndarray:
+def exp(values: ArrayLike) -> np.ndarray:
     """e to the power of each value of a vector; between exp(-708) and exp(709)."""
     return _core.exp(_doubles(values))
 
 
-def log(values: np.ndarray) -> np.ndarray:
+def log(values: ArrayLike) -> np.ndarray:
     """Natural logarithm of each value of a vector; they must be positive."""
     return _core.log(_doubles(values))
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -81,7 +82,7 @@ def save_npy(path: Path, array: np.ndarray) -> None:
     save_bytes(path, buffer.getvalue())
 
 
-def save_npz(path: Path, arrays: dict[str, np.ndarray]) -> None:
+def save_npz(path: Path, arrays: dict[str, Any]) -> None:
     """np.savez, whole or not at all. Raises BotschoolError."""
     buffer = BytesIO()
     np.savez(buffer, **arrays)

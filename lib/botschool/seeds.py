@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.random import Generator, Philox
 from numpy.random.bit_generator import ISeedSequence
@@ -17,10 +19,11 @@ class _Key(ISeedSequence):
     def __init__(self, *words: int) -> None:
         self._words = words
 
-    def generate_state(self, n_words: int, dtype: type = np.uint64) -> np.ndarray:
+    def generate_state(self, n_words: int, dtype: Any = np.uint64) -> np.ndarray:
         return np.array(self._words, dtype=dtype)
 
 
 def generator(seed: int, generation: int) -> Generator:
     """Numbers of one generation: Philox4x64-10 (Salmon et al. 2011) keyed by both."""
-    return Generator(Philox(_Key(seed, generation)))
+    key: Any = _Key(seed, generation)
+    return Generator(Philox(key))

@@ -101,7 +101,7 @@ def parse(text: str) -> tuple[Wrapper, ...]:
 def keywords(text: str) -> dict[str, Any]:
     """The options of an environment, as `num_good=1, speeds=(2, 3)`. Raises BotschoolError."""
     try:
-        call = ast.parse(f"f({text})", mode="eval").body
+        call: Any = ast.parse(f"f({text})", mode="eval").body
         found = {each.arg: ast.literal_eval(each.value) for each in call.keywords}
         if call.args or None in found:
             raise ValueError
@@ -136,7 +136,7 @@ def _wrapper(text: str) -> Wrapper:
         )
     module, name, brackets = match.groups()
     try:
-        call = ast.parse(f"f{brackets or '()'}", mode="eval").body
+        call: Any = ast.parse(f"f{brackets or '()'}", mode="eval").body
         given = tuple(ast.literal_eval(value) for value in call.args)
         named = {each.arg: ast.literal_eval(each.value) for each in call.keywords if each.arg}
     except (ValueError, SyntaxError, AttributeError, MemoryError, RecursionError):

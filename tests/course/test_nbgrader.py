@@ -16,7 +16,7 @@ import pytest
 
 import building
 from botschool.errors import BotschoolError
-from botschool.grading.copies.leaks import find_leaks
+from botschool.grading.copies.skeleton import find_leaks
 from botschool.grading.nbgrader import make_course
 from botschool.grading.notebook import grade_cell
 from botschool.grading.run.cells import Unreadable, definitions, plain_python, scripts, whole

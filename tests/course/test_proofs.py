@@ -10,9 +10,8 @@ import pytest
 
 import building
 from botschool.grading.classes.batch import Grades, Job
-from botschool.grading.copies.leaks import find_leaks
 from botschool.grading.copies.release import release, released_files
-from botschool.grading.copies.skeleton import pairs
+from botschool.grading.copies.skeleton import find_leaks, pairs
 from botschool.grading.report.hints import read_hints
 
 pytestmark = pytest.mark.course

@@ -89,9 +89,9 @@ def split_files(text: str, folder: Path) -> tuple[Path, Path]:
     splits = []
     for cut in range(1, len(parts)):
         names = "-".join(parts[:cut]), "-".join(parts[cut:])
-        paths = [_existing(name, folder) for name in names]
-        if all(paths):
-            splits.append(tuple(paths))
+        one, other = (_existing(name, folder) for name in names)
+        if one and other:
+            splits.append((one, other))
     if len(splits) == 1:
         return splits[0]
     if splits:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -157,9 +157,9 @@ def _read_targets(
     trainings: list[Path] = []
     for target in map(Path, targets):
         if target.suffix == ".npy" and not target.is_dir():
-            group = evolved.setdefault(target.parent, {})
+            runs = evolved.setdefault(target.parent, {})
             seed = seed_of(target)
-            group[-1 - len(group) if seed is None else seed] = read_stat(target)
+            runs[-1 - len(runs) if seed is None else seed] = read_stat(target)
         elif has_trainings(target):
             trainings.append(target)
         else:
@@ -192,7 +192,7 @@ def _cycle() -> Iterator[str]:
         yield from COLOURS
 
 
-def _layout(height: float, width: float) -> dict[str, object]:
+def _layout(height: float, width: float) -> dict[str, Any]:
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
     engine = ConstrainedLayoutEngine(w_pad=0.12, h_pad=0.12)
@@ -277,7 +277,7 @@ def _draw_group(axes: Axes, curves: Curves, column: int, colour: str, label: str
 
 
 def _draw_mean(axes: Axes, curves: Curves, column: int, colour: str, label: str) -> None:
-    steps, mean, sd = replication_mean(curves.values(), column)
+    steps, mean, sd = replication_mean(list(curves.values()), column)
     axes.fill_between(steps, mean - sd, mean + sd, color=colour, alpha=0.18, lw=0)
     axes.plot(steps, mean, color=colour, lw=2.2, label=label)
 

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -203,7 +204,7 @@ class Estimate:
     high: float
 
     @classmethod
-    def of(cls, value: float, samples: np.ndarray) -> Estimate:
+    def of(cls, value: Any, samples: np.ndarray) -> Estimate:
         """The number and the interval of its resamples, shape (RESAMPLES,)."""
         low, high = interval(samples)
         return cls(float(value), float(low), float(high))

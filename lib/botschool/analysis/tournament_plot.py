@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 from io import StringIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -198,7 +198,7 @@ def _draw_progress(axes: Axes, tables: tuple[Table, Table]) -> None:
     axes.tick_params(axis="y", length=0)
 
 
-def _tidy(axes: Axes, grid: str = "both") -> None:
+def _tidy(axes: Axes, grid: Any = "both") -> None:
     axes.grid(axis=grid, color="#DDDDDD", lw=0.6)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)

@@ -17,6 +17,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from numbers import Integral, Real
+from typing import Any
 
 import numpy as np
 
@@ -274,13 +275,14 @@ def make(
         models = (models,)
     plan = Plan() if _TASKS[name]["name"] == PROBLEM else None
     if plan and models:
-        plan = Plan(robots=tuple(models))
+        named: Any = tuple(models)
+        plan = Plan(robots=named)
         models = ()
     return Arena(name, max_steps, noise, wall_table, round_table, tuple(models), plan)
 
 
 def _max_steps(value) -> int:
-    if not isinstance(value, Integral) or not 1 <= value < 2**31:
+    if not isinstance(value, Integral) or not 1 <= int(value) < 2**31:
         raise BotschoolError(f"max_steps is a whole number of at least 1, not {shown(value)}.")
     return int(value)
 
@@ -288,7 +290,7 @@ def _max_steps(value) -> int:
 def _noise(value) -> float | None:
     if value is None:
         return None
-    if not isinstance(value, Real) or not 0 <= value < np.inf:
+    if not isinstance(value, Real) or not 0 <= float(value) < np.inf:
         raise BotschoolError(f"noise is a standard deviation of at least 0, not {shown(value)}.")
     return float(value)
 

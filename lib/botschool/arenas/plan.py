@@ -20,6 +20,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -152,7 +153,8 @@ class Plan:
                 span = f"{whole}, {least} to {limits['high']:g}"
                 raise PlanError(f.name, f"{f.name} is {span}, not {shown(value)}")
             else:
-                object.__setattr__(self, f.name, type(f.default)(value))
+                kind: Any = type(f.default)
+                object.__setattr__(self, f.name, kind(value))
 
     def _check_needs(self) -> None:
         for key, names in (("reward", (self.reward,)), ("sensors", self.sensors)):
@@ -233,7 +235,7 @@ class Plan:
                 if math.hypot(x - x2, y - y2) < thing.radius + its.radius:
                     raise self._overlap(key, thing, x, y, other)
 
-    def _overlap(self, key: str, thing: Thing, x: float, y: float, other: str) -> PlanError:
+    def _overlap(self, key: str, thing: Any, x: float, y: float, other: str) -> PlanError:
         if isinstance(thing.x, float) and isinstance(thing.y, float):
             return PlanError(
                 key,
@@ -281,7 +283,7 @@ class Plan:
             bumps_end=self.collisions == "end",
         )
 
-    def _spot(self, thing: Thing, inset: float) -> list[float]:
+    def _spot(self, thing: Any, inset: float) -> list[float]:
         x = _ends(thing.x, inset, self.width - inset)
         return [*x, *_ends(thing.y, inset, self.height - inset)]
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields, make_dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from botschool import _core
 from botschool.arenas.things import KINDS, LONGEST, Thing
@@ -88,7 +88,7 @@ def reader(key: str, cls: type[Thing]) -> Callable[[str], Thing]:
 
 def _lines() -> list[tuple[str, type, Any]]:
     """The keys robot1, robot2 ... of a file."""
-    made = []
+    made: list[tuple[str, type, Any]] = []
     for kind, cls in KINDS.items():
         form = ", ".join(("KIND" if f.name == "kind" else f"{f.name} NUMBER") for f in fields(cls))
         for number in range(1, WORDS[f"{kind}s"] + 1):
@@ -98,7 +98,13 @@ def _lines() -> list[tuple[str, type, Any]]:
     return made
 
 
-ArenaConfig = make_dataclass(
-    "ArenaConfig", _lines(), bases=(Scalars,), namespace={"__module__": __name__}
-)
-ArenaConfig.__doc__ = """Section [ARENA]: what `environment = ErArena` is."""
+if TYPE_CHECKING:
+
+    class ArenaConfig(Scalars):
+        """A type checker cannot see the keys that are counted: robot1, robot2 ..."""
+
+else:
+    ArenaConfig = make_dataclass(
+        "ArenaConfig", _lines(), bases=(Scalars,), namespace={"__module__": __name__}
+    )
+    ArenaConfig.__doc__ = """Section [ARENA]: what `environment = ErArena` is."""

@@ -23,6 +23,7 @@ Range = float | tuple[float, float] | None
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?"
 
 
+@dataclass(frozen=True)
 class Thing:
     """What a line of [ARENA] puts into the arena."""
 
@@ -44,7 +45,7 @@ class Thing:
                 raise ValueError(f"{shown(part.strip())} is unknown here: {nearest(name, own)}")
             if name in values:
                 raise ValueError(f"{name} is given twice")
-            values[name] = _range(name, " ".join(words[1:]), known[name].type)
+            values[name] = _range(name, " ".join(words[1:]), str(known[name].type))
         missing = [n for n, f in known.items() if f.default is MISSING and n not in values]
         if missing:
             raise ValueError(f"{missing[0]} is missing: write {missing[0]} 100")

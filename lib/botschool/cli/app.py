@@ -12,7 +12,7 @@ import signal
 import sys
 from contextlib import suppress
 from types import ModuleType
-from typing import Annotated, NoReturn
+from typing import Annotated, Any, NoReturn
 
 import typer
 
@@ -20,7 +20,7 @@ from botschool import __version__
 from botschool.cli import course, es, plots, rl, tournament
 from botschool.errors import BotschoolError
 
-UsageError = typer.BadParameter.__base__
+UsageError: Any = typer.BadParameter.__base__
 
 GROUPS = {es: None, plots: None, tournament: None, course: None, rl: "rl"}
 """Modules with commands, in the order of --help, and the name before their commands."""
@@ -92,7 +92,8 @@ def run() -> NoReturn:
 def _run() -> int:
     """Run the command; return the exit code."""
     with suppress(AttributeError):  # in a notebook
-        sys.stdout.reconfigure(errors="backslashreplace")  # names that the terminal cannot show
+        screen: Any = sys.stdout
+        screen.reconfigure(errors="backslashreplace")  # names that the terminal cannot show
     try:
         code = commands(*sys.argv[1:2])(standalone_mode=False) or 0
         sys.stdout.flush()

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from botschool.cli import cluster_options as options
+from botschool.cli import cluster_options as across
 from botschool.errors import BotschoolError
 
 app = typer.Typer()
@@ -78,9 +78,9 @@ def es(
     episodes: Annotated[
         int | None, typer.Option(min=1, help="With -p: episodes to evaluate or show.")
     ] = None,
-    cluster: options.Cluster = None,
-    no_tls: options.NoTLS = False,
-    patience: options.Patience = None,
+    cluster: across.Cluster = None,
+    no_tls: across.NoTLS = False,
+    patience: across.Patience = None,
 ) -> None:
     """Evolve robots, or look at an evolved one (-p). Without -f: list all hyperparameters.
 
@@ -101,7 +101,7 @@ def es(
         return
     from botschool import config
 
-    machines = options.machines(cluster, no_tls, patience, workers)
+    machines = across.machines(cluster, no_tls, patience, workers)
     workers = workers or 1
     experiment = config.load(file)
     if replay and not (post or genotype):
@@ -117,28 +117,26 @@ def es(
         post_evaluate(experiment, seed, genotype, output, workers, watching)
         return
     from botschool.evolution.replicate import replicate
+    from botschool.evolution.run import Options
 
     if resume and force:
         raise BotschoolError("--resume continues a run and --force replaces it: give one of them.")
     seeds = list(range(seed, seed + replications))
-    terminal = sys.stdout.isatty()
+    options = Options(
+        workers=workers,
+        steps=steps,
+        generations=generations,
+        keep_every=keep_every,
+        resume=resume,
+        force=force,
+        terminal=sys.stdout.isatty(),
+        cluster=machines,
+    )
     gc.freeze()  # modules stay to the end: nothing to collect among them
     collecting = gc.get_threshold()
     gc.set_threshold(100_000)  # a run's own objects are hardly ever in circles
     try:
-        finished = replicate(
-            experiment,
-            seeds,
-            output,
-            workers,
-            steps,
-            resume,
-            force,
-            terminal,
-            generations,
-            keep_every,
-            machines,
-        )
+        finished = replicate(experiment, seeds, output, options)
     finally:
         gc.set_threshold(*collecting)
         gc.unfreeze()

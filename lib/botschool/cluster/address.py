@@ -66,7 +66,7 @@ def place(text: str, unsafe: bool = False) -> Place:
 def is_this_machine(host: str) -> bool:
     """Whether a host's name or number stands for this machine's loopback, and for nothing else."""
     try:
-        found = {entry[4][0] for entry in socket.getaddrinfo(host, None)}
+        found = {str(entry[4][0]) for entry in socket.getaddrinfo(host, None)}
     except (OSError, UnicodeError):
         return False
     return bool(found) and all(_loopback(number) for number in found)

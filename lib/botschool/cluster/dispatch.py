@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 from botschool import __version__
 from botschool.cluster import answers, wire
@@ -305,7 +306,9 @@ class Crew:
         worker = task if isinstance(task, Worker) else task.worker
         worker.tasks.pop(number, None)
         if isinstance(answer, BaseException):
-            content = {"failure": f"{type(answer).__name__}: {' '.join(str(answer).split())}"}
+            content: dict[str, Any] = {
+                "failure": f"{type(answer).__name__}: {' '.join(str(answer).split())}"
+            }
         else:
             self._watch.received += len(answer)
             content = _read(answer, HELLO if isinstance(task, Worker) else OUTCOME)

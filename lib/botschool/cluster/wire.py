@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import zlib
+from collections.abc import Mapping
 from hashlib import blake2b
 from typing import Any
 
@@ -100,11 +101,11 @@ def packed(value: Cloud | Start) -> bytes:
     """What candidates are drawn from, as a table: see `table`."""
     kind = type(value)
     told = {"kind": kind.__name__, "fields": {name: getattr(value, name) for name in FIELDS[kind]}}
-    places = value.places[1:] if kind is Cloud else []
+    places = value.places[1:] if isinstance(value, Cloud) else []
     return pack(told | {"stream": _told(value.stream), "places": [_told(p) for p in places]})
 
 
-def _told(stream: dict) -> list:
+def _told(stream: Mapping[str, Any]) -> list:
     """The state of a Philox generator as a list."""
     arrays = [stream["state"][name] for name in STREAM]
     return [*arrays, stream["buffer"], *(stream[name] for name in WORDS)]
@@ -128,5 +129,5 @@ def table(data: bytes) -> Any:
     stream = _stream(value["stream"])
     if kind is Start:
         return Start(**value["fields"], stream=stream)
-    places = [stream, *map(_stream, value["places"])]
+    places: list[Mapping[str, Any]] = [stream, *map(_stream, value["places"])]
     return Cloud(**value["fields"], stream=stream, places=places)

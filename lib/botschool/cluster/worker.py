@@ -168,5 +168,6 @@ def _threads() -> int:
 def _may_have_children(problem: Problem) -> None:
     """Episodes in Python have a process for each thread; Dask starts workers as daemons, which may
     have none. The problem's end with their parent: they watch it, and it ends them."""
-    multiprocessing.current_process()._config["daemon"] = False
+    process: Any = multiprocessing.current_process()
+    process._config["daemon"] = False
     Finalize(None, problem.close, exitpriority=10)

@@ -244,7 +244,7 @@ def _draw_chase(axes, chase: dict) -> None:
     names = ("#fbd9bf", COLOURS["predators"], "#5e2900"), ("#c5e1f2", COLOURS["prey"], "#00304d")
     for k, colours in enumerate(names):
         way = poses[:, k]
-        pieces = np.stack([way[:-1], way[1:]], axis=1)
+        pieces = list(np.stack([way[:-1], way[1:]], axis=1))
         fade = LinearSegmentedColormap.from_list(colours[1], colours)
         lines = LineCollection(pieces, cmap=fade, linewidths=1.3, capstyle="round", zorder=2 + k)
         lines.set_array(np.arange(len(pieces)))
@@ -262,7 +262,8 @@ def _touching(places: np.ndarray, apart: float) -> np.ndarray:
     from botschool.render.scenes.predprey import touching
 
     led = places.copy()
-    led[-1, 0] = touching(*places[-1], apart)
+    predator, prey = places[-1]
+    led[-1, 0] = touching(predator, prey, apart)
     return led
 
 

@@ -86,7 +86,7 @@ def _draw_way(axes, episode: dict):
     colours = LinearSegmentedColormap.from_list("infrared", [_colour("blue"), (0.9, 0.1, 0.1)])
     poses = episode["poses"]
     pieces = np.stack([poses[:-1, :2], poses[1:, :2]], axis=1)
-    lines = LineCollection(pieces, cmap=colours, linewidths=1.2, alpha=0.8)
+    lines = LineCollection(list(pieces), cmap=colours, linewidths=1.2, alpha=0.8)
     lines.set_array(episode["observations"].max(axis=1))
     lines.set_clim(0, 1)
     axes.add_collection(lines)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -26,7 +27,7 @@ POLICY = {
     "normalize": 1,
     "clip": 1,
 }
-ALGO = {"samplesize": 20, "stepsize": 0.01, "noiseStdDev": 0.02, "wdecay": 1}
+ALGO: dict[str, Any] = {"samplesize": 20, "stepsize": 0.01, "noiseStdDev": 0.02, "wdecay": 1}
 """The settings of data/experiments/planarhopper.ini, but for fewer post-evaluations."""
 TARGET = 1000.0
 """Where the runners are to go, in metres ahead."""
@@ -45,7 +46,7 @@ class Runner:
         """environment: PlanarHopper, PlanarWalker2D or PlanarHalfCheetah, with -v0 or -v5."""
         self.environment = environment
         self.robot = environment.partition("-")[0]
-        self._problem = problems.make(environment)
+        self._problem: Any = problems.make(environment)
         self.policy = Policy(environment, self._problem.interface, PolicyConfig(**POLICY))
         self.size = self.policy.genotype_size + 2 * self.policy.spec.inputs
         self.duration = 1 / self._problem.fps

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -75,7 +75,7 @@ def write_recordings(file: str | Path, seed: int = 1) -> None:
     """Simulates an episode of each robot and writes all of them."""
     from botschool.envs.locomotor_bodies import BODIES
 
-    arrays = {}
+    arrays: dict[str, Any] = {}
     for robot in BODIES:
         one = simulated(robot, seed)
         for key, value in one.trajectory.items():

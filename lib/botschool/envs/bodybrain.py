@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import gymnasium
 import numpy as np
@@ -86,8 +86,8 @@ class BodyBrain(gymnasium.Env):
         self.observation_space = spaces.Box(-np.inf, np.inf, (5 + 3 * JOINTS,), np.float32)
         self.set_morphology(np.zeros(MORPHOLOGY_SIZE) if morphology is None else morphology)
         self.exploded = False
-        self._view = None
-        self._world = None
+        self._view: Any = None
+        self._world: Any = None
 
     def set_morphology(self, parameters: np.ndarray) -> None:
         """The body of all episodes from the next reset on; 64 numbers. Raises ValueError."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from gymnasium.error import DependencyNotInstalled
@@ -49,7 +50,9 @@ class View:
         self._mode, self._fps = mode, fps
         self._surface = pygame.Surface((WIDTH, HEIGHT))
         self._left = self._bottom = 0.0
-        self._font = self._window = self._clock = None
+        self._font: Any = None
+        self._window: Any = None
+        self._clock: Any = None
 
     def draw(self, env) -> np.ndarray | None:
         """The picture as (400, 600, 3) uint8, or None when it went to the window."""

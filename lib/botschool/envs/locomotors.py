@@ -86,7 +86,8 @@ class Locomotor(gymnasium.Env):
         self._seen = self.observation_space.low, self.observation_space.high
         self._next_frame = 0.0
         self._place = (0.0, 0.0, 1.0)
-        self._steps, self._drawn, self._picture = 0, 0, None
+        self._steps = self._drawn = 0
+        self._picture: np.ndarray | None = None
 
     def _build(self) -> None:
         """Makes the world anew, as every episode finds it."""

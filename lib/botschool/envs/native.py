@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import gymnasium
 import numpy as np
@@ -46,14 +46,15 @@ class NativeEnv(gymnasium.Env):
         self.render_mode = render_mode
         plan = arena if isinstance(arena, Plan) or arena is None else config.load(arena).plan
         if plan is None and arena is not None:
-            raise BotschoolError(f"{os.fspath(arena)} has no section [ARENA].")
+            raise BotschoolError(f"{arena} has no section [ARENA].")
         self._simulation = Simulation(problem, render_mode, noise=noise, robots=robots, plan=plan)
         if self._simulation.interface.robots > 1:
             raise BotschoolError(
                 f"A Gymnasium environment has one robot, but this arena has {len(plan.robots)}."
             )
         info = INFOS[problem]
-        self.metadata = self.metadata | {"render_fps": round(1 / info["seconds"])}
+        own: Any = self  # each has its own
+        own.metadata = self.metadata | {"render_fps": round(1 / info["seconds"])}
         far = np.finfo(np.float32).max
         low, high = np.clip(self._simulation.bounds, -far, far).astype(np.float32)
         self.observation_space = spaces.Box(low, high)

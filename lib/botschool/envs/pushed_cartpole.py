@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import gymnasium
 import numpy as np
 from gymnasium import spaces
@@ -21,7 +23,7 @@ class PushedCartPole(CartPoleEnv):
     def __init__(self, render_mode: str | None = None) -> None:
         super().__init__(render_mode=render_mode)
         self._sides: gymnasium.Space = self.action_space
-        self.action_space = spaces.Box(-1.0, 1.0, (1,), np.float32)
+        self.action_space: Any = spaces.Box(-1.0, 1.0, (1,), np.float32)
 
     def step(self, action: np.ndarray):
         push = float(np.clip(np.asarray(action, dtype=np.float64).reshape(1)[0], -1.0, 1.0))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -52,8 +53,9 @@ class Simulation:
                 f"and noise = {noise!r} cannot be."
             ) from None
         self._mode = render_mode
-        self._scene = self._window = None
-        self._shown = None
+        self._scene: Any = None
+        self._window: Any = None
+        self._shown: Any = None
 
     @property
     def bounds(self) -> np.ndarray:

@@ -9,9 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
+
+from botschool.policies.hyperparameters import hyper
 
 Initial = Callable[[int], np.ndarray]
 """index -> a random genotype, shape (parameters,); each index gives another."""
@@ -21,8 +24,8 @@ class Algorithm(Protocol):
     """One population: `ask` for candidates, measure them, `tell` their fitness; and again.
 
     It is a pure function of its hyperparameters, `initial`, the seed and the fitness it was told.
-    Its hyperparameters include `maxmsteps`, the length of a run in million steps, and `saveeach`,
-    the minutes between saves. An attribute `conflicts(config)` of the class may yield pairs of
+    Its hyperparameters include those of `RunConfig`; `Stateful` has the methods `state` and
+    `restore`. An attribute `conflicts(config)` of the class may yield pairs of
     hyperparameters that cannot go together, as botschool.config.conflicts does.
     """
 
@@ -117,6 +120,54 @@ class Competition(Protocol):
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
         """The reverse of state()."""
+
+
+class Stateful:
+    """Saves and restores what a class declares in `evolves`: the methods `state` and `restore`."""
+
+    evolves: tuple[str, ...] = ("generation",)
+    """Attributes that a generation changes and that the next one depends on: arrays and numbers.
+
+    "matrix.root" is the attribute `root` of the attribute `matrix`, and is saved as "root".
+    Everything else must follow from the hyperparameters and the seed, or be made anew by the next
+    generation. A test looks at all algorithms for attributes that change and are not declared.
+    """
+
+    def state(self) -> dict[str, np.ndarray]:
+        """Return what `evolves` names, as arrays."""
+        return {name.rpartition(".")[2]: np.asarray(self._get(name)) for name in self.evolves}
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """Put the arrays of `state` back; numbers become numbers of Python again."""
+        for name in self.evolves:
+            path, _, attribute = name.rpartition(".")
+            now, saved = self._get(name), state[attribute]
+            value = saved if isinstance(now, np.ndarray) else type(now)(saved)
+            setattr(self._get(path) if path else self, attribute, value)
+
+    def _get(self, name: str) -> Any:
+        return attrgetter(name)(self)
+
+
+def million_steps(default: float, free: bool = True) -> Any:
+    """Declare the hyperparameter `maxmsteps`. free: a resumed run may change it."""
+    text = "length of the run, in million steps"
+    return hyper(default, text, above=0, high=1e9, free=free)
+
+
+def generations_between_saves(default: int) -> Any:
+    """Declare the hyperparameter `saveeach` of an algorithm with two sides."""
+    return hyper(default, "generations between saves", low=1, high=1000000000, free=True)
+
+
+@dataclass
+class RunConfig:
+    """What every algorithm with one population has in section [ALGO]."""
+
+    maxmsteps: float = million_steps(1.0)
+    saveeach: float = hyper(
+        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
+    )
 
 
 def mean_absolute(parameters: np.ndarray) -> float:

@@ -42,7 +42,7 @@ class CoevolutionRecord(Record):
         super().__init__()
         self.columns = (*STAT, *columns)
 
-    def add(self, algorithm: Competition) -> None:
+    def end(self, algorithm: Competition) -> None:
         """Ends a generation."""
         summary, (_, best) = algorithm.summary(), algorithm.best()
         self.best_fitness = self.bestg_fitness = max(self.best_fitness, best)
@@ -114,7 +114,7 @@ class Coevolution(Run):
         self.record.steps += self._steps
         self.record.bestg, _ = algorithm.best()
         if algorithm.generation > generation:
-            self.record.add(algorithm)
+            self.record.end(algorithm)
             self._started = self._started or (began, generation, share)
         self.report(self)
 
@@ -158,8 +158,8 @@ class Coevolution(Run):
         remembered = self.algorithm.remembered()
         if remembered is None or not self.problem.native:
             return True
-        *meetings, fitness = remembered
-        again, _ = self._meet(*meetings, lambda: False)
+        predators, prey, pairs, fitness = remembered
+        again, _ = self._meet(predators, prey, pairs, lambda: False)
         return bool((again == fitness).all())
 
     @property
@@ -181,7 +181,9 @@ class Coevolution(Run):
         self.record.write(files)
         if not (ended or self._milestone):
             return
-        kept = self.algorithm.individuals(lambda *meeting: self._meet(*meeting, lambda: False)[0])
+        kept = self.algorithm.individuals(
+            lambda one, other, pairs: self._meet(one, other, pairs, lambda: False)[0]
+        )
         if kept is not None:
             generation, (networks, fitness) = self.record.generation, kept
             save_npy(files.populations(generation), np.concatenate(networks))

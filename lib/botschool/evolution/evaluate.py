@@ -139,8 +139,9 @@ class Evaluator:
         outcome = self._run(genotype[None], episodes, stoppable, longest)
         robots = self.problem.interface.robots
         self._collected = [
-            (float(robots * outcome.steps[i]), *np.split(outcome.moments[i], 2))
+            (float(robots * outcome.steps[i]), sums, squares)
             for i in range(collecting)
+            for sums, squares in [np.split(outcome.moments[i], 2)]
         ]
         return Measured(outcome.fitness, int(outcome.steps.sum()))
 

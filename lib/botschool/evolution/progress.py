@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 from botschool.evolution.run import Run
 from botschool.terminal import progress_bar
@@ -33,9 +34,7 @@ def print_lines(lines: list[str]) -> None:
 
 
 @contextmanager
-def messages(
-    terminal: bool, send: Callable[[Bar | list[str]], None]
-) -> Iterator[Callable[[Run], None]]:
+def messages(terminal: bool, send: Callable[[Any], None]) -> Iterator[Callable[[Run], None]]:
     """As `reporting`, but calls `send` every SECONDS, and at the end: with what a progress bar is
     to show, or with the lines since the last time."""
     newest: Run | None = None

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from botschool.errors import BotschoolError
+from botschool.evolution.algorithm import Stateful
 from botschool.lock import locked
 from botschool.output import cannot_write, remove_leftovers, save_bytes, save_npy
 
@@ -124,8 +125,10 @@ def _claim(folder: Path, seeds: list[int], resume: bool, force: bool) -> None:
             shutil.rmtree(path) if path.is_dir() else path.unlink()
 
 
-class Record:
+class Record(Stateful):
     """Steps, curves and best genotypes of a run."""
+
+    evolves = ("steps", "best", "best_fitness", "bestg", "bestg_fitness")
 
     columns: tuple[str, ...] = STAT
     """What is known of each generation; the stat file holds the first six."""
@@ -181,21 +184,12 @@ class Record:
 
     def state(self) -> dict[str, np.ndarray]:
         """What a checkpoint needs."""
-        return {
-            "steps": np.array(self.steps),
-            "stat": self.rows(),
-            "best": self.best,
-            "best_fitness": np.array(self.best_fitness),
-            "bestg": self.bestg,
-            "bestg_fitness": np.array(self.bestg_fitness),
-        }
+        return super().state() | {"stat": self.rows()}
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
         """The reverse of state(). Raises ValueError."""
         steps = state["stat"][:, 0]
         if not ((steps >= 0) & (steps <= state["steps"])).all() or (np.diff(steps) < 0).any():
             raise ValueError("the first column is not the steps so far")
-        self.steps = int(state["steps"])
+        super().restore(state)
         self._rows = [tuple(row) for row in state["stat"].tolist()]
-        self.best, self.best_fitness = state["best"], float(state["best_fitness"])
-        self.bestg, self.bestg_fitness = state["bestg"], float(state["bestg_fitness"])

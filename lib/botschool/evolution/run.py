@@ -9,10 +9,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from botschool import problems
+from botschool.cluster import Open
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution import checkpoint
@@ -31,7 +33,7 @@ WAITING_STEPS = 1_000_000
 
 
 @dataclass
-class Open:
+class Unsettled:
     """A generation that is done but for the post-evaluation of its best candidate."""
 
     saved: np.ndarray
@@ -51,7 +53,7 @@ class Run:
     nor interruptions show in its files.
     """
 
-    checkpointed = ("algorithm", "evaluator", "record")
+    checkpointed: tuple[str, ...] = ("algorithm", "evaluator", "record")
     """Attributes that a checkpoint holds."""
     growing: tuple[str, ...] = ("record.",)
     """How names of arrays in a checkpoint begin that get longer with the run."""
@@ -62,6 +64,8 @@ class Run:
     together = True
     """Whether a post-evaluation may be evaluated together with the next generation's candidates.
     The files are the same without; it takes longer."""
+    algorithm: Any
+    record: Any
     budget: Limit
     """Where it ends by its experiment."""
     limit: Limit
@@ -86,7 +90,7 @@ class Run:
         self.check()
         self.policy = self.problem.policy(experiment.policy)
         self.report: Callable[[Run], None] = lambda run: None
-        self._open: Open | None = None
+        self._open: Unsettled | None = None
         self.begin()
 
     def initial(self) -> np.ndarray:
@@ -181,7 +185,7 @@ class Run:
             post = self.evaluator.post_evaluate(candidates[best])
         self.algorithm.tell(measured.fitness)
         self.evaluator.refresh()
-        self._open = Open(
+        self._open = Unsettled(
             saved,
             float(measured.fitness[best]),
             mean(measured.fitness),
@@ -223,7 +227,7 @@ class Run:
             raise
         self._close(post)
 
-    def _best_of(self, generation: Open) -> np.ndarray:
+    def _best_of(self, generation: Unsettled) -> np.ndarray:
         return generation.saved[: self.policy.genotype_size]
 
     def _close(self, post: Measured) -> None:
@@ -343,6 +347,31 @@ def evolve(
     finally:
         run.problem.close()
     return True
+
+
+@dataclass(frozen=True)
+class Options:
+    """How to run an experiment; what it is stands in its file."""
+
+    workers: int = 1
+    steps: int | None = None
+    """Stop after so many, as after `generations`; None: when the experiment's budget is spent."""
+    generations: int | None = None
+    keep_every: int | None = None
+    """Keep the best genotype so far of every so many generations."""
+    resume: bool = False
+    """Continue runs that are there; `force` replaces them."""
+    force: bool = False
+    terminal: bool = False
+    """Show progress bars instead of lines."""
+    cluster: Open | None = None
+    """Takes the place of `workers`."""
+
+    def evolve(self, run: Run, folder: Path, report: Callable[[Run], None]) -> bool:
+        """Evolve a run so; return whether it got to its end."""
+        return evolve(
+            run, folder, self.steps, self.resume, report, self.generations, self.keep_every
+        )
 
 
 def keeping(files: RunFiles, every: int, report: Callable[[Run], None]) -> Callable[[Run], None]:

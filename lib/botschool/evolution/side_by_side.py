@@ -23,7 +23,7 @@ from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution.progress import messages, print_lines
 from botschool.evolution.record import RunFiles
-from botschool.evolution.run import Run, evolve
+from botschool.evolution.run import Options, Run
 from botschool.terminal import progress_bars, unheard
 
 STOP = "stop"
@@ -36,19 +36,13 @@ class Task:
     kind: type[Run]
     experiment: Experiment
     folder: Path
-    workers: int
+    options: Options
     """Of each run."""
-    steps: int | None
-    resume: bool
-    generations: int | None
-    keep_every: int | None
-    terminal: bool
 
     def run(self, seed: int, stopping: Callable[[], bool], report: Callable[[Run], None]):
         """Evolves; gives whether it is finished and a sentence about it, "" if it has not begun."""
-        run = self.kind(self.experiment, seed, self.workers, stopping)
-        limits = (self.generations, self.keep_every)
-        done = evolve(run, self.folder, self.steps, self.resume, report, *limits)
+        run = self.kind(self.experiment, seed, self.options.workers, stopping)
+        done = self.options.evolve(run, self.folder, report)
         return done, run.ending(RunFiles(self.folder, seed), done)
 
 
@@ -58,9 +52,8 @@ def evolve_all(task: Task, seeds: list[int], processes: int, stopping: Callable[
     When the user stops it or one fails, all stop and save; then the failure is raised.
     """
     with ExitStack() as stack:
-        bars = stack.enter_context(progress_bars()) if task.terminal else None
-        processes = [stack.enter_context(Process(task)) for _ in range(processes)]
-        crew = Crew(processes, seeds)
+        bars = stack.enter_context(progress_bars()) if task.options.terminal else None
+        crew = Crew([stack.enter_context(Process(task)) for _ in range(processes)], seeds)
         try:
             while crew.running:
                 for seed, message in crew.messages():
@@ -111,7 +104,8 @@ class Crew:
 
     def messages(self) -> Iterator[tuple[int, Any]]:
         """What comes within 0.2 seconds: seeds, and what `messages` or an end says of them."""
-        for connection in wait(list(self.running), timeout=0.2):
+        ready: list[Any] = wait(list(self.running), timeout=0.2)
+        for connection in ready:
             seed = self.running[connection]
             message = _received(connection, seed)
             if isinstance(message, Exception):
@@ -188,7 +182,7 @@ def _work(task: Task, connection: Connection) -> None:
     while True:
         seed = seeds.get()
         try:
-            with messages(task.terminal, connection.send) as report:
+            with messages(task.options.terminal, connection.send) as report:
                 ended = Ended(*task.run(seed, stop.is_set, report))
         except (BotschoolError, MemoryError, OSError) as error:
             connection.send(error)

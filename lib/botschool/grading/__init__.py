@@ -6,10 +6,11 @@ from botschool.grading.declare.checks import (
     expect,
     expect_array,
     expect_close,
+    expect_ends,
     expect_fields,
     show,
+    went_on,
 )
-from botschool.grading.declare.ends import expect_ends, went_on
 from botschool.grading.declare.exercise import Exercise, Task
 from botschool.grading.run.student import Student
 

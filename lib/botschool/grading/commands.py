@@ -10,13 +10,15 @@ import signal
 import time
 import traceback
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.batch import Grades, Job, secret_for_others
+from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import (
     Exercise,
@@ -24,12 +26,13 @@ from botschool.grading.declare.exercise import (
     exercise_numbers,
     folder_of,
     load_exercise,
+    secret_for_others,
     submission_file,
 )
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import Result, grade
+from botschool.grading.report.progress import digest, remember
 from botschool.grading.report.screen import Screen, counting, notice
-from botschool.grading.report.stored import digest, remember
 from botschool.grading.run.confined import close_class
 from botschool.grading.run.debug import DirectStudent
 from botschool.grading.run.temporary import temporary_files_within
@@ -57,7 +60,8 @@ def grade_command(what: str, submission: str | None, as_json: bool, debug: bool)
             raise BotschoolError(f"--debug runs one task: say which, as botschool grade {number}.1")
         return debug_task(exercise, what, file)
     screen = Screen()
-    report, announce = screen.task, screen.banner
+    report: Callable[[Any], None] = screen.task
+    announce: Callable[[str], None] = screen.banner
     if as_json:
         report = announce = lambda shown: None
     if not as_json:
@@ -181,7 +185,7 @@ def _points(result: Result) -> list[tuple[str, int, int]]:
 @temporary_files_within()
 def watch_command(what: str, submission: str | None) -> None:
     """Grades after every save, until Ctrl-C."""
-    from botschool.grading.report.watching import watch
+    from botschool.grading.report.screen import watch
 
     number, task = _named(what)
     exercise = load_exercise(number)
@@ -254,7 +258,7 @@ def reset_command(what: str) -> None:
 
 def show_command(what: str, submission: str | None, opens: bool) -> None:
     """Runs a finished exercise, names what it has made, and opens it."""
-    from botschool.grading.report.answers import answers
+    from botschool.grading.report.progress import answers
     from botschool.grading.report.showing import make_page, open_page, show
 
     number = _named(what)[0]
@@ -281,7 +285,7 @@ def answers_command(what: str) -> None:
     """Prints what the solution measured, after full marks."""
     from rich.markdown import Markdown
 
-    from botschool.grading.report.answers import answers
+    from botschool.grading.report.progress import answers
 
     text = answers(_named(what)[0], course_root())
     Console(highlight=False).print(Markdown(text))

@@ -11,9 +11,13 @@ import warnings
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.batch import secret_for_others
 from botschool.grading.declare.checks import Wrong
-from botschool.grading.declare.exercise import Exercise, course_root, load_exercise
+from botschool.grading.declare.exercise import (
+    Exercise,
+    course_root,
+    load_exercise,
+    secret_for_others,
+)
 from botschool.grading.judge.judging import GraderFault
 from botschool.grading.judge.submission import Submission, TaskResult
 from botschool.grading.run.confined import MachineFault, close_class, fork_server
@@ -114,7 +118,7 @@ def _prepare_for_others(exercise: Exercise) -> None:
 def _changed(sources: list[str]) -> bool:
     """Whether a function was last run in a form that the saved notebook does not hold."""
     with contextlib.suppress(NameError, AttributeError):
-        ran = get_ipython().history_manager.input_hist_raw  # noqa: F821
+        ran = get_ipython().history_manager.input_hist_raw  # type: ignore[name-defined]  # noqa: F821
         last = {name: cell.strip() for cell in ran for name in _defined(cell)}
         saved = {source.strip() for source in sources}
         names = {name for source in sources for name in _defined(source)}

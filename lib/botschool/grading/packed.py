@@ -1,4 +1,4 @@
-"""Graders in the students' copy: packed, so that nobody reads an answer there by accident.
+"""Graders and answers in the students' copy: packed, so that nobody reads one there by accident.
 
 A grader computes again what a task asks for, and has our functions of the tasks that others need.
 This hides them from readers, not from somebody who is determined to unpack them: what counts is
@@ -16,6 +16,9 @@ import types
 import zlib
 from pathlib import Path
 from typing import Any
+
+PACKED = "ANSWERS.packed"
+"""In an exercise's folder of the copy, if the instructor allows it."""
 
 
 def pack(grader: str, references: str = "") -> str:
@@ -48,3 +51,14 @@ def unpack(file: str, packed: str) -> Any:
     exec(compile(source, name, "exec", dont_inherit=True), vars(module))
     module.exercise.references = references
     return module.exercise
+
+
+def pack_answers(text: str) -> str:
+    """The text so that nobody reads it by accident."""
+    packed = base64.b85encode(zlib.compress(text.encode(), 9)).decode()
+    return "\n".join(packed[at : at + 90] for at in range(0, len(packed), 90)) + "\n"
+
+
+def unpack_answers(packed: str) -> str:
+    """The text again. Raises ValueError or zlib.error."""
+    return zlib.decompress(base64.b85decode("".join(packed.split()))).decode()

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields, make_dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from botschool import _core
 from botschool.inifile import shown
@@ -93,13 +93,22 @@ class _Evaluation:
         return self.pmaxsteps or self.maxsteps
 
 
-PolicyConfig = make_dataclass(
-    "PolicyConfig",
-    [*_of_networks(), *_of_convolutions()],
-    bases=(_Evaluation,),
-    namespace={"__module__": __name__},
-)
-PolicyConfig.__doc__ = """Section [POLICY]: the network and how its robot is evaluated."""
+if TYPE_CHECKING:
+
+    class PolicyConfig(_Evaluation):
+        """A type checker cannot see the fields that come from C++."""
+
+        def __init__(self, **values: Any) -> None: ...
+        def __getattr__(self, name: str) -> Any: ...
+
+else:
+    PolicyConfig = make_dataclass(
+        "PolicyConfig",
+        [*_of_networks(), *_of_convolutions()],
+        bases=(_Evaluation,),
+        namespace={"__module__": __name__},
+    )
+    PolicyConfig.__doc__ = """Section [POLICY]: the network and how its robot is evaluated."""
 
 
 def conflicts(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
@@ -123,10 +132,10 @@ def conflicts(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
             f"architecture = {p.architecture} is recurrent and has one hidden layer, "
             f"but nlayers is {p.nlayers}: set nlayers = 1 or architecture = 0",
         )
-    yield from _of_convolutions(p)
+    yield from _convolutional(p)
 
 
-def _of_convolutions(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
+def _convolutional(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
     lists = ("filters", "kernels", "strides")
     if p.architecture != CONVOLUTIONAL:
         for f in fields(p):

@@ -7,8 +7,10 @@ and hands them over. Evolution itself uses neither: it evaluates whole episodes 
 
 from __future__ import annotations
 
-from dataclasses import fields, make_dataclass
+import math
+from dataclasses import dataclass, fields, make_dataclass
 from numbers import Integral, Real
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,7 +18,12 @@ from botschool import _core
 from botschool.policies.hyperparameters import NETWORK, PolicyConfig
 
 
+@dataclass(frozen=True)
 class _Spec:
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any: ...
+
     def __post_init__(self) -> None:
         self.evonet()
 
@@ -51,9 +58,17 @@ def _fields() -> list[tuple]:
     return [*plain, *network, ("low", float, -1.0), ("high", float, 1.0), *layers]
 
 
-NetworkSpec = make_dataclass(
-    "NetworkSpec", _fields(), bases=(_Spec,), frozen=True, namespace={"__module__": __name__}
-)
+if TYPE_CHECKING:
+
+    class NetworkSpec(_Spec):
+        """A type checker cannot see the fields that come from C++."""
+
+        def __init__(self, inputs: int, outputs: int, **hyperparameters: Any) -> None: ...
+
+else:
+    NetworkSpec = make_dataclass(
+        "NetworkSpec", _fields(), bases=(_Spec,), frozen=True, namespace={"__module__": __name__}
+    )
 NetworkSpec.__doc__ = f"""What a policy network looks like. Raises ValueError or TypeError.
 
 inputs: values of an observation. outputs: actuators, or the actions of a discrete problem. low,
@@ -326,7 +341,7 @@ def _number(name: str, value, integral: bool):
             raise ValueError(f"{name} is {value}, which is far too large.")
         return value
     if isinstance(value, Real) and not integral:
-        if not np.isfinite(value):
+        if not math.isfinite(value):
             raise ValueError(f"{name} is {value}, but must be a finite number.")
         return float(value)
     kind = "a whole number" if integral else "a number"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -32,7 +33,7 @@ class Episodes:
     """uint8: 1 where the moments of the observations are wanted."""
 
     @classmethod
-    def of(cls, seeds: np.ndarray, episodes: int) -> Episodes:
+    def of(cls, seeds: np.ndarray | list[int], episodes: int) -> Episodes:
         """`episodes` episodes of every candidate, candidate by candidate."""
         n = len(seeds)
         return cls(
@@ -89,7 +90,7 @@ class Problem(ABC):
             return ""
         return f"predators are {self.sides[0]}, prey are {self.sides[1]}"
 
-    def policy(self, config: PolicyConfig) -> Policy:
+    def policy(self, config: PolicyConfig) -> Any:
         """The policy that a [POLICY] section describes. Raises BotschoolError."""
         return Policy(self.name, self.interface, config)
 

@@ -44,7 +44,8 @@ class ParallelProblem(PythonProblem):
         self.limit = None
         self.fps = self._env.metadata.get("render_fps") or 30
         self.agents = self._two_agents()
-        self.sides = tuple(map(str, self.agents))
+        one, other = map(str, self.agents)
+        self.sides = one, other
         self._flatteners, self._spaces, self.interfaces = {}, {}, []
         for agent in self.agents:
             self._add(agent)
@@ -95,7 +96,7 @@ class ParallelProblem(PythonProblem):
     def policy(self, config: PolicyConfig) -> Pair:
         return Pair(self.name, self.interfaces, config)
 
-    def _episode(self, env, policy: Pair, seed: int, episode: int, maxsteps: int):
+    def _episode(self, env, policy: Any, seed: int, episode: int, maxsteps: int):
         policy.reset(seed, episode)
         where = f"episode {episode} of seed {seed}"
         start = (seed + episode) % 2**32

@@ -122,7 +122,7 @@ def interface(
     size: int, acted: spaces.Space, morphology: int, image: Image | None = None
 ) -> Interface:
     """What a policy needs for observations of that size and these actions. Raises Unsupported."""
-    seen = {"morphology": morphology, "image": image}
+    seen: dict[str, Any] = {"morphology": morphology, "image": image}
     if isinstance(acted, spaces.Discrete):
         return Interface(size, int(acted.n), discrete=True, **seen)
     if isinstance(acted, (spaces.MultiDiscrete, spaces.MultiBinary)):
@@ -144,7 +144,7 @@ def interface(
     )
 
 
-def fitted(action: np.ndarray | int, space: spaces.Space) -> Any:
+def fitted(action: Any, space: spaces.Space) -> Any:
     """An action that the space contains: choices begin where it does, others are clipped."""
     if isinstance(space, spaces.Discrete):
         return space.start + action

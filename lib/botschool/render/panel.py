@@ -179,9 +179,10 @@ def colour_of(activation: float) -> tuple[int, int, int]:
     """White for 0, through to NEGATIVE at -1 and POSITIVE at +1."""
     share = min(abs(activation), 1.0)
     end = POSITIVE if activation > 0 else NEGATIVE
-    return tuple(
+    red, green, blue = (
         round(white + share * (full - white)) for white, full in zip(WHITE, end, strict=True)
     )
+    return red, green, blue
 
 
 def _draw_scale(panel: pygame.Surface, top: int) -> None:

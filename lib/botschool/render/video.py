@@ -84,7 +84,7 @@ def _start_encoder(
         stdout=subprocess.DEVNULL,
         stderr=complaints,
         start_new_session=not windows,
-        creationflags=subprocess.CREATE_NEW_PROCESS_GROUP if windows else 0,
+        creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
     )
 
 

@@ -60,7 +60,7 @@ class PostEvaluation:
         """Of the second side, where it has a fitness of its own."""
         self.steps: list[int] = []
         if saved is None:
-            self._robot = (self.policy.initial(seed), None)
+            self._robot: tuple[np.ndarray, np.ndarray | None] = (self.policy.initial(seed), None)
         else:
             self._robot = self.policy.split(saved)
 
@@ -156,8 +156,8 @@ class PostEvaluation:
         for name, fitness in zip(names, (self.fitness, self.others), strict=False):
             if fitness:
                 print(
-                    f"{name}mean {readable(np.mean(fitness))}  "
-                    f"standard deviation {readable(np.std(fitness))}"
+                    f"{name}mean {readable(float(np.mean(fitness)))}  "
+                    f"standard deviation {readable(float(np.std(fitness)))}"
                     f"  steps {np.mean(self.steps):.1f}  episodes {len(fitness)}"
                 )
 

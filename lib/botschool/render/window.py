@@ -5,15 +5,12 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.render.canvas import import_pygame
-
-if TYPE_CHECKING:
-    import pygame
 
 
 def show(frames: Iterable[np.ndarray], fps: float, title: str) -> bool:
@@ -45,7 +42,7 @@ def show(frames: Iterable[np.ndarray], fps: float, title: str) -> bool:
         pygame.display.quit()
 
 
-def open_display(pygame: pygame) -> None:
+def open_display(pygame: Any) -> None:
     """Opens the machine's display, in place of one that was opened for drawing offscreen."""
     pygame.display.quit()
     places = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
@@ -67,7 +64,7 @@ def _no_display() -> BotschoolError:
     )
 
 
-def _goes_on(pygame: pygame, clock: pygame.time.Clock) -> bool:
+def _goes_on(pygame: Any, clock: Any) -> bool:
     """Handles keys, waiting while paused; False if the user wants to end."""
     paused = False
     while True:

@@ -136,7 +136,7 @@ def play(
     while running.any():
         actions, state = agent.act(stacked(observations), state, starts)
         starts[:] = False
-        for i in np.flatnonzero(running):
+        for i in np.flatnonzero(running).tolist():
             observations[i], reward, terminated, truncated, _ = envs[i].step(actions[i])
             returns[i] += reward
             lengths[i] += 1

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import gymnasium
 import numpy as np
 from gymnasium import spaces
@@ -15,7 +17,7 @@ LONGEST_EPISODE = 10_000
 """Steps after which an episode of an environment without a limit of its own ends."""
 
 
-def make(name: str, wrapped: str = "", **options: object) -> gymnasium.Env:
+def make(name: str, wrapped: str = "", **options: Any) -> gymnasium.Env:
     """The environment of that id, guarded; wrapped: wrappers (botschool.wrappers).
 
     Raises BotschoolError.

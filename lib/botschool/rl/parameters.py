@@ -120,12 +120,12 @@ def _number_if_possible(value: Any) -> Any:
     return value
 
 
-def accepted(model_class: type, policy_class: type, goals: bool = False) -> dict[str, Any]:
+def accepted(model_class: Any, policy_class: Any, goals: bool = False) -> dict[str, Any]:
     """Name -> the annotation of its type, or for the policy's own ones the words for it.
 
     goals: those of hindsight experience replay, too.
     """
-    found = {name: type(value) for name, value in OF_GOALS.items()} if goals else {}
+    found: dict[str, Any] = {name: type(value) for name, value in OF_GOALS.items()} if goals else {}
     for name, parameter in inspect.signature(model_class.__init__).parameters.items():
         if name != "self" and name not in NOT_HERE and not name.endswith(OBJECTS):
             found[name] = parameter.annotation
@@ -141,7 +141,7 @@ def accepted(model_class: type, policy_class: type, goals: bool = False) -> dict
 
 
 def complete(
-    model_class: type, policy_class: type, chosen: Mapping[str, Any], goals: bool = False
+    model_class: Any, policy_class: Any, chosen: Mapping[str, Any], goals: bool = False
 ) -> dict[str, Any]:
     """The chosen hyperparameters, checked, after the algorithm's own defaults for the others.
 

@@ -44,7 +44,7 @@ class Rollout:
         for name, array in kept.items():
             setattr(buffer, name, array)
             setattr(self, name, array.copy())
-        buffer.advantages = np.zeros_like(self.rewards)
+        buffer.advantages = np.zeros_like(kept["rewards"])
         buffer.compute_returns_and_advantage(last_values, self.dones)
         buffer.full = True
         self.advantages, self.returns = buffer.advantages.copy(), buffer.returns.copy()

@@ -204,7 +204,7 @@ def _train(plan: Plan, trial: Trial, given: dict[str, Any], stopping: Callable[[
         return report
 
     for seed in range(plan.options["seed"], plan.options["seed"] + plan.seeds):
-        settings = choose(plan.algo, plan.env, params=given, **plan.options | {"seed": seed})
+        settings = choose(plan.algo, plan.env, params=given, **{**plan.options, "seed": seed})
         report = reporter()
         try:
             _, found = learn(

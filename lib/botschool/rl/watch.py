@@ -109,8 +109,8 @@ class Player:
         """Mean and standard deviation over the episodes played."""
         if self.returns:
             print(
-                f"mean {readable(np.mean(self.returns))}  "
-                f"standard deviation {readable(np.std(self.returns))}"
+                f"mean {readable(float(np.mean(self.returns)))}  "
+                f"standard deviation {readable(float(np.std(self.returns)))}"
                 f"  steps {np.mean(self.lengths):.1f}  episodes {len(self.returns)}"
             )
 

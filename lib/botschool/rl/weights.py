@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from zipfile import ZipFile
 
 import numpy as np
@@ -107,7 +107,8 @@ def numbers(path: Path) -> dict[str, np.ndarray]:
 def scaling_bytes(scaling: Mapping[str, np.ndarray]) -> bytes:
     """An .npz file of the arrays of SCALING."""
     content = BytesIO()
-    np.savez(content, **{name: scaling[name] for name in SCALING})
+    arrays: dict[str, Any] = {name: scaling[name] for name in SCALING}
+    np.savez(content, **arrays)
     return content.getvalue()
 
 

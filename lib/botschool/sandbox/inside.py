@@ -43,7 +43,8 @@ def is_foreign(status: os.stat_result, top: os.stat_result) -> bool:
 
 
 def _opened(top: Path | int, parts: tuple[str, ...]) -> int:
-    if os.open not in os.supports_dir_fd:  # Windows, which confines nothing in any case
+    # Windows, which confines nothing in any case
+    if isinstance(top, Path) and os.open not in os.supports_dir_fd:
         path = top.joinpath(*parts)
         if path.resolve() != top.resolve().joinpath(*parts):
             raise OSError(f"{path.name} is behind a link")

@@ -17,7 +17,7 @@ import numpy as np
 from botschool.evolution.algorithm import Initial, algorithm
 from botschool.evolution.algorithms.archive import ArchiveConfig
 from botschool.evolution.algorithms.halloffame import HallOfFame
-from botschool.evolution.algorithms.sides import SIDES, mean
+from botschool.evolution.algorithms.sides import mean
 from botschool.policies.hyperparameters import NO_YES, hyper
 from botschool.seeds import generator
 
@@ -50,6 +50,8 @@ class ArchiveStar(HallOfFame):
     is not constant, success is minus that fitness, the first turn gives the strength alone, and who
     was never met counts as the mean of those who were.
     """
+
+    known = ("lineages", "strengths")
 
     def __init__(
         self, config: ArchiveStarConfig, initial: Initial, seed: int, constant_sum: bool = True
@@ -109,20 +111,3 @@ class ArchiveStar(HallOfFame):
             success = self.whole - mean(fitness[met == place])
             before = success if math.isnan(strengths[place]) else strengths[place]
             strengths[place] = KEPT * before + (1 - KEPT) * success
-
-    def state(self) -> dict[str, np.ndarray]:
-        """As HallOfFame.state, and what is known of archived individuals."""
-        state = super().state()
-        for side, lineages, strengths in zip(SIDES, self.lineages, self.strengths, strict=True):
-            state[f"archive_{side}_lineages"] = np.array(lineages, dtype=np.int64)
-            state[f"archive_{side}_strengths"] = np.array(strengths, dtype=np.float64)
-        return state
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        super().restore(state)
-        self.lineages = tuple(state[f"archive_{side}_lineages"].tolist() for side in SIDES)
-        self.strengths = tuple(state[f"archive_{side}_strengths"].tolist() for side in SIDES)
-        for known in (self.lineages, self.strengths):
-            if [len(k) for k in known] != [len(archive) for archive in self.archives]:
-                raise ValueError("archives and what is known of them do not fit")

@@ -17,19 +17,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
-from botschool.evolution.algorithms.drawing import draw
+from botschool.evolution.algorithm import RunConfig, algorithm
+from botschool.evolution.algorithms.openaies import AroundCentre
 from botschool.policies.hyperparameters import NO_YES, hyper
-from botschool.seeds import generator
 
 
 @dataclass
-class ARSConfig:
+class ARSConfig(RunConfig):
     """Section [ALGO] of ARS."""
 
-    maxmsteps: float = hyper(
-        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
-    )
     stepsize: float = hyper(0.02, "step size", above=0, high=1000)
     samplesize: int = hyper(
         16, "directions per generation, two candidates each", low=1, high=1000000
@@ -37,9 +33,6 @@ class ARSConfig:
     ntop: int = hyper(0, "directions that count, the best (0 = all)", low=0, high=1000000)
     noiseStdDev: float = hyper(0.05, "standard deviation of perturbations", above=0, high=1000)
     symseed: int = hyper(1, "both candidates of a perturbation meet the same seed", choices=NO_YES)
-    saveeach: float = hyper(
-        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
-    )
 
 
 def shift(fitness: np.ndarray, samples: np.ndarray, ntop: int) -> np.ndarray:
@@ -62,18 +55,8 @@ def shift(fitness: np.ndarray, samples: np.ndarray, ntop: int) -> np.ndarray:
 
 
 @algorithm("ARS", "augmented random search", ARSConfig)
-class ARS:
+class ARS(AroundCentre):
     """ask() -> candidates to evaluate; tell(their fitness) -> one step of the centre."""
-
-    def __init__(self, config: ARSConfig, initial: Initial, seed: int) -> None:
-        """initial(index) gives a random genotype; the centre starts at number 0."""
-        self.config = config
-        self.seed = seed
-        self.generation = 0
-        numbers = np.arange(2 * config.samplesize, dtype=np.uint64)
-        self._own_seeds = numbers // np.uint64(2) if config.symseed else numbers
-        self._seeds_used = config.samplesize if config.symseed else 2 * config.samplesize
-        self.centre = initial(0)
 
     @staticmethod
     def conflicts(config: ARSConfig) -> Iterator[tuple[tuple[str, ...], str]]:
@@ -85,34 +68,9 @@ class ARS:
                 f"set ntop = {config.samplesize}, or 0 for all directions",
             )
 
-    def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Candidates, shape (2 * samplesize, parameters), and the seed of each one's evaluation.
-
-        Candidates 2 b and 2 b + 1 are centre + noiseStdDev * e_b and centre - noiseStdDev * e_b.
-        """
-        numbers, config = generator(self.seed, self.generation), self.config
-        samples, candidates = draw(
-            numbers, self.centre[None], config.samplesize, config.noiseStdDev
-        )
-        self.samples = samples[0]
-        return candidates, self.seed + self.generation * self._seeds_used + self._own_seeds
-
     def tell(self, fitness: np.ndarray) -> None:
         """Moves the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
         config = self.config
         rising = shift(fitness, self.samples, config.ntop or config.samplesize)
         self.centre = self.centre + config.stepsize * rising
         self.generation += 1
-
-    def average_parameter(self) -> float:
-        """Average absolute parameter of the centre."""
-        return mean_absolute(self.centre)
-
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed."""
-        return {"generation": np.array(self.generation), "centre": self.centre}
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        self.generation = int(state["generation"])
-        self.centre = state["centre"]

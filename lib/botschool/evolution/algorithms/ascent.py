@@ -6,7 +6,9 @@ follow them by that alone (docs/specification.md, "On a cluster").
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.random import Generator, Philox
@@ -23,7 +25,7 @@ class Start:
     """float64 (count, parameters), as are m and v."""
     m: np.ndarray
     v: np.ndarray
-    stream: dict
+    stream: Mapping[str, Any]
     """State of the Philox generator that gives the directions."""
     samplesize: int
     deviation: float

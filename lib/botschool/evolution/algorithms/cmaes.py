@@ -96,6 +96,9 @@ def effective(weights: np.ndarray) -> float:
 class FullMatrix:
     """A covariance matrix C and its symmetric root, C = root root; both (n, n)."""
 
+    covariance: np.ndarray
+    root: np.ndarray
+
     def __init__(self, n: int) -> None:
         self.covariance, self.root = np.eye(n), np.eye(n)
 
@@ -141,6 +144,16 @@ class Diagonal(FullMatrix):
 @algorithm("CMA-ES", "evolution strategy that adapts a covariance matrix", CMAESConfig)
 class CMAES(Gaussian):
     """ask() -> candidates to evaluate; tell(their fitness) -> the next mean, sigma and C."""
+
+    evolves = (
+        "generation",
+        "mean",
+        "sigma",
+        "path_sigma",
+        "path_c",
+        "matrix.covariance",
+        "matrix.root",
+    )
 
     def __init__(self, config: CMAESConfig, initial: Initial, seed: int) -> None:
         super().__init__(config, initial, seed)
@@ -191,22 +204,3 @@ class CMAES(Gaussian):
         self.generation += 1
         if self.generation % s.gap == 0:
             self.matrix.decompose()
-
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed."""
-        return {
-            "generation": np.array(self.generation),
-            "mean": self.mean,
-            "sigma": np.array(self.sigma),
-            "path_sigma": self.path_sigma,
-            "path_c": self.path_c,
-            "covariance": self.matrix.covariance,
-            "root": self.matrix.root,
-        }
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        self.generation = int(state["generation"])
-        self.mean, self.sigma = state["mean"], float(state["sigma"])
-        self.path_sigma, self.path_c = state["path_sigma"], state["path_c"]
-        self.matrix.covariance, self.matrix.root = state["covariance"], state["root"]

@@ -20,7 +20,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, Play, algorithm
+from botschool.evolution.algorithm import (
+    Initial,
+    Play,
+    Stateful,
+    algorithm,
+    generations_between_saves,
+)
 from botschool.evolution.algorithms.ascent import Ascent, Start
 from botschool.evolution.algorithms.sides import (
     PREDATORS,
@@ -77,17 +83,19 @@ class Coevo2Config:
         "which candidates evolve in a generation",
         choices={"best": "the best against the chosen competitors", "random": "drawn at random"},
     )
-    saveeach: int = hyper(100, "generations between saves", low=1, high=1000000000, free=True)
+    saveeach: int = generations_between_saves(100)
 
 
 @algorithm("coevo2", "two competing populations", Coevo2Config, competitive=True)
-class Coevo2:
+class Coevo2(Stateful):
     """advance(play): at first everyone meets everyone, then each call is a generation.
 
     Everything is in the order of the populations, which are sorted: best mean fitness against the
     whole other population first. `fitness` has predators in rows and prey in columns, as `seen_by`
     takes it; nan before the first meeting.
     """
+
+    evolves = ("generation", "parameters", "m", "v", "fitness")
 
     plays = SUB_GENERATIONS + 1
     share = 0.0
@@ -148,9 +156,9 @@ class Coevo2:
 
         # evolve copies of them, then let them meet everyone
         config, stream = self.config, numbers.bit_generator.state
-        copies = [array[side, chosen] for array in (self.parameters, self.m, self.v)]
+        parameters, m, v = (array[side, chosen] for array in (self.parameters, self.m, self.v))
         rules = (config.samplesize, config.noiseStdDev, config.stepsize, config.wdecay)
-        ascent = Ascent(Start(*copies, stream, *rules))
+        ascent = Ascent(Start(parameters, m, v, stream, *rules))
         opponents = self.parameters[other, competitors]
         for _ in range(SUB_GENERATIONS):  # each one's offspring all meet all opponents
             met = _play(play, side, ascent.offspring(), opponents)
@@ -201,22 +209,6 @@ class Coevo2:
     def average_parameter(self) -> float:
         """Average absolute parameter of both populations."""
         return float(np.mean(np.abs(self.parameters)))
-
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed."""
-        return {
-            "generation": np.array(self.generation),
-            "parameters": self.parameters,
-            "m": self.m,
-            "v": self.v,
-            "fitness": self.fitness,
-        }
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        self.generation = int(state["generation"])
-        self.parameters, self.m, self.v = state["parameters"], state["m"], state["v"]
-        self.fitness = state["fitness"]
 
 
 def _play(play: Play, side: int, ours: np.ndarray, theirs: np.ndarray) -> np.ndarray:

@@ -3,7 +3,9 @@ they are evaluated, on another machine (docs/specification.md, "On a cluster")."
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.random import Generator, Philox
@@ -37,9 +39,9 @@ class Cloud:
     """Of the candidates, or along each axis."""
     both: bool
     """Whether there are candidates on both sides of a centre: see `mirrored`."""
-    stream: dict
+    stream: Mapping[str, Any]
     """State of the Philox generator that gives the directions, centre by centre."""
-    places: list[dict] = field(default_factory=list)
+    places: list[Mapping[str, Any]] = field(default_factory=list)
     """The stream after 0, STRIDE, 2 STRIDE ... directions, as far as it has been followed."""
 
     def __len__(self) -> int:
@@ -53,7 +55,7 @@ class Cloud:
         while first < last:  # centre by centre
             centre = first // self.samplesize
             end = min(last, (centre + 1) * self.samplesize)
-            around = mirrored if self.both else candidates_of
+            around: Any = mirrored if self.both else candidates_of
             parts.append(around(self.centres[centre], self._directions(first, end), self.deviation))
             first = end
         candidates = parts[0] if len(parts) == 1 else np.concatenate(parts)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from botschool.errors import BotschoolError
-from botschool.evolution.algorithm import Initial, mean_absolute
+from botschool.evolution.algorithm import Initial, RunConfig, Stateful, mean_absolute
 from botschool.linear import log
 from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
@@ -22,22 +22,16 @@ SIGMAS = (1e-30, 1e6)
 
 
 @dataclass
-class GaussianConfig:
+class GaussianConfig(RunConfig):
     """What section [ALGO] has of all three."""
 
-    maxmsteps: float = hyper(
-        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
-    )
     popsize: int = hyper(
         0, "candidates in a generation, 0 for 4 + 3 ln(parameters)", low=0, high=1000000
     )
     sigma: float = hyper(0.3, "standard deviation of the first candidates", above=0, high=1000)
-    saveeach: float = hyper(
-        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
-    )
 
 
-class Gaussian:
+class Gaussian(Stateful):
     """ask() -> candidates around the mean; tell(their fitness) of a subclass adapts the rest."""
 
     sigma: float | np.ndarray

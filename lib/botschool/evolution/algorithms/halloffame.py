@@ -18,7 +18,13 @@ from typing import Any
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, Play
+from botschool.evolution.algorithm import (
+    Initial,
+    Play,
+    Stateful,
+    generations_between_saves,
+    million_steps,
+)
 from botschool.evolution.algorithms.drawing import draw, mirrored
 from botschool.evolution.algorithms.openaies import climb
 from botschool.evolution.algorithms.sides import PREDATORS, PREY, SIDES, everyone, mean, means
@@ -32,9 +38,7 @@ SAVED = 10
 class HallOfFameConfig:
     """Hyperparameters that all three have."""
 
-    maxmsteps: float = hyper(
-        75000.0, "length of the run, in million steps", above=0, high=1e9, free=True
-    )
+    maxmsteps: float = million_steps(75000.0)
     ngenerations: int = hyper(
         0,
         "length of the run, in generations (0 = maxmsteps alone counts)",
@@ -55,15 +59,19 @@ class HallOfFameConfig:
     checkoverfiteveryn: int = hyper(
         0, "generations between diagnoses of overfitting", choices={0: "never; there is none here"}
     )
-    saveeach: int = hyper(1000, "generations between saves", low=1, high=1000000000, free=True)
+    saveeach: int = generations_between_saves(1000)
 
 
-class HallOfFame:
+class HallOfFame(Stateful):
     """ask() -> candidates and opponents; tell(their fitness) -> one step of one side's centres.
 
     advance(play) does both: a generation, in which the predators evolve if its number is even,
     else the prey.
     """
+
+    evolves = ("generation", "centres", "m", "v", "saved", "champions", "fitness")
+    known: tuple[str, ...] = ()
+    """Attributes of the same form as `archives`: what is known of each archived individual."""
 
     share = 0.0
     plays = 1
@@ -192,17 +200,21 @@ class HallOfFame:
         return float(np.mean(np.abs(self.centres)))
 
     def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed; what begins with archive_ grows."""
-        names = ("centres", "m", "v", "saved", "champions", "fitness")
-        state = {name: getattr(self, name) for name in names}
-        state["generation"] = np.array(self.generation)
-        for side, archive in zip(SIDES, self.archives, strict=True):
-            state[f"archive_{side}"] = np.array(archive)
+        """Return what evolves, and the archives, whose arrays get longer."""
+        state = super().state()
+        for place, side in enumerate(SIDES):
+            state[f"archive_{side}"] = np.array(self.archives[place])
+            for name in self.known:
+                state[f"archive_{side}_{name}"] = np.array(getattr(self, name)[place])
         return state
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        for name in ("centres", "m", "v", "saved", "champions", "fitness"):
-            setattr(self, name, state[name])
-        self.generation = int(state["generation"])
-        self.archives = tuple(list(state[f"archive_{side}"]) for side in SIDES)
+        """Raise ValueError where archives and what is known of them do not fit."""
+        super().restore(state)
+        predators, prey = (list(state[f"archive_{side}"]) for side in SIDES)
+        self.archives = predators, prey
+        for name in self.known:
+            saved = [state[f"archive_{side}_{name}"] for side in SIDES]
+            if [len(each) for each in saved] != [len(archive) for archive in self.archives]:
+                raise ValueError("archives and what is known of them do not fit")
+            setattr(self, name, tuple(x.tolist() if x.ndim == 1 else list(x) for x in saved))

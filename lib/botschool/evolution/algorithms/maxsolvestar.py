@@ -14,9 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, algorithm
+from botschool.evolution.algorithm import Initial, algorithm, million_steps
 from botschool.evolution.algorithms.halloffame import HallOfFame, HallOfFameConfig
-from botschool.evolution.algorithms.sides import SIDES
 from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
@@ -28,7 +27,7 @@ LOOKED_AT = 10
 class MaxSolveStarConfig(HallOfFameConfig):
     """Section [ALGO] of maxsolvestar. Phases divide the run, so its length may not change."""
 
-    maxmsteps: float = hyper(75000.0, "length of the run, in million steps", above=0, high=1e9)
+    maxmsteps: float = million_steps(75000.0, free=False)
     ngenerations: int = hyper(
         0,
         "length of the run, in generations (0 = maxmsteps alone counts)",
@@ -50,6 +49,8 @@ class MaxSolveStar(HallOfFame):
     `solved`, of predators and prey: for each archived individual an array (2, nphases) with the sum
     of the fitness of those who met it in each phase of evolution, and how many they were.
     """
+
+    known = ("solved",)
 
     def __init__(
         self, config: MaxSolveStarConfig, initial: Initial, seed: int, constant_sum: bool = True
@@ -96,20 +97,6 @@ class MaxSolveStar(HallOfFame):
             if dominated(solved[:, 0], solved[:, 1], place):
                 del self.archives[side][place], self.solved[side][place]
                 return
-
-    def state(self) -> dict[str, np.ndarray]:
-        """As HallOfFame.state, and what is known of archived individuals."""
-        state = super().state()
-        for side, solved in zip(SIDES, self.solved, strict=True):
-            state[f"archive_{side}_solved"] = np.array(solved)
-        return state
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        super().restore(state)
-        self.solved = tuple(list(state[f"archive_{side}_solved"]) for side in SIDES)
-        if [len(s) for s in self.solved] != [len(archive) for archive in self.archives]:
-            raise ValueError("archives and what is known of them do not fit")
 
 
 def dominated(sums: np.ndarray, counts: np.ndarray, place: int) -> bool:

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
+from botschool.evolution.algorithm import Initial, RunConfig, Stateful, algorithm, mean_absolute
 from botschool.evolution.algorithms.drawing import draw
 from botschool.policies.hyperparameters import NO_YES, WEIGHT_DECAY, hyper
 from botschool.seeds import generator
@@ -83,12 +83,9 @@ def climb(
 
 
 @dataclass
-class OpenAIESConfig:
+class OpenAIESConfig(RunConfig):
     """Section [ALGO] of OpenAI-ES."""
 
-    maxmsteps: float = hyper(
-        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
-    )
     stepsize: float = hyper(0.01, "step size of Adam", above=0, high=1000)
     samplesize: int = hyper(
         20, "perturbations per generation, two candidates each", low=1, high=1000000
@@ -96,16 +93,14 @@ class OpenAIESConfig:
     noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
     wdecay: int = hyper(0, "pull of the centre towards 0", choices=WEIGHT_DECAY)
     symseed: int = hyper(1, "both candidates of a perturbation meet the same seed", choices=NO_YES)
-    saveeach: float = hyper(
-        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
-    )
 
 
-@algorithm("OpenAI-ES", "evolution strategy that follows an estimated gradient", OpenAIESConfig)
-class OpenAIES:
-    """ask() -> candidates to evaluate; tell(their fitness) -> one step of the centre."""
+class AroundCentre(Stateful):
+    """Candidates on both sides of a centre; a subclass moves the centre when it is told fitness."""
 
-    def __init__(self, config: OpenAIESConfig, initial: Initial, seed: int) -> None:
+    evolves: tuple[str, ...] = ("generation", "centre")
+
+    def __init__(self, config: Any, initial: Initial, seed: int) -> None:
         """initial(index) gives a random genotype; the centre starts at number 0."""
         self.config = config
         self.seed = seed
@@ -115,8 +110,6 @@ class OpenAIES:
         self._own_seeds = numbers // np.uint64(2) if config.symseed else numbers
         self._seeds_used = config.samplesize if config.symseed else count
         self.centre = initial(0)
-        self.m = np.zeros_like(self.centre)
-        self.v = np.zeros_like(self.centre)
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
         """Candidates, shape (2 * samplesize, parameters), and the seed of each one's evaluation.
@@ -130,6 +123,23 @@ class OpenAIES:
         self.samples = samples[0]
         return candidates, self.seed + self.generation * self._seeds_used + self._own_seeds
 
+    def average_parameter(self) -> float:
+        """Average absolute parameter of the centre."""
+        return mean_absolute(self.centre)
+
+
+@algorithm("OpenAI-ES", "evolution strategy that follows an estimated gradient", OpenAIESConfig)
+class OpenAIES(AroundCentre):
+    """ask() -> candidates to evaluate; tell(their fitness) -> one step of the centre."""
+
+    evolves = (*AroundCentre.evolves, "m", "v")
+
+    def __init__(self, config: OpenAIESConfig, initial: Initial, seed: int) -> None:
+        """Start without momentum."""
+        super().__init__(config, initial, seed)
+        self.m = np.zeros_like(self.centre)
+        self.v = np.zeros_like(self.centre)
+
     def tell(self, fitness: np.ndarray) -> None:
         """Moves the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
         config = self.config
@@ -139,21 +149,3 @@ class OpenAIES:
         step = config.stepsize * math.sqrt(1 - BETA2**t) / (1 - BETA1**t)
         self.centre = self.centre - step * m / (np.sqrt(v) + EPSILON)
         self.m, self.v, self.generation = m, v, t
-
-    def average_parameter(self) -> float:
-        """Average absolute parameter of the centre."""
-        return mean_absolute(self.centre)
-
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed."""
-        return {
-            "generation": np.array(self.generation),
-            "centre": self.centre,
-            "m": self.m,
-            "v": self.v,
-        }
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        self.generation = int(state["generation"])
-        self.centre, self.m, self.v = state["centre"], state["m"], state["v"]

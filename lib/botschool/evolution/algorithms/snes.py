@@ -41,6 +41,10 @@ class SNESConfig(GaussianConfig):
 class SNES(Gaussian):
     """ask() -> candidates to evaluate; tell(their fitness) -> the next mean and deviations."""
 
+    evolves = ("generation", "mean", "sigma")
+
+    config: SNESConfig
+
     def __init__(self, config: SNESConfig, initial: Initial, seed: int) -> None:
         super().__init__(config, initial, seed)
         n = self.size
@@ -63,16 +67,3 @@ class SNES(Gaussian):
         self.mean = self.mean + self.config.etamu * self.sigma * gradient_mean
         self.sigma = within_limits(self.sigma * exp(self.etasigma / 2 * gradient_sigma))
         self.generation += 1
-
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed."""
-        return {
-            "generation": np.array(self.generation),
-            "mean": self.mean,
-            "sigma": self.sigma,
-        }
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        self.generation = int(state["generation"])
-        self.mean, self.sigma = state["mean"], state["sigma"]

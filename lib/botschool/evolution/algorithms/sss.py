@@ -12,30 +12,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
+from botschool.evolution.algorithm import Initial, RunConfig, Stateful, algorithm, mean_absolute
 from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 
 @dataclass
-class SSSConfig:
+class SSSConfig(RunConfig):
     """Section [ALGO] of SSS."""
 
-    maxmsteps: float = hyper(
-        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
-    )
     popsize: int = hyper(20, "candidates in the population, an even number", low=2, high=1000000)
     mutrate: float = hyper(
         0.02, "standard deviation of mutations", low=0, high=1000, alias="mutation"
     )
-    saveeach: float = hyper(
-        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
-    )
 
 
 @algorithm("SSS", "steady state", SSSConfig)
-class SSS:
+class SSS(Stateful):
     """ask() -> the population; tell(its fitness) -> the next population."""
+
+    evolves = ("generation", "population")
 
     def __init__(self, config: SSSConfig, initial: Initial, seed: int) -> None:
         """initial(index) gives a random genotype; the population starts with numbers 0, 1, ..."""
@@ -81,12 +77,3 @@ class SSS:
     def average_parameter(self) -> float:
         """Average absolute parameter of the population."""
         return mean_absolute(self.population)
-
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed."""
-        return {"generation": np.array(self.generation), "population": self.population}
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        self.generation = int(state["generation"])
-        self.population = state["population"]

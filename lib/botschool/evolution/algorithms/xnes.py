@@ -68,6 +68,10 @@ def exponential(z: np.ndarray, weights: np.ndarray) -> np.ndarray:
 class XNES(Gaussian):
     """ask() -> candidates to evaluate; tell(their fitness) -> the next mean, sigma and B."""
 
+    evolves = ("generation", "mean", "sigma", "shape")
+
+    config: XNESConfig
+
     def __init__(self, config: XNESConfig, initial: Initial, seed: int) -> None:
         super().__init__(config, initial, seed)
         n = self.size
@@ -96,18 +100,3 @@ class XNES(Gaussian):
         factor = exp([-eta / 2 * (trace + math.fsum(u))])[0]
         self.shape = factor * (self.shape + product(y.T, product(m, z)))
         self.generation += 1
-
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed."""
-        return {
-            "generation": np.array(self.generation),
-            "mean": self.mean,
-            "sigma": np.array(self.sigma),
-            "shape": self.shape,
-        }
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        self.generation = int(state["generation"])
-        self.mean, self.shape = state["mean"], state["shape"]
-        self.sigma = float(state["sigma"])

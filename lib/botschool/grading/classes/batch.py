@@ -24,8 +24,8 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
-from botschool.grading.declare.exercise import Exercise, folder_of, load_exercise
-from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
+from botschool.grading.declare.exercise import STATE, Exercise, folder_of, load_exercise, make_state
+from botschool.grading.declare.secret import DEFAULT, VARIABLE
 from botschool.grading.judge.submission import Result, grade
 from botschool.grading.run.confined import MachineFault, Unread, machine_fault, submission_files
 from botschool.grading.run.temporary import temporary_folder
@@ -34,8 +34,6 @@ from botschool.sandbox.paths import IMPORT_ROOT
 from botschool.sandbox.scratch import remove_tree
 from botschool.sandbox.server import interpreter
 
-STATE = ".botschool"
-"""In the course folder: what the commands remember."""
 MAX_KEPT = 5000
 """Results that are remembered; those not asked for longest are forgotten first."""
 SPARE_SECONDS = 60
@@ -256,25 +254,6 @@ def _versions(root: Path, number: int) -> str:
                 status = path.stat()
                 stamps.append(f"{path} {status.st_size} {status.st_mtime_ns}")
     return "\n".join(stamps)
-
-
-def secret_for_others(root: Path) -> tuple[str, str]:
-    """Return the secret to grade other people's work with, and a sentence on where it is kept."""
-    try:
-        return grading_secret(make_state(root))
-    except OSError:
-        return grading_secret(root / STATE)
-
-
-def make_state(root: Path) -> Path:
-    """The folder of what the commands remember. Raises OSError where it cannot be written to."""
-    folder = root / STATE
-    if not folder.is_dir():
-        folder.mkdir()
-        (folder / ".gitignore").write_text("*\n")
-    if not os.access(folder, os.W_OK):
-        raise PermissionError(f"no permission to write in {folder}")
-    return folder
 
 
 def main() -> None:

@@ -23,9 +23,8 @@ from nbgrader.api import Gradebook
 from nbgrader.preprocessors import NbGraderPreprocessor
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.batch import secret_for_others
 from botschool.grading.copies.skeleton import BEGIN, skeleton
-from botschool.grading.declare.exercise import course_root, load_exercise
+from botschool.grading.declare.exercise import course_root, load_exercise, secret_for_others
 from botschool.grading.judge.submission import Submission, TaskResult
 from botschool.grading.notebook import report
 from botschool.grading.run.confined import fork_server

@@ -15,12 +15,10 @@ from functools import partial
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.copies.leaks import find_leaks
-from botschool.grading.copies.skeleton import pairs, skeleton
+from botschool.grading.copies.skeleton import find_leaks, pairs, skeleton
 from botschool.grading.declare.exercise import exercise_numbers, folder_of, load_exercise
 from botschool.grading.declare.trust import check_trusted, trust
-from botschool.grading.packed import pack
-from botschool.grading.report.answers import PACKED, pack_answers
+from botschool.grading.packed import PACKED, pack, pack_answers
 from botschool.output import written_whole
 from botschool.sandbox.scratch import remove_tree
 

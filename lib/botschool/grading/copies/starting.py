@@ -13,10 +13,9 @@ from pathlib import Path
 from urllib.parse import quote
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.batch import make_state
 from botschool.grading.copies.release import MANIFEST
 from botschool.grading.copies.skeleton import skeleton
-from botschool.grading.declare.exercise import folder_of, load_exercise
+from botschool.grading.declare.exercise import folder_of, load_exercise, make_state
 from botschool.output import save_bytes
 
 

@@ -1,25 +1,32 @@
-"""Exercises, their tasks and checks, and where to find them."""
+"""Exercises, their tasks and checks, and where to find them; what is installed for them."""
 
 from __future__ import annotations
 
 import hashlib
 import importlib.util
 import os
+import re
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 from botschool.errors import BotschoolError
-from botschool.grading.declare.extras import missing_packages
 from botschool.grading.declare.references import pruned
-from botschool.grading.declare.secret import DEFAULT, VARIABLE
+from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
 from botschool.grading.declare.trust import check_trusted
-from botschool.grading.run.student import Student
 from botschool.paths import course_root
 
+STATE = ".botschool"
+"""In the course folder: what the commands remember."""
 POINTS = 100
 """What every exercise is worth."""
+
+
+Check = Callable[[Any], None]
+"""A function of a Student (run/student.py) that raises Wrong when the check is not passed."""
 
 
 @dataclass
@@ -34,12 +41,12 @@ class Task:
     needs: tuple[str, ...] = ()
     """Tasks whose functions a submission calls in this one."""
     refused: tuple[str, ...] = ()
-    checks: list[tuple[int, str, Callable[[Student], None]]] = field(default_factory=list)
+    checks: list[tuple[int, str, Check]] = field(default_factory=list)
 
     def check(self, points: int) -> Callable:
         """Decorates a check: a function of a Student that raises Wrong when it is not passed."""
 
-        def keep(function: Callable[[Student], None]) -> Callable[[Student], None]:
+        def keep(function: Check) -> Check:
             self.checks.append((points, function.__name__, function))
             return function
 
@@ -196,3 +203,44 @@ def submission_file(number: int, submission: str | None, root: Path | None = Non
         f"There is no {exercise.file} in {' or '.join(map(str, places))}: "
         "name another folder with --submission FOLDER, or SUBMISSION=FOLDER for make."
     )
+
+
+def make_state(root: Path) -> Path:
+    """The folder of what the commands remember. Raises OSError where it cannot be written to."""
+    folder = root / STATE
+    if not folder.is_dir():
+        folder.mkdir()
+        (folder / ".gitignore").write_text("*\n")
+    if not os.access(folder, os.W_OK):
+        raise PermissionError(f"no permission to write in {folder}")
+    return folder
+
+
+def secret_for_others(root: Path) -> tuple[str, str]:
+    """Return the secret to grade other people's work with, and a sentence on where it is kept."""
+    try:
+        return grading_secret(make_state(root))
+    except OSError:
+        return grading_secret(root / STATE)
+
+
+def missing_packages(extras: tuple[str, ...]) -> list[str]:
+    """The names of those packages, as installed botschool's own metadata lists them."""
+    try:
+        requirements = metadata.requires("botschool") or []
+    except metadata.PackageNotFoundError:
+        return []
+    wanted = []
+    for requirement in requirements:
+        text, _, marker = requirement.partition(";")
+        if any(re.search(f"extra == ['\"]{re.escape(extra)}['\"]", marker) for extra in extras):
+            wanted.append(re.match(r"[\w.-]+", text)[0])
+    return [name for name in wanted if not _installed(name)]
+
+
+def _installed(name: str) -> bool:
+    try:
+        metadata.distribution(name)
+    except metadata.PackageNotFoundError:
+        return False
+    return True

@@ -134,10 +134,10 @@ def paste(value: Any) -> str:
     if isinstance(value, (np.generic,)):
         return repr(value.item())
     if isinstance(value, dict):
-        parts = [(key, paste(each)) for key, each in value.items()]
-        if len(parts) > PASTED or not all(text for _, text in parts):
+        pairs = [(key, paste(each)) for key, each in value.items()]
+        if len(pairs) > PASTED or not all(text for _, text in pairs):
             return ""
-        return "{" + ", ".join(f"{key!r}: {text}" for key, text in parts) + "}"
+        return "{" + ", ".join(f"{key!r}: {text}" for key, text in pairs) + "}"
     if isinstance(value, (list, tuple)):
         parts = [paste(each) for each in value[: PASTED + 1]]
         return "" if len(parts) > PASTED or not all(parts) else f"[{', '.join(parts)}]"

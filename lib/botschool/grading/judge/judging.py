@@ -1,22 +1,31 @@
-"""A task's checks on a submission's file: points, and sentences about what is missing."""
+"""A task's checks on a submission's file: points, and sentences about what is missing.
+
+Failed checks are looked at again for a likely cause. Checks have a limit of processor time in the
+grader's own thread.
+"""
 
 from __future__ import annotations
 
+import signal
+import threading
+import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
+
+import numpy as np
 
 from botschool.errors import BotschoolError
-from botschool.grading.declare.checks import Wrong, plain
+from botschool.grading.declare.checks import Mismatch, NotDone, Wrong, plain
+from botschool.grading.declare.diagnosis import diagnose
 from botschool.grading.declare.exercise import Task
-from botschool.grading.judge.looking import Failure, failure_of, looked_at_again
 from botschool.grading.run.confined import MachineFault, machine_fault
 from botschool.grading.run.failures import Origin
 from botschool.grading.run.student import Student
-from botschool.grading.run.timelimit import TookTooLong, processor_time_limit
 from botschool.sandbox import ForkServer
 
 T = TypeVar("T")
@@ -164,3 +173,127 @@ def tried_twice(attempt: Callable[[bool], T], alone: bool) -> T:
         if not alone:
             raise
     return attempt(True)
+
+
+MAX_SECONDS = 0.5
+"""Of processor time that a check may have taken whose call is made again."""
+
+
+@dataclass
+class Failure:
+    """A check that was not passed."""
+
+    text: str
+    unexplained: bool = False
+    """Whether the call is worth another look."""
+    request: dict[str, Any] = field(default_factory=dict)
+    pasted: str = ""
+    """The call, to paste."""
+
+    @property
+    def name(self) -> str:
+        """Of the function called, or of the driver."""
+        return str(self.request.get("name"))
+
+
+def failure_of(error: Wrong, student: Student, seconds: float) -> Failure:
+    """What a check's exception says, with a likely cause.
+
+    seconds: of processor time that the submission used in this check.
+    """
+    text = str(error)
+    if not isinstance(error, Mismatch):
+        return Failure(text, not isinstance(error, NotDone) and student.answer is not None
+                       and seconds < MAX_SECONDS, student.request)  # fmt: skip
+    arguments = (
+        *student.request.get("arguments", ()),
+        *student.request.get("options", {}).values(),
+    )
+    cause = diagnose(error.got, error.wanted, arguments, student.answer, error.mistakes)
+    text += f"\n  {cause}" if cause else ""
+    pasted = "" if student.pasted in text else student.pasted
+    return Failure(text, not cause and seconds < MAX_SECONDS, student.request, pasted)
+
+
+def looked_at_again(failure: Failure, fresh: Callable[[], Student]) -> str:
+    """What two more calls with the same arguments tell, as lines to add; "" if nothing.
+
+    fresh: gives a Student whose time counts for nothing.
+    """
+    student = fresh()
+    try:
+        found = student.twice(failure.request)
+    except Exception:  # of the machine: it will show itself again, or does not matter here
+        found = None
+    finally:
+        student.close()
+    if found is None:
+        return ""
+    first, second = found["answers"]
+    text = ""
+    if not same(first, second):
+        text += (
+            "\n  Called twice with the same arguments it gives different answers: random numbers "
+            "that do not come from the seed, or something kept from call to call."
+        )
+    if "driver" not in failure.request and isinstance(found["arguments"], list):
+        for number, (before, after) in enumerate(
+            zip(failure.request["arguments"], found["arguments"], strict=False), 1
+        ):
+            if isinstance(before, (np.ndarray, list, dict)) and not same(before, after):
+                text += (
+                    f"\n  It changes its argument number {number} in place, which others go on "
+                    "using: work on a copy (.copy())."
+                )
+    return text
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two values of plain data are equal, bit by bit; tuples and lists are alike."""
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        if not (isinstance(one, np.ndarray) and isinstance(other, np.ndarray)):
+            return False
+        return one.shape == other.shape and one.tobytes() == other.tobytes()
+    if isinstance(one, (list, tuple)) and isinstance(other, (list, tuple)):
+        return len(one) == len(other) and all(map(same, one, other))
+    if isinstance(one, dict) and isinstance(other, dict):
+        keys = [str(key) for key in one]
+        return keys == [str(key) for key in other] and all(map(same, one.values(), other.values()))
+    return one == other or (one != one and other != other)
+
+
+POLL_SECONDS = 0.5
+"""Of processor time of the whole process, between two looks."""
+
+
+class TookTooLong(BaseException):
+    """The block was ended; no `except Exception` inside it catches this."""
+
+
+@contextmanager
+def processor_time_limit(seconds: float) -> Iterator[None]:
+    """Raises TookTooLong in the block when this thread has used so much processor time.
+
+    Only in the main thread, where Python runs signal handlers; elsewhere there is no limit. A call
+    into a library is interrupted when it returns. The threads of a library do not count: there
+    may be many that wait busily.
+    """
+    main = threading.current_thread() is threading.main_thread()
+    if not main or not hasattr(signal, "setitimer"):
+        yield
+        return
+
+    start = time.thread_time()
+
+    def end(number: int, frame: object) -> None:
+        if time.thread_time() - start >= seconds:
+            raise TookTooLong
+
+    before = signal.signal(signal.SIGPROF, end)
+    try:
+        # again and again, since Python drops an exception that meets a destructor
+        signal.setitimer(signal.ITIMER_PROF, min(seconds, POLL_SECONDS), POLL_SECONDS)
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)

@@ -7,8 +7,7 @@ import re
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.batch import make_state
-from botschool.grading.declare.exercise import folder_of
+from botschool.grading.declare.exercise import folder_of, make_state
 from botschool.output import save_bytes
 
 FILE = "HINTS.md"

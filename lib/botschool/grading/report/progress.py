@@ -1,7 +1,12 @@
-"""All exercises in one table: points, tasks done, and what comes next."""
+"""What was graded last: stored, in one table of all exercises; and the answers after full marks."""
 
 from __future__ import annotations
 
+import contextlib
+import hashlib
+import json
+import zlib
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +16,18 @@ from rich.text import Text
 
 from botschool.errors import BotschoolError
 from botschool.grading.copies.starting import original
-from botschool.grading.declare.exercise import load_exercise, submission_file
-from botschool.grading.report.stored import digest, recall
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.exercise import (
+    STATE,
+    Exercise,
+    folder_of,
+    load_exercise,
+    make_state,
+    submission_file,
+)
+from botschool.grading.packed import PACKED, unpack_answers
+from botschool.grading.run.confined import submission_files
+from botschool.output import save_bytes
 
 _BAR = 12
 CHANGED, UNKNOWN = "changed since", "not graded yet"
@@ -118,3 +133,107 @@ def summary(results: dict[int, dict[str, Any]]) -> str:
         what = " or ".join(state for state in (CHANGED, UNKNOWN) if state in states)
         lines.append(f"To grade what is {what}: botschool progress --grade")
     return "\n".join(lines)
+
+
+FOLDER = "last"
+"""In the folder of what the commands remember: a file for each exercise."""
+
+
+def digest(file: Path) -> str:
+    """Of all files that are handed in with this one; "" if they cannot be read."""
+    found = hashlib.sha256()
+    try:
+        for path in submission_files(file):
+            name = str(path.relative_to(file.parent)).encode(errors="surrogateescape")
+            found.update(hashlib.sha256(name).digest())
+            found.update(hashlib.sha256(path.read_bytes()).digest())
+    except (Wrong, OSError):
+        return ""
+    return found.hexdigest()
+
+
+def remember(root: Path, number: int, points: Iterable[tuple[str, int, int]], graded: str) -> None:
+    """Stores (task, points, most points); graded: the digest of what was graded.
+
+    Tasks that were not graded now keep what they have. What cannot be stored is dropped.
+    """
+    tasks = _read(root, number)
+    for task, reached, most in points:
+        tasks[task] = {"points": reached, "max_points": most, "digest": graded}
+    with contextlib.suppress(OSError, BotschoolError):
+        place = _place(root, number)
+        make_state(root)
+        place.parent.mkdir(exist_ok=True)
+        save_bytes(place, json.dumps(tasks, indent=1).encode())
+
+
+def recall(root: Path, exercise: Exercise) -> tuple[list[dict[str, Any]], set[str]] | None:
+    """An exercise's tasks as they were last graded, None if none of them was.
+
+    Gives their id, title, points (0 where a task was not graded) and max_points; and the digests
+    of what was graded.
+    """
+    stored = _read(root, exercise.number)
+    tasks, digests = [], set()
+    for task in exercise.tasks:
+        one = stored.get(task.id)
+        known = one is not None and one["max_points"] == task.max_points
+        tasks.append(
+            {
+                "id": task.id,
+                "title": task.title,
+                "points": one["points"] if known else 0,
+                "max_points": task.max_points,
+            }
+        )
+        if known:
+            digests.add(one["digest"])
+    return (tasks, digests) if digests else None
+
+
+def _place(root: Path, number: int) -> Path:
+    return root / STATE / FOLDER / f"ex{number:02d}.json"
+
+
+def _read(root: Path, number: int) -> dict[str, dict[str, Any]]:
+    """task -> points, max_points, digest; what is damaged counts as not stored."""
+    try:
+        found = json.loads(_place(root, number).read_bytes())
+        return {
+            str(task): {
+                "points": int(one["points"]),
+                "max_points": int(one["max_points"]),
+                "digest": str(one["digest"]),
+            }
+            for task, one in found.items()
+        }
+    except (OSError, ValueError, LookupError, TypeError, AttributeError):
+        return {}
+
+
+def answers(number: int, root: Path) -> str:
+    """What is shown after full marks, as Markdown.
+
+    Raises BotschoolError where it is not there, or when the student's file, as it was last
+    graded, has not all points.
+    """
+    exercise, folder = load_exercise(number, root), folder_of(number, root)
+    packed, plain = folder / PACKED, root / "solutions" / folder.name / "README.md"
+    if not packed.is_file() and not plain.is_file():
+        raise BotschoolError(
+            f"The answers to exercise {number} are not in this copy: your instructor gives them."
+        )
+    tasks = (recall(root, exercise) or ([],))[0]
+    points = sum(task["points"] for task in tasks)
+    maximum = sum(task.max_points for task in exercise.tasks)
+    if points < maximum:
+        raise BotschoolError(
+            f"The answers to exercise {number} are shown when 'botschool grade {number}' has given "
+            f"you all points; so far it has given {points} of {maximum}."
+        )
+    try:
+        if packed.is_file():
+            return unpack_answers(packed.read_text(encoding="ascii"))
+        return plain.read_text(encoding="utf-8")
+    except (OSError, ValueError, zlib.error):
+        raise BotschoolError(f"{packed} is damaged: ask for the file anew.") from None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pkgutil
 from collections.abc import Iterator
 from importlib import import_module
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -40,7 +41,7 @@ def make_scene(name: str, robots: tuple[RobotModel, ...] = (), plan: Plan | None
     return SCENES[info["name"]](robots, plan) if plan else SCENES[info["name"]](robots)
 
 
-def scene_of(problem: Problem) -> Scene | None:
+def scene_of(problem: Any) -> Scene | None:
     """The scene that a problem's steps are drawn by; None where they bring their own pictures."""
     if not problem.native or drawn_by_gymnasium(problem):
         return None

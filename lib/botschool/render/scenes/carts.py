@@ -55,9 +55,9 @@ class CartScene(Scene):
         self.add("disc", [(0.0, self.CART[1] / 4)], "axle", radius=half, pose=cart)
         push = arrow(0.55, 0.16)
         for side in (1, -1):
-            corners = [(side * x, y) for x, y in push]
+            head = [(side * x, y) for x, y in push]
             self.add(
-                "polygon", corners, "force",
+                "polygon", head, "force",
                 at=(side * (width + 0.03), 0.0), pose=cart, size=self.value(),
             )  # fmt: skip
 

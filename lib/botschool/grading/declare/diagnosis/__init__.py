@@ -14,10 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from botschool.grading.declare.comparison import MAX_NUMBERS, Comparison, alike
 from botschool.grading.declare.diagnosis import numbers, places
+from botschool.grading.declare.diagnosis.comparison import MAX_NUMBERS, Comparison, Detector, alike
 from botschool.grading.declare.diagnosis.places import of_shapes
-from botschool.grading.declare.diagnosis.registry import Detector
 
 __all__ = ["DETECTORS", "diagnose", "of_shapes"]
 

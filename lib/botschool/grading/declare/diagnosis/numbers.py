@@ -6,8 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from botschool.grading.declare.comparison import Comparison, alike
-from botschool.grading.declare.diagnosis.registry import Detector, adding_to
+from botschool.grading.declare.diagnosis.comparison import Comparison, Detector, adding_to, alike
 
 DETECTORS: list[Detector] = []
 detector = adding_to(DETECTORS)

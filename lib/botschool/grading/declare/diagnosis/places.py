@@ -7,8 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from botschool.grading.declare.comparison import Comparison, alike, arrays, parts
-from botschool.grading.declare.diagnosis.registry import Detector, adding_to
+from botschool.grading.declare.diagnosis.comparison import (
+    Comparison,
+    Detector,
+    adding_to,
+    alike,
+    arrays,
+    parts,
+)
 
 DETECTORS: list[Detector] = []
 detector = adding_to(DETECTORS)
@@ -94,8 +100,9 @@ def exchanged(c: Comparison) -> str | None:
 
 @detector
 def along_the_other_axis(c: Comparison) -> str | None:
-    functions = {"mean": np.mean, "sum": np.sum, "maximum": np.max, "minimum": np.min,
-                 "deviation": np.std}  # fmt: skip
+    functions: dict[str, Any] = {
+        "mean": np.mean, "sum": np.sum, "maximum": np.max, "minimum": np.min, "deviation": np.std
+    }  # fmt: skip
     for table in (each for each in c.given if each.ndim == 2):
         for name, function in functions.items():
             for axis in (0, 1):

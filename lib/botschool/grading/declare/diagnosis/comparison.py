@@ -1,7 +1,8 @@
-"""A wrong answer beside the right one, as the detectors of `diagnosis` look at it."""
+"""A wrong answer beside the right one, and what a detector of likely causes is."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -92,10 +93,23 @@ def parts(answer: Any, depth: int = 0) -> list[tuple[str, Any]]:
     if depth > 2 or not isinstance(answer, (dict, list)):
         return found
     named = isinstance(answer, dict)
-    entries = answer.items() if named else enumerate(answer, 1)
+    entries = answer.items() if isinstance(answer, dict) else enumerate(answer, 1)
     for _, (key, value) in zip(range(50), entries, strict=False):
         if isinstance(value, dict) or (isinstance(value, list) and not arrays(value)):
             found += parts(value, depth + 1)
         elif isinstance(value, (list, np.ndarray, int, float)) and not isinstance(value, bool):
             found.append((repr(key) if named else f"number {key} of your values", value))
     return found
+
+
+Detector = Callable[[Comparison], "str | None"]
+
+
+def adding_to(detectors: list[Detector]) -> Callable[[Detector], Detector]:
+    """A decorator that puts functions at the end of this list."""
+
+    def add(function: Detector) -> Detector:
+        detectors.append(function)
+        return function
+
+    return add
