@@ -10,7 +10,7 @@ import numpy as np
 
 from botschool.cluster import wire
 
-SHAPES = {
+SHAPES: dict[str, dict[str, Any]] = {
     "sentence": {"sentence": str},
     "failure": {"failure": str},
     "lacks": {"lacks": list},
