@@ -35,17 +35,22 @@ struct MountainCarContinuous : ProblemBase {
 
   void step(const double* BOTSCHOOL_RESTRICT action, double* BOTSCHOOL_RESTRICT reward,
             std::int64_t* BOTSCHOOL_RESTRICT ended) {
+    // in two loops: in one, the compiler makes a choice between conditions that it cannot vectorise
+    alignas(64) double position[L], velocity[L];
     for (int l = 0; l < L; ++l) {
       const double force = limited(action[l], -1.0, 1.0);
       double sine, cosine;
       sine_cosine(3 * state[0][l], sine, cosine);
-      double velocity = clamp(state[1][l] + (force * 0.0015 - 0.0025 * cosine), -0.07, 0.07);
-      const double position = clamp(state[0][l] + velocity, -1.2, 0.6);
-      velocity = ((position == -1.2) & (velocity < 0)) ? 0.0 : velocity;
-      ended[l] = (position >= 0.45) & (velocity >= 0);
-      reward[l] = (ended[l] ? 100.0 : 0.0) - action[l] * action[l] * 0.1;
-      state[0][l] = static_cast<float>(position);
-      state[1][l] = static_cast<float>(velocity);
+      velocity[l] = clamp(state[1][l] + (force * 0.0015 - 0.0025 * cosine), -0.07, 0.07);
+      position[l] = clamp(state[0][l] + velocity[l], -1.2, 0.6);
+    }
+    for (int l = 0; l < L; ++l) {
+      const double x = position[l], v = velocity[l];
+      const bool there = (x >= 0.45) & (v >= 0), wall = (x == -1.2) & (v < 0);
+      ended[l] = there;
+      reward[l] = (there ? 100.0 : 0.0) - action[l] * action[l] * 0.1;
+      state[0][l] = static_cast<float>(x);
+      state[1][l] = static_cast<float>(wall ? 0.0 : v);
     }
   }
 };
