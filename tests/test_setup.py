@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -27,6 +28,7 @@ case "$*" in
     *) echo 3.13 ;;
 esac
 """
+PIP = "--no-input --disable-pip-version-check -c constraints.txt"
 pytestmark = pytest.mark.skipif(not shutil.which("sh"), reason="needs a shell")
 
 
@@ -113,3 +115,41 @@ def test_a_real_conflict_is_no_missing_wheel(setup):
 def test_without_network_nothing_is_left_out(setup):
     code, _, errors, _, stamps = setup("tests", WITHOUT="pybullet", OFFLINE="1")
     assert code == 2 and ".tests" not in stamps and "is it there?" in errors
+
+
+def test_only_what_is_half_installed_is_forgotten(tmp_path):
+    """A file is missing, one is cut short, a list is missing; the others stay."""
+
+    def package(name, text="x = 1\n"):
+        info = tmp_path / f"{name}-1.0.dist-info"
+        info.mkdir()
+        (info / "METADATA").write_text(f"Name: {name}\nVersion: 1.0\n")
+        (info / "RECORD").write_text(f"{name}.py,,6\n{name}-1.0.dist-info/RECORD,,\n")
+        if text:
+            (tmp_path / f"{name}.py").write_text(text)
+        return info
+
+    package("whole")
+    package("cut", "x =")
+    package("gone", None)
+    (package("unlisted") / "RECORD").unlink()
+    (package("in_place", None) / "direct_url.json").write_text("{}")
+    script = ROOT / "tools" / "half_installed.py"
+    run = f"import sys, runpy; sys.path.append({str(tmp_path)!r}); runpy.run_path({str(script)!r})"
+    done = subprocess.run(  # -S: without this environment's own packages
+        [sys.executable, "-I", "-S", "-c", run], capture_output=True, text=True, check=True
+    )
+    assert sorted(done.stdout.split()) == ["cut==1.0", "gone==1.0", "unlisted==1.0"]
+    left = {path.name.split("-")[0] for path in tmp_path.glob("*.dist-info")}
+    assert left == {"whole", "in_place"}
+
+
+def test_after_an_interruption_the_environment_is_mended(setup, tmp_path):
+    """It is not made anew: what is in it stays."""
+    (tmp_path / "tools").symlink_to(ROOT / "tools")
+    (tmp_path / ".venv" / ".made").write_text("3.13\n")
+    (tmp_path / ".venv" / ".installing-abc").touch()
+    code, out, errors, calls, stamps = setup("venv")
+    assert (code, errors) == (0, "") and "interrupted" in out
+    assert calls == [f"-m pip install {PIP} --no-deps 3.13"] and stamps == [".made"]
+    assert setup("venv")[1] == ""

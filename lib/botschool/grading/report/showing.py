@@ -51,7 +51,8 @@ def show(number: int, submission: str | None = None, root: Path | None = None) -
     variables = {"BOTSCHOOL_COURSE": str(root)}
     if not os.environ.get("DISPLAY"):
         variables["MPLBACKEND"] = "Agg"
-    if _run(file, folder, os.environ | variables) != 0:
+    # PyTorch's threads fight for busy cores
+    if _run(file, folder, {"OMP_NUM_THREADS": "1"} | os.environ | variables) != 0:
         raise BotschoolError(
             f"{file.name} ended with an error, see above; is it finished? 'botschool grade "
             f"{number}' says so."
