@@ -322,7 +322,7 @@ def refused(call, *words):
 
 def test_what_cannot_be_made():
     refused(lambda: arena.make("discrm"), "did you mean discrim?")
-    refused(lambda: arena.make("maze"), "known are arena, discrim, predprey.")
+    refused(lambda: arena.make("maze"), "known are arena, discrim, predprey, staybehind.")
     refused(lambda: arena.make(["discrim"]), "no arena")
     for steps in (0, -1, 1.5, "long", 2**31):
         refused(lambda steps=steps: arena.make("discrim", steps), "max_steps")

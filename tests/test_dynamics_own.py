@@ -246,6 +246,7 @@ LIMITS = {
     "ErDpole": 1000,
     "ErDiscrim": 500,
     "ErPredprey": 2000,
+    "ErStaybehind": 500,
     "ErArena": 1000,
     "PlanarBodyBrain-v0": 1000,
     **{

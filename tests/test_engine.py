@@ -87,7 +87,7 @@ def test_results_depend_on_the_episode_alone(name, kind):
     assert fitness.shape == steps.shape == (n,)
     assert moments.shape == (n, 2 * policy.spec.inputs)
     assert 1 <= steps.min() <= steps.max() <= LIMIT
-    same_start = {"ErPredprey": CANDIDATES / 2, "PlanarBodyBrain-v0": CANDIDATES / 2}
+    same_start = dict.fromkeys(("ErPredprey", "ErStaybehind", "PlanarBodyBrain-v0"), CANDIDATES / 2)
     often_blind = {"ErArena": 3}  # tests/test_declared_arenas.py has one that sees
     # the episodes differ, or where a start is always the same, the candidates do
     assert len(np.unique(moments, axis=0)) > (same_start | often_blind).get(name, n / 4)

@@ -107,6 +107,21 @@ def test_one_generation_meets_those_before_it(es):
     assert len(re.findall(r"\d\.\d\d \(\d\.\d\d to \d\.\d\d\)", said)) == 6
 
 
+@pytest.mark.parametrize(
+    ("text", "missing", "takes_part"),
+    [
+        ("m-40-10", "generation 30 is", "generations 0, 10, 20 and 40"),
+        ("m-41-17", "generations 7, 24 and 41 are", "generations 10, 20 and 40"),
+        ("M-1000-500", "generations 500 and 1000 are", "generations 0 and 40"),
+        ("m-25-25", "generation 25 is", "generations 0 and 20"),
+    ],
+)
+def test_the_nearest_generations_take_part_with_a_warning(es, text, missing, takes_part):
+    code, said, _ = es(text)
+    assert f"warning: {missing} not saved; the nearest take part: {takes_part}\n" in said
+    assert code == 0
+
+
 def test_all_generations_meet(es, results):
     code, said, _ = es("M-40-10", "-w", 2)
     assert code == 0
@@ -134,7 +149,7 @@ def test_the_table_of_one_generation_is_a_row_of_that_of_all(es):
     [
         ("p-11-2", "generations 0, 10, 20 and 40 of seed 12"),
         ("p-10-4", "at most 3"),
-        ("m-40-7", "generations 0, 10, 20 and 40 of seed 12"),
+        ("m-0-5", "generations 0, 10, 20 and 40 of seed 12"),
         ("m-0-1", "no generation before 0"),
         ("Q-1-2", "generations 0, 10, 20 and 40 of seed 12"),
         ("missing.npy", "no genotype file missing.npy"),

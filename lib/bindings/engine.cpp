@@ -41,6 +41,8 @@ nb::dict to_dict(const Info& info) {
   d["alias"] = info.alias;
   d["alias_limit"] = info.alias_limit;
   d["gym"] = info.gym;
+  d["common"] = info.common;
+  d["sides"] = nb::make_tuple(info.side[0], info.side[1]);
   if (info.plan) d["plan"] = to_dict(*info.plan);
   return d;
 }

@@ -84,11 +84,6 @@ ALIASES = {
     for f in fields(entry.config)
     if "alias" in f.metadata
 }
-_UNDER = {
-    "EXP": "with the line environment = NAME under it",
-    "POLICY": "(nothing needs to follow it: every key has a default)",
-    "ALGO": "(nothing needs to follow it: every key has a default)",
-}
 
 
 @dataclass
@@ -107,6 +102,11 @@ class Experiment:
     def competitive(self) -> bool:
         """Whether two populations evolve against each other in it."""
         return ALGORITHMS[self.exp.algo].competitive
+
+    @property
+    def single(self) -> bool:
+        """Whether one population plays both sides."""
+        return self.competitive and len(ALGORITHMS[self.exp.algo].make.sides) == 1
 
     @property
     def plan(self) -> Plan | None:
@@ -182,16 +182,15 @@ def describe() -> list[tuple[str, str, Any, str]]:
 
 
 def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]) -> Experiment:
-    for section in SECTIONS:
-        if section not in sections:
-            raise refusal(
-                path,
-                0,
-                f"section [{section}] is missing: add a line [{section}] {_UNDER[section]}",
-            )
+    if "EXP" not in sections:
+        raise refusal(
+            path,
+            0,
+            "section [EXP] is missing: add a line [EXP] with the line environment = NAME under it",
+        )
     exp = _build(Exp, "EXP", sections["EXP"], path)
-    policy = _build(PolicyConfig, "POLICY", sections["POLICY"], path)
-    algo = _build(ALGORITHMS[exp.algo].config, "ALGO", sections["ALGO"], path)
+    policy = _build(PolicyConfig, "POLICY", sections.get("POLICY", {}), path)
+    algo = _build(ALGORITHMS[exp.algo].config, "ALGO", sections.get("ALGO", {}), path)
     arena = _arena(exp, sections.get(ARENA), path)
     experiment = Experiment(exp, policy, algo, arena, Path(path))
     lines = {key: entry.line for entries in sections.values() for key, entry in entries.items()}

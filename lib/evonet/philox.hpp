@@ -11,7 +11,7 @@
 BOTSCHOOL_BEGIN
 
 /// What a draw is for; streams never share numbers.
-enum class Stream : std::uint32_t { start = 0, action = 1, sensor = 2, weights = 3 };
+enum class Stream : std::uint32_t { start = 0, action = 1, sensor = 2, weights = 3, event = 4 };
 
 struct Block {
   std::uint32_t word[4];

@@ -41,6 +41,8 @@ struct Info {
   int alias_limit = 0;     ///< another longest episode
   const char* gym = "";    ///< id of its Gymnasium face; "": `name` itself, or botschool/name
   const Plan* plan = nullptr;
+  bool common = false;  ///< of two robots: whether both get the return, or the second 1 minus it
+  const char* side[2] = {"predator", "prey"};  ///< what two robots are called
 };
 
 /// What the caller may choose about an episode.

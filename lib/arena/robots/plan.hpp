@@ -102,6 +102,7 @@ struct Plan {
   int lights = 0, zones = 0;
   /// Whether a Declaration says what there is; all numbers are then the most that there can be.
   bool declared = false;
+  int own = 0;  ///< rows of the state for what only this problem has
 };
 
 /// How light and laser sensors are made.

@@ -72,6 +72,16 @@ struct Camera : Sectors {
   }
 };
 
+/// The sectors in which the other robot of two sees this one.
+struct Seen : Shares<Sectors::sectors> {
+  template <class W, class T>
+  static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {
+    alignas(64) T seen[Sectors::size * W::lanes];
+    Camera::read(world, 1 - robot, seen);
+    for (int i = 0; i < size * W::lanes; ++i) out[i] = seen[i];
+  }
+};
+
 /// A camera for the cylinders.
 struct CylinderCamera : Sectors {
   template <class W, class T>

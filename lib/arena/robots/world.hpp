@@ -23,11 +23,11 @@ template <int L, const Plan& P>
 struct World : ProblemBase {
   static constexpr int lanes = L, robots = P.robots, cylinders = P.cylinders, walls = 4 + P.walls;
   /// Rows: x, y, heading of each robot; x, y of each cylinder, light and zone; which cells have been
-  /// visited, in a declared arena (64 bits in two whole numbers); steps done.
+  /// visited, in a declared arena (64 bits in two whole numbers); the problem's own; steps done.
   static constexpr int kCylinder = 3 * robots, kLight = kCylinder + 2 * cylinders;
   static constexpr int kZone = kLight + 2 * P.lights, kVisited = kZone + 2 * P.zones;
-  static constexpr int kSteps = kVisited + (P.declared ? 2 : 0);
-  static constexpr int kRows = kSteps + 1;
+  static constexpr int kOwn = kVisited + (P.declared ? 2 : 0);
+  static constexpr int kSteps = kOwn + P.own, kRows = kSteps + 1;
 
   double state[kRows][L] = {};
   NoiseKey key[L] = {};

@@ -1,4 +1,4 @@
-"""Post-evaluation of co-evolved populations: what `es -p -g STRING` means for coevo2.
+"""Post-evaluation of co-evolved populations: what `es -p -g STRING` means for them.
 
 P-g-n          the n best predators of generation g against its n best prey, shown
 p-g-n          the same without a picture
@@ -129,7 +129,7 @@ def post_evaluate(
     Raises BotschoolError for a generation or a file that cannot be used.
     """
     with Contest(experiment, seed, workers) as contest:
-        report.print_roles(contest.problem.roles)
+        report.print_roles(contest.roles)
         _post_evaluate(contest, folder, request, show)
 
 
@@ -137,7 +137,7 @@ def _post_evaluate(contest: Contest, folder: Path, request: Request, show: Show)
     if request.files:
         cross_test(contest, request.files)
         return
-    populations = Populations(folder, contest.seed, contest.policy)
+    populations = Populations(folder, contest.seed, contest.policy, contest.single)
     if request.kind in "Pp":
         population = populations.load(request.generation).best(request.number)
         if request.kind == "P":
@@ -174,12 +174,12 @@ def tournament(
     files = None if picture is None else check_files(picture)
     seed = only_seed(folder) if seed is None else seed
     with Contest(experiment, seed, workers) as contest, ExitStack() as stack:
-        populations = Populations(folder, seed, contest.policy)
+        populations = Populations(folder, seed, contest.policy, contest.single)
         generations = wanted or thinned(populations, every)
         if len(generations) < 2:
             raise BotschoolError(f"A tournament needs two generations: {populations.there()}.")
         chosen = select(populations, generations, best)
-        report.print_roles(contest.problem.roles)
+        report.print_roles(contest.roles)
         print(_taking_part(chosen))
         if cluster:
             contest.problem = stack.enter_context(cluster(print)).problem(experiment)
@@ -253,9 +253,18 @@ def _tournament(contest: Contest, chosen: list[Population]) -> tuple[Table, Tabl
 
 
 def earlier(populations: Populations, generation: int, every: int) -> list[int]:
-    """Generation g, and of g - i, g - 2 i, ... those that are there; sorted."""
-    populations.check(generation)
-    found = [g for g in populations.generations if g <= generation and not (generation - g) % every]
+    """Generations g, g - i, g - 2 i, ...; of one that is not saved, the nearest that is; sorted.
+
+    Prints which are not saved.
+    """
+    there = populations.generations
+    wanted = range(generation, -1, -every)
+    nearest = [min(there, key=lambda saved: abs(saved - g)) for g in wanted]
+    found = sorted(set(nearest))
+    if missing := sorted(set(wanted) - set(there)):
+        names = counted(missing).removesuffix(" alone")
+        are = "is" if len(missing) == 1 else "are"
+        print(f"warning: {names} {are} not saved; the nearest take part: {counted(found)}")
     if len(found) < 2:
         raise BotschoolError(
             f"There is no generation before {generation} in steps of {every}: "
@@ -285,7 +294,7 @@ def equal_parts(loaded: list[Population], best: int | None = None) -> list[Popul
 
 def cross_test(contest: Contest, files: tuple[Path, Path]) -> None:
     """The best of two runs against each other, and among themselves."""
-    loaded = [read_population(path, contest.policy, str(path)) for path in files]
+    loaded = [read_population(path, contest.policy, str(path), contest.single) for path in files]
     print(_taking_part(loaded := equal_parts(loaded), "population"))
     report.print_cross(master_tournament(contest, loaded), [str(path) for path in files])
 

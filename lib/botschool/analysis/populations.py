@@ -1,7 +1,9 @@
-"""The populations that a run of coevo2 leaves in a folder (docs/specification.md, "Run files").
+"""The populations that co-evolution leaves in a folder (docs/specification.md, "Run files").
 
 `S12G200.npy` holds the populations of seed 12 after 200 generations: first all predators, then all
 prey, a network a row. `S12FitG200.npy` holds the fitness of each of them against each competitor.
+Where one population plays both sides (`single`), the file holds that, and its individuals are
+predators and prey alike.
 """
 
 from __future__ import annotations
@@ -46,10 +48,11 @@ class Populations:
     Raises BotschoolError, which says what is there, if the folder holds none of them.
     """
 
-    def __init__(self, folder: Path, seed: int, policy: Policy) -> None:
+    def __init__(self, folder: Path, seed: int, policy: Policy, single: bool = False) -> None:
         self.folder = folder
         self.seed = seed
         self.policy = policy
+        self.single = single
         found = seeds_of(folder)
         if seed not in found:
             there = ", ".join(map(str, found)) or "none at all"
@@ -69,7 +72,7 @@ class Populations:
         """All individuals of a generation. Raises BotschoolError."""
         self.check(generation)
         path = self.folder / f"S{self.seed}G{generation}.npy"
-        return read_population(path, self.policy, f"generation {generation}")
+        return read_population(path, self.policy, f"generation {generation}", self.single)
 
     def there(self) -> str:
         """What is there, as the end of a sentence."""
@@ -101,7 +104,7 @@ def counted(generations: list[int]) -> str:
     return f"generations {', '.join(numbers[:-1])} and {numbers[-1]}"
 
 
-def read_population(path: Path, policy: Policy, name: str) -> Population:
+def read_population(path: Path, policy: Policy, name: str, single: bool = False) -> Population:
     """The populations in a file, by the mean of the Fit file beside it, or as they stand.
 
     Raises BotschoolError if a file is damaged or its networks are not the policy's.
@@ -113,18 +116,20 @@ def read_population(path: Path, policy: Policy, name: str) -> Population:
             f"{path} holds {count} networks of {length} parameters, but this experiment's have "
             f"{policy.nparameters}: it is of an experiment with other [POLICY] settings."
         )
+    if single and count:
+        best = genotypes[_order(path, count, 1)]
+        return Population(name, best, best)
     if count % 2 or not count:
         raise BotschoolError(
             f"{path} holds {count} networks, but populations are as many predators as prey."
         )
-    order = _order(path, count)
+    order = _order(path, count, 2)
     half = count // 2
     return Population(name, genotypes[order[:half]], genotypes[order[half:]])
 
 
-def _order(path: Path, count: int) -> np.ndarray:
-    """Rows of the predators, then of the prey, the best first; equal ones as they stand."""
-    half = count // 2
+def _order(path: Path, count: int, sides: int) -> np.ndarray:
+    """Rows of each side, one side after the other, the best first; equal ones as they stand."""
     beside = path.with_name(re.sub(r"(S\d+)(G\d+\.npy)", r"\1Fit\2", path.name))
     if beside == path or not beside.exists():
         return np.arange(count)
@@ -134,9 +139,9 @@ def _order(path: Path, count: int) -> np.ndarray:
             f"{beside} holds the fitness of {len(fitness)} individuals, but {path.name} has "
             f"{count}: the two are not of one run."
         )
-    means = np.array([mean(row) for row in fitness]).reshape(2, half)
-    predators, prey = np.argsort(-means, axis=1, kind="stable")
-    return np.concatenate([predators, half + prey])
+    means = np.array([mean(row) for row in fitness]).reshape(sides, -1)
+    order = np.argsort(-means, axis=1, kind="stable")
+    return (order + count // sides * np.arange(sides)[:, None]).ravel()
 
 
 def _numbers(path: Path, what: str) -> np.ndarray:

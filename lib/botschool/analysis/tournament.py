@@ -51,7 +51,17 @@ class Contest:
             )
         self.policy = self.problem.policy(experiment.policy)
         self.seed = seed
+        self.single = experiment.single
+        """Whether one population plays both sides."""
         self._workers = workers
+
+    @property
+    def roles(self) -> str:
+        """Who predators and prey are, if it has to be said."""
+        if not self.single:
+            return self.problem.roles
+        first, second = self.problem.sides
+        return f"one population: its predators are those who are {first}, its prey {second}"
 
     def __enter__(self) -> Contest:
         return self
@@ -82,8 +92,9 @@ class Contest:
             self.policy.config.maxsteps,
             self._workers,
         )
-        shape = *outcome.fitness.shape[:-1], len(predators), len(prey), repeats
-        return outcome.fitness.reshape(shape).mean(axis=-1)
+        fitness = self.problem.sided(outcome.fitness)
+        shape = *fitness.shape[:-1], len(predators), len(prey), repeats
+        return fitness.reshape(shape).mean(axis=-1)
 
 
 def play(

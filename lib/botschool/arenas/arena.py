@@ -88,14 +88,15 @@ class Arena:
     @property
     def observation(self) -> np.ndarray:
         """What the robots sense, one robot after another, float64: 8 values in "discrim", twice 24
-        in "predprey", in a declared arena those of its sensors. It is renewed by reset(), step()
-        and sense()."""
+        in "predprey", twice 32 in "staybehind", in a declared arena those of its sensors. It is
+        renewed by reset(), step() and sense()."""
         return self._observation
 
     @property
     def action(self) -> np.ndarray:
         """Left and right wheel of one robot after another, float64, shape (2 * robots,): shares
-        of the greatest speed, usually -1 to 1. step() reads it and leaves it as it is."""
+        of the greatest speed, usually -1 to 1; in "staybehind" speed and direction instead. step()
+        reads it and leaves it as it is."""
         return self._action
 
     @action.setter
@@ -145,8 +146,9 @@ class Arena:
 
     @property
     def state(self) -> np.ndarray:
-        """x, y, heading of each robot, x, y of each cylinder, steps done: what scenes draw. That of
-        a declared arena is in docs/specification.md, "Declared arenas"."""
+        """x, y, heading of each robot, x, y of each cylinder, steps done: what scenes draw. In
+        "staybehind" it tells before the steps who is blocked. That of a declared arena is in
+        docs/specification.md, "Declared arenas"."""
         state = self._state.copy()
         for first, values in self._parts():
             state[first : first + values.size] = values.ravel()
@@ -188,7 +190,7 @@ class Arena:
     def step(self) -> float:
         """Moves the robots by `action` from the poses as they stand, and returns the reward.
 
-        In "predprey" it is the predator's, in a declared arena that of all robots. The random noise
+        In "predprey" it is the predator's, in others that of all robots. The random noise
         of the sensors depends on seed, episode and step.
         After the episode's end it moves on all the same; `done` stays True until reset().
         """
@@ -253,14 +255,15 @@ def make(
 ) -> Arena:
     """The arena of a task, at the start of episode 0 of seed 0.
 
-    "discrim": a Khepera, a cylinder. "predprey": two marXbots, the predator first. A Plan
-    (botschool.arenas.plan): the arena that it declares; `config.load(FILE).plan` is that of a file.
+    "discrim": a Khepera, a cylinder. "predprey": two marXbots, the predator first. "staybehind":
+    two marXbots, the follower first. A Plan (botschool.arenas.plan): the arena that it declares;
+    `config.load(FILE).plan` is that of a file.
 
-    max_steps: longest episode; None is the task's own (500, 2000). noise: standard deviation of
-    the infrared readings; None is the task's own (0.03, 0). wall_table, round_table: `.sample`
-    files (botschool.arenas.samples) with measured readings of walls and of round things; None is
-    the fitted model. models: names of other robots ("e-puck"), one for all or one each; () is the
-    task's own. Raises BotschoolError.
+    max_steps: longest episode; None is the task's own (500, 2000, 500). noise: standard deviation
+    of the infrared readings; None is the task's own (0.03, 0, 0). wall_table, round_table:
+    `.sample` files (botschool.arenas.samples) with measured readings of walls and of round things;
+    None is the fitted model. models: names of other robots ("e-puck"), one for all or one each; ()
+    is the task's own. Raises BotschoolError.
     """
     if isinstance(name, Plan):
         if models:

@@ -88,8 +88,8 @@ def es(
 
     - `P-100-5`: watch the 5 best predators of generation 100 chase its 5 best prey;
       `p-100-5`: only measure them
-    - `m-100-20`: measure generation 100 against those of generations 100, 80, 60 ... that are
-      saved; `M-100-20`: measure all of these against each other
+    - `m-100-20`: measure generation 100 against those of generations 100, 80, 60 ... (the
+      nearest that are saved); `M-100-20`: measure all of these against each other
     - `c-FILE1-FILE2`: measure the populations of two runs against each other
 
     As in: botschool es -f predprey.ini -s 12 -o results -p -g m-100-20

@@ -56,13 +56,17 @@ class Algorithm(Protocol):
         """The reverse of state()."""
 
 
-Play = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
-"""(predators, prey, pairs) -> fitness in each meeting, float64.
+Play = Callable[..., np.ndarray]
+"""(predators, prey, pairs, seed=None) -> fitness in each meeting, float64.
 
 Predators and prey are networks, float64, shapes (p, parameters) and (q, parameters); pairs says who
 meets whom, int32 (2, meetings). In a game of constant sum the fitness is the predator's,
 (meetings,), and a prey's is 1 minus it. In others it is that of both, (2, meetings), on any
-scale."""
+scale.
+
+Every meeting is the same `episodes` episodes: those of the run's seed with numbers 0, 1, ... With
+`seed` they are of that seed, and prey j has those from j * episodes on: all predators meet it under
+the same conditions, and other prey under others."""
 
 
 class Competition(Protocol):
@@ -81,6 +85,8 @@ class Competition(Protocol):
     """How much of the evolution is done, from 0 to 1; the run sets it before each generation."""
     plays: int
     """Calls of `play` in a generation."""
+    sides: tuple[str, ...]
+    """Names of the populations: predators and prey, or the only one, which plays both sides."""
 
     def __init__(
         self, config: Any, initial: Initial, seed: int, constant_sum: bool = True
@@ -96,18 +102,19 @@ class Competition(Protocol):
         """The best predator and the best prey, one after the other, and the predator's fitness."""
 
     def summary(self) -> dict[str, float]:
-        """What is reported of a generation; "predators" and "prey" are their mean fitness."""
+        """What is reported of a generation; under the names in `sides` the mean fitness of each."""
 
     def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray] | None:
         """Who is kept in files: networks, float64 (2, n, parameters), predators, then prey; and the
-        fitness of predators (rows) against prey (columns), (n, n) or (2, n, n) as `Play` says. None
-        if there is nobody yet.
+        fitness of predators (rows) against prey (columns), (n, n) or (2, n, n) as `Play` says. Of a
+        single population networks (n, parameters) and fitness (n, n). None if there is nobody yet.
 
         Playing for this changes nothing, and its steps do not count.
         """
 
-    def remembered(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None:
-        """Meetings of which the state holds the outcome: what `play` was given, and what it gave.
+    def remembered(self) -> tuple | None:
+        """Meetings of which the state holds the outcome: what `play` was given, and what it gave
+        (four arrays, or five with the seed).
 
         A resumed run repeats them, to see that they still end as they did. None if there are none.
         """

@@ -15,7 +15,7 @@ import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithm import ALGORITHMS, Competition
-from botschool.evolution.algorithms.sides import PREDATORS, PREY, SIDES, means, seen_by
+from botschool.evolution.algorithms.sides import PREDATORS, PREY, means, seen_by
 from botschool.evolution.limit import Limit
 from botschool.evolution.record import STAT, Record, RunFiles
 from botschool.evolution.run import Run
@@ -33,7 +33,8 @@ class CoevolutionRecord(Record):
     The stat file is the predators': their best mean fitness so far (twice: meeting competitors is
     measurement and post-evaluation in one), their best and their average fitness in the newest
     generation. Of coevo2 that is against all prey, of algorithms with archives in the predators'
-    newest turn, against those drawn from the preys' archive. The parameter is that of both sides.
+    newest turn, against those drawn from the preys' archive; of a single population, that of its
+    individuals as first robots. The parameter is that of both sides.
     bestg is the best predator and the best prey of the newest generation.
     """
 
@@ -49,7 +50,7 @@ class CoevolutionRecord(Record):
         self._rows.append(
             (
                 *(self.steps, self.best_fitness, self.bestg_fitness, best),
-                *(summary[SIDES[PREDATORS]], algorithm.average_parameter(), *summary.values()),
+                *(summary[algorithm.sides[0]], algorithm.average_parameter(), *summary.values()),
             )
         )
 
@@ -57,8 +58,8 @@ class CoevolutionRecord(Record):
 class Coevolution(Run):
     """A run of an algorithm with two sides and a seed; what `Run` says holds for it too.
 
-    Every meeting of two is the same `episodes` episodes: those of the run's seed with numbers
-    0, 1, ... So the fitness of a meeting is a pure function of the two who met.
+    Which episodes a meeting is, `Play` says: they follow from the run's seed, or from the one that
+    the algorithm gives. So the fitness of a meeting is a pure function of that and the two who met.
     """
 
     checkpointed = ("algorithm", "record")
@@ -118,9 +119,9 @@ class Coevolution(Run):
             self._started = self._started or (began, generation, share)
         self.report(self)
 
-    def _play(self, predators: np.ndarray, prey: np.ndarray, pairs: np.ndarray) -> np.ndarray:
+    def _play(self, *meetings) -> np.ndarray:
         """Fitness in each meeting: the algorithm's `Play`."""
-        fitness, steps = self._meet(predators, prey, pairs, self.stopping)
+        fitness, steps = self._meet(self.stopping, *meetings)
         self._steps += steps
         if self.record.steps and self.algorithm.plays > 1:
             self._plays += 1
@@ -128,9 +129,10 @@ class Coevolution(Run):
             self.report(self)
         return fitness
 
-    def _meet(self, predators, prey, pairs, stopping) -> tuple[np.ndarray, int]:
+    def _meet(self, stopping, predators, prey, pairs, seed=None) -> tuple[np.ndarray, int]:
         """By one call: fitness in each meeting, as `Play` says, and the steps it took."""
         count, meetings = self.policy.config.episodes, pairs.shape[1]
+        first = (pairs[1] * (seed is not None)).astype(np.uint32) * count
         places = pairs + np.array([[0], [len(predators)]], dtype=np.int32)
         outcome = self.problem.evaluate(
             self.policy,
@@ -138,14 +140,14 @@ class Coevolution(Run):
             None,
             Episodes(
                 np.ascontiguousarray(np.repeat(places, count, axis=1)),
-                np.full(meetings * count, self.seed, dtype=np.uint64),
-                np.tile(np.arange(count, dtype=np.uint32), meetings),
+                np.full(meetings * count, self.seed if seed is None else seed, dtype=np.uint64),
+                (first[:, None] + np.arange(count, dtype=np.uint32)).ravel(),
             ),
             self.policy.config.maxsteps,
             self.workers,
             stopping,
         )
-        met = means(outcome.fitness.reshape(-1, count))
+        met = means(self.problem.sided(outcome.fitness).reshape(-1, count))
         if not self.problem.constant_sum:
             met = met.reshape(2, meetings)
         return met, int(outcome.steps.sum())
@@ -158,8 +160,8 @@ class Coevolution(Run):
         remembered = self.algorithm.remembered()
         if remembered is None or not self.problem.native:
             return True
-        predators, prey, pairs, fitness = remembered
-        again, _ = self._meet(predators, prey, pairs, lambda: False)
+        *meetings, fitness = remembered
+        again, _ = self._meet(lambda: False, *meetings)
         return bool((again == fitness).all())
 
     @property
@@ -176,33 +178,32 @@ class Coevolution(Run):
 
         SSGg.npy: float64, (2 n, parameters), n predators, then n prey after generation g.
         SSFitGg.npy: float64, (2 n, n), their own fitness against each competitor, in that order.
-        Who they are says the algorithm's `individuals`.
+        Of a single population (n, parameters), and (n, n). Who they are says the algorithm's
+        `individuals`.
         """
         self.record.write(files)
         if not (ended or self._milestone):
             return
-        kept = self.algorithm.individuals(
-            lambda one, other, pairs: self._meet(one, other, pairs, lambda: False)[0]
-        )
+        kept = self.algorithm.individuals(lambda *meeting: self._meet(lambda: False, *meeting)[0])
         if kept is not None:
             generation, (networks, fitness) = self.record.generation, kept
-            save_npy(files.populations(generation), np.concatenate(networks))
-            both = [seen_by(side, fitness) for side in (PREDATORS, PREY)]
-            save_npy(files.fitness(generation), np.concatenate(both))
+            if len(self.algorithm.sides) == 2:
+                networks = np.concatenate(networks)
+                fitness = np.concatenate([seen_by(side, fitness) for side in (PREDATORS, PREY)])
+            save_npy(files.populations(generation), networks)
+            save_npy(files.fitness(generation), fitness)
 
     @property
     def _who(self) -> str:
         """Who evolved in the last generation."""
-        return SIDES[1 - self.algorithm.side]
+        return self.algorithm.sides[self.algorithm.side - 1]
 
     def numbers(self) -> str:
-        """What it has reached, in short: local progress if known, then the mean of both sides."""
+        """What it has reached, in short: local progress if known, then the mean of each side."""
         last = self.record.last
         progress = f" {last['local progress']:+.2f}" if "local progress" in last else ""
-        return (
-            f"gen. {self.record.generation}  {self._who}{progress}  "
-            f"mean {_shown(last['predators'], '.2f')} : {_shown(last['prey'], '.2f')}"
-        )
+        reached = " : ".join(_shown(last[side], ".2f") for side in self.algorithm.sides)
+        return f"gen. {self.record.generation}  {self._who}{progress}  mean {reached}"
 
     def line(self) -> str:
         """A line about the last generation."""
@@ -231,12 +232,13 @@ class Coevolution(Run):
 
     def result(self, files: RunFiles) -> str:
         """A sentence about the whole run."""
-        last = self.record.last
+        last, sides = self.record.last, self.algorithm.sides
+        reached = ", ".join(f"{side} {_shown(last[side], '.3f')}" for side in sides)
+        roles = self.problem.roles if len(sides) == 2 else ", then ".join(self.problem.sides)
         return (
-            f"seed {self.seed}: predators {_shown(last['predators'], '.3f')}, "
-            f"prey {_shown(last['prey'], '.3f')} on "
-            f"average in generation {self.record.generation}, after {self.record.steps} steps; "
-            f"best of both: {files.bestg}{f' ({roles})' if (roles := self.problem.roles) else ''}"
+            f"seed {self.seed}: {reached} on average in generation {self.record.generation}, "
+            f"after {self.record.steps} steps; "
+            f"best of both: {files.bestg}{f' ({roles})' if roles else ''}"
         )
 
 

@@ -80,6 +80,8 @@ class Problem(ABC):
     constant_sum: bool = True
     """Of two sides: whether an episode has one return, the first side's, and the second side gets
     1 minus it. Otherwise each has a return of its own."""
+    common: bool = False
+    """Of two sides without `constant_sum`: whether an episode has one return, which both get."""
     sides: tuple[str, str] = ("predator", "prey")
     """What individuals of two sides are called."""
 
@@ -127,6 +129,10 @@ class Problem(ABC):
         With `render`, an environment in Python adds its pictures; those of native problems are
         drawn from the state (botschool.render.scene).
         """
+
+    def sided(self, returns: np.ndarray) -> np.ndarray:
+        """What `evaluate` gave, (n,), as the returns of both sides, (2, n), if they share one."""
+        return np.stack([returns, returns]) if self.common else returns
 
     def rows(self, *parts: np.ndarray) -> np.ndarray:
         """Genotypes for `evaluate`, one part after another."""

@@ -60,6 +60,8 @@ class NativeProblem(Problem):
         """What its wheeled robots are built like; () for other problems."""
         self._options = self.options() if self.robots else None
         self.fps = 1 / info["seconds"]
+        self.common, self.sides = info["common"], info["sides"]
+        self.constant_sum = not self.common
         self.interface = Interface(
             info["observations"],
             info["outputs"],

@@ -121,6 +121,8 @@ class Painter:
         self._paint(large, self._moving, past)
         surface = import_pygame().transform.smoothscale(large, self._size)
         for shape in self._texts:
+            if not shape.visible(past[-1]):
+                continue
             [(x, y)] = _to_pixels(shape.placed(past[-1]), self._origin, self._scale)
             written = _text(shape.text, 20, PALETTE[shape.colour][0])
             surface.blit(written, (x - written.get_width() / 2, y - written.get_height() / 2))

@@ -98,6 +98,7 @@ class Coevo2(Stateful):
     evolves = ("generation", "parameters", "m", "v", "fitness")
 
     plays = SUB_GENERATIONS + 1
+    sides = SIDES
     share = 0.0
     progress = math.nan
     """Local progress of the last generation: by how much the mean fitness of the evolved

@@ -75,6 +75,7 @@ class HallOfFame(Stateful):
 
     share = 0.0
     plays = 1
+    sides = SIDES
 
     def __init__(self, config: Any, initial: Initial, seed: int, constant_sum: bool = True) -> None:
         """initial(index) gives two random networks in a row: the index-th predator and prey.

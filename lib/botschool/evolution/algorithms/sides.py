@@ -33,7 +33,9 @@ BAND = 4
 network's weights are read once for four of them (lib/evonet/rows.hpp)."""
 
 
-def everyone(play: Play, predators: np.ndarray, prey: np.ndarray) -> np.ndarray:
+def everyone(
+    play: Play, predators: np.ndarray, prey: np.ndarray, seed: int | None = None
+) -> np.ndarray:
     """Fitness of every predator (rows) against every prey (columns), as `seen_by` takes it.
 
     They meet in bands of a few predators: all of a band the first prey, then the next.
@@ -41,7 +43,7 @@ def everyone(play: Play, predators: np.ndarray, prey: np.ndarray) -> np.ndarray:
     shape = len(predators), len(prey)
     row, column = np.indices(shape, dtype=np.int32).reshape(2, -1)
     pairs = np.stack([row, column])[:, np.lexsort((row, column, row // BAND))]
-    met = play(predators, prey, pairs)
+    met = play(predators, prey, pairs) if seed is None else play(predators, prey, pairs, seed)
     fitness = np.empty((*met.shape[:-1], *shape))
     fitness[..., pairs[0], pairs[1]] = met
     return fitness

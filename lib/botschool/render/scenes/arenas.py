@@ -70,6 +70,14 @@ class ArenaScene(Scene):
     def _add_ground(self) -> None:
         """What the floor looks like."""
 
+    def _add_gradient(self) -> None:
+        """A floor that darkens away from the centre, as ground sensors read it."""
+        middle = (self.side / 2, self.side / 2)
+        self.add("polygon", rectangle(0.0, 0.0, self.side, self.side), "shade", opacity=0.6)
+        for share in np.linspace(1.0, 0.1, 10):
+            radius = share * self.side / 2
+            self.add("disc", [middle], "floor", radius=float(radius), opacity=0.18)
+
     def _add_objects(self, poses: list[int]) -> None:
         """What stands in the arena; `poses` are the robots'."""
 

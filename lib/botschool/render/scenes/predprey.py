@@ -6,7 +6,6 @@ import numpy as np
 
 from botschool.render.scene import draws
 from botschool.render.scenes.arenas import ArenaScene, Look
-from botschool.render.shapes import rectangle
 
 
 @draws("ErPredprey")
@@ -22,11 +21,7 @@ class PredpreyScene(ArenaScene):
     robots = ("predator", "prey")
 
     def _add_ground(self) -> None:
-        middle = (self.side / 2, self.side / 2)
-        self.add("polygon", rectangle(0.0, 0.0, self.side, self.side), "shade", opacity=0.6)
-        for share in np.linspace(1.0, 0.1, 10):
-            radius = share * self.side / 2
-            self.add("disc", [middle], "floor", radius=float(radius), opacity=0.18)
+        self._add_gradient()
 
     def _add_objects(self, poses: list[int]) -> None:
         self._caught, caught = self.pose(), self.value()

@@ -1,0 +1,180 @@
+"""coevo: one population whose individuals play both sides, as followers and leaders in
+ErStaybehind. As in docs/specification.md, "Algorithms"; see Nolfi and Pagliuca (2024), "Global
+progress in competitive co-evolution", https://doi.org/10.3389/frobt.2024.1470886, for the algorithm
+of two populations (coevo2) that it is made like.
+
+In a meeting (i, j) individual i drives the first robot and j the second, and the reward counts
+for i. Some individuals are improved as first robots, by steps like those of OpenAI-ES, with a few
+members of their own population that differ from each other; then they meet all members, and only
+who does well with all of them has a place in the population.
+"""
+
+# Hyperparameters keep the names they have in .ini files.
+# ruff: noqa: N815
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool.evolution.algorithm import (
+    Initial,
+    Play,
+    Stateful,
+    algorithm,
+    generations_between_saves,
+    mean_absolute,
+)
+from botschool.evolution.algorithms.ascent import Ascent, Start
+from botschool.evolution.algorithms.coevo2 import SUB_GENERATIONS, Coevo2, differing
+from botschool.evolution.algorithms.sides import everyone, mean, means, ranking
+from botschool.policies.hyperparameters import WEIGHT_DECAY, hyper
+from botschool.seeds import generator
+
+POPULATION = "population"
+
+
+@dataclass
+class CoevoConfig:
+    """Section [ALGO] of coevo."""
+
+    ngenerations: int = hyper(
+        200, "length of the run, in generations", low=1, high=1000000000, free=True
+    )
+    popsize: int = hyper(40, "individuals of the population", low=1, high=10000)
+    selsize: int = hyper(
+        10, "individuals evolved, and partners met, in a generation", low=1, high=10000
+    )
+    samplesize: int = hyper(
+        20, "perturbations per sub-generation, two candidates each", low=1, high=1000000
+    )
+    stepsize: float = hyper(0.01, "step size of Adam", above=0, high=1000)
+    noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
+    wdecay: int = hyper(0, "pull of the centre towards 0", choices=WEIGHT_DECAY)
+    saveeach: int = generations_between_saves(100)
+
+
+@algorithm("coevo", "one population that plays both sides", CoevoConfig, competitive=True)
+class Coevo(Stateful):
+    """advance(play): at first everyone meets everyone, then each call is a generation.
+
+    Individuals keep their places. `fitness` is that of the individual in the row as first robot
+    with the one in the column; nan before the first meeting.
+    """
+
+    evolves = ("generation", "parameters", "m", "v", "fitness")
+
+    plays = SUB_GENERATIONS + 2
+    sides = (POPULATION,)
+    side = 0
+    share = 0.0
+    progress = math.nan
+    """Local progress of the last generation: by how much the mean fitness of the evolved
+    individuals with the chosen partners has grown."""
+
+    def __init__(
+        self, config: CoevoConfig, initial: Initial, seed: int, constant_sum: bool = True
+    ) -> None:
+        """initial(index) gives two random networks in a row; the first one is taken."""
+        self.config = config
+        self.seed = seed
+        self.generation = 0
+        pairs = np.array([initial(i) for i in range(config.popsize)])
+        self.parameters = np.ascontiguousarray(np.split(pairs, 2, axis=1)[0])
+        self.m = np.zeros_like(self.parameters)
+        self.v = np.zeros_like(self.parameters)
+        self.fitness = np.full((config.popsize, config.popsize), np.nan)
+
+    @staticmethod
+    def conflicts(config: CoevoConfig) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Hyperparameters that cannot go together."""
+        yield from Coevo2.conflicts(config)
+
+    @property
+    def met(self) -> bool:
+        """Whether everyone has met everyone."""
+        return not np.isnan(self.fitness.flat[0])
+
+    def _numbers(self, generation: int) -> tuple[np.random.Generator, list[int]]:
+        """A generation's generator, and its seeds: of meetings with all, of each sub-generation."""
+        numbers = generator(self.seed, generation)
+        return numbers, numbers.integers(2**62, size=1 + SUB_GENERATIONS).tolist()
+
+    def advance(self, play: Play) -> None:
+        """A generation; the first call lets everyone meet everyone, which is none yet."""
+        if not self.met:
+            self.fitness = self._everyone(play, self.parameters, 0)
+            return
+        config, (numbers, seeds) = self.config, self._numbers(self.generation)
+
+        # choose partners that differ, and who evolves
+        first = int(numbers.integers(config.popsize))
+        partners = differing(self.fitness.T, config.selsize, first)
+        chosen = numbers.permutation(config.popsize)[: config.selsize]
+
+        # evolve copies of them as first robots, then let them meet everyone
+        copies = [array[chosen] for array in (self.parameters, self.m, self.v)]
+        stream = numbers.bit_generator.state
+        rules = (config.samplesize, config.noiseStdDev, config.stepsize, config.wdecay)
+        ascent = Ascent(Start(*copies, stream, *rules))
+        others = self.parameters[partners]
+        for seed in seeds[1:]:
+            met = _first(everyone(play, ascent.offspring(), others, seed))
+            ascent.climb(means(met).reshape(len(chosen), -1))
+        evolved = ascent.centres, ascent.m, ascent.v
+        after = _first(everyone(play, ascent.centres, self.parameters, seeds[0]))
+        progress = mean(after[:, partners]) - mean(self.fitness[np.ix_(chosen, partners)])
+
+        # evolved ones that are good enough take the places of the worst, newcomers before equals
+        kept = ranking(np.concatenate([after, self.fitness]))[: config.popsize]
+        new = np.sort(kept[kept < len(chosen)])
+        places = np.setdiff1d(np.arange(config.popsize), kept - len(chosen))
+        arrays = [array.copy() for array in (self.parameters, self.m, self.v)]
+        for array, improved in zip(arrays, evolved, strict=True):
+            array[places] = improved[new]
+
+        # everyone meets everyone, under the next generation's conditions
+        self.fitness = self._everyone(play, arrays[0], self.generation + 1)
+        self.parameters, self.m, self.v = arrays
+        self.generation += 1
+        self.progress = progress
+
+    def _everyone(self, play: Play, individuals: np.ndarray, generation: int) -> np.ndarray:
+        """Everyone meets everyone under a generation's conditions."""
+        seed = self._numbers(generation)[1][0]
+        return _first(everyone(play, individuals, individuals, seed))
+
+    def best(self) -> tuple[np.ndarray, float]:
+        """The best first robot, the best second one, and the first one's mean fitness."""
+        first, second = ranking(self.fitness)[0], ranking(self.fitness.T)[0]
+        pair = np.concatenate([self.parameters[first], self.parameters[second]])
+        return pair, mean(self.fitness[first])
+
+    def summary(self) -> dict[str, float]:
+        """Local progress, and the mean fitness of the population."""
+        return {"local progress": self.progress, POPULATION: mean(self.fitness)}
+
+    def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray] | None:
+        """The population, in its order."""
+        return (self.parameters, self.fitness) if self.met else None
+
+    def remembered(self) -> tuple | None:
+        """The first individual with everyone."""
+        if not self.met:
+            return None
+        count = self.config.popsize
+        pairs = np.stack([np.zeros(count), np.arange(count)]).astype(np.int32)
+        seed = self._numbers(self.generation)[1][0]
+        return self.parameters[:1], self.parameters, pairs, seed, self.fitness[0]
+
+    def average_parameter(self) -> float:
+        """Average absolute parameter of the population."""
+        return mean_absolute(self.parameters)
+
+
+def _first(fitness: np.ndarray) -> np.ndarray:
+    """The first robot's fitness, where both have one."""
+    return fitness[0] if fitness.ndim == 3 else fitness

@@ -1,0 +1,193 @@
+"""ErStaybehind step by step against an independent account, and how it is drawn."""
+
+import math
+
+import numpy as np
+import pytest
+
+from botschool import _core, arena, problems
+from botschool.config import PolicyConfig
+from botschool.problems import Episodes
+from botschool.render.scenes import make_scene
+from reference_staybehind import SPEED, Staybehind, motors, states
+
+NEAR = {"rel": 0, "abs": 1e-9}
+
+
+def driven(seed, episode, actions, start=None):
+    """The native arena and the reference through the same actions; what the reference says."""
+    own = arena.make("staybehind", max_steps=len(actions))
+    own.reset(seed, episode)
+    reference = Staybehind(seed, episode, len(actions))
+    if start is not None:
+        own.robots = start
+        reference.world.poses = [tuple(map(float, pose)) for pose in start]
+    told = []
+    for action in actions:
+        assert own.sense() == pytest.approx(reference.observation(), **NEAR)
+        own.action = action
+        reward = own.step()
+        expected, bumped = reference.step(action)
+        assert own.state == pytest.approx(states(reference), **NEAR)
+        assert reward == expected
+        assert own.terminated == bumped
+        told.append((expected, bumped, *reference.blocked))
+        if bumped:
+            break
+    return told
+
+
+def convoy(rng, steps):
+    """Actions of two robots that drive along one behind the other, a little unsteadily."""
+    actions = rng.uniform(-0.2, 0.2, (steps, 4))
+    actions[:, 0::2] += -0.6
+    return actions
+
+
+def test_episodes_follow_the_reference_step_by_step():
+    """Of random drivers, and of two that drive in a line, so that rewards are earned."""
+    rng = np.random.default_rng(4)
+    rewarded = bumps = blocked = freed = 0
+    for episode in range(40):
+        seed = int(rng.integers(2**62))
+        if episode % 2:
+            told = driven(seed, episode, rng.uniform(-1, 1, (200, 4)))
+        else:
+            start = (300.0, 1500.0, 0.1), (800.0, 1540.0, 0.0)
+            told = driven(seed, episode, convoy(rng, 200), start)
+        rewards, ends, first, second = map(np.array, zip(*told, strict=True))
+        rewarded += np.count_nonzero(rewards)
+        bumps += ends.sum()
+        for held in (first, second):
+            blocked += np.count_nonzero(np.diff(held.astype(int)) == 1)
+            freed += np.count_nonzero(np.diff(held.astype(int)) == -1)
+    assert rewarded > 200 and bumps > 5 and blocked > 50 and freed > 20
+
+
+def test_who_is_blocked_stays_and_how_often():
+    own = arena.make("staybehind", max_steps=500)
+    held, onsets, steps = np.zeros(2), np.zeros(2), 0
+    for episode in range(50):
+        own.reset(7, episode)
+        own.robots = (700, 700, 0), (2300, 2300, 1)
+        before = own.state.copy()
+        own.action = [-0.8, 1, -0.8, 1]  # in circles
+        while not own.done:
+            own.step()
+            state = own.state
+            for robot in range(2):
+                pose = slice(3 * robot, 3 * robot + 3)
+                assert (state[pose].tolist() == before[pose].tolist()) == bool(state[6 + robot])
+            held += state[6:8]
+            onsets += state[6:8] > before[6:8]
+            steps += 1
+            before = state.copy()
+        assert not own.terminated
+    # 0.95 of the blocked ones remain, those newly blocked among them; odds of a two-state chain
+    share = 0.01 * 0.95 / (0.01 * 0.95 + 0.05)
+    assert held / steps == pytest.approx(share, abs=0.04)  # episodes begin with both free
+    assert onsets / (steps - held) == pytest.approx(0.01 * 0.95, rel=0.2)
+
+
+@pytest.mark.parametrize(
+    ("start", "reward"),
+    [
+        (((1000, 1500, 0), (1500, 1500, 0)), 0.01),
+        (((1000, 1500, 0), (1599.9, 1500, 0)), 0.01),
+        (((1000, 1500, 0), (1600.1, 1500, 0)), 0),  # too far
+        (((1000, 1500, 0), (1340.1, 1500, 0)), 0.01),
+        (((1000, 1500, 0), (1339.9, 1500, 0)), 0),  # too near
+        (((1000, 1500, 0.78), (1500, 1500, 0.78)), 0.01),
+        (((1000, 1500, 0.79), (1500, 1500, 0.79)), 0),  # not ahead
+        (((1000, 1500, -0.78 % (2 * math.pi)), (1500, 1500, 0)), 0.01),
+        (((1000, 1500, 0), (1500, 1500, 0.78)), 0.01),
+        (((1000, 1500, 0), (1500, 1500, 0.79)), 0),  # not the same way
+        (((1500, 1500, 0), (1000, 1500, 0)), 0),  # the first one is ahead
+        (((1000, 1500, 6.2), (1500, 1500, 0.1)), 0.01),  # headings near 0 and 2 pi
+    ],
+)
+def test_what_is_rewarded(start, reward):
+    own = arena.make("staybehind")
+    own.robots = start
+    own.action = [-1, 0, -1, 0]  # nobody moves
+    assert own.step() == reward
+
+
+def test_the_place_before_the_step_and_the_headings_after_it_count():
+    own = arena.make("staybehind")
+    own.robots = (1000, 1500, 0), (1590, 1500, 0)
+    own.action = [-1, 0, 1, 0]
+    assert own.step() == 0.01 and own.robots[1, 0] == 1590 + SPEED / 10
+    assert own.step() == 0
+    own.reset()
+    own.robots = (1000, 1500, 0), (1500, 1500, 0)
+    own.action = [-1, 0, 1, -1]  # to the left
+    rewards = [own.step() for _ in range(3)]
+    turned = motors(1, -1)[1] * SPEED / 10 / 104
+    assert [k * turned < math.pi / 4 for k in (1, 2)] == [True, False]
+    assert rewards[:2] == [0.01, 0]
+
+
+@pytest.mark.parametrize("start", [((90, 1500, math.pi), (2000, 1500, 0)),
+                                   ((1000, 1500, 0), (2900, 1500, 0)),
+                                   ((1000, 1500, 0), (1180, 1500, 0))])  # fmt: skip
+def test_any_collision_ends_an_episode(start):
+    own = arena.make("staybehind")
+    own.robots = start
+    own.action = [1, 0, 1, 0] if start[1][0] > 1200 else [1, 0, -1, 0]
+    assert own.step() == 0 and own.terminated
+
+
+@pytest.mark.parametrize("isa", _core.instruction_sets())
+def test_evaluation_is_the_same_world(isa):
+    """Returns of whole episodes with networks: every instruction set, one and two threads."""
+    problem = problems.make("ErStaybehind")
+    policy = problem.policy(PolicyConfig(nrobots=2, heterogeneous=1, architecture=3, nhiddens=6))
+    genotypes = np.array([policy.initial(5, i) for i in range(12)]) * 3
+    episodes = Episodes.of(np.arange(12) + 2**40, 4)
+    reference = problem.evaluate(policy, genotypes, None, episodes, 300)
+    own = problems.native.NativeProblem("ErStaybehind", instruction_set=isa)
+    for workers in (1, 2):
+        outcome = own.evaluate(policy, genotypes, None, episodes, 300, workers)
+        assert np.array_equal(outcome.fitness, reference.fitness)
+        assert np.array_equal(outcome.steps, reference.steps)
+    assert len(np.unique(reference.steps)) > 5
+    for i in (0, 17, 40):
+        seed, episode = int(episodes.seed[i]), int(episodes.episode[i])
+        world, total = Staybehind(seed, episode, 300), 0.0
+        genotype = genotypes[episodes.candidate[i]]
+        for moment in problem.play(policy, genotype, None, seed, episode, 300):
+            assert moment.observation == pytest.approx(world.observation(), rel=0, abs=1e-4)
+            total += world.step(moment.action)[0]
+            assert moment.state == pytest.approx(states(world), rel=0, abs=1e-6)
+        assert moment.total == pytest.approx(total) == pytest.approx(reference.fitness[i])
+        assert moment.step == reference.steps[i]
+
+
+def test_a_blocked_robot_is_marked():
+    scene = make_scene("ErStaybehind")
+    state = np.array([1000.0, 1500, 0, 1500, 1500, 0, 0, 0, 3])
+    action, seen = [0.0, 0, 0, 0], np.zeros(64)
+
+    def halves(*blocked):
+        """Left and right of the middle between both robots."""
+        held = state.copy()
+        held[6:8] = blocked
+        frame = scene.draw(held, action, seen)
+        return np.split(frame, [frame.shape[1] * (1250 + 120) // 3240], axis=1)
+
+    free = halves(0, 0)
+    for blocked in (0, 1):
+        marked = halves(1 - blocked, blocked)
+        changed = [
+            np.count_nonzero((a != b).any(axis=2)) for a, b in zip(free, marked, strict=True)
+        ]
+        assert changed[blocked] > 800 and changed[1 - blocked] == 0
+
+
+def test_wheels_are_drawn_as_they_turn():
+    scene = make_scene("ErStaybehind")
+    state = np.array([1000.0, 1500, 0, 1500, 1500, 0, 0, 0, 3])
+    action = [1.0, -0.5, 0.0, 1.0]
+    drawn = scene.numbers(state, action, np.zeros(64))[-4:]
+    assert drawn == pytest.approx([*motors(1.0, -0.5), *motors(0.0, 1.0)])
