@@ -81,7 +81,11 @@ class Method:
         """Hyperparameters, with so many candidates a generation."""
         if self.algo == "OpenAI-ES":
             return {}
-        if self.algo == "SSS":
+        if self.algo == "(1+1)-ES":
+            return {"sigma": setting}
+        if self.algo == "PGPE":
+            return {"samplesize": count // 2, "sigma": setting}
+        if self.algo in ("SSS", "GA"):
             return {"popsize": count, "mutrate": setting}
         own = {"diagonal": int(self.diagonal)} if self.algo == "CMA-ES" else {}
         return {"popsize": count, "sigma": setting} | own
@@ -102,6 +106,9 @@ METHODS = (
     Method("xNES", "xNES"),
     Method("sNES", "sNES"),
     Method("SSS", "SSS"),
+    Method("GA", "GA"),
+    Method("(1+1)-ES", "(1+1)-ES"),
+    Method("PGPE", "PGPE"),
 )
 PYCMA = Method("pycma", "CMA-ES")
 """Is set as CMA-ES."""

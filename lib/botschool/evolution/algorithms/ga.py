@@ -1,0 +1,97 @@
+"""GA, a plain genetic algorithm: Such, Madhavan, Conti, Lehman, Stanley and Clune (2017), "Deep
+neuroevolution: genetic algorithms are a competitive alternative for training deep neural networks
+for reinforcement learning", https://arxiv.org/abs/1712.06567; uniform crossover, off by default, is
+Syswerda's (1989). As in docs/specification.md, "GA".
+
+Each generation measures the population, keeps the best individual as it is, and makes all others
+anew: mutated copies, or mixtures, of parents drawn from the best few.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
+from botschool.evolution.algorithms.gaussian import best_first
+from botschool.policies.hyperparameters import hyper
+from botschool.seeds import generator
+
+
+@dataclass
+class GAConfig:
+    """Section [ALGO] of GA."""
+
+    maxmsteps: float = hyper(
+        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
+    )
+    popsize: int = hyper(40, "individuals of the population", low=2, high=1000000)
+    selsize: int = hyper(10, "best individuals, who become parents", low=1, high=1000000)
+    mutrate: float = hyper(
+        0.1, "standard deviation of mutations", low=0, high=1000, alias="mutation"
+    )
+    crossrate: float = hyper(0.0, "share of children of two parents", low=0, high=1)
+    saveeach: float = hyper(
+        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
+    )
+
+
+@algorithm("GA", "genetic algorithm", GAConfig)
+class GA:
+    """ask() -> the population; tell(its fitness) -> the next population, the best one first."""
+
+    def __init__(self, config: GAConfig, initial: Initial, seed: int) -> None:
+        """initial(index) gives a random genotype; the population starts with numbers 0, 1, ..."""
+        self.config = config
+        self.seed = seed
+        self.generation = 0
+        self.population = np.array([initial(i) for i in range(config.popsize)])
+
+    @staticmethod
+    def conflicts(config: GAConfig) -> Iterator[tuple[tuple[str, ...], str]]:
+        """Hyperparameters that cannot go together."""
+        if config.selsize > config.popsize:
+            yield (
+                ("selsize", "popsize"),
+                f"selsize = {config.selsize} is more than popsize = {config.popsize}: lower "
+                "selsize",
+            )
+
+    def ask(self) -> tuple[np.ndarray, np.ndarray]:
+        """The population, shape (popsize, parameters), and the seed of each one's evaluation.
+
+        All individuals of a generation meet the same conditions.
+        """
+        seeds = np.full(len(self.population), self.seed + self.generation, dtype=np.uint64)
+        return self.population, seeds
+
+    def tell(self, fitness: np.ndarray) -> None:
+        """Selection, crossover and mutation; fitness has shape (popsize,)."""
+        count, size = self.population.shape
+        numbers = generator(self.seed, self.generation)
+        parents = self.population[best_first(fitness)[: self.config.selsize]]
+
+        # each child has a parent, or with `crossrate` each parameter from one of two parents
+        first, second = numbers.integers(len(parents), size=(2, count - 1))
+        crossed = numbers.random(count - 1) < self.config.crossrate
+        other = (numbers.random((count - 1, size)) < 0.5) & crossed[:, None]
+        children = np.where(other, parents[second], parents[first])
+
+        children = children + self.config.mutrate * numbers.standard_normal((count - 1, size))
+        self.population = np.concatenate([parents[:1], children])
+        self.generation += 1
+
+    def average_parameter(self) -> float:
+        """Average absolute parameter of the population."""
+        return mean_absolute(self.population)
+
+    def state(self) -> dict[str, np.ndarray]:
+        """All that a checkpoint needs besides config and seed."""
+        return {"generation": np.array(self.generation), "population": self.population}
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """The reverse of state()."""
+        self.generation = int(state["generation"])
+        self.population = state["population"]
