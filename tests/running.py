@@ -61,7 +61,7 @@ def contents(folder):
     """
     found = {}
     for path in sorted(folder.iterdir()):
-        if path.name.startswith("tensorboard") or path.suffix in (".ini", ".npz"):
+        if path.name.startswith("tensorboard") or path.suffix in (".ini", ".npz", ".html"):
             continue
         found[path.name] = path.read_bytes()
     for path in folder.glob("*.npz"):

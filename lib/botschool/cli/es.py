@@ -5,12 +5,15 @@ from __future__ import annotations
 import gc
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from botschool.cli import cluster_options as across
 from botschool.errors import BotschoolError
+
+if TYPE_CHECKING:
+    from botschool.config import Experiment
 
 app = typer.Typer()
 
@@ -78,6 +81,10 @@ def es(
     episodes: Annotated[
         int | None, typer.Option(min=1, help="With -p: episodes to evaluate or show.")
     ] = None,
+    page: Annotated[
+        bool,
+        typer.Option("--page", help="Only write the run's page from its files, while it runs too."),
+    ] = False,
     cluster: across.Cluster = None,
     no_tls: across.NoTLS = False,
     patience: across.Patience = None,
@@ -104,6 +111,12 @@ def es(
     machines = across.machines(cluster, no_tls, patience, workers)
     workers = workers or 1
     experiment = config.load(file)
+    if page:
+        from botschool.analysis.run_page import write_page
+
+        for number in range(seed, seed + replications):
+            print(f"page: {write_page(experiment, number, output)}")
+        return
     if replay and not (post or genotype):
         raise BotschoolError("--replay shows a robot: add -p, and -g FILE for a saved one.")
     if post or genotype or video or render or neurons:
@@ -142,6 +155,19 @@ def es(
         gc.unfreeze()
     if not finished:
         raise typer.Exit(130)
+    _write_pages(experiment, seeds, output, terminal)
+
+
+def _write_pages(experiment: Experiment, seeds: list[int], folder: Path, say: bool) -> None:
+    """A page about each run; it plays the robot where that takes no time, in native problems."""
+    from botschool import problems
+    from botschool.analysis.run_page import has_begun, write_page
+
+    native = experiment.exp.environment in problems.names() and not experiment.exp.wrappers
+    for seed in filter(lambda seed: has_begun(folder, seed), seeds):
+        path = write_page(experiment, seed, folder, native)
+        if say:
+            print(f"page: {path}")
 
 
 def _list_hyperparameters() -> None:

@@ -1,0 +1,140 @@
+"""One page about a run, beside its files: curve, best robot, settings, the command to repeat it.
+
+The page is a single file that needs nothing else: it can be opened, mailed and kept.
+"""
+
+from __future__ import annotations
+
+import io
+import shlex
+import tempfile
+from contextlib import redirect_stdout
+from dataclasses import fields
+from html import escape
+from importlib.resources import files
+from pathlib import Path
+from string import Template
+
+import numpy as np
+
+from botschool.analysis.runs import (
+    BEST_POST,
+    GENERATION_AVERAGE,
+    GENERATION_BEST,
+    STEPS,
+    read_stat,
+)
+from botschool.config import Experiment
+from botschool.errors import BotschoolError
+from botschool.evolution.record import RunFiles
+from botschool.output import save_bytes
+from botschool.terminal import readable
+
+WIDTH, HEIGHT, LEFT, BOTTOM = 720, 260, 70, 30
+"""Of the curve, in pixels; what its labels take."""
+POINTS = 400
+"""Of a curve at most."""
+LINES = (
+    (BEST_POST, "best", "best so far, post-evaluated"),
+    (GENERATION_BEST, "own", "best of the generation"),
+    (GENERATION_AVERAGE, "mean", "mean of the generation"),
+)
+EPISODES = 2
+
+
+def has_begun(folder: Path, seed: int) -> bool:
+    """Whether the run has saved a generation."""
+    return np.load(folder / f"statS{seed}.npy", allow_pickle=False).size > 0
+
+
+def write_page(experiment: Experiment, seed: int, folder: Path, robot: bool = True) -> Path:
+    """Writes pageSS.html from what the run has saved so far, and returns its path.
+
+    robot: whether it plays the best robot. Raises BotschoolError if the folder holds no such run,
+    if no generation is saved yet, or if the page cannot be written.
+    """
+    rows = read_stat(folder / f"statS{seed}.npy")
+    path = folder / f"pageS{seed}.html"
+    last = rows[-1]
+    facts = {
+        "generations": len(rows),
+        "steps": f"{int(last[STEPS]):,}",
+        "best post-evaluated": readable(last[BEST_POST]),
+        "mean of the last generation": readable(last[GENERATION_AVERAGE]),
+    }
+    name = experiment.path.name if experiment.path else "experiment.ini"
+    command = f"botschool es -f {shlex.quote(name)} -s {seed}"
+    text = Template((files("botschool.analysis") / "run_page.html").read_text(encoding="utf-8"))
+    filled = text.substitute(
+        title=escape(f"{experiment.exp.environment}, seed {seed}"),
+        facts="".join(f"<div><b>{value}</b>{key}</div>" for key, value in facts.items()),
+        curve=curve(rows),
+        robot=_replay(experiment, seed, folder) if robot else "",
+        command=escape(command),
+        watch=escape(f"{command} -p -g {RunFiles(folder, seed).bestg.name}"),
+        settings="".join(_settings(part, getattr(experiment, part)) for part in experiment.parts),
+    )
+    save_bytes(path, filled.encode())
+    return path
+
+
+def curve(rows: np.ndarray) -> str:
+    """Fitness against steps as SVG; rows: of a stat file."""
+    rows = rows[np.unique(np.linspace(0, len(rows) - 1, POINTS).round().astype(int))]
+    values = rows[:, [column for column, _, _ in LINES]]
+    low, high = np.nanmin(values), np.nanmax(values)
+    high = high if high > low else low + 1
+    right = max(rows[-1, STEPS], 1.0)
+
+    def place(step: float, value: float) -> str:
+        x = LEFT + (WIDTH - LEFT - 10) * step / right
+        y = 10 + (HEIGHT - BOTTOM - 10) * (high - value) / (high - low)
+        return f"{x:.1f},{y:.1f}"
+
+    parts = [f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="fitness against steps">']
+    for share in (0.0, 0.5, 1.0):
+        value = low + share * (high - low)
+        left, end = place(0, value), place(right, value)
+        parts.append(f'<polyline class="grid" points="{left} {end}"/>')
+        y = float(left.split(",")[1]) + 4
+        parts.append(f'<text x="{LEFT - 8}" y="{y:.1f}" class="end">{readable(value)}</text>')
+        x = float(place(share * right, low).split(",")[0])
+        steps = share * right
+        label = f"{steps / 1e6:.3g} M steps" if right >= 1e5 else f"{steps:.0f} steps"
+        anchor = "end" if share == 1 else "start" if share == 0 else "middle"
+        parts.append(f'<text x="{x:.1f}" y="{HEIGHT - 8}" text-anchor="{anchor}">{label}</text>')
+    for column, kind, _ in reversed(LINES):
+        points = [place(row[STEPS], row[column]) for row in rows if np.isfinite(row[column])]
+        parts.append(f'<polyline class="{kind}" points="{" ".join(points)}"/>')
+    legend = " ".join(f'<span class="{kind}">{words}</span>' for _, kind, words in LINES)
+    return "".join(parts) + f"</svg><p class=legend>{legend}</p>"
+
+
+def _replay(experiment: Experiment, seed: int, folder: Path) -> str:
+    """The best robot's replay, a page within the page; or why there is none."""
+    from botschool.render.watch import PostEvaluation, read_genotype
+
+    best = RunFiles(folder, seed).bestg
+    if not best.exists():
+        return "<p>No robot is saved yet.</p>"
+    try:
+        watched = PostEvaluation(experiment, seed, read_genotype(best), best.name)
+        with tempfile.TemporaryDirectory() as scratch, redirect_stdout(io.StringIO()):
+            path = Path(scratch) / "replay.html"
+            watched.write_replay(path, min(watched.available, EPISODES))
+            page = path.read_text(encoding="utf-8")
+    except BotschoolError as error:
+        return f"<p>The robot cannot be shown: {escape(str(error))}</p>"
+    return f'<iframe title="the best robot" srcdoc="{escape(page)}"></iframe>'
+
+
+def _settings(part: str, config) -> str:
+    """A section's keys and values; those that are not the default stand out."""
+    rows = []
+    for f in fields(config):
+        value = getattr(config, f.name)
+        if value in ("", None, ()):
+            continue
+        kind = "" if value == f.default else " class=own"
+        rows.append(f"<tr{kind}><td>{escape(f.name)}</td><td>{escape(str(value))}</td></tr>")
+    return f"<table><caption>[{part.upper()}]</caption>{''.join(rows)}</table>"
