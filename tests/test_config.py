@@ -261,8 +261,8 @@ REFUSED = {
     "other algorithm": (
         text(algo="popsize = 5"),
         "line 6",
-        "popsize is a hyperparameter of CMA-ES, SSS, archive, archivestar, coevo, coevo2, "
-        "maxsolvestar, sNES and xNES, but",
+        "popsize is a hyperparameter of CMA-ES, GA, SSS, archive, archivestar, coevo, "
+        "coevo2, maxsolvestar, sNES and xNES, but",
         "remove the line, or set algo = CMA-ES",
     ),
     "key twice": (text("bias = 1\nBIAS = 0"), "line 5", "BIAS is given a second time", "line 4"),
@@ -276,7 +276,7 @@ REFUSED = {
     "unknown algorithm": (text(exp="environment = X\nalgo = coev2"), "line 3", "mean coevo2?"),
     "strange algorithm": (
         text(exp="environment = X\nalgo = qq"),
-        "OpenAI-ES, SSS, archive, archivestar, coevo, coevo2, maxsolvestar",
+        "OpenAI-ES, PGPE, SSS, archive, archivestar, coevo, coevo2, maxsolvestar",
     ),
     "word for a number": (
         text("nhiddens = ten"),
@@ -424,7 +424,11 @@ def test_refused_dict(data, part):
 def test_describe_lists_every_hyperparameter_with_default_and_help():
     rows = describe()
     listed = {(section, name): default for section, name, default, _ in rows}
-    assert len(listed) == len(rows) == 5 + 23 + 17 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12 + 8
+    assert (
+        len(listed)
+        == len(rows)
+        == 5 + 23 + 17 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12 + 8 + 6 + 4 + 6
+    )
     for section, defaults in (
         (
             "EXP",

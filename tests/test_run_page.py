@@ -100,9 +100,11 @@ def test_a_browser_shows_it_without_an_error(run, tmp_path):
     browser = Browser(tmp_path / "profile")
     try:
         browser.call("Page.navigate", url=f"file://{run[1] / 'pageS3.html'}")
-        browser.wait("document.readyState === 'complete' && document.querySelector('iframe')")
+        browser.wait("document.readyState === 'complete'")
+        browser.wait("document.querySelector('iframe') !== null")
         assert browser.run("document.querySelectorAll('polyline').length") == 6
-        browser.wait("document.querySelector('iframe').contentDocument.querySelector('canvas')")
+        within = "document.querySelector('iframe').contentDocument"
+        browser.wait(f"{within}.querySelector('#step')?.innerText")
         assert browser.errors == []
     finally:
         browser.close()

@@ -30,7 +30,7 @@ from botschool.evolution.record import RunFiles
 from botschool.output import save_bytes
 from botschool.terminal import readable
 
-WIDTH, HEIGHT, LEFT, BOTTOM = 720, 260, 70, 30
+WIDTH, HEIGHT, LEFT, BOTTOM = 720, 260, 84, 30
 """Of the curve, in pixels; what its labels take."""
 POINTS = 400
 """Of a curve at most."""
