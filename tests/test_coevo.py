@@ -62,12 +62,16 @@ class Plain:
                     self.c, one, directions,
                     lambda number, x, seed=seed: average(self.met(x, seed, rivals)),
                 )  # fmt: skip
-        ranked = [(-average(self.met(one.x, seeds[0])), 0, one) for one in copies]
+        after = [self.met(one.x, seeds[0]) for one in copies]
+        progress = average([row[j] for row in after for j in rivals])
+        progress -= average([table[i][j] for i in chosen for j in rivals])
+        ranked = [(-average(row), 0, one) for row, one in zip(after, copies, strict=True)]
         ranked += [(-average(row), 1, one) for row, one in zip(table, self.all, strict=True)]
         best = [one for *_, one in sorted(ranked, key=lambda entry: entry[:2])][: self.c.popsize]
         new = [one for one in copies if one in best]
         self.all = [one if one in best else new.pop(0) for one in self.all]
         self.generation += 1
+        return progress
 
     def choose(self, table, first):
         columns = list(zip(*table, strict=True))
@@ -91,7 +95,7 @@ def test_generations_agree_with_plain_python(wdecay):
     for _ in range(4):
         before = algorithm.parameters.copy()
         algorithm.advance(play)
-        plain.advance()
+        assert algorithm.progress == pytest.approx(plain.advance())
         for name, part in (("parameters", "x"), ("m", "m"), ("v", "v")):
             expected = [getattr(one, part) for one in plain.all]
             np.testing.assert_allclose(getattr(algorithm, name), expected, rtol=1e-9, atol=1e-12)

@@ -106,10 +106,10 @@ METHODS = (
     Method("xNES", "xNES"),
     Method("sNES", "sNES"),
     Method("SSS", "SSS"),
-    Method("GA", "GA"),
-    Method("(1+1)-ES", "(1+1)-ES"),
-    Method("PGPE", "PGPE"),
 )
+MORE = (Method("GA", "GA"), Method("(1+1)-ES", "(1+1)-ES"), Method("PGPE", "PGPE"))
+"""Run with fewer seeds."""
+MORE_SEEDS = SEEDS[:5]
 PYCMA = Method("pycma", "CMA-ES")
 """Is set as CMA-ES."""
 WITH_PYCMA = ("cartpole_openaies", "pendulum", "dpole")
@@ -211,7 +211,7 @@ def tune(tried: Results) -> None:
     """Every setting on every problem."""
     for seed in TRIED:
         for problem in PROBLEMS:
-            for method in METHODS:
+            for method in (*METHODS, *MORE):
                 for setting in SETTINGS:
                     tried.do(problem, method, setting, seed, problem.tried)
 
@@ -230,8 +230,8 @@ def run_all(tried: Results, done: Results) -> None:
     """Every method with the setting chosen, seed by seed, so that what is there is comparable."""
     for seed in SEEDS:
         for problem in PROBLEMS:
-            methods = [*METHODS, PYCMA] if problem.file in WITH_PYCMA else METHODS
-            for method in methods:
+            methods = [*METHODS, PYCMA] if problem.file in WITH_PYCMA else [*METHODS]
+            for method in methods + [*MORE] * (seed in MORE_SEEDS):
                 setting = chosen(tried, problem, method)
                 done.do(problem, method, setting, seed, problem.steps)
 

@@ -13,6 +13,7 @@ from algorithms import (
     LONG_PROBLEMS,
     LONGER,
     METHODS,
+    MORE,
     POINTS,
     PROBLEMS,
     PYCMA,
@@ -167,7 +168,23 @@ def seeds(done) -> int:
     return min(len(done.of(problem.file, name)) for problem in PROBLEMS for name in NAMES)
 
 
+def more(tried, done) -> str:
+    """The algorithms with fewer seeds, beside some of the others on the same seeds."""
+    names = [method.name for method in MORE]
+    count = min(len(done.of(problem.file, name)) for problem in PROBLEMS for name in names)
+    rows = []
+    for problem in PROBLEMS:
+        beside = ("OpenAI-ES", "sNES", "SSS", *names)
+        found = [returns(done, problem, name)[:count] for name in beside]
+        means = [f"{values.mean():.1f} +- {values.std(ddof=1):.1f}" for values in found]
+        sizes = ", ".join(f"{chosen(tried, problem, method):g}" for method in MORE)
+        rows.append([problem.file, f"{problem.steps:g} M", str(count), *means, sizes])
+    columns = ["problem", "steps", "seeds", "OpenAI-ES", "sNES", "SSS", *names]
+    return markdown([*columns, f"keys of {', '.join(names)}"], rows)
+
+
 BLOCKS = {
+    "more": lambda tried, done, longer: more(tried, done),
     "reached": lambda tried, done, longer: reached(done),
     "order": lambda tried, done, longer: order(done),
     "longer": lambda tried, done, longer: long(longer),
