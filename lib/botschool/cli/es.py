@@ -155,7 +155,7 @@ def es(
         gc.unfreeze()
     if not finished:
         raise typer.Exit(130)
-    _write_pages(experiment, seeds, output, terminal)
+    _write_pages(experiment, seeds, output, options.terminal)
 
 
 def _write_pages(experiment: Experiment, seeds: list[int], folder: Path, say: bool) -> None:

@@ -14,33 +14,29 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
+from botschool.evolution.algorithm import Initial, RunConfig, Stateful, algorithm, mean_absolute
 from botschool.evolution.algorithms.gaussian import best_first
 from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 
 @dataclass
-class GAConfig:
+class GAConfig(RunConfig):
     """Section [ALGO] of GA."""
 
-    maxmsteps: float = hyper(
-        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
-    )
     popsize: int = hyper(40, "individuals of the population", low=2, high=1000000)
     selsize: int = hyper(10, "best individuals, who become parents", low=1, high=1000000)
     mutrate: float = hyper(
         0.1, "standard deviation of mutations", low=0, high=1000, alias="mutation"
     )
     crossrate: float = hyper(0.0, "share of children of two parents", low=0, high=1)
-    saveeach: float = hyper(
-        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
-    )
 
 
 @algorithm("GA", "genetic algorithm", GAConfig)
-class GA:
+class GA(Stateful):
     """ask() -> the population; tell(its fitness) -> the next population, the best one first."""
+
+    evolves = ("generation", "population")
 
     def __init__(self, config: GAConfig, initial: Initial, seed: int) -> None:
         """initial(index) gives a random genotype; the population starts with numbers 0, 1, ..."""
@@ -86,12 +82,3 @@ class GA:
     def average_parameter(self) -> float:
         """Average absolute parameter of the population."""
         return mean_absolute(self.population)
-
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed."""
-        return {"generation": np.array(self.generation), "population": self.population}
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        self.generation = int(state["generation"])
-        self.population = state["population"]

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
+from botschool.evolution.algorithm import Initial, RunConfig, Stateful, algorithm, mean_absolute
 from botschool.evolution.algorithms.gaussian import within_limits
 from botschool.linear import exp
 from botschool.policies.hyperparameters import hyper
@@ -20,25 +20,21 @@ from botschool.seeds import generator
 
 
 @dataclass
-class OnePlusOneConfig:
+class OnePlusOneConfig(RunConfig):
     """Section [ALGO] of (1+1)-ES."""
 
-    maxmsteps: float = hyper(
-        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
-    )
     sigma: float = hyper(0.3, "standard deviation of the first mutations", above=0, high=1000)
     growth: float = hyper(
         0.33, "a success multiplies sigma by exp of this, a failure by exp of -1/4 of it",
         low=0, high=10,
     )  # fmt: skip
-    saveeach: float = hyper(
-        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
-    )
 
 
 @algorithm("(1+1)-ES", "one parent, one child, mutations of the right size", OnePlusOneConfig)
-class OnePlusOne:
+class OnePlusOne(Stateful):
     """ask() -> parent and child; tell(their fitness) -> the better one is the next parent."""
+
+    evolves = ("generation", "parent", "sigma")
 
     def __init__(self, config: OnePlusOneConfig, initial: Initial, seed: int) -> None:
         """initial(index) gives a random genotype; the parent starts as number 0."""
@@ -68,16 +64,3 @@ class OnePlusOne:
     def average_parameter(self) -> float:
         """Average absolute parameter of the parent."""
         return mean_absolute(self.parent)
-
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed."""
-        return {
-            "generation": np.array(self.generation),
-            "parent": self.parent,
-            "sigma": np.array(self.sigma),
-        }
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        self.generation, self.sigma = int(state["generation"]), float(state["sigma"])
-        self.parent = state["parent"]

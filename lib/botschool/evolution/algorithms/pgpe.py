@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from botschool.evolution.algorithm import Initial, algorithm, mean_absolute
+from botschool.evolution.algorithm import Initial, RunConfig, Stateful, algorithm, mean_absolute
 from botschool.evolution.algorithms.drawing import draw
 from botschool.evolution.algorithms.gaussian import within_limits
 from botschool.linear import weighted
@@ -25,26 +25,22 @@ MOST = 0.2
 
 
 @dataclass
-class PGPEConfig:
+class PGPEConfig(RunConfig):
     """Section [ALGO] of PGPE."""
 
-    maxmsteps: float = hyper(
-        1.0, "length of the run, in million steps", above=0, high=1e9, free=True
-    )
     samplesize: int = hyper(
         20, "perturbations per generation, two candidates each", low=1, high=1000000
     )
     sigma: float = hyper(0.3, "standard deviation of the first candidates", above=0, high=1000)
     etamu: float = hyper(4.0, "learning rate of the mean", above=0, high=1000)
     etasigma: float = hyper(0.1, "learning rate of the deviations", low=0, high=1000)
-    saveeach: float = hyper(
-        60.0, "minutes between saves (0 = every generation)", low=0, high=1e6, free=True
-    )
 
 
 @algorithm("PGPE", "policy gradient with parameter-based exploration", PGPEConfig)
-class PGPE:
+class PGPE(Stateful):
     """ask() -> candidates to evaluate; tell(their fitness) -> the next mean and deviations."""
+
+    evolves = ("generation", "mean", "sigma")
 
     def __init__(self, config: PGPEConfig, initial: Initial, seed: int) -> None:
         """initial(index) gives a random genotype; the mean starts at number 0."""
@@ -84,16 +80,3 @@ class PGPE:
     def average_parameter(self) -> float:
         """Average absolute parameter of the mean."""
         return mean_absolute(self.mean)
-
-    def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides config and seed."""
-        return {
-            "generation": np.array(self.generation),
-            "mean": self.mean,
-            "sigma": self.sigma,
-        }
-
-    def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
-        self.generation = int(state["generation"])
-        self.mean, self.sigma = state["mean"], state["sigma"]
