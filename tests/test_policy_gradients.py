@@ -229,7 +229,7 @@ def test_the_first_step_is_the_environments():
 def test_running_moments_are_numpys():
     ppo = PPO("botschool/PlanarHopper-v5", seed=2, n_envs=40, n_steps=30, normalize=True)
     plain = PPO("botschool/PlanarHopper-v5", seed=2, n_envs=40, n_steps=30)
-    # the same weights on normalised observations act otherwise, so that only the first look compares
+    # agents that normalise act otherwise, so that only the first look compares
     mean, variance = ppo.core.observed
     first = plain.collect().observations[0].astype(np.float64)
     np.testing.assert_allclose(mean, first.mean(axis=0), rtol=1e-4, atol=1e-5)

@@ -161,6 +161,16 @@ nb::object observed(const Training& t) {
   return to_numpy(std::move(values), {2, t.experience.seen.size()});
 }
 
+void set_observed(Training& t, Matrix<const double> moments) {
+  Experience& e = t.experience;
+  expect_size(moments, 2 * e.seen.size(), "the matrix of means and variances");
+  for (std::size_t i = 0; i < e.seen.size(); ++i) {
+    e.seen[i].mean = moments.data()[i];
+    e.seen[i].variance = moments.data()[e.seen.size() + i];
+  }
+  e.use_seen();
+}
+
 /// Between two updates, all that the rest of the training depends on: calls f(name, values, count).
 template <class F>
 void each_part(Training& t, const F& f) {
@@ -293,7 +303,8 @@ void bind_policy_gradient(nb::module_& module) {
       .def("restore", &restore, nb::arg("state"))
       .def_prop_ro("rollout", &rollout)
       .def_prop_ro("episodes", &episodes)
-      .def_prop_ro("observed", &observed)
+      .def_prop_rw("observed", &observed, &set_observed)
+      .def_prop_ro("updates", [](const Training& t) { return t.learner.updates; })
       .def_prop_ro("parts", [](const Training& t) { return parts(t.agent); })
       .def_prop_ro("parameters",
                    [](nb::handle self) {

@@ -86,6 +86,12 @@ void Experience::look() {
     double mean, squares;
     kernels_.moments(row_.data(), h_.n_envs, &mean, &squares);
     seen[i].merge(mean, squares, h_.n_envs);
+  }
+  use_seen();
+}
+
+void Experience::use_seen() {
+  for (int i = 0; i < agent.inputs(); ++i) {
     mean_[i] = static_cast<float>(seen[i].mean);
     scale_[i] = seen[i].scale();
   }
@@ -109,10 +115,10 @@ void Experience::rate(int t) {
   }
 }
 
-/// Step t of a group; first the end of the step before, whose rewards are scaled by now.
 const Rollout& Experience::collect(const float* parameters) {
   world_.parameters = parameters;
   const int n = static_cast<int>(groups.size());
+  // step t of a group; first the end of the step before, whose rewards are scaled by now
   const auto step = [&](int g, int t, int thread) {
     if (t > 0) kernels_.bootstrap(world_, groups[g], t - 1, scratch(thread));
     if (t < h_.n_steps)
@@ -159,10 +165,7 @@ void Experience::play(const float* parameters, int count, const std::uint64_t* s
 }
 
 void Experience::restore() {
-  for (int i = 0; i < agent.inputs(); ++i) {
-    mean_[i] = static_cast<float>(seen[i].mean);
-    scale_[i] = seen[i].scale();
-  }
+  use_seen();
   for (Group& g : groups) kernels_.replay(world_, g, steps, scratch(0), motors(0));
 }
 

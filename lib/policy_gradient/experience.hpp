@@ -40,6 +40,9 @@ class Experience {
   void play(const float* parameters, int count, const std::uint64_t* seed,
             const std::uint32_t* episode, double* returns, std::int32_t* lengths);
 
+  /// Normalises by `seen` from now on, after it was set.
+  void use_seen();
+
   /// Plays the environments' episodes again after episodes, lengths, recent actions and steps were set.
   void restore();
 

@@ -12,6 +12,7 @@ from botschool.errors import BotschoolError
 from botschool.output import cannot_write
 from botschool.rl.folder import Evaluations, RunFolder, next_folder
 from botschool.rl.model import build, choose
+from botschool.rl.native import training as native
 from botschool.rl.parameters import parse, read_settings
 from botschool.rl.policies import WITH_IMAGES
 from botschool.rl.progress import reporting
@@ -40,6 +41,7 @@ def train(
     episodes: int = 20,
     wrappers: str = "",
     vec_env: str = "dummy",
+    engine: str = "auto",
     report: Callable[[int, Evaluations], None] = lambda steps, evaluations: None,
 ) -> RunFolder:
     """Trains an agent in folder/algo/env_N and gives that folder.
@@ -47,13 +49,14 @@ def train(
     algo: one of botschool.rl.settings.ALGORITHMS; env: a Gymnasium id; params: hyperparameters by
     name; policy: mlp, lstm, cnn, cnnlstm or module:Class of one's own; wrappers: around the
     environment (botschool.wrappers); vec_env: subproc for a process for
-    each environment (in a script then under `if __name__ == "__main__":`). What is None comes from
+    each environment (in a script then under `if __name__ == "__main__":`); engine: native, sb3, or
+    auto, which is native for ppo on a native problem (botschool.rl.native). What is None comes from
     defaults.yaml. The policy is post-evaluated `evaluations` times, each time on the same
     `episodes` fresh seeds; `report` is called with the steps and the post-evaluations so far. The
     same arguments give the same results on the same machine. Raises BotschoolError.
     """
     settings = choose(
-        algo, env, policy, params, envs, steps, seed, evaluations, episodes, wrappers, vec_env
+        algo, env, policy, params, envs, steps, seed, evaluations, episodes, wrappers, vec_env, engine
     )
     run, _ = learn(settings, Path(folder), report)
     return run
@@ -66,12 +69,15 @@ def learn(
     started: Callable[[RunFolder], None] = lambda run: None,
     stopping: Callable[[], bool] = lambda: False,
     events: Path | None = None,
+    threads: int = 1,
 ) -> tuple[RunFolder, Evaluations]:
     """Trains with these settings in a new folder; `started` is told which as soon as it exists.
 
     Ends early, all saved, when `stopping()` is true. Curves for TensorBoard are in its folder, and
-    in `events` too if given. Raises BotschoolError.
+    in `events` too if given. threads: of the native engine. Raises BotschoolError.
     """
+    if settings.engine == "native":
+        return native.learn(settings, folder, report, started, stopping, events, threads)
     from botschool.rl.callbacks import PostEvaluation
 
     with _one_thread(settings), _training_env(settings) as env:

@@ -182,7 +182,10 @@ class PPO:
         )
 
     def step(self, gradient: np.ndarray, learning_rate: float | None = None) -> None:
-        """One step of Adam against a gradient, shortened to max_grad_norm. Raises BotschoolError."""
+        """One step of Adam against a gradient, which max_grad_norm shortens.
+
+        Raises BotschoolError if it is not finite.
+        """
         if learning_rate is None:
             learning_rate = at(self.hyperparameters.learning_rate, self.progress)
         if not self.core.step(_vector(gradient), learning_rate):
