@@ -59,7 +59,9 @@ class Agent:
         self._normalise = normalise
 
     @classmethod
-    def load(cls, path: Path | str, env: str | None = None, policy: str | None = None) -> Agent | NativeAgent:
+    def load(
+        cls, path: Path | str, env: str | None = None, policy: str | None = None
+    ) -> Agent | NativeAgent:
         """The model in a file of a run's folder, for its environment or for `env`.
 
         The file is a model of Stable-Baselines3 (.zip) or weights alone (.npz). Only weights are

@@ -231,5 +231,6 @@ def _folders(folder: Path) -> Iterator[Path]:
 def is_run(folder: Path) -> bool:
     """Whether the folder is that of a training."""
     return (folder / CONFIG).is_file() and any(
-        (folder / name).is_file() for name in (EVALUATIONS, "last_model.zip", "last_model.npz", "progress.csv")
+        (folder / name).is_file()
+        for name in (EVALUATIONS, "last_model.zip", "last_model.npz", "progress.csv")
     )

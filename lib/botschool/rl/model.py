@@ -17,8 +17,8 @@ from gymnasium import spaces
 from botschool.errors import BotschoolError, said
 from botschool.inifile import shown
 from botschool.rl import spellings
-from botschool.rl.native import choosing
 from botschool.rl.environments import described, make
+from botschool.rl.native import choosing
 from botschool.rl.parameters import ACTIVATIONS, OF_GOALS, OF_POLICY, complete, linear
 from botschool.rl.policies import WITH_IMAGES, check_policy, has_memory, is_own, policy_of
 from botschool.rl.settings import VEC_ENVS, Settings, check_algorithm, defaults
@@ -84,7 +84,18 @@ def choose(
     if vec_env not in VEC_ENVS:
         raise BotschoolError(f"--vec-env is '{shown(vec_env)}', but must be dummy or subproc.")
     native = choosing.choose(
-        engine, algo, env, policy, given, envs, steps, seed, evaluations, episodes, wrappers, vec_env
+        engine,
+        algo,
+        env,
+        policy,
+        given,
+        envs,
+        steps,
+        seed,
+        evaluations,
+        episodes,
+        wrappers,
+        vec_env,
     )
     if native is not None:
         return native

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -56,7 +58,18 @@ def train(
     same arguments give the same results on the same machine. Raises BotschoolError.
     """
     settings = choose(
-        algo, env, policy, params, envs, steps, seed, evaluations, episodes, wrappers, vec_env, engine
+        algo,
+        env,
+        policy,
+        params,
+        envs,
+        steps,
+        seed,
+        evaluations,
+        episodes,
+        wrappers,
+        vec_env,
+        engine,
     )
     run, _ = learn(settings, Path(folder), report)
     return run
@@ -178,22 +191,63 @@ def train_command(
     terminal: bool,
     events: Path | None = None,
     file: Path | None = None,
+    replications: int = 1,
+    workers: int = 1,
     **options: Any,
 ) -> bool:
     """`botschool rl train`: prints progress and result; False when the user stopped it."""
     chosen = (read_settings(file) if file else {}) | parse(params)
     settings = choose(algo, env, params=chosen, **options)
+    if workers > 1 and settings.engine != "native":
+        raise BotschoolError(
+            "-w is for the native engine; Stable-Baselines3 takes --vec-env subproc."
+        )
+    several = [replace(settings, seed=settings.seed + i) for i in range(replications)]
+    together = min(workers, replications)
 
-    def started(run: RunFolder) -> None:
-        print(f"training {settings.algo} on {settings.env} in {run.path}", flush=True)
+    def one(settings: Settings, stopping: Callable[[], bool]) -> None:
+        if stopping():
+            return
+
+        def started(run: RunFolder) -> None:
+            print(f"training {settings.algo} on {settings.env} in {run.path}", flush=True)
+
+        with reporting(settings.steps, settings.seed, terminal and together == 1) as report:
+            threads = max(1, workers // together)
+            run, found = learn(settings, folder, report, started, stopping, events, threads)
+        _print_result(run, found, settings)
 
     with stoppable() as stopping:
+        if together == 1:
+            for each in several:
+                one(each, stopping)
+        else:
+            with ThreadPoolExecutor(together) as pool:
+                list(pool.map(lambda each: one(each, stopping), several))
+        return not stopping()
+
+
+def resume_command(folder: Path, workers: int, terminal: bool) -> bool:
+    """`botschool rl train --resume`: goes on with a native training."""
+    run = RunFolder(folder)
+    settings = run.settings()
+    if settings.engine != "native":
+        raise BotschoolError(
+            f"{folder} was trained by Stable-Baselines3, whose trainings cannot go on: train again."
+        )
+    with stoppable() as stopping:
         with reporting(settings.steps, settings.seed, terminal) as report:
-            run, found = learn(settings, folder, report, started, stopping, events)
-        stopped = stopping()
+            found = native.resume(run, report, stopping, workers)
+        _print_result(run, found, settings)
+        return not stopping()
+
+
+def _print_result(run: RunFolder, found: Evaluations, settings: Settings) -> None:
+    stopped = found.steps[-1] < settings.steps
+    again = f"; to go on: botschool rl train --resume {run.path}"
     print(
         f"{'stopped' if stopped else 'finished'} after {found.steps[-1]} steps: best "
         f"post-evaluated {readable(found.best)}, last {readable(found.last)}; best model: "
-        f"{run.best}"
+        f"{run.best}" + (again if stopped and settings.engine == "native" else ""),
+        flush=True,
     )
-    return not stopped

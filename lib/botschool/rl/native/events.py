@@ -1,8 +1,8 @@
 """Curves for TensorBoard: its event files, written without TensorFlow or torch.
 
 A file is a sequence of records: length (uint64), its checksum, the bytes of an Event, their
-checksum. The Event is a protocol buffer: wall_time = 1 (double), step = 2 (varint), file_version = 3
-(string), summary = 5 of value = 1 of tag = 1 (string) and simple_value = 2 (float).
+checksum. The Event is a protocol buffer: wall_time = 1 (double), step = 2 (varint), file_version
+= 3 (string), summary = 5 of value = 1 of tag = 1 (string) and simple_value = 2 (float).
 """
 
 from __future__ import annotations

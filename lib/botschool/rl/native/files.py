@@ -1,4 +1,4 @@
-"""Files of a native training: models as weights by Stable-Baselines3's names, and the checkpoint."""
+"""Files of a native training: weights by Stable-Baselines3's names, and the checkpoint."""
 
 from __future__ import annotations
 

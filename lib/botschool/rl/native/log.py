@@ -1,9 +1,8 @@
-"""The indicators of a training: progress.csv and TensorBoard's files, as Stable-Baselines3 has them."""
+"""The indicators of a training, with Stable-Baselines3's names: progress.csv and TensorBoard."""
 
 from __future__ import annotations
 
 import csv
-import io
 import time
 from collections import deque
 from pathlib import Path
@@ -20,6 +19,11 @@ RECENT = 100
 TIME = ("time/fps", "time/time_elapsed")
 """Indicators that differ from run to run."""
 
+TRAIN = (
+    "approx_kl", "clip_fraction", "clip_range", "explained_variance", "learning_rate", "loss",
+    "value_loss",
+)  # fmt: skip
+
 
 class Log:
     """Files that grow by a row for each update; a checkpoint knows how long they were."""
@@ -29,7 +33,7 @@ class Log:
         self._csv = folder / "progress.csv"
         folders = [folder] if more is None else [folder, more / folder.name]
         self._events = [self._event_file(each, resumed) for each in folders]
-        self._columns: list[str] = []
+        self._columns = columns(ppo)
         self._begun, self._before, self._first = time.monotonic(), 0.0, ppo.steps
         self.returns: deque[float] = deque(maxlen=RECENT)
         self.lengths: deque[int] = deque(maxlen=RECENT)
@@ -48,8 +52,7 @@ class Log:
         actions = rollout.actions.reshape(-1, rollout.actions.shape[2])
         std = ppo.weights.get("log_std")
         if std is None:
-            outputs = len(ppo.weights[[n for n in ppo.weights if n.startswith("actor")][-1]])
-            counts = np.bincount(actions[:, 0].astype(int), minlength=outputs)
+            counts = np.bincount(actions[:, 0].astype(int), minlength=ppo.outputs)
             for action, share in enumerate(counts / counts.sum()):
                 named[f"actions/frequency_{action}"] = float(share)
         else:
@@ -59,8 +62,7 @@ class Log:
         named["time/fps"] = float(int((ppo.steps - self._first) / seconds))
         named["time/time_elapsed"] = float(int(self._before + seconds))
         named["time/iterations"] = float(int(ppo.core.updates))
-        for name in ("approx_kl", "clip_fraction", "explained_variance", "learning_rate", "loss",
-                     "value_loss", "clip_range"):  # fmt: skip
+        for name in TRAIN:
             named[f"train/{name}"] = found[name]
         named["train/entropy_loss"] = -found["entropy"]
         named["train/policy_gradient_loss"] = found["policy_loss"]
@@ -82,23 +84,11 @@ class Log:
             raise cannot_write(self._csv.parent, error.strerror or str(error)) from error
 
     def _row(self, values: dict[str, float]) -> None:
-        if not values.keys() <= set(self._columns):  # a new column: the file is written anew
-            rows = self._rows()
-            self._columns += [name for name in values if name not in self._columns]
-            with open(self._csv, "w", encoding="utf-8", newline="") as file:
-                writer = csv.DictWriter(file, self._columns)
-                writer.writeheader()
-                writer.writerows(rows)
-        line = io.StringIO()
-        csv.DictWriter(line, self._columns).writerow(values)
         with open(self._csv, "a", encoding="utf-8", newline="") as file:
-            file.write(line.getvalue())
-
-    def _rows(self) -> list[dict[str, str]]:
-        if not self._csv.exists():
-            return []
-        with open(self._csv, encoding="utf-8", newline="") as file:
-            return list(csv.DictReader(file))
+            writer = csv.DictWriter(file, self._columns)
+            if file.tell() == 0:
+                writer.writeheader()
+            writer.writerow(values)
 
     def state(self) -> dict[str, np.ndarray]:
         """What a checkpoint keeps of the log."""
@@ -120,9 +110,6 @@ class Log:
         self.returns.extend(state["log_returns"].tolist())
         self.lengths.extend(state["log_lengths"].tolist())
         self._before = float(state["log_seconds"][0])
-        if self._csv.exists():
-            with open(self._csv, encoding="utf-8", newline="") as file:
-                self._columns = next(csv.reader(file), [])
 
     def _event_file(self, folder: Path, resumed: bool) -> Path:
         found = sorted(folder.glob("events.out.tfevents.*")) if resumed else []
@@ -141,3 +128,18 @@ class Log:
 def moments(name: str, values: np.ndarray) -> dict[str, float]:
     """Mean and standard deviation."""
     return {f"{name}_mean": float(np.mean(values)), f"{name}_std": float(np.std(values))}
+
+
+def columns(ppo: PPO) -> list[str]:
+    """Of progress.csv."""
+    discrete = "log_std" not in ppo.weights
+    actions = [f"actions/frequency_{i}" if discrete else f"actions/{i}" for i in range(ppo.outputs)]
+    pairs = ["rollout/advantage", *([] if discrete else actions)]
+    return [
+        "time/total_timesteps", "time/iterations", *TIME,
+        "rollout/ep_rew_mean", "rollout/ep_len_mean", "eval/mean_reward", "eval/mean_ep_length",
+        *(f"{name}_{what}" for name in pairs for what in ("mean", "std")),
+        *(actions if discrete else ["train/std"]),
+        *(f"train/{name}" for name in TRAIN),
+        "train/entropy_loss", "train/policy_gradient_loss", "train/n_updates",
+    ]  # fmt: skip

@@ -106,7 +106,10 @@ class PPO:
             self.core = _core.PolicyGradient(self.problem, self.limit, h, instruction_set)
         except ValueError as error:
             raise BotschoolError(f"PPO cannot be set up for {env}: {error}") from error
-        self._discrete = INFOS[self.problem]["discrete"]
+        info = INFOS[self.problem]
+        self._discrete = info["discrete"]
+        self.outputs: int = info["outputs"]
+        """Actuators, or actions to choose from."""
 
     @property
     def steps(self) -> int:
