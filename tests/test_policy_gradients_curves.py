@@ -1,4 +1,4 @@
-"""The native learner learns as Stable-Baselines3's PPO does: curves of several seeds, dealt anew."""
+"""The native learner learns as Stable-Baselines3's PPO does: curves of several seeds."""
 
 import sys
 from itertools import combinations
