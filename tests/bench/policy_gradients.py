@@ -3,8 +3,8 @@
     python tests/bench/policy_gradients.py [PROBLEM ...]    a table; seeds 101 to 105
     python tests/bench/policy_gradients.py threads          two threads beside one
 
-A training counts until the first 20 new episodes, played every 2 % of its steps, that reach the goal;
-without a goal, or for Pendulum, until its end. 100 further episodes are played then.
+A training counts until 20 new episodes, played every 2 % of its steps, reach the goal; without a
+goal, or for Pendulum, until its end. 100 further episodes are played then.
 """
 
 from __future__ import annotations
