@@ -1,6 +1,6 @@
 """How fast the native PPO learns: processor seconds to a goal, by the settings of defaults.yaml.
 
-    python tests/bench/policy_gradients.py [PROBLEM ...]    a table; seeds 101 to 105
+    python tests/bench/policy_gradients.py [PROBLEM ...]    a table; seeds 301 to 305
     python tests/bench/policy_gradients.py threads          two threads beside one
 
 A training counts until 20 new episodes, played every 2 % of its steps, reach the goal; without a
@@ -18,7 +18,7 @@ import numpy as np
 from botschool.rl.model import choose
 from botschool.rl.native import PPO
 
-SEEDS = range(101, 106)
+SEEDS = range(301, 306)
 
 
 @dataclass(frozen=True)
