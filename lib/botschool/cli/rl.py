@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from click import UsageError
 
 app = typer.Typer(
     help="Train agents by reinforcement learning (Stable-Baselines3), and watch them.",
@@ -155,8 +156,9 @@ def rl_train(
         if not resume_command(resume, workers, sys.stdout.isatty()):
             raise typer.Exit(130)
         return
-    if algo is None or env is None:
-        raise typer.BadParameter("--algo and --env say what to train (or --resume what to go on).")
+    for name, value in (("--algo", algo), ("--env", env)):
+        if value is None:
+            raise UsageError(f"Missing option '{name}'.")
     items = [*(params or []), *(more or [])]
     options = {"policy": policy, "envs": envs, "steps": steps, "seed": seed}
     options |= {"evaluations": evaluations, "episodes": episodes}
