@@ -25,6 +25,16 @@ def own_settings(tmp_path_factory):
         yield
 
 
+@pytest.fixture(scope="module")
+def by_sb3():
+    """What names no engine is trained by Stable-Baselines3, as if no problem were native."""
+    from botschool.rl.native import choosing
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(choosing, "native_problem", lambda env: None)
+        yield
+
+
 @pytest.fixture
 def command(capfd, monkeypatch):
     """Calls the command in this process: (exit code, standard output, standard error)."""

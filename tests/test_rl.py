@@ -22,6 +22,7 @@ from botschool.wrappers import parse
 from running import TESTS, call, finish, one_sentence, start
 
 pytest.importorskip("stable_baselines3")
+pytestmark = pytest.mark.usefixtures("by_sb3")
 SMALL = {"n_steps": 32, "batch_size": 32, "n_epochs": 2}
 FILES = {"best_model.zip", "last_model.zip", "config.yaml", "evaluations.npz", "progress.csv"}
 SHOWN_BY_TENSORBOARD = {
@@ -273,6 +274,7 @@ def long_training(folder):
     """A training that does not end by itself, as a process, after its second post-evaluation."""
     process = start(
         *("rl", "train", "--algo", "ppo", "--env", "CartPole-v1", "-o", folder, "--envs", 2),
+        *("--engine", "sb3"),
         *("--steps", 10**8, "--evaluations", 10**5, "--episodes", 2),
         *("--params", "n_steps=32", "batch_size=32", "n_epochs=1"),
     )
@@ -327,7 +329,7 @@ def test_a_full_disk(tmp_path):
 
     code, _, errors = call(
         *("rl", "train", "--algo", "ppo", "--env", "CartPole-v1", "-o", tmp_path, *FLAGS),
-        *("--params", "n_steps=32", "batch_size=32"),
+        *("--params", "n_steps=32", "batch_size=32", "--engine", "sb3"),
         preexec_fn=limited,
     )
     folder = tmp_path / "ppo" / "CartPole-v1_1"

@@ -11,6 +11,7 @@ from botschool.seeds import POST_EVALUATION_SEED
 from running import TESTS
 
 pytest.importorskip("sb3_contrib")
+pytestmark = pytest.mark.usefixtures("by_sb3")
 callbacks = pytest.importorskip("botschool.rl.callbacks")
 
 

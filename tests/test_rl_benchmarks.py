@@ -9,6 +9,7 @@ from botschool.wrappers import parse
 from running import TESTS
 
 pytest.importorskip("sb3_contrib")
+pytestmark = pytest.mark.usefixtures("by_sb3")
 MUJOCO = (
     "Ant", "HalfCheetah", "Hopper", "Humanoid", "HumanoidStandup", "InvertedDoublePendulum",
     "InvertedPendulum", "Pusher", "Reacher", "Swimmer", "Walker2d",

@@ -19,6 +19,7 @@ from botschool.rl.weights import WEIGHTS
 from running import TESTS
 
 pytest.importorskip("stable_baselines3")
+pytestmark = pytest.mark.usefixtures("by_sb3")
 
 
 @pytest.fixture(scope="module")

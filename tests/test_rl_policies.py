@@ -13,6 +13,7 @@ from botschool.rl.training import train
 from running import TESTS
 
 pytest.importorskip("stable_baselines3")
+pytestmark = pytest.mark.usefixtures("by_sb3")
 TINY = {"steps": 64, "envs": 1, "evaluations": 1, "episodes": 2}
 SMALL = {"n_steps": 32, "batch_size": 32, "n_epochs": 1}
 OWN = "own_policies:Narrow"

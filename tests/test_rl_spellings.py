@@ -8,6 +8,7 @@ from botschool.rl.parameters import parse
 from botschool.rl.spellings import translated
 
 pytest.importorskip("stable_baselines3")
+pytestmark = pytest.mark.usefixtures("by_sb3")
 
 TINY = ("--steps", 64, "--envs", 2, "--episodes", 2, "--evaluations", 1)
 SMALL = ("n_steps:32", "batch_size:32", "noptepochs:1")

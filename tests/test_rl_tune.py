@@ -15,6 +15,7 @@ from botschool.rl.tuning import SPACES, Log, Plan, tune
 from running import TESTS
 
 pytest.importorskip("stable_baselines3")
+pytestmark = pytest.mark.usefixtures("by_sb3")
 optuna = pytest.importorskip("optuna")
 
 SMALL = {"steps": 24, "envs": 1, "seed": 3, "evaluations": 2, "episodes": 2, "wrappers": ""}

@@ -12,4 +12,5 @@ NB_MODULE(_core, module) {
   botschool::bind_engine(module);
   botschool::bind_planar(module);
   botschool::bind_linear(module);
+  botschool::bind_policy_gradient(module);
 }

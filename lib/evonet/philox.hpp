@@ -11,7 +11,15 @@
 BOTSCHOOL_BEGIN
 
 /// What a draw is for; streams never share numbers.
-enum class Stream : std::uint32_t { start = 0, action = 1, sensor = 2, weights = 3, event = 4 };
+enum class Stream : std::uint32_t {
+  start = 0,
+  action = 1,
+  sensor = 2,
+  weights = 3,
+  explore = 4,
+  shuffle = 5,
+  event = 6
+};
 
 struct Block {
   std::uint32_t word[4];

@@ -28,13 +28,6 @@ KernelTable table_for(const std::string& instruction_set) {
   return kernel_table_baseline();
 }
 
-const Kernel* find_kernel(const std::string& problem, const std::string& instruction_set) {
-  const KernelTable table = table_for(instruction_set);
-  for (std::size_t i = 0; i < table.count; ++i)
-    if (problem == table.kernel[i].info.name) return &table.kernel[i];
-  throw std::invalid_argument("there is no native problem '" + problem + "'.");
-}
-
 class SharedQueue final : public Queue {
  public:
   explicit SharedQueue(std::size_t count) : count_(static_cast<std::ptrdiff_t>(count)) {}
@@ -66,6 +59,13 @@ std::vector<std::string> instruction_sets() {
   if (cpu_has_avx2() && cpu_has_avx512()) names.push_back("avx512");
 #endif
   return names;
+}
+
+const Kernel* find_kernel(const std::string& problem, const std::string& instruction_set) {
+  const KernelTable table = table_for(instruction_set);
+  for (std::size_t i = 0; i < table.count; ++i)
+    if (problem == table.kernel[i].info.name) return &table.kernel[i];
+  throw std::invalid_argument("there is no native problem '" + problem + "'.");
 }
 
 std::vector<Info> native_problems() {

@@ -18,6 +18,9 @@ std::vector<std::string> instruction_sets();
 /// Facts about every native problem.
 std::vector<Info> native_problems();
 
+/// A problem as an instruction set has it, "" for the best. Throws std::invalid_argument.
+const Kernel* find_kernel(const std::string& problem, const std::string& instruction_set);
+
 /// One native problem with one network layout.
 class Engine {
  public:

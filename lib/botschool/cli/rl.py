@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from click import UsageError
 
 app = typer.Typer(
     help="Train agents by reinforcement learning (Stable-Baselines3), and watch them.",
@@ -59,12 +60,12 @@ RlPolicy = Annotated[
 )
 def rl_train(
     algo: Annotated[
-        str,
+        str | None,
         typer.Option(
             help="ppo, a2c, trpo, ars, sac, td3, ddpg, tqc, her, dqn or qrdqn.", metavar="NAME"
         ),
-    ],
-    env: Annotated[str, typer.Option(help="A Gymnasium id.", metavar="ID")],
+    ] = None,
+    env: Annotated[str | None, typer.Option(help="A Gymnasium id.", metavar="ID")] = None,
     params: Annotated[
         list[str] | None,
         typer.Option(
@@ -128,14 +129,41 @@ def rl_train(
         Path | None,
         typer.Option(help="A file of hyperparameters, as `rl tune` writes.", metavar="FILE"),
     ] = None,
+    engine: Annotated[
+        str,
+        typer.Option(
+            help="native (C++: ppo on native problems), sb3 (Stable-Baselines3), or auto: native "
+            "where it can.",
+            metavar="NAME",
+        ),
+    ] = "auto",
+    replications: Annotated[
+        int, typer.Option("-r", "--replications", min=1, max=1000, help="Trainings, seed by seed.")
+    ] = 1,
+    workers: Annotated[
+        int,
+        typer.Option("-w", "--workers", min=1, max=1024, help="Threads of the native engine."),
+    ] = 1,
+    resume: Annotated[
+        Path | None,
+        typer.Option(help="Go on with a training of the native engine.", metavar="FOLDER"),
+    ] = None,
 ) -> None:
     """Train an agent in a new folder; defaults depend on algorithm and environment."""
-    from botschool.rl.training import train_command
+    from botschool.rl.training import resume_command, train_command
 
+    if resume is not None:
+        if not resume_command(resume, workers, sys.stdout.isatty()):
+            raise typer.Exit(130)
+        return
+    for name, value in (("--algo", algo), ("--env", env)):
+        if value is None:
+            raise UsageError(f"Missing option '{name}'.")
     items = [*(params or []), *(more or [])]
     options = {"policy": policy, "envs": envs, "steps": steps, "seed": seed}
     options |= {"evaluations": evaluations, "episodes": episodes}
-    options |= {"wrappers": ", ".join(wrapper or []), "vec_env": vec_env}
+    options |= {"wrappers": ", ".join(wrapper or []), "vec_env": vec_env, "engine": engine}
+    options |= {"replications": replications, "workers": workers}
     terminal = sys.stdout.isatty()
     if not train_command(algo, env, items, output, terminal, events, settings, **options):
         raise typer.Exit(130)

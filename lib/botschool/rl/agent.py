@@ -24,6 +24,9 @@ from botschool.rl.weights import Normalise
 if TYPE_CHECKING:
     from stable_baselines3.common.base_class import BaseAlgorithm
 
+    from botschool.rl.native.agent import NativeAgent
+    from botschool.rl.settings import Settings
+
 NORMALISATION = "normalisation.npz"
 """Member of a model's zip file: mean and variance of the observations, clip and epsilon."""
 
@@ -56,7 +59,9 @@ class Agent:
         self._normalise = normalise
 
     @classmethod
-    def load(cls, path: Path | str, env: str | None = None, policy: str | None = None) -> Agent:
+    def load(
+        cls, path: Path | str, env: str | None = None, policy: str | None = None
+    ) -> Agent | NativeAgent:
         """The model in a file of a run's folder, for its environment or for `env`.
 
         The file is a model of Stable-Baselines3 (.zip) or weights alone (.npz). Only weights are
@@ -66,6 +71,8 @@ class Agent:
         """
         path = Path(path)
         settings = RunFolder(path.parent).settings()
+        if settings.engine == "native":
+            return _native(path, settings, env)
         check_trusted(path, settings.policy, policy)
         own = make(settings.env, settings.wrappers)
         if env is not None and env != settings.env:
@@ -94,6 +101,14 @@ class Agent:
         if self._normalise is not None:
             observations = self._normalise(observations)
         return self.model.predict(observations, state, starts, deterministic=True)
+
+
+def _native(path: Path, settings: Settings, env: str | None) -> NativeAgent:
+    from botschool.rl.native.agent import NativeAgent
+
+    if env is not None and env != settings.env:
+        _check_same(settings.env, make(settings.env), env, make(env))
+    return NativeAgent.load(path, settings)
 
 
 def _check_same(trained: str, own: gymnasium.Env, other: str, given: gymnasium.Env) -> None:

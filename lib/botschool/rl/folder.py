@@ -4,6 +4,8 @@
         config.yaml        what was trained, and how (settings.py)
         best_model.zip     the model with the best post-evaluation, in Stable-Baselines3's format
         last_model.zip     the newest model, saved while the training goes on
+                           (both .npz, weights alone, if the native engine trained)
+        checkpoint.npz     what a native training goes on from with --resume
         evaluations.npz    timesteps (n,), results (n, episodes), ep_lengths (n, episodes)
         progress.csv       the indicators, a row for each time they were logged
         events.out.*       the same for TensorBoard
@@ -75,11 +77,15 @@ class RunFolder:
 
     @property
     def best(self) -> Path:
-        return self.path / "best_model.zip"
+        return self._model("best_model")
 
     @property
     def last(self) -> Path:
-        return self.path / "last_model.zip"
+        return self._model("last_model")
+
+    def _model(self, name: str) -> Path:
+        native = self.path / f"{name}.npz"
+        return native if native.is_file() else self.path / f"{name}.zip"
 
     @property
     def number(self) -> int:
@@ -225,5 +231,6 @@ def _folders(folder: Path) -> Iterator[Path]:
 def is_run(folder: Path) -> bool:
     """Whether the folder is that of a training."""
     return (folder / CONFIG).is_file() and any(
-        (folder / name).is_file() for name in (EVALUATIONS, "last_model.zip", "progress.csv")
+        (folder / name).is_file()
+        for name in (EVALUATIONS, "last_model.zip", "last_model.npz", "progress.csv")
     )

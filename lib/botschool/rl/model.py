@@ -18,6 +18,7 @@ from botschool.errors import BotschoolError, said
 from botschool.inifile import shown
 from botschool.rl import spellings
 from botschool.rl.environments import described, make
+from botschool.rl.native import choosing
 from botschool.rl.parameters import ACTIVATIONS, OF_GOALS, OF_POLICY, complete, linear
 from botschool.rl.policies import WITH_IMAGES, check_policy, has_memory, is_own, policy_of
 from botschool.rl.settings import VEC_ENVS, Settings, check_algorithm, defaults
@@ -67,10 +68,12 @@ def choose(
     episodes: int = 20,
     wrappers: str = "",
     vec_env: str = "dummy",
+    engine: str = "auto",
 ) -> Settings:
     """Settings of a training: what is given, then defaults.yaml and benchmarks.yaml.
 
     wrappers: in place of those that the files have for the environment; "none" for none at all.
+    engine: native (botschool.rl.native), sb3 (Stable-Baselines3), or auto: native where it can.
     Raises BotschoolError.
     """
     algo = check_algorithm(algo)
@@ -80,6 +83,22 @@ def choose(
     policy = None if policy is None else check_policy(policy, algo)
     if vec_env not in VEC_ENVS:
         raise BotschoolError(f"--vec-env is '{shown(vec_env)}', but must be dummy or subproc.")
+    native = choosing.choose(
+        engine,
+        algo,
+        env,
+        policy,
+        given,
+        envs,
+        steps,
+        seed,
+        evaluations,
+        episodes,
+        wrappers,
+        vec_env,
+    )
+    if native is not None:
+        return native
     entry = defaults(algo, env)
     usual = [entry.pop(name, "") for name in ("wrappers", "training_wrappers")]
     wrappers, training_wrappers = usual if not wrappers else [wrappers, ""]

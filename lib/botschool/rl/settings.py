@@ -23,7 +23,7 @@ VEC_ENVS = ("dummy", "subproc")
 """Where environments side by side run: all in this process, or each in one of its own."""
 
 
-LATER = {"wrappers", "vec_env", "training_wrappers"}
+LATER = {"wrappers", "vec_env", "training_wrappers", "engine"}
 """Settings that trainings of older versions did not have."""
 
 
@@ -60,6 +60,8 @@ class Settings:
     """One of VEC_ENVS; the results are the same."""
     training_wrappers: str = ""
     """Around these while it trains, but not when it is measured: rewards of Atari's games cut."""
+    engine: str = "sb3"
+    """Who trained: sb3 (Stable-Baselines3) or native (botschool.rl.native)."""
 
     @property
     def variant(self) -> str:
@@ -90,7 +92,7 @@ class Settings:
                 f"{path} cannot be read: {' '.join(str(error).split())}."
             ) from None
         needed, known = {f.name for f in fields(cls)} - LATER, {f.name for f in fields(cls)}
-        words = ("algo", "env", "policy", "wrappers", "training_wrappers")
+        words = ("algo", "env", "policy", "wrappers", "training_wrappers", "engine")
         if (
             not isinstance(found, dict)
             or not needed <= found.keys() <= known
@@ -123,12 +125,20 @@ def check_algorithm(algo: str) -> str:
 
 def defaults(algo: str, env: str) -> dict[str, Any]:
     """The entry of defaults.yaml or benchmarks.yaml for an algorithm and a Gymnasium id."""
+    return dict(_defaults()[algo][_key(algo, env) or "default"])
+
+
+def has_defaults(algo: str, env: str) -> bool:
+    """Whether an environment has an entry of its own."""
+    return _key(algo, env) is not None
+
+
+def _key(algo: str, env: str) -> str | None:
     entries = _defaults()[algo]
     name = env.rpartition(":")[2].removeprefix("botschool/")
     unversioned = re.sub(r"-v\d+$", "", name)
     patterns = [key for key in entries if "*" in key and fnmatchcase(name, key)]
-    key = next(key for key in (name, unversioned, *patterns, "default") if key in entries)
-    return dict(entries[key])
+    return next((key for key in (name, unversioned, *patterns) if key in entries), None)
 
 
 @cache

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,6 +14,7 @@ from botschool.errors import BotschoolError
 from botschool.output import cannot_write
 from botschool.rl.folder import Evaluations, RunFolder, next_folder
 from botschool.rl.model import build, choose
+from botschool.rl.native import training as native
 from botschool.rl.parameters import parse, read_settings
 from botschool.rl.policies import WITH_IMAGES
 from botschool.rl.progress import reporting
@@ -40,6 +43,7 @@ def train(
     episodes: int = 20,
     wrappers: str = "",
     vec_env: str = "dummy",
+    engine: str = "auto",
     report: Callable[[int, Evaluations], None] = lambda steps, evaluations: None,
 ) -> RunFolder:
     """Trains an agent in folder/algo/env_N and gives that folder.
@@ -47,13 +51,25 @@ def train(
     algo: one of botschool.rl.settings.ALGORITHMS; env: a Gymnasium id; params: hyperparameters by
     name; policy: mlp, lstm, cnn, cnnlstm or module:Class of one's own; wrappers: around the
     environment (botschool.wrappers); vec_env: subproc for a process for
-    each environment (in a script then under `if __name__ == "__main__":`). What is None comes from
+    each environment (in a script then under `if __name__ == "__main__":`); engine: native, sb3, or
+    auto, which is native for ppo on a native problem (botschool.rl.native). What is None comes from
     defaults.yaml. The policy is post-evaluated `evaluations` times, each time on the same
     `episodes` fresh seeds; `report` is called with the steps and the post-evaluations so far. The
     same arguments give the same results on the same machine. Raises BotschoolError.
     """
     settings = choose(
-        algo, env, policy, params, envs, steps, seed, evaluations, episodes, wrappers, vec_env
+        algo,
+        env,
+        policy,
+        params,
+        envs,
+        steps,
+        seed,
+        evaluations,
+        episodes,
+        wrappers,
+        vec_env,
+        engine,
     )
     run, _ = learn(settings, Path(folder), report)
     return run
@@ -66,12 +82,15 @@ def learn(
     started: Callable[[RunFolder], None] = lambda run: None,
     stopping: Callable[[], bool] = lambda: False,
     events: Path | None = None,
+    threads: int = 1,
 ) -> tuple[RunFolder, Evaluations]:
     """Trains with these settings in a new folder; `started` is told which as soon as it exists.
 
     Ends early, all saved, when `stopping()` is true. Curves for TensorBoard are in its folder, and
-    in `events` too if given. Raises BotschoolError.
+    in `events` too if given. threads: of the native engine. Raises BotschoolError.
     """
+    if settings.engine == "native":
+        return native.learn(settings, folder, report, started, stopping, events, threads)
     from botschool.rl.callbacks import PostEvaluation
 
     with _one_thread(settings), _training_env(settings) as env:
@@ -172,22 +191,63 @@ def train_command(
     terminal: bool,
     events: Path | None = None,
     file: Path | None = None,
+    replications: int = 1,
+    workers: int = 1,
     **options: Any,
 ) -> bool:
     """`botschool rl train`: prints progress and result; False when the user stopped it."""
     chosen = (read_settings(file) if file else {}) | parse(params)
     settings = choose(algo, env, params=chosen, **options)
+    if workers > 1 and settings.engine != "native":
+        raise BotschoolError(
+            "-w is for the native engine; Stable-Baselines3 takes --vec-env subproc."
+        )
+    several = [replace(settings, seed=settings.seed + i) for i in range(replications)]
+    together = min(workers, replications)
 
-    def started(run: RunFolder) -> None:
-        print(f"training {settings.algo} on {settings.env} in {run.path}", flush=True)
+    def one(settings: Settings, stopping: Callable[[], bool]) -> None:
+        if stopping():
+            return
+
+        def started(run: RunFolder) -> None:
+            print(f"training {settings.algo} on {settings.env} in {run.path}", flush=True)
+
+        with reporting(settings.steps, settings.seed, terminal and together == 1) as report:
+            threads = max(1, workers // together)
+            run, found = learn(settings, folder, report, started, stopping, events, threads)
+        _print_result(run, found, settings)
 
     with stoppable() as stopping:
+        if together == 1:
+            for each in several:
+                one(each, stopping)
+        else:
+            with ThreadPoolExecutor(together) as pool:
+                list(pool.map(lambda each: one(each, stopping), several))
+        return not stopping()
+
+
+def resume_command(folder: Path, workers: int, terminal: bool) -> bool:
+    """`botschool rl train --resume`: goes on with a native training."""
+    run = RunFolder(folder)
+    settings = run.settings()
+    if settings.engine != "native":
+        raise BotschoolError(
+            f"{folder} was trained by Stable-Baselines3, whose trainings cannot go on: train again."
+        )
+    with stoppable() as stopping:
         with reporting(settings.steps, settings.seed, terminal) as report:
-            run, found = learn(settings, folder, report, started, stopping, events)
-        stopped = stopping()
+            found = native.resume(run, report, stopping, workers)
+        _print_result(run, found, settings)
+        return not stopping()
+
+
+def _print_result(run: RunFolder, found: Evaluations, settings: Settings) -> None:
+    stopped = found.steps[-1] < settings.steps
+    again = f"; to go on: botschool rl train --resume {run.path}"
     print(
         f"{'stopped' if stopped else 'finished'} after {found.steps[-1]} steps: best "
         f"post-evaluated {readable(found.best)}, last {readable(found.last)}; best model: "
-        f"{run.best}"
+        f"{run.best}" + (again if stopped and settings.engine == "native" else ""),
+        flush=True,
     )
-    return not stopped

@@ -1,0 +1,107 @@
+"""Whether the native engine trains what a user asks for, and with which settings."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from importlib.metadata import version
+from typing import Any
+
+from botschool.errors import BotschoolError
+from botschool.rl import spellings
+from botschool.rl.native.hyperparameters import Hyperparameters
+from botschool.rl.native.problem import native_problem
+from botschool.rl.settings import Settings, defaults, has_defaults
+
+ENGINES = ("auto", "native", "sb3")
+ONLY_SB3 = ("use_sde", "sde_sample_freq", "stats_window_size", "device", "n_critics")
+"""Hyperparameters of PPO that only Stable-Baselines3 has."""
+
+
+def check_engine(engine: str) -> str:
+    """Raises BotschoolError for another word."""
+    if engine not in ENGINES:
+        raise BotschoolError(f"--engine is '{engine}', but must be {', '.join(ENGINES)}.")
+    return engine
+
+
+def reason_against(
+    algo: str, env: str, policy: str | None, entry: dict[str, Any], wrappers: str, vec_env: str
+) -> str:
+    """Why the native engine cannot train this, "" if it can."""
+    if algo != "ppo":
+        return f"it has no {algo}"
+    if native_problem(env) is None:
+        return f"{env} is no native problem with one robot"
+    if policy not in (None, "mlp"):
+        return f"it has no {policy} policy"
+    if wrappers not in ("", "none"):
+        return "it takes no wrappers"
+    if vec_env != "dummy":
+        return "it runs all environments in one process"
+    for name in ONLY_SB3:
+        if entry.get(name):
+            return f"it has no {name}"
+    if entry.get("activation_fn", "tanh") in ("elu", "gelu"):
+        return f"it has no {entry['activation_fn']}"
+    return ""
+
+
+def entry_of(env: str) -> dict[str, Any]:
+    """The settings of an environment: those of the native engine, else those of ppo."""
+    return defaults("native" if has_defaults("native", env) else "ppo", env)
+
+
+def choose(
+    engine: str,
+    algo: str,
+    env: str,
+    policy: str | None,
+    given: dict[str, Any],
+    envs: int | None,
+    steps: int | None,
+    seed: int,
+    evaluations: int,
+    episodes: int,
+    wrappers: str,
+    vec_env: str,
+) -> Settings | None:
+    """Settings of a native training, or None if Stable-Baselines3 is to do it.
+
+    Raises BotschoolError if the native engine is asked for and cannot.
+    """
+    check_engine(engine)
+    if engine == "sb3":
+        return None
+    entry = entry_of(env) if native_problem(env) else {}
+    against = reason_against(algo, env, policy, entry | given, wrappers, vec_env)
+    if against:
+        if engine == "native":
+            raise BotschoolError(f"The native engine cannot train this ({against}): use another.")
+        return None
+    length, width = entry.pop("steps"), entry.pop("envs")
+    normalize = given.get("normalize", entry.pop("normalize", False))
+    if not isinstance(normalize, bool):
+        raise BotschoolError(f"normalize is {normalize}, but must be true or false.")
+    entry.pop("normalize", None)
+    width = width if envs is None else envs
+    entry |= {name: value for name, value in given.items() if name != "normalize"}
+    for name in ONLY_SB3:
+        entry.pop(name, None)
+    if "nminibatches" in entry:
+        n_steps = entry.get("n_steps", Hyperparameters.n_steps)
+        entry["batch_size"] = spellings.batch_size(entry.pop("nminibatches"), n_steps, width)
+    return Settings(
+        algo=algo,
+        env=env,
+        policy="mlp",
+        seed=seed,
+        steps=length if steps is None else steps,
+        envs=width,
+        normalize=normalize,
+        evaluations=evaluations,
+        episodes=episodes,
+        parameters=asdict(Hyperparameters.of(entry)),
+        given=given,
+        versions={package: version(package) for package in ("botschool", "numpy")},
+        engine="native",
+    )

@@ -1,0 +1,77 @@
+"""Files of a native training: weights by Stable-Baselines3's names, and the checkpoint."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from zipfile import BadZipFile
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.output import save_npz
+from botschool.rl.native import sb3
+from botschool.rl.native.hyperparameters import Hyperparameters
+from botschool.rl.native.ppo import PPO
+from botschool.rl.settings import Settings
+from botschool.rl.weights import NORMALISATION, numbers
+
+CHECKPOINT = "checkpoint.npz"
+
+
+def make(settings: Settings, threads: int = 1) -> PPO:
+    """An untrained agent of these settings. Raises BotschoolError."""
+    h = Hyperparameters.of(settings.parameters)
+    return PPO(
+        settings.env,
+        settings.seed,
+        settings.envs,
+        settings.normalize,
+        settings.steps,
+        threads,
+        **vars(h),
+    )
+
+
+def save_model(ppo: PPO, path: Path) -> None:
+    """Writes weights, and how observations are normalised, whole or not at all."""
+    save_npz(path, sb3.weights(ppo) | scaling(ppo))
+
+
+def scaling(ppo: PPO) -> dict[str, np.ndarray]:
+    """The normalisation of observations by the names of weights.py."""
+    if not ppo.normalize:
+        return {}
+    mean, variance = ppo.core.observed
+    values = {"mean": mean, "variance": variance, "clip": 10.0, "epsilon": 1e-8}
+    return {f"{NORMALISATION}.{name}": np.asarray(each) for name, each in values.items()}
+
+
+def fill(ppo: PPO, path: Path) -> None:
+    """Puts a model's weights and normalisation in. Raises ValueError or OSError."""
+    arrays = numbers(path)
+    sb3.fill(ppo, arrays)
+    if ppo.normalize:
+        names = (f"{NORMALISATION}.mean", f"{NORMALISATION}.variance")
+        if not set(names) <= arrays.keys():
+            raise ValueError("the normalisation is missing")
+        ppo.core.observed = np.array([arrays[name] for name in names])
+
+
+def save_checkpoint(folder: Path, arrays: dict[str, np.ndarray]) -> None:
+    """Writes what --resume goes on from. Raises BotschoolError."""
+    save_npz(folder / CHECKPOINT, arrays)
+
+
+def load_checkpoint(folder: Path) -> dict[str, np.ndarray]:
+    """The reverse. Raises BotschoolError."""
+    path = folder / CHECKPOINT
+    try:
+        with np.load(path, allow_pickle=False) as arrays:
+            return {name: arrays[name] for name in arrays.files}
+    except FileNotFoundError:
+        raise BotschoolError(
+            f"{folder} has no {CHECKPOINT}, so that this training cannot go on: name the folder of "
+            "a training of the native engine."
+        ) from None
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+        raise BotschoolError(f"{path} is damaged: train again.") from None

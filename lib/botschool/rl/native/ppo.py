@@ -1,0 +1,279 @@
+"""Proximal policy optimisation on a native problem, whole or step by step (Schulman 2017)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from botschool import _core
+from botschool.errors import BotschoolError
+from botschool.problems.native import INFOS
+from botschool.rl.native import problem
+from botschool.rl.native.hyperparameters import Hyperparameters, at
+
+
+@dataclass(frozen=True)
+class Rollout:
+    """What the environments experienced; arrays of shape (n_steps, n_envs), float32.
+
+    They are the training's own: what you write into advantages or returns, update() learns from;
+    collect() fills them anew.
+    """
+
+    observations: np.ndarray
+    """(n_steps, n_envs, inputs), normalised if the training normalises."""
+    actions: np.ndarray
+    """(n_steps, n_envs, actuators); of a discrete problem (n_steps, n_envs, 1), the index."""
+    log_probs: np.ndarray
+    """Logarithm of the probability (density) that the policy gave to the action."""
+    values: np.ndarray
+    """The critic's prediction for the observation."""
+    rewards: np.ndarray
+    """Where time ran out, with gamma times what the critic says would have followed."""
+    ended: np.ndarray
+    """1 where the episode ended with this step, 2 where time ran out, else 0."""
+    last_values: np.ndarray
+    """(n_envs,): the prediction for the observation after the last step."""
+    advantages: np.ndarray
+    """Generalised advantage estimates."""
+    returns: np.ndarray
+    """What the critic learns: advantages + values."""
+
+
+@dataclass(frozen=True)
+class Minibatch:
+    """n samples; float32 arrays of length n, or with n rows."""
+
+    observations: np.ndarray
+    actions: np.ndarray
+    log_probs: np.ndarray
+    values: np.ndarray
+    advantages: np.ndarray
+    returns: np.ndarray
+
+
+@dataclass(frozen=True)
+class Loss:
+    """The loss of a minibatch: policy_loss + vf_coef * value_loss - ent_coef * entropy."""
+
+    loss: float
+    policy_loss: float
+    value_loss: float
+    entropy: float
+    approx_kl: float
+    clip_fraction: float
+    log_probs: np.ndarray
+    """(n,): of the actions, by the present policy."""
+    ratios: np.ndarray
+    """(n,): probability of the action now / when it was drawn."""
+    values: np.ndarray
+    """(n,): the critic's present predictions."""
+    gradient: np.ndarray
+    """(parameters,): of the loss, before it is shortened to max_grad_norm."""
+    gradients: dict[str, np.ndarray]
+    """The same by the names of PPO.weights."""
+
+
+class PPO:
+    """A policy, a critic, environments to act in, and an optimiser.
+
+    env: a Gymnasium id of a native problem with one robot; normalize: observations and rewards are
+    scaled by their running mean and deviation; total_timesteps: what "linear X" falls along;
+    threads: change the speed, not the result. Hyperparameters as in Hyperparameters, with
+    Stable-Baselines3's names and defaults. Raises BotschoolError.
+    """
+
+    def __init__(
+        self,
+        env: str,
+        seed: int = 1,
+        n_envs: int = 8,
+        normalize: bool = False,
+        total_timesteps: int = 1_000_000,
+        threads: int = 1,
+        instruction_set: str = "",
+        **hyperparameters: Any,
+    ) -> None:
+        self.env, self.seed, self.n_envs, self.normalize = env, seed, n_envs, normalize
+        self.total_timesteps = total_timesteps
+        self.hyperparameters = Hyperparameters.of(hyperparameters)
+        self.problem, self.limit = problem.find(env)
+        h = self.hyperparameters.core(seed, n_envs, normalize, threads)
+        try:
+            self.core = _core.PolicyGradient(self.problem, self.limit, h, instruction_set)
+        except ValueError as error:
+            raise BotschoolError(f"PPO cannot be set up for {env}: {error}") from error
+        info = INFOS[self.problem]
+        self._discrete = info["discrete"]
+        self.outputs: int = info["outputs"]
+        """Actuators, or actions to choose from."""
+
+    @property
+    def steps(self) -> int:
+        """Steps of all environments so far."""
+        return self.core.steps
+
+    @property
+    def progress(self) -> float:
+        """Share of the training that is over, from 0 to 1."""
+        return min(1.0, self.steps / self.total_timesteps)
+
+    @property
+    def parameters(self) -> np.ndarray:
+        """All parameters, float32; writing into them changes the agent."""
+        return self.core.parameters
+
+    @property
+    def weights(self) -> dict[str, np.ndarray]:
+        """The same as matrices and vectors: actor.0.weight (outputs, inputs), actor.0.bias, ...
+
+        actor, critic, shared (if the layers are), and log_std of a Gaussian.
+        """
+        return self.named(self.parameters)
+
+    def named(self, vector: np.ndarray) -> dict[str, np.ndarray]:
+        """Views of the parts of a vector of parameters, or of a gradient."""
+        return {
+            name: vector[place : place + int(np.prod(shape))].reshape(shape)
+            for name, shape, place in self.core.parts
+        }
+
+    @property
+    def rollout(self) -> Rollout:
+        """The last one."""
+        return Rollout(**self.core.rollout)
+
+    @property
+    def episodes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Of the episodes that ended in the last rollout: steps so far, returns, lengths."""
+        return self.core.episodes
+
+    def collect(self) -> Rollout:
+        """Acts for n_steps steps in each environment; advantages and returns included."""
+        self.core.collect()
+        return self.rollout
+
+    def minibatch(self, rows: Sequence[int] | np.ndarray | None = None) -> Minibatch:
+        """Samples of the rollout: number t * n_envs + e is step t of environment e; None: all."""
+        chosen = slice(None) if rows is None else np.asarray(rows)
+        columns = self.core.rollout
+        names = ("observations", "actions", "log_probs", "values", "advantages", "returns")
+        return Minibatch(
+            *(columns[n].reshape(-1, *columns[n].shape[2:])[chosen].copy() for n in names)
+        )
+
+    def loss(self, batch: Minibatch, clip_range: float | None = None) -> Loss:
+        """The loss of a minibatch by the present parameters, and its gradient."""
+        h, n = self.hyperparameters, len(batch.observations)
+        if clip_range is None:
+            clip_range = at(h.clip_range, self.progress)
+        found = self.core.loss(
+            *(_matrix(x, n) for x in (batch.observations, batch.actions)),
+            *(_vector(x) for x in (batch.log_probs, batch.values, batch.advantages, batch.returns)),
+            clip_range,
+            at(h.clip_range_vf, self.progress),
+        )
+        loss = found["policy_loss"] + h.vf_coef * found["value_loss"]
+        return Loss(
+            loss=loss - h.ent_coef * found["entropy"],
+            ratios=np.exp(found["log_probs"] - _vector(batch.log_probs)),
+            gradients=self.named(found["gradient"]),
+            **found,
+        )
+
+    def step(self, gradient: np.ndarray, learning_rate: float | None = None) -> None:
+        """One step of Adam against a gradient, which max_grad_norm shortens.
+
+        Raises BotschoolError if it is not finite.
+        """
+        if learning_rate is None:
+            learning_rate = at(self.hyperparameters.learning_rate, self.progress)
+        if not self.core.step(_vector(gradient), learning_rate):
+            raise self._broken()
+
+    def update(self) -> dict[str, float]:
+        """n_epochs passes through the rollout in minibatches; means of the indicators.
+
+        Raises BotschoolError when numbers are no longer finite.
+        """
+        h, progress = self.hyperparameters, self.progress
+        rates = {
+            name: at(getattr(h, name), progress)
+            for name in ("learning_rate", "clip_range", "clip_range_vf")
+        }
+        found = self.core.update(**rates)
+        if not found.pop("finite"):
+            raise self._broken()
+        return found | rates
+
+    def learn(
+        self,
+        total_timesteps: int,
+        callback: Callable[[PPO, dict[str, float]], bool | None] | None = None,
+    ) -> PPO:
+        """Collects and updates until so many steps are done; returns itself.
+
+        callback: called after each update with its indicators; False ends the training.
+        """
+        self.total_timesteps = total_timesteps
+        while self.steps < total_timesteps:
+            self.collect()
+            found = self.update()
+            if callback is not None and callback(self, found) is False:
+                break
+        return self
+
+    def normalised(self, observations: np.ndarray) -> np.ndarray:
+        """Observations (n, inputs) as the networks get them, float32."""
+        x = np.asarray(observations, dtype=np.float32)
+        if not self.normalize:
+            return np.ascontiguousarray(x)
+        mean, variance = self.core.observed
+        scale = (1 / np.sqrt(variance + 1e-8)).astype(np.float32)
+        scaled = (x - mean.astype(np.float32)) * scale
+        return np.ascontiguousarray(np.clip(scaled, np.float32(-10), np.float32(10)))
+
+    def forward(self, observations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The policy's outputs (n, outputs) and predictions (n,) for observations as they come."""
+        return self.core.forward(self.normalised(observations))
+
+    def act(self, observations: np.ndarray) -> np.ndarray:
+        """The most probable actions for observations (n, inputs), as Gymnasium takes them."""
+        outputs, _ = self.forward(observations)
+        if self._discrete:
+            return outputs.argmax(axis=1)
+        info = INFOS[self.problem]
+        return np.clip(outputs, info["low"], info["high"]).astype(np.float32)
+
+    def play(self, seeds: Sequence[int] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """One new episode for each seed without exploring: returns float64 and lengths, (n,)."""
+        chosen = np.array(seeds, dtype=np.uint64)
+        return self.core.play(chosen, np.zeros(len(chosen), dtype=np.uint32))
+
+    def state(self) -> dict[str, np.ndarray]:
+        """Between updates: all that the rest of the training depends on, as arrays."""
+        return self.core.state()
+
+    def restore(self, state: dict[str, np.ndarray]) -> None:
+        """Goes on from there, as if never interrupted. Raises ValueError if it does not fit."""
+        try:
+            self.core.restore({name: np.ascontiguousarray(each) for name, each in state.items()})
+        except (KeyError, RuntimeError, TypeError) as error:
+            raise ValueError(f"this is no state of such a training: {error}") from error
+
+    def _broken(self) -> BotschoolError:
+        return BotschoolError(
+            f"The training on {self.env} broke down after {self.steps} steps: the network's "
+            "outputs are no longer usable numbers, so lower learning_rate or max_grad_norm."
+        )
+
+
+def _matrix(values: np.ndarray, rows: int) -> np.ndarray:
+    return np.ascontiguousarray(np.asarray(values, dtype=np.float32).reshape(rows, -1))
+
+
+def _vector(values: np.ndarray) -> np.ndarray:
+    return np.ascontiguousarray(values, dtype=np.float32)
