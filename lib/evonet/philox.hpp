@@ -16,9 +16,9 @@ enum class Stream : std::uint32_t {
   action = 1,
   sensor = 2,
   weights = 3,
-  explore = 4,
-  shuffle = 5,
-  event = 6
+  event = 4,
+  explore = 5,
+  shuffle = 6
 };
 
 struct Block {
