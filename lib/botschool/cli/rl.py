@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from click import UsageError
@@ -160,7 +160,7 @@ def rl_train(
         if value is None:
             raise UsageError(f"Missing option '{name}'.")
     items = [*(params or []), *(more or [])]
-    options = {"policy": policy, "envs": envs, "steps": steps, "seed": seed}
+    options: dict[str, Any] = {"policy": policy, "envs": envs, "steps": steps, "seed": seed}
     options |= {"evaluations": evaluations, "episodes": episodes}
     options |= {"wrappers": ", ".join(wrapper or []), "vec_env": vec_env, "engine": engine}
     options |= {"replications": replications, "workers": workers}

@@ -191,7 +191,7 @@ class Entry:
     explanation: str
     config: type
     """The dataclass of its hyperparameters, made with botschool.policies.hyperparameters.hyper."""
-    make: type
+    make: Any
     """Its class: an Algorithm, or with `competitive` a Competition."""
     competitive: bool
     """Whether two sides meet (botschool.evolution.coevolution runs it)."""

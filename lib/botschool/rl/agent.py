@@ -47,6 +47,8 @@ def save_model(model: BaseAlgorithm, path: Path) -> None:
 def save_weights(model: Path, path: Path) -> None:
     """Writes the weights alone of a training's model. Raises BotschoolError."""
     agent = Agent.load(model)
+    if not isinstance(agent, Agent):
+        raise BotschoolError(f"{model} holds weights alone already: copy it.")
     weights.save(path, agent.model.policy, agent.scaling)
 
 
@@ -141,7 +143,7 @@ def _fill(model: BaseAlgorithm, path: Path, normalised: bool) -> dict[str, np.nd
 
 
 def play(
-    agent: Agent, envs: Sequence[gymnasium.Env], seeds: Sequence[int]
+    agent: Agent | NativeAgent, envs: Sequence[gymnasium.Env], seeds: Sequence[int]
 ) -> tuple[np.ndarray, np.ndarray]:
     """One episode in each environment, all in step: returns (n,) float64 and lengths (n,) int64."""
     n = len(envs)

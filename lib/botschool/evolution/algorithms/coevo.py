@@ -116,10 +116,10 @@ class Coevo(Stateful):
         chosen = numbers.permutation(config.popsize)[: config.selsize]
 
         # evolve copies of them as first robots, then let them meet everyone
-        copies = [array[chosen] for array in (self.parameters, self.m, self.v)]
+        centres, m, v = (array[chosen] for array in (self.parameters, self.m, self.v))
         stream = numbers.bit_generator.state
         rules = (config.samplesize, config.noiseStdDev, config.stepsize, config.wdecay)
-        ascent = Ascent(Start(*copies, stream, *rules))
+        ascent = Ascent(Start(centres, m, v, stream, *rules))
         others = self.parameters[partners]
         for seed in seeds[1:]:
             met = _first(everyone(play, ascent.offspring(), others, seed))

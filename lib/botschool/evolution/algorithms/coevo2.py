@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -119,7 +120,7 @@ class Coevo2(Stateful):
         self.fitness = unknown(config.popsize, constant_sum)
 
     @staticmethod
-    def conflicts(config: Coevo2Config) -> Iterator[tuple[tuple[str, ...], str]]:
+    def conflicts(config: Any) -> Iterator[tuple[tuple[str, ...], str]]:
         """Hyperparameters that cannot go together."""
         if config.selsize > config.popsize:
             yield (

@@ -74,7 +74,7 @@ class PGPE(Stateful):
         wider = weighted((plus + minus) / (2 * count), self.z * self.z - 1)
         change = np.clip(self.config.etasigma * wider, -MOST, MOST)
         self.mean = self.mean + self.config.etamu * self.sigma * towards
-        self.sigma = within_limits(self.sigma * (1 + change))
+        self.sigma = np.asarray(within_limits(self.sigma * (1 + change)))
         self.generation += 1
 
     def average_parameter(self) -> float:

@@ -124,8 +124,9 @@ class _Watched:
         new = (steps, returns[None], lengths[None].astype(np.int64))
         if old is not None:
             both = zip((old.steps, old.returns, old.lengths), new, strict=True)
-            new = [np.concatenate(pair) for pair in both]
-        self.found = Evaluations(*new)
+            self.found = Evaluations(*(np.concatenate(pair) for pair in both))
+        else:
+            self.found = Evaluations(*new)
         if returns.mean() >= best:  # of two that did equally well, the one that learned longer
             files.save_model(self.ppo, self.run.path / "best_model.npz")
         self.run.save_evaluations(self.found)
