@@ -46,7 +46,7 @@ def made(name):
 
 def step(algorithm):
     if hasattr(algorithm, "advance"):
-        algorithm.advance(lambda one, other, pairs: win(one[pairs[0]] - other[pairs[1]]))
+        algorithm.advance(lambda one, other, pairs, seed=None: win(one[pairs[0]] - other[pairs[1]]))
     else:
         candidates, _ = algorithm.ask()
         algorithm.tell(-(np.asarray(candidates) ** 2).sum(axis=1))
