@@ -9,7 +9,7 @@ import pytest
 
 from botschool.rl.native import PPO
 
-sys.path.insert(0, str(Path(__file__).parent / "bench"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tools/studies"))
 
 import ppo_compare
 
@@ -60,6 +60,8 @@ def stable_baselines3(env, seed):
 
 def share_as_far(one, other):
     """Of the ways to deal all curves into two groups, those at least as far apart as these."""
+    begun = ~np.isnan(np.concatenate([one, other])).any(axis=0)  # an episode has ended in all
+    one, other = one[:, begun], other[:, begun]
     both, n = np.concatenate([one, other]), len(one)
     found = ppo_compare.distance(one, other)
     apart = [
