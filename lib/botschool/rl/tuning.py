@@ -111,6 +111,17 @@ def tune(
 
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     choose(plan.algo, plan.env, **plan.options)  # refuses now what no trial can train
+    try:
+        plan.path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise cannot_write(plan.path, error.strerror or str(error)) from error
+    with locked(plan.path, "the tuning"):
+        return _tune(plan, say, stopping)
+
+
+def _tune(plan: Plan, say: Callable[[str], None], stopping: Callable[[], bool]) -> bool:
+    import optuna
+
     study = _study(plan, 0)
     _check_same(study, plan)
     for trial in study.get_trials(states=[optuna.trial.TrialState.RUNNING]):
@@ -137,7 +148,6 @@ def _study(plan: Plan, number: int) -> Study:
     import optuna
     from optuna.storages.journal import JournalFileBackend
 
-    plan.path.mkdir(parents=True, exist_ok=True)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
         storage = optuna.storages.JournalStorage(JournalFileBackend(str(plan.path / "study.log")))
@@ -243,11 +253,7 @@ def _short(value: Any) -> str:
 def tune_command(plan: Plan) -> bool:
     """`botschool rl tune`: prints a line for each trial; False when the user stopped it."""
     print(f"tuning {plan.algo} on {plan.env} in {plan.path}", flush=True)
-    try:
-        plan.path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise cannot_write(plan.path, error.strerror or str(error)) from error
-    with locked(plan.path, "the tuning"), stoppable() as stopping:
+    with stoppable() as stopping:
         done = tune(plan, lambda line: print(line, flush=True), stopping)
     if not done:
         print("stopped: the same command goes on.", file=sys.stderr)
