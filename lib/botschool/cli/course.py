@@ -12,7 +12,7 @@ app = typer.Typer()
 Submission = Annotated[
     str | None,
     typer.Option(
-        help="The files of another folder; `solutions` is the reference.", metavar="FOLDER"
+        help="Another folder, zip file or file; `solutions` is the reference.", metavar="FOLDER"
     ),
 ]
 GradingWorkers = Annotated[
@@ -49,7 +49,9 @@ def reset(exercise: Number) -> None:
 
 @app.command(epilog="Example: botschool grade 3, or botschool grade 3.2 for one task")
 def grade(
-    what: Annotated[str, typer.Argument(help="Exercise N or task N.T.", metavar="N[.T]")],
+    what: Annotated[
+        str, typer.Argument(help="Exercise N, task N.T, or several: 1-3,7.", metavar="N[.T]")
+    ],
     submission: Submission = None,
     json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
     debug: Annotated[
@@ -135,7 +137,11 @@ def release(
     exercises: Annotated[
         str,
         typer.Option(
-            "-e", "--exercises", help="Those to add, as 1-3,7; earlier ones stay.", metavar="N,N-N"
+            "-e",
+            "--exercises",
+            "--exercise",
+            help="Those to add, as 1-3,7; earlier ones stay.",
+            metavar="N,N-N",
         ),
     ] = "all",
     answers: Annotated[
@@ -158,10 +164,21 @@ def release(
 @app.command("grade-all", epilog="Example: botschool grade-all submissions --exercise 3 -o grades")
 def grade_all(
     folder: Annotated[
-        Path, typer.Argument(help="Holds a sub-folder per student.", metavar="FOLDER")
+        Path,
+        typer.Argument(
+            help="A folder with a sub-folder per student, or a learning platform's zip file.",
+            metavar="DOWNLOAD",
+        ),
     ],
     exercise: Annotated[
-        str, typer.Option("-e", "--exercise", help="A number, or all.", metavar="N")
+        str,
+        typer.Option(
+            "-e",
+            "--exercise",
+            "--exercises",
+            help="As 3, 1-3,7, 3.2 for a task, or all.",
+            metavar="N",
+        ),
     ] = "all",
     output: Annotated[
         Path, typer.Option("-o", "--output", help="Folder of table and feedback.", metavar="FOLDER")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import io
-import json
 import os
 import re
 import warnings
@@ -21,22 +20,10 @@ from botschool.grading.declare.exercise import (
 from botschool.grading.judge.judging import GraderFault
 from botschool.grading.judge.submission import Submission, TaskResult
 from botschool.grading.run.confined import MachineFault, close_class, fork_server
+from botschool.grading.run.notebooks import code_cells
 
 MAX_PRINTED = 1500
 """Characters of what a task's code printed that are shown."""
-
-
-def code_cells(path: Path) -> list[str]:
-    """The texts of a notebook's code cells. Raises BotschoolError."""
-    try:
-        cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
-        code = [cell["source"] for cell in cells if cell["cell_type"] == "code"]
-        return ["".join(source) for source in code]
-    except (OSError, ValueError, LookupError, TypeError, RecursionError):
-        raise BotschoolError(
-            f"There is no notebook {path.name} in the folder {path.parent}: save it there under "
-            "this name, then run this cell again."
-        ) from None
 
 
 def report(result: TaskResult, banner: str = "") -> str:

@@ -1,148 +1,229 @@
-"""A whole class: a folder of submissions to a table and a page of feedback per student."""
+"""A whole class: an export of submissions to a table and a page of feedback per student."""
 
 from __future__ import annotations
 
 import csv
 import hashlib
 import io
+import itertools
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.batch import Grades, Job
-from botschool.grading.declare.checks import plain
-from botschool.grading.declare.exercise import folder_of
+from botschool.grading.classes.choice import Choice, Wanted, choose, listed
+from botschool.grading.classes.export import Person, one_person, read_export
+from botschool.grading.declare.exercise import Exercise
 from botschool.grading.report.feedback import GENERATOR, page
+from botschool.grading.run.temporary import temporary_folder
 from botschool.output import save_bytes
 
 TABLE, PAGES = "grades.csv", "feedback"
 _FIRST_COLUMNS = ["student", "total"]
 
+Asked = dict[int, tuple[str, ...]]
+"""Exercises, and of each the tasks that are asked for; () for all."""
+
 
 @dataclass
 class Submission:
-    """A student's folder: the file of each exercise, or why there is none."""
+    """A person's files: that of each exercise, or why there is none."""
 
-    folder: Path
-    files: dict[int, Path] = field(default_factory=dict)
-    problems: dict[int, str] = field(default_factory=dict)
-    unread: set[int] = field(default_factory=set)
-    """Exercises whose folder cannot be read: not graded, which is no 0."""
+    person: Person
+    choices: dict[int, Choice] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+    """On what belongs to no exercise."""
 
     @property
     def student(self) -> str:
-        return plain(os.fsencode(self.folder.name).decode(errors="replace"))
+        return self.person.student
+
+    @property
+    def files(self) -> dict[int, Path]:
+        return {number: each.file for number, each in self.choices.items() if each.file}
+
+
+@dataclass
+class Class:
+    """What was graded of an export."""
+
+    table: list[tuple[Submission, list[dict[str, Any]]]]
+    nobodys: list[str]
+    """Files that belong to nobody."""
+    notes: list[str]
 
 
 def find_submissions(
-    folder: Path, numbers: list[int], grades: Grades, root: Path
+    people: Iterable[Person], wanted: list[Wanted], root: Path, new_folder: Callable[[], Path]
 ) -> list[Submission]:
-    """One for every sub-folder; hidden ones are left out. Raises BotschoolError."""
-    try:
-        folders = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
-    except OSError as error:
-        raise BotschoolError(f"{folder} cannot be read ({error.strerror}).") from None
+    """Choose the file of each exercise among what each person handed in."""
     found = []
-    for path in folders:
-        if path.is_dir() or path.is_symlink():
-            one = Submission(path)
-            for number in numbers:
-                _find(one, number, folder_of(number, root).name, grades.exercise(number).file)
-            found.append(one)
-    if not found:
-        raise BotschoolError(f"{folder} holds no sub-folders: one for each student is needed.")
+    for person in people:
+        one = Submission(person)
+        for each in wanted:
+            if person.problem:
+                one.choices[each.number] = Choice(problem=person.problem)
+                continue
+            newest_first = person.platform == "canvas"
+            one.choices[each.number] = choose(person.handed, each, new_folder, newest_first)
+        one.notes = [*person.handed.notes, *_left(one, root)]
+        found.append(one)
     return found
 
 
-def _find(one: Submission, number: int, exercise: str, file: str) -> None:
-    if one.folder.is_symlink():
-        one.problems[number] = "The submission is a link to another place."
-        return
-    top = one.folder.resolve()
-    for place in (exercise, f"exercises/{exercise}", "."):
-        path = one.folder / place / file
-        try:
-            if path.is_symlink() or not path.resolve().is_relative_to(top):
-                one.problems[number] = f"{file} is a link to another place."
-                return
-            if path.is_file():
-                one.files[number] = path
-                return
-        except (OSError, RuntimeError):  # unreadable, or links in a circle
-            one.problems[number] = f"The folder of {file} cannot be read."
-            one.unread.add(number)
-            return
-    one.problems[number] = f"There is no {file}."
+def _left(one: Submission, root: Path) -> list[str]:
+    """Return a sentence on the files that are not used, without those that the course gave out."""
+    used = set().union(*(choice.used for choice in one.choices.values()))
+    tops = {""} | {
+        file.shown[: file.shown.index("exercises/")]
+        for file in one.person.handed.files
+        if re.search(r"(^|/)exercises/ex\d\d_", file.shown)
+    }
+    copies = len(tops) > 1 or any(f.shown.startswith("exercises/") for f in one.person.handed.files)
+    names, given = [], 0
+    for file in one.person.handed.files:
+        if file in used:
+            continue
+        inner = [file.shown[len(top) :] for top in tops if file.shown.startswith(top)]
+        if any(_is_given(name, root, copies) for name in inner):
+            given += 1
+        else:
+            names.append(file.shown)
+    names += [f"{link} (a link)" for link in one.person.handed.links]
+    return [f"Not used: {listed(names)}."] if names else []
+
+
+def _is_given(name: str, root: Path, copies: bool) -> bool:
+    """Return whether a path is one of the course, as copies of it have."""
+    if not copies and not re.match(r"ex\d\d_", name):
+        return False
+    return (root / name).is_file() or (root / "exercises" / name).is_file()
+
+
+def find_one(place: Path, exercise: Exercise, root: Path, folder: Path) -> Submission:
+    """Find an exercise in one person's folder, zip file or file, as grade-all finds it.
+
+    folder: a temporary one. Raises BotschoolError if there is nothing to grade.
+    """
+    new_folder = numbered_folders(folder)
+    wanted = Wanted(exercise.number, exercise.file, root)
+    (one,) = find_submissions([one_person(place, new_folder)], [wanted], root, new_folder)
+    choice = one.choices[exercise.number]
+    if choice.file is None:
+        raise BotschoolError(
+            f"{place}: {choice.problem} Name another folder with --submission FOLDER, or "
+            "SUBMISSION=FOLDER for make."
+        )
+    return one
+
+
+def numbered_folders(base: Path) -> Callable[[], Path]:
+    """Return a function that makes a new folder in `base` each time."""
+    numbers = itertools.count(1)
+
+    def new_folder() -> Path:
+        folder = base / str(next(numbers))
+        folder.mkdir(parents=True)
+        return folder
+
+    return new_folder
 
 
 def grade_all(
-    folder: Path,
+    download: Path,
     output: Path,
-    numbers: list[int],
+    asked: Asked,
     root: Path,
     workers: int,
     fresh: bool,
     secret: str | None = None,
     start: Callable[[int], None] = lambda count: None,
     report: Callable[[], None] = lambda: None,
-) -> list[tuple[Submission, list[dict[str, Any]]]]:
-    """Grades every submission and writes grades.csv and feedback/STUDENT.html into `output`.
+) -> Class:
+    """Grade every submission and write grades.csv and feedback/STUDENT.html into `output`.
 
-    Raises BotschoolError, before it starts, if this machine lacks what an exercise that was handed
-    in needs. secret: of the grading seeds, else as of batch.Grades.
-    start(count) is called with the number of files, report() after each of them.
+    download: a folder or a zip file, as of export.read_export. Raises BotschoolError, before it
+    starts, if this machine lacks what an exercise that was handed in needs. secret: of the grading
+    seeds, else as of batch.Grades. start(count) is called with the number of files, report()
+    after each of them.
     """
-    grades = Grades(root, fresh, secret)
-    submissions = find_submissions(folder, numbers, grades, root)
-    for number in numbers:
-        if any(number in one.files for one in submissions):
-            grades.exercise(number).require()
-    names = page_names([one.folder.name for one in submissions])
+    with temporary_folder() as temporary:
+        grades = Grades(root, fresh, secret)
+        new_folder = numbered_folders(temporary / "files")
+        wanted = [Wanted(number, grades.exercise(number).file, root) for number in asked]
+        export = read_export(download, wanted, new_folder)
+        submissions = find_submissions(export.people, wanted, root, new_folder)
+        for number in asked:
+            if any(number in one.files for one in submissions):
+                grades.exercise(number).require()
+        table = _grade(submissions, output, asked, grades, workers, start, report)
+    return Class(table, export.nobodys, export.notes)
+
+
+def _grade(
+    submissions: list[Submission],
+    output: Path,
+    asked: Asked,
+    grades: Grades,
+    workers: int,
+    start: Callable[[int], None],
+    report: Callable[[], None],
+) -> list[tuple[Submission, list[dict[str, Any]]]]:
+    names = page_names([one.student for one in submissions], [_key(one) for one in submissions])
     _check_own(output, names)
     jobs = {
-        (one.folder, number): Job(number, file.absolute())
-        for one in submissions
+        (index, number): Job(number, file.absolute(), asked[number])
+        for index, one in enumerate(submissions)
         for number, file in one.files.items()
     }
-    start(len(jobs))
-    waiting = {one.folder: set(one.files) for one in submissions}
-    by_file = {job: key for key, job in jobs.items()}
-    done: dict[tuple[Path, int], dict] = {}
+    places: dict[Job, list[tuple[int, int]]] = {}
+    for place, job in jobs.items():
+        places.setdefault(job, []).append(place)
+    start(len(places))
+    waiting = {index: set(one.files) for index, one in enumerate(submissions)}
+    done: dict[tuple[int, int], dict] = {}
     (output / PAGES).mkdir(parents=True, exist_ok=True)
 
-    def all_of(one: Submission) -> list[dict[str, Any]]:
-        return [
-            done[one.folder, n]
-            if n in one.files
-            else grades.nothing(n, one.problems[n], graded=n not in one.unread)
-            for n in numbers
-        ]
+    def all_of(index: int) -> list[dict[str, Any]]:
+        results = []
+        for number in asked:
+            choice = submissions[index].choices[number]
+            result = done.get((index, number))
+            if result is None:
+                problem = choice.problem
+                result = grades.nothing(number, problem, not choice.unread, asked[number])
+            results.append(result | {"notes": choice.notes})
+        return results
 
-    def write(one: Submission, name: str) -> None:
-        text = page(one.student, all_of(one))
-        save_bytes(output / PAGES / name, text.encode("utf-8", "replace"))
+    def write(index: int) -> None:
+        one = submissions[index]
+        text = page(one.student, all_of(index), one.notes)
+        save_bytes(output / PAGES / names[index], text.encode("utf-8", "replace"))
 
-    places = {one.folder: (one, name) for one, name in zip(submissions, names, strict=True)}
-    for one, name in places.values():
+    for index, one in enumerate(submissions):
         if not one.files:
-            write(one, name)
+            write(index)
 
     def keep(job: Job, result: dict[str, Any]) -> None:
-        place, number = by_file[job]
-        done[place, number] = result
-        waiting[place].discard(number)
-        if not waiting[place]:
-            write(*places[place])
+        for index, number in places[job]:
+            done[index, number] = result
+            waiting[index].discard(number)
+            if not waiting[index]:
+                write(index)
         report()
 
-    grades.of(jobs.values(), workers, keep)
-    table = [(one, all_of(one)) for one in submissions]
+    grades.of(places, workers, keep)
+    table = [(one, all_of(index)) for index, one in enumerate(submissions)]
     save_bytes(output / TABLE, _table(table, names).encode("utf-8-sig", "replace"))
     return table
+
+
+def _key(one: Submission) -> str:
+    return f"{one.person.platform} {one.person.folder}"
 
 
 def total_of(results: list[dict[str, Any]]) -> int | None:
@@ -152,15 +233,18 @@ def total_of(results: list[dict[str, Any]]) -> int | None:
     return sum(result["points"] for result in results)
 
 
-def page_names(folders: list[str]) -> list[str]:
-    """A file name for each folder name: readable, safe everywhere, and no two alike."""
+def page_names(folders: list[str], keys: list[str] | None = None) -> list[str]:
+    """Return a file name for each person: readable, safe everywhere, and no two alike.
+
+    keys: what tells people of one name apart; else the names.
+    """
     names, seen = [], set()
-    for folder in folders:
+    for folder, key in zip(folders, keys or folders, strict=True):
         text = os.fsencode(folder).decode(errors="replace")
         name = re.sub(r"[^\w .@+-]", "_", text).strip(" .")[:80]
         reserved = re.fullmatch(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\..*)?", name)
         if not name or name != text or reserved or name.casefold() in seen:
-            name = f"{name or 'student'}-{hashlib.sha256(os.fsencode(folder)).hexdigest()[:8]}"
+            name = f"{name or 'student'}-{hashlib.sha256(os.fsencode(key)).hexdigest()[:8]}"
         seen.add(name.casefold())
         names.append(f"{name}.html")
     return names
@@ -180,12 +264,19 @@ def _table(table: list[tuple[Submission, list[dict]]], names: list[str]) -> str:
             all_of = [result["points"], *(task["points"] for task in result["tasks"])]
             points += all_of if result["graded"] else [""] * len(all_of)
         total = total_of(results)
-        notes = " ".join(
-            f"Exercise {r['exercise']}: {r['problem']}" for r in results if r["problem"]
-        )
+        notes = _cell(notes_of(one, results))
         shown = "" if total is None else total
         writer.writerow([_cell(one.student), shown, *points, _cell(f"{PAGES}/{name}"), notes])
     return stream.getvalue()
+
+
+def notes_of(one: Submission, results: list[dict[str, Any]]) -> str:
+    """Return all that is to be known beside the points."""
+    notes = []
+    for result in results:
+        if said := " ".join(filter(None, [result["problem"], *result["notes"]])):
+            notes.append(f"Exercise {result['exercise']}: {said}")
+    return " ".join([*notes, *one.notes])
 
 
 def _cell(text: str) -> str:

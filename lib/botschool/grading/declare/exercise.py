@@ -185,6 +185,19 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
     return exercise
 
 
+def submission_place(submission: str, root: Path) -> Path:
+    """Return the folder or file that --submission names; `solutions` is the reference.
+
+    Raises BotschoolError where there is none.
+    """
+    base = Path(submission)
+    if submission == "solutions" and not base.is_dir():
+        base = root / "solutions"
+    if not base.exists():
+        raise BotschoolError(f"There is no {submission}: name a folder with --submission FOLDER.")
+    return base
+
+
 def submission_file(number: int, submission: str | None, root: Path | None = None) -> Path:
     """The file to grade: the student's own, the reference (`solutions`), or in another folder."""
     root = root or course_root()
@@ -192,9 +205,7 @@ def submission_file(number: int, submission: str | None, root: Path | None = Non
     if submission is None:
         places = [folder]
     else:
-        base = Path(submission)
-        if submission == "solutions" and not base.is_dir():
-            base = root / "solutions"
+        base = submission_place(submission, root)
         places = [base / folder.name, base]
     for place in places:
         if (place / exercise.file).is_file():
