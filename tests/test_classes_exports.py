@@ -8,8 +8,8 @@ import pytest
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.choice import Wanted
-from botschool.grading.classes.collect import find_submissions, numbered_folders
 from botschool.grading.classes.export import one_person, read_export
+from botschool.grading.classes.finding import find_submissions, numbered_folders
 from botschool.grading.classes.texts import decoded, text_of_page
 from botschool.grading.classes.unpack import Room, Unpackable, unpack
 from botschool.grading.copies.skeleton import skeleton

@@ -187,15 +187,39 @@ def grade_all(
     fresh: Annotated[
         bool, typer.Option("--fresh", help="Grade again what has not changed since.")
     ] = False,
+    roster: Annotated[
+        Path | None, typer.Option(help="A table of the class: names, ids, mail.", metavar="CSV")
+    ] = None,
+    gradebook: Annotated[
+        Path | None,
+        typer.Option(
+            help="Moodle's grading worksheet or Canvas's gradebook, to be filled in.", metavar="CSV"
+        ),
+    ] = None,
+    column: Annotated[
+        str, typer.Option(help="The assignment in Canvas's gradebook.", metavar="NAME")
+    ] = "",
+    settings: Annotated[
+        Path | None,
+        typer.Option(
+            "--class",
+            help="Deadlines and more.",
+            metavar="FILE",
+            show_default="class.yaml beside the download",
+        ),
+    ] = None,
 ) -> None:
     """For instructors: grade a class into a table and a page of feedback per student.
 
-    What cannot be graded by a fault of this machine gets an empty cell in the table, and exit code
-    1 says so.
+    What cannot be graded by a fault of this machine gets an empty cell in the table. Exit code 1
+    says so, or that somebody on the roster handed in nothing, or is not on it.
     """
     from botschool.grading.commands import grade_all_command
 
-    if not grade_all_command(folder, output, exercise, workers, fresh):
+    good = grade_all_command(
+        folder, output, exercise, workers, fresh, roster, gradebook, column, settings
+    )
+    if not good:
         raise typer.Exit(1)
 
 

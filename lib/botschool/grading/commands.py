@@ -13,7 +13,7 @@ import traceback
 from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.markup import escape
@@ -39,6 +39,9 @@ from botschool.grading.run.confined import close_class
 from botschool.grading.run.debug import DirectStudent
 from botschool.grading.run.temporary import temporary_files_within
 from botschool.terminal import exits_on_signals
+
+if TYPE_CHECKING:
+    from botschool.grading.classes.register import Settings
 
 # PyTorch's threads fight for busy cores, and the course's networks are too small to share out: on a
 # busy machine, 4,096 steps of PPO take 18.4 s with all threads and 0.9 s with one
@@ -97,7 +100,7 @@ def _file_of(exercise: Exercise, submission: str | None) -> tuple[Path, Path, li
         file = submission_file(number, None)
         exercise.require()
         return file, file, [], ""
-    from botschool.grading.classes.collect import find_one
+    from botschool.grading.classes.finding import find_one
 
     place = submission_place(submission, root)
     one = find_one(place, exercise, root, Path(tempfile.mkdtemp(prefix="botschool-")))
@@ -376,41 +379,67 @@ def selected(text: str, root: Path | None = None) -> dict[int, tuple[str, ...]]:
 
 @exits_on_signals()
 def grade_all_command(
-    folder: Path, output: Path, exercise: str, workers: int | None, fresh: bool
+    folder: Path,
+    output: Path,
+    exercise: str,
+    workers: int | None,
+    fresh: bool,
+    roster: Path | None = None,
+    gradebook: Path | None = None,
+    column: str = "",
+    settings: Path | None = None,
 ) -> bool:
-    """Grades a class and says where the results are; True if all could be graded."""
-    from botschool.grading.classes.collect import PAGES, TABLE, grade_all, listed, total_of
+    """Grade a class and say where the results are.
+
+    True if all could be graded, and all are on the roster and have handed something in.
+    """
+    from botschool.grading.classes.collect import PAGES, TABLE, grade_all
+    from botschool.grading.classes.screen import say_class
 
     root = course_root()
     asked = selected(exercise, root)
     console = Console(highlight=False)
+    known = _settings(folder, roster, gradebook, column, settings)
     secret, said = secret_for_others(root)
     close_class(folder, output)
     with counting("Grading", console) as (start, step):
         found = grade_all(
-            folder, output, asked, root, _workers(workers), fresh, secret, start, step
+            folder, output, asked, root, _workers(workers), fresh, secret, start, step, known
         )
-    table = found.table
-    results = [result for _, all_of in table for result in all_of]
-    all_totals = [total_of(all_of) for _, all_of in table]
-    totals = [total for total in all_totals if total is not None]
-    problems = [(one, r) for one, all_of in table for r in all_of if r["problem"]]
-    maximum = sum(result["max_points"] for result in table[0][1])
-    average = f"{sum(totals) / len(totals):.1f} of {maximum} points on average" if totals else ""
-    ungraded = len(table) - len(totals)
-    left = f"{ungraded} not graded and not counted" if ungraded else ""
-    console.print(", ".join(filter(None, [f"{len(table)} submissions", average, left])) + ".")
-    for note in [*found.notes, *([f"Nobody's: {listed(found.nobodys)}."] * bool(found.nobodys))]:
-        console.print(note, markup=False, soft_wrap=True)
-    if problems:
-        names = list(dict.fromkeys(one.student for one, _ in problems))
-        shown = ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
-        console.print(f"Not all could be graded, see the notes in the table: {shown}", markup=False)
+    good = say_class(console, found)
     console.print(f"Table: {output / TABLE}   Feedback: {output / PAGES}", markup=False)
+    shown = "   ".join(str(path) for path in found.written)
+    console.print(f"Also: {shown}", markup=False, soft_wrap=True)
     if said:
         console.print(said, markup=False, soft_wrap=True)
-    _notice(console, results)
-    return not ungraded
+    _notice(console, [result for row in found.rows for result in row.results])
+    return good
+
+
+def _settings(
+    download: Path,
+    roster: Path | None,
+    gradebook: Path | None,
+    column: str,
+    settings: Path | None,
+) -> Settings:
+    """Return what is known of the class; class.yaml beside the download is found by itself."""
+    from botschool.grading.classes.policy import FILE, Policy, read_policy
+    from botschool.grading.classes.register import Settings
+    from botschool.grading.classes.roster import read_roster
+
+    beside = download.absolute().parent / FILE
+    if settings is None and beside.is_file() and not beside.is_symlink():
+        settings = beside
+    policy = read_policy(settings) if settings else Policy()
+    roster = roster or policy.roster
+    book = read_roster(gradebook) if gradebook else None
+    if book and book.kind == "plain":
+        raise BotschoolError(
+            f"{gradebook} is neither Moodle's grading worksheet nor Canvas's gradebook: name it "
+            "with --roster."
+        )
+    return Settings(policy, read_roster(roster) if roster else None, book, column)
 
 
 def _named(what: str) -> tuple[int, str]:

@@ -118,7 +118,7 @@ def _notes(notes: Sequence[str]) -> str:
 def _points(results: list[dict[str, Any]]) -> str:
     """The sum, or a dash if one of them was not graded."""
     graded = all(result["graded"] for result in results)
-    return str(sum(int(result["points"]) for result in results)) if graded else "&ndash;"
+    return f"{sum(float(result['points']) for result in results):g}" if graded else "&ndash;"
 
 
 def _section(result: dict[str, Any]) -> str:
