@@ -223,6 +223,28 @@ def grade_all(
         raise typer.Exit(1)
 
 
+@app.command(epilog="Example: botschool export gradescope -e 3 -o results/export")
+def export(
+    platform: Annotated[
+        str, typer.Argument(help="gradescope, actions or classroom50.", metavar="PLATFORM")
+    ],
+    exercises: Annotated[
+        str, typer.Option("-e", "--exercises", "--exercise", help="As 1-3,7.", metavar="N,N-N")
+    ] = "all",
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="Folder to write into.", metavar="FOLDER")
+    ] = Path("results/export"),
+    wheel: Annotated[
+        Path | None,
+        typer.Option(help="botschool as a wheel, so that nothing is compiled.", metavar="FILE"),
+    ] = None,
+) -> None:
+    """For instructors: write what a platform needs to grade by itself."""
+    from botschool.grading.commands import export_command
+
+    export_command(platform, exercises, output, wheel)
+
+
 @app.command(epilog="Example: botschool nbgrader results/nbgrader")
 def nbgrader(
     folder: Annotated[

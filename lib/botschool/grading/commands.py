@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import re
 import signal
 import tempfile
 import time
@@ -28,6 +27,7 @@ from botschool.grading.declare.exercise import (
     folder_of,
     load_exercise,
     secret_for_others,
+    selected,
     submission_file,
     submission_place,
 )
@@ -345,36 +345,26 @@ def release_command(folder: Path, exercises: str, answers: bool) -> None:
     print(f"{folder}: {done.files} files for students, {done.written} of them new or changed.")
 
 
-def selected(text: str, root: Path | None = None) -> dict[int, tuple[str, ...]]:
-    """Return what "3", "3.2", "1-3,7" or "all" names: exercises, and the tasks of each.
+def export_command(platform: str, exercises: str, output: Path, wheel: Path | None) -> None:
+    """Write what a platform takes to grade by itself, and say what to do with it."""
+    from botschool.grading.classes.exporting import export
 
-    () stands for all tasks. Raises BotschoolError for what is not there.
-    """
-    root = root or course_root()
-    if text.strip() == "all":
-        return dict.fromkeys(exercise_numbers(root), ())
-    found: dict[int, tuple[str, ...]] = {}
-    for part in text.split(","):
-        match = re.fullmatch(
-            r"\s*([0-9]{1,3})(?:\.([0-9]{1,3})|\s*-\s*([0-9]{1,3}))?\s*", part, re.ASCII
-        )
-        if not match:
-            raise BotschoolError(
-                f"'{text[:30]}' names no exercise: give its number, as 3, a task, as 3.2, or "
-                "several exercises, as 1-3,7."
-            )
-        first = int(match[1])
-        for number in range(first, int(match[3] or first) + 1):
-            task = f"{number}.{int(match[2])}" if match[2] else ""
-            whole = not task or found.get(number) == ()
-            found[number] = () if whole else (*found.get(number, ()), task)
-    for number, tasks in found.items():
-        folder_of(number, root)
-        for task in tasks:
-            load_exercise(number, root).find(task)
-    if not found:
-        raise BotschoolError(f"'{text[:30]}' names no exercise: the smaller number comes first.")
-    return dict(sorted(found.items()))
+    root = course_root()
+    asked = selected(exercises, root)
+    if any(asked.values()):
+        raise BotschoolError(f"'{exercises[:30]}' names a task: an exercise is exported whole.")
+    for path in export(platform, list(asked), exercises, output, root, wheel):
+        print(f"made: {path}")
+    print(
+        {
+            "gradescope": "Upload each zip file as the autograder of its assignment. It holds your "
+            "secret: give it to nobody else.",
+            "actions": "Put the folder .github into the repository that students start from, "
+            "which is a copy made by botschool release.",
+            "classroom50": "Put the folder autograders into the classroom's folder of your "
+            "classroom50 repository. Give runtime.json to 'gh teacher assignment add --runtime'.",
+        }[platform]
+    )
 
 
 @exits_on_signals()

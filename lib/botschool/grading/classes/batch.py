@@ -154,8 +154,8 @@ class Grades:
         limit = WALL_FACTOR * sum(seconds) + SPARE_SECONDS
         temporary = Path(tempfile.mkdtemp(prefix="botschool-", dir=self._temporary))
         lifeline, ours = os.pipe()
-        arguments = str(job.number), str(job.file), str(lifeline), "alone" if alone else ""
-        arguments = *arguments, ",".join(job.tasks)
+        kind, tasks = "alone" if alone else "", ",".join(job.tasks)
+        arguments = str(job.number), str(job.file), str(lifeline), kind, tasks
         environment = os.environ | {
             "TMPDIR": str(temporary),
             "BOTSCHOOL_COURSE": str(self._root),

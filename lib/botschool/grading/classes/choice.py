@@ -174,6 +174,8 @@ class Choice:
     notes: list[str] = field(default_factory=list)
     """What the reader of the grade must know."""
     used: set[File] = field(default_factory=set)
+    changed: bool = False
+    """Whether it is not as it was given out."""
     origin: File | None = None
     """What the file was, as it was handed in."""
 
@@ -191,7 +193,7 @@ def choose(
         return Choice(problem=_nothing(handed, wanted))
     ranked = sorted(candidates, key=lambda each: each.rank(newest_first), reverse=True)
     best, others = ranked[0], ranked[1:]
-    choice = Choice(origin=best.file)
+    choice = Choice(origin=best.file, changed=best.differs)
     choice.used.add(best.file)
     if best.file.shown not in wanted.places:
         typed = best.suffix in (".html", ".htm")

@@ -79,14 +79,19 @@ def _is_given(name: str, root: Path, copies: bool) -> bool:
     return (root / name).is_file() or (root / "exercises" / name).is_file()
 
 
-def find_one(place: Path, exercise: Exercise, root: Path, folder: Path) -> Submission:
+def find_in(place: Path, exercise: Exercise, root: Path, folder: Path) -> Submission:
     """Find an exercise in one person's folder, zip file or file, as grade-all finds it.
 
-    folder: a temporary one. Raises BotschoolError if there is nothing to grade.
+    folder: a temporary one.
     """
     new_folder = numbered_folders(folder)
     wanted = Wanted(exercise.number, exercise.file, root)
-    (one,) = find_submissions([one_person(place, new_folder)], [wanted], root, new_folder)
+    return find_submissions([one_person(place, new_folder)], [wanted], root, new_folder)[0]
+
+
+def find_one(place: Path, exercise: Exercise, root: Path, folder: Path) -> Submission:
+    """Find an exercise as `find_in`. Raises BotschoolError if there is nothing to grade."""
+    one = find_in(place, exercise, root, folder)
     choice = one.choices[exercise.number]
     if choice.file is None:
         raise BotschoolError(

@@ -13,7 +13,7 @@ import keyword
 import math
 import tokenize
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 
@@ -93,10 +93,15 @@ def similar_pairs(programs: Sequence[Program], skeleton: str) -> list[Pair]:
         least = max(1e-9, min(sums[i], sums[j]))
         similarity = min(1.0, sum(weight[key] for key in common) / least)
         if similarity >= LEAST:
-            lines = tuple(frozenset(line for key in common for line in own[key]) for own in (a, b))
+            lines = (_lines(a, common), _lines(b, common))
             pairs.append(Pair(first, second, similarity, lines))
     pairs.sort(key=lambda pair: (-pair.similarity, pair.first.student, pair.second.student))
     return pairs[:MOST_PAIRS]
+
+
+def _lines(own: dict[tuple[str, ...], set[int]], keys: Iterable[tuple[str, ...]]) -> frozenset[int]:
+    """Return the lines on which these sequences stand."""
+    return frozenset(line for key in keys for line in own[key])
 
 
 _STYLE = """
