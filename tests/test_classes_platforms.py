@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -14,6 +15,9 @@ from botschool.errors import BotschoolError
 from botschool.grading.classes.platforms import classroom50, graded, gradescope, markdown
 from botschool.grading.copies.skeleton import skeleton
 from botschool.grading.declare.trust import trust
+from botschool.grading.nbgrader import make_course as make_nbgrader_course
+from botschool.grading.notebook import NotGraded, grade_cell
+from exports import notebook
 from running import call, one_sentence
 from tiny_course import FILE, FOLDER, SOLUTION, make_course
 
@@ -174,6 +178,29 @@ def test_nothing_handed_in_is_zero_and_a_fault_of_the_machine_is_not(course, tmp
         f"{sys.executable} -m {module} gradescope 3 {tmp_path / 'empty'} {tmp_path / 'r.json'}"
     )
     assert code == 1 and "Not graded: no torch" in said and not (tmp_path / "r.json").exists()
+
+
+def test_a_notebook_finds_its_grader_where_a_student_sits(course, tmp_path, monkeypatch):
+    assert make_nbgrader_course(course, tmp_path / "teaching") == []
+    assert make_nbgrader_course(course, tmp_path / "teaching") == []  # nothing seems edited
+    home = tmp_path / "home"
+    shutil.copytree(tmp_path / "teaching" / "source" / "ex03", home)
+    grader = (home / "exercises" / FOLDER / "test_tiny.py").read_text()
+    assert "unpack(" in grader and "numbers.sum()" not in grader
+    (home / "tiny.ipynb").write_bytes(notebook(SOLUTION))
+    monkeypatch.delenv("BOTSCHOOL_COURSE")
+    monkeypatch.chdir(home)
+    with pytest.raises(NotGraded, match="botschool trust"):
+        grade_cell("3.1")
+    trust(home)
+    assert grade_cell("3.1") == 60
+    code, out, _ = call("hint", "3.1", cwd=home)
+    assert code == 0 and "Look at *" in out
+    assert (home / "exercises" / FOLDER / "README.md").is_file()
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    with pytest.raises(NotGraded, match="no course here"):
+        grade_cell("3.1")
 
 
 def test_the_contracts_of_platforms():
