@@ -76,7 +76,7 @@ def test_grade(course):
         (["grade", "4"], "There is no exercise 4; there are 3."),
         (["grade", "3.9"], "its tasks are 3.1, 3.2"),
         (["grade", "3", "--debug"], "--debug runs one task"),
-        (["grade", "3", "--submission", "nowhere"], "There is no tiny.py in"),
+        (["grade", "3", "--submission", "nowhere"], "There is no nowhere"),
         (["hint", "3"], "botschool hint 3.1"),
         (["hint", "3.9"], "its tasks are 3.1, 3.2"),
         (["watch", "5"], "There is no exercise 5"),
@@ -520,19 +520,19 @@ def test_grade_all(course, class_, tmp_path):
 
 def test_grade_all_overwrites_only_its_own(course, class_, tmp_path):
     output = tmp_path / "out"
-    grade_all(class_, output, [3], course, 2, False)
+    grade_all(class_, output, {3: ()}, course, 2, False)
     (output / "mine.txt").write_text("mine")
     before = (output / "grades.csv").read_bytes()
-    grade_all(class_, output, [3], course, 2, False)
+    grade_all(class_, output, {3: ()}, course, 2, False)
     assert (output / "grades.csv").read_bytes() == before
     assert (output / "mine.txt").read_text() == "mine"
     (output / "grades.csv").write_text("my own table")
     with pytest.raises(BotschoolError, match="not made by grade-all"):
-        grade_all(class_, output, [3], course, 2, False)
+        grade_all(class_, output, {3: ()}, course, 2, False)
     (output / "grades.csv").unlink()
     (output / "feedback" / "ada.html").write_text("my letter to Ada")
     with pytest.raises(BotschoolError, match="not made by grade-all"):
-        grade_all(class_, output, [3], course, 2, False)
+        grade_all(class_, output, {3: ()}, course, 2, False)
     assert (output / "feedback" / "ada.html").read_text() == "my letter to Ada"
 
 

@@ -373,7 +373,8 @@ def test_the_next_grading_sweeps_what_a_killed_one_has_left(course, tmp_path, co
     process.kill()
     process.communicate()
     assert left() == living
-    assert call("grade", "3", env=environment)[0] == 1
+    code, _, errors = call("grade", "3", env=environment)
+    assert code == 1, errors
     assert left() == [] and others.is_dir()
 
 

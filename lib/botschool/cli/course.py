@@ -12,7 +12,7 @@ app = typer.Typer()
 Submission = Annotated[
     str | None,
     typer.Option(
-        help="The files of another folder; `solutions` is the reference.", metavar="FOLDER"
+        help="Another folder, zip file or file; `solutions` is the reference.", metavar="FOLDER"
     ),
 ]
 GradingWorkers = Annotated[
@@ -49,7 +49,9 @@ def reset(exercise: Number) -> None:
 
 @app.command(epilog="Example: botschool grade 3, or botschool grade 3.2 for one task")
 def grade(
-    what: Annotated[str, typer.Argument(help="Exercise N or task N.T.", metavar="N[.T]")],
+    what: Annotated[
+        str, typer.Argument(help="Exercise N, task N.T, or several: 1-3,7.", metavar="N[.T]")
+    ],
     submission: Submission = None,
     json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
     debug: Annotated[
@@ -135,7 +137,11 @@ def release(
     exercises: Annotated[
         str,
         typer.Option(
-            "-e", "--exercises", help="Those to add, as 1-3,7; earlier ones stay.", metavar="N,N-N"
+            "-e",
+            "--exercises",
+            "--exercise",
+            help="Those to add, as 1-3,7; earlier ones stay.",
+            metavar="N,N-N",
         ),
     ] = "all",
     answers: Annotated[
@@ -158,10 +164,21 @@ def release(
 @app.command("grade-all", epilog="Example: botschool grade-all submissions --exercise 3 -o grades")
 def grade_all(
     folder: Annotated[
-        Path, typer.Argument(help="Holds a sub-folder per student.", metavar="FOLDER")
+        Path,
+        typer.Argument(
+            help="A folder with a sub-folder per student, or a learning platform's zip file.",
+            metavar="DOWNLOAD",
+        ),
     ],
     exercise: Annotated[
-        str, typer.Option("-e", "--exercise", help="A number, or all.", metavar="N")
+        str,
+        typer.Option(
+            "-e",
+            "--exercise",
+            "--exercises",
+            help="As 3, 1-3,7, 3.2 for a task, or all.",
+            metavar="N",
+        ),
     ] = "all",
     output: Annotated[
         Path, typer.Option("-o", "--output", help="Folder of table and feedback.", metavar="FOLDER")
@@ -170,16 +187,62 @@ def grade_all(
     fresh: Annotated[
         bool, typer.Option("--fresh", help="Grade again what has not changed since.")
     ] = False,
+    roster: Annotated[
+        Path | None, typer.Option(help="A table of the class: names, ids, mail.", metavar="CSV")
+    ] = None,
+    gradebook: Annotated[
+        Path | None,
+        typer.Option(
+            help="Moodle's grading worksheet or Canvas's gradebook, to be filled in.", metavar="CSV"
+        ),
+    ] = None,
+    column: Annotated[
+        str, typer.Option(help="The assignment in Canvas's gradebook.", metavar="NAME")
+    ] = "",
+    settings: Annotated[
+        Path | None,
+        typer.Option(
+            "--class",
+            help="Deadlines and more.",
+            metavar="FILE",
+            show_default="class.yaml beside the download",
+        ),
+    ] = None,
 ) -> None:
     """For instructors: grade a class into a table and a page of feedback per student.
 
-    What cannot be graded by a fault of this machine gets an empty cell in the table, and exit code
-    1 says so.
+    What cannot be graded by a fault of this machine gets an empty cell in the table. Exit code 1
+    says so, or that somebody on the roster handed in nothing, or is not on it.
     """
     from botschool.grading.commands import grade_all_command
 
-    if not grade_all_command(folder, output, exercise, workers, fresh):
+    good = grade_all_command(
+        folder, output, exercise, workers, fresh, roster, gradebook, column, settings
+    )
+    if not good:
         raise typer.Exit(1)
+
+
+@app.command(epilog="Example: botschool export gradescope -e 3 -o results/export")
+def export(
+    platform: Annotated[
+        str, typer.Argument(help="gradescope, actions or classroom50.", metavar="PLATFORM")
+    ],
+    exercises: Annotated[
+        str, typer.Option("-e", "--exercises", "--exercise", help="As 1-3,7.", metavar="N,N-N")
+    ] = "all",
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="Folder to write into.", metavar="FOLDER")
+    ] = Path("results/export"),
+    wheel: Annotated[
+        Path | None,
+        typer.Option(help="botschool as a wheel, so that nothing is compiled.", metavar="FILE"),
+    ] = None,
+) -> None:
+    """For instructors: write what a platform needs to grade by itself."""
+    from botschool.grading.commands import export_command
+
+    export_command(platform, exercises, output, wheel)
 
 
 @app.command(epilog="Example: botschool nbgrader results/nbgrader")

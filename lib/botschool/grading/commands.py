@@ -5,14 +5,14 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import re
 import signal
+import tempfile
 import time
 import traceback
 from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.markup import escape
@@ -27,7 +27,9 @@ from botschool.grading.declare.exercise import (
     folder_of,
     load_exercise,
     secret_for_others,
+    selected,
     submission_file,
+    submission_place,
 )
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import Result, grade
@@ -38,6 +40,9 @@ from botschool.grading.run.debug import DirectStudent
 from botschool.grading.run.temporary import temporary_files_within
 from botschool.terminal import exits_on_signals
 
+if TYPE_CHECKING:
+    from botschool.grading.classes.register import Settings
+
 # PyTorch's threads fight for busy cores, and the course's networks are too small to share out: on a
 # busy machine, 4,096 steps of PPO take 18.4 s with all threads and 0.9 s with one
 os.environ.setdefault("OMP_NUM_THREADS", "1")
@@ -46,48 +51,74 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 @exits_on_signals()
 @temporary_files_within()
 def grade_command(what: str, submission: str | None, as_json: bool, debug: bool) -> bool:
-    """Grades exercise "3" or task "3.2" and prints the report; True for full marks."""
-    number, task = _named(what)
+    """Grade exercise "3", task "3.2" or exercises "1-3" and print reports; True for full marks."""
+    asked = selected(what)
+    if debug and (len(asked) > 1 or len(next(iter(asked.values()))) != 1):
+        number = next(iter(asked))
+        raise BotschoolError(f"--debug runs one task: say which, as botschool grade {number}.1")
+    done = [_grade_one(n, tasks, submission, as_json, debug) for n, tasks in asked.items()]
+    if as_json and not debug:
+        shown = [found for _, found in done]
+        print(json.dumps(shown[0] if len(shown) == 1 else shown, indent=1))
+    return all(full for full, _ in done)
+
+
+def _grade_one(
+    number: int, tasks: tuple[str, ...], submission: str | None, as_json: bool, debug: bool
+) -> tuple[bool, dict]:
     exercise = load_exercise(number)
-    if task:
-        exercise.find(what)
-    file = submission_file(number, submission)
-    exercise.require()
-    kept = _prepare_for_others(exercise, submission, file)
+    chosen = [exercise.find(task) for task in tasks] or None
+    file, shown, notes, kept = _file_of(exercise, submission)
     graded = digest(file)
     if debug:
-        if not task:
-            raise BotschoolError(f"--debug runs one task: say which, as botschool grade {number}.1")
-        return debug_task(exercise, what, file)
+        return debug_task(exercise, tasks[0], file), {}
     screen = Screen()
     report: Callable[[Any], None] = screen.task
     announce: Callable[[str], None] = screen.banner
     if as_json:
         report = announce = lambda shown: None
-    if not as_json:
-        screen.start(exercise.number, exercise.title, file)
-    tasks = [exercise.find(what)] if task else None
-    result = grade(exercise, file, report, tasks, announce=announce)
+    else:
+        screen.start(exercise.number, exercise.title, shown, notes)
+    result = grade(exercise, file, report, chosen, announce=announce)
     if submission is None:
         remember(course_root(), number, _points(result), graded)
-    if as_json:
-        print(json.dumps(result.to_json(), indent=1))
-    else:
-        screen.end(result, whole=not task)
+    if not as_json:
+        screen.end(result, whole=not tasks)
         if kept:
             screen.console.print(f"[dim]{escape(kept)}[/]", soft_wrap=True)
-    return result.points == result.max_points
+    found = result.to_json() | ({"notes": notes} if notes else {})
+    return result.points == result.max_points, found
 
 
-def _prepare_for_others(exercise: Exercise, submission: str | None, file: Path) -> str:
+def _file_of(exercise: Exercise, submission: str | None) -> tuple[Path, Path, list[str], str]:
+    """Return the file to grade, its path to show, notes, and a sentence on others' secret.
+
+    What somebody else handed in is found as grade-all finds it, and the class is closed to it.
+    """
+    number, root = exercise.number, course_root()
+    if submission is None:
+        file = submission_file(number, None)
+        exercise.require()
+        return file, file, [], ""
+    from botschool.grading.classes.finding import find_one
+
+    place = submission_place(submission, root)
+    one = find_one(place, exercise, root, Path(tempfile.mkdtemp(prefix="botschool-")))
+    exercise.require()
+    choice = one.choices[number]
+    origin = choice.origin.path
+    kept = _prepare_for_others(exercise, origin if origin.is_relative_to(place) else place)
+    shown = place / choice.origin.shown if place.is_dir() else place
+    return choice.file, shown, [*choice.notes, *one.notes], kept
+
+
+def _prepare_for_others(exercise: Exercise, file: Path) -> str:
     """Let the seeds follow from a secret, and close the class, for the work of somebody else.
 
-    Returns a sentence on where the secret is; "" for the student's own file.
+    Returns a sentence on where the secret is.
     """
-    if submission is None:
-        return ""
     exercise.secret, kept = secret_for_others(course_root())
-    student = file.resolve().parent
+    student = file.resolve() if file.is_dir() else file.resolve().parent
     for name in (folder_of(exercise.number).name, "exercises"):
         student = student.parent if student.name == name else student
     close_class(student, student.parent)
@@ -192,7 +223,8 @@ def watch_command(what: str, submission: str | None) -> None:
     tasks = [exercise.find(what)] if task else exercise.tasks
     file = submission_file(number, submission)
     exercise.require()
-    _prepare_for_others(exercise, submission, file)
+    if submission is not None:
+        _prepare_for_others(exercise, file)
     asked = False
 
     class Remembering(Screen):
@@ -303,62 +335,101 @@ def release_command(folder: Path, exercises: str, answers: bool) -> None:
     """Makes the students' copy, or brings it up to date."""
     from botschool.grading.copies.release import release
 
-    numbers = None if exercises == "all" else _numbers(exercises)
+    asked = selected(exercises)
+    if any(asked.values()):
+        raise BotschoolError(f"'{exercises[:30]}' names a task: an exercise is released whole.")
+    numbers = None if exercises == "all" else set(asked)
     done = release(course_root(), folder, numbers, answers)
     for path in done.edited:
         print(f"left alone, because it was edited: {path}")
     print(f"{folder}: {done.files} files for students, {done.written} of them new or changed.")
 
 
-def _numbers(text: str) -> set[int]:
-    """ "1-3,7" -> {1, 2, 3, 7}. Raises BotschoolError."""
-    found: set[int] = set()
-    for part in text.split(","):
-        first, dash, last = (each.strip() for each in part.partition("-"))
-        if not re.fullmatch(r"[0-9]{1,3}", first) or (
-            dash and not re.fullmatch("[0-9]{1,3}", last)
-        ):
-            raise BotschoolError(f"'{text[:30]}' names no exercises: say which, as 1-3,7.")
-        found |= set(range(int(first), int(last or first) + 1))
-    return found
+def export_command(platform: str, exercises: str, output: Path, wheel: Path | None) -> None:
+    """Write what a platform takes to grade by itself, and say what to do with it."""
+    from botschool.grading.classes.exporting import export
+
+    root = course_root()
+    asked = selected(exercises, root)
+    if any(asked.values()):
+        raise BotschoolError(f"'{exercises[:30]}' names a task: an exercise is exported whole.")
+    for path in export(platform, list(asked), exercises, output, root, wheel):
+        print(f"made: {path}")
+    print(
+        {
+            "gradescope": "Upload each zip file as the autograder of its assignment. It holds your "
+            "secret: give it to nobody else.",
+            "actions": "Put the folder .github into the repository that students start from, "
+            "which is a copy made by botschool release.",
+            "classroom50": "Put the folder autograders into the classroom's folder of your "
+            "classroom50 repository. Give runtime.json to 'gh teacher assignment add --runtime'.",
+        }[platform]
+    )
 
 
 @exits_on_signals()
 def grade_all_command(
-    folder: Path, output: Path, exercise: str, workers: int | None, fresh: bool
+    folder: Path,
+    output: Path,
+    exercise: str,
+    workers: int | None,
+    fresh: bool,
+    roster: Path | None = None,
+    gradebook: Path | None = None,
+    column: str = "",
+    settings: Path | None = None,
 ) -> bool:
-    """Grades a class and says where the results are; True if all could be graded."""
-    from botschool.grading.classes.collect import PAGES, TABLE, grade_all, total_of
+    """Grade a class and say where the results are.
+
+    True if all could be graded, and all are on the roster and have handed something in.
+    """
+    from botschool.grading.classes.collect import PAGES, TABLE, grade_all
+    from botschool.grading.classes.screen import say_class
 
     root = course_root()
-    numbers = exercise_numbers(root) if exercise == "all" else [_named(exercise)[0]]
-    for number in numbers:
-        folder_of(number, root)
+    asked = selected(exercise, root)
     console = Console(highlight=False)
+    known = _settings(folder, roster, gradebook, column, settings)
     secret, said = secret_for_others(root)
     close_class(folder, output)
     with counting("Grading", console) as (start, step):
-        table = grade_all(
-            folder, output, numbers, root, _workers(workers), fresh, secret, start, step
+        found = grade_all(
+            folder, output, asked, root, _workers(workers), fresh, secret, start, step, known
         )
-    results = [result for _, all_of in table for result in all_of]
-    all_totals = [total_of(all_of) for _, all_of in table]
-    totals = [total for total in all_totals if total is not None]
-    problems = [(one, r) for one, all_of in table for r in all_of if r["problem"]]
-    maximum = sum(result["max_points"] for result in table[0][1])
-    average = f"{sum(totals) / len(totals):.1f} of {maximum} points on average" if totals else ""
-    ungraded = len(table) - len(totals)
-    left = f"{ungraded} not graded and not counted" if ungraded else ""
-    console.print(", ".join(filter(None, [f"{len(table)} submissions", average, left])) + ".")
-    if problems:
-        names = list(dict.fromkeys(one.student for one, _ in problems))
-        shown = ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
-        console.print(f"Not all could be graded, see the notes in the table: {shown}", markup=False)
+    good = say_class(console, found)
     console.print(f"Table: {output / TABLE}   Feedback: {output / PAGES}", markup=False)
+    shown = "   ".join(str(path) for path in found.written)
+    console.print(f"Also: {shown}", markup=False, soft_wrap=True)
     if said:
         console.print(said, markup=False, soft_wrap=True)
-    _notice(console, results)
-    return not ungraded
+    _notice(console, [result for row in found.rows for result in row.results])
+    return good
+
+
+def _settings(
+    download: Path,
+    roster: Path | None,
+    gradebook: Path | None,
+    column: str,
+    settings: Path | None,
+) -> Settings:
+    """Return what is known of the class; class.yaml beside the download is found by itself."""
+    from botschool.grading.classes.policy import FILE, Policy, read_policy
+    from botschool.grading.classes.register import Settings
+    from botschool.grading.classes.roster import read_roster
+
+    beside = download.absolute().parent / FILE
+    if settings is None and beside.is_file() and not beside.is_symlink():
+        settings = beside
+    policy = read_policy(settings) if settings else Policy()
+    roster = roster or policy.roster
+    book = read_roster(gradebook) if gradebook else None
+    if book and book.kind == "plain":
+        raise BotschoolError(
+            f"{gradebook} is neither Moodle's grading worksheet nor Canvas's gradebook: name it "
+            "with --roster."
+        )
+    return Settings(policy, read_roster(roster) if roster else None, book, column)
 
 
 def _named(what: str) -> tuple[int, str]:

@@ -21,6 +21,7 @@ from botschool.grading.declare.exercise import (
     folder_of,
     load_exercise,
 )
+from botschool.grading.packed import pack
 from botschool.grading.run.confined import close_class
 from botschool.output import written_whole
 
@@ -41,8 +42,9 @@ configure(c, here, course={course})
 _HOW_TO = """\
 This is the exercise as a notebook. Write your code where `NotImplementedError` is raised; then
 save the notebook (Ctrl+S) and run the cell below the task: it says how many points the task has,
-and why some are missing. Cells of your own may stand anywhere: keep what takes long out of the
-cells that define functions."""
+and why some are missing. Once, in this folder, say `botschool trust .` in a terminal: it lets
+botschool run the grader beside this notebook. `botschool hint N.T` gives hints. Cells of your own
+may stand anywhere: keep what takes long out of the cells that define functions."""
 
 
 def nbgrader_command(folder: Path) -> None:
@@ -79,21 +81,38 @@ def make_course(root: Path, folder: Path) -> list[Path]:
     for number in numbers:
         exercise = load_exercise(number, root)
         (solution,) = _solutions(root, number)
-        target = folder / "source" / f"ex{number:02d}" / f"{solution.stem}.ipynb"
-        name = target.relative_to(folder).as_posix()
+        source = folder / "source" / f"ex{number:02d}"
         text = nbformat.writes(notebook(solution.read_text(encoding="utf-8"), exercise)) + "\n"
-        if target.exists():
-            present = target.read_text(encoding="utf-8")
-            if present != text and _digest(present) != digests.get(name):
-                edited.append(target)
-                continue
-        _write(target, text)
-        digests[name] = _digest(text)
+        texts = {f"{solution.stem}.ipynb": text} | _beside(folder_of(number, root), exercise)
+        for inner, text in texts.items():
+            target = source / inner
+            name = target.relative_to(folder).as_posix()
+            if target.exists():
+                present = target.read_text(encoding="utf-8")
+                if present != text and _digest(present) != digests.get(name):
+                    edited.append(target)
+                    continue
+            _write(target, text)
+            digests[name] = _digest(text)
     _write(folder / GENERATED, json.dumps(digests, indent=1, sort_keys=True) + "\n")
     if not (folder / CONFIG).exists():
         course = os.path.relpath(root.resolve(), folder.resolve())
         _write(folder / CONFIG, _CONFIG_TEXT.format(course=f'here / "{course}"'))
     return edited
+
+
+def _beside(folder: Path, exercise: Exercise) -> dict[str, str]:
+    """Return the files that let a student grade away from the repository: a course of its own.
+
+    That is the packed grader, the text and the hints, as path from the notebook -> content.
+    """
+    found = {}
+    for path in sorted([*folder.glob("test_*.py"), *folder.glob("*.md")]):
+        text = path.read_text(encoding="utf-8")
+        packed = path.suffix == ".py" and "unpack(" not in text
+        place = f"exercises/{folder.name}/{path.name}"
+        found[place] = pack(text, exercise.references) if packed else text
+    return found
 
 
 def configure(c: Any, folder: Path, course: Path) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import io
-import json
 import os
 import re
 import warnings
@@ -21,22 +20,10 @@ from botschool.grading.declare.exercise import (
 from botschool.grading.judge.judging import GraderFault
 from botschool.grading.judge.submission import Submission, TaskResult
 from botschool.grading.run.confined import MachineFault, close_class, fork_server
+from botschool.grading.run.notebooks import code_cells
 
 MAX_PRINTED = 1500
 """Characters of what a task's code printed that are shown."""
-
-
-def code_cells(path: Path) -> list[str]:
-    """The texts of a notebook's code cells. Raises BotschoolError."""
-    try:
-        cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
-        code = [cell["source"] for cell in cells if cell["cell_type"] == "code"]
-        return ["".join(source) for source in code]
-    except (OSError, ValueError, LookupError, TypeError, RecursionError):
-        raise BotschoolError(
-            f"There is no notebook {path.name} in the folder {path.parent}: save it there under "
-            "this name, then run this cell again."
-        ) from None
 
 
 def report(result: TaskResult, banner: str = "") -> str:
@@ -82,9 +69,9 @@ def _grade_here(task: str) -> float:
     number = task.partition(".")[0]
     if not number.isdigit():
         raise BotschoolError(f"'{task}' names no task: give one as '3.2'.")
-    exercise = load_exercise(int(number))
-    asked = exercise.find(task)
-    try:
+    try:  # what is missing here says nothing about the answer
+        exercise = load_exercise(int(number))
+        asked = exercise.find(task)
         exercise.require()
     except BotschoolError as error:
         raise NotGraded(str(error)) from None

@@ -50,6 +50,8 @@ class Job:
 
     number: int
     file: Path
+    tasks: tuple[str, ...] = ()
+    """Those to grade; () for all."""
 
 
 class Grades:
@@ -122,9 +124,9 @@ class Grades:
         try:
             key = self._key(job)
         except Wrong as error:
-            return self.nothing(job.number, str(error), graded=not isinstance(error, Unread))
+            return self._nothing(job, str(error), not isinstance(error, Unread))
         except OSError as error:
-            return self.nothing(job.number, f"A file cannot be read ({error.strerror}).", False)
+            return self._nothing(job, f"A file cannot be read ({error.strerror}).")
         place = self._cache / f"{key}.json"
         if not self._fresh:
             with contextlib.suppress(OSError, ValueError):
@@ -146,13 +148,14 @@ class Grades:
         try:
             exercise.require()
         except BotschoolError as error:
-            return self.nothing(job.number, str(error), graded=False)
+            return self._nothing(job, str(error))
         times = [1 + bool(task.needs) for task in exercise.tasks]  # as often as it may be run
         seconds = [n * (task.seconds + 5) for n, task in zip(times, exercise.tasks, strict=True)]
         limit = WALL_FACTOR * sum(seconds) + SPARE_SECONDS
         temporary = Path(tempfile.mkdtemp(prefix="botschool-", dir=self._temporary))
         lifeline, ours = os.pipe()
-        arguments = str(job.number), str(job.file), str(lifeline), "alone" if alone else ""
+        kind, tasks = "alone" if alone else "", ",".join(job.tasks)
+        arguments = str(job.number), str(job.file), str(lifeline), kind, tasks
         environment = os.environ | {
             "TMPDIR": str(temporary),
             "BOTSCHOOL_COURSE": str(self._root),
@@ -177,7 +180,7 @@ class Grades:
                 process.kill()
                 process.communicate()
                 reason = f"The grading took longer than {limit:.0f} seconds."
-                return self.nothing(job.number, reason, graded=False) if alone else None
+                return self._nothing(job, reason) if alone else None
             finally:
                 self._running.discard(process)
             if process.returncode == 0:
@@ -187,33 +190,41 @@ class Grades:
             lines = errors.decode(errors="replace").strip().splitlines()
             reason = lines[-1] if lines else f"exit code {process.returncode}"
             if process.returncode == MACHINE_FAULT:
-                return self.nothing(job.number, reason, graded=False)
-            return self.nothing(job.number, f"The grader failed: {reason}.", graded=False)
+                return self._nothing(job, reason)
+            return self._nothing(job, f"The grader failed: {reason}.")
         finally:
             os.close(lifeline)
             os.close(ours)
             remove_tree(temporary)
 
-    def nothing(self, number: int, problem: str, graded: bool = True) -> dict[str, Any]:
+    def _nothing(self, job: Job, problem: str, graded: bool = False) -> dict[str, Any]:
+        return self.nothing(job.number, problem, graded, job.tasks)
+
+    def nothing(
+        self, number: int, problem: str, graded: bool = True, tasks: tuple[str, ...] = ()
+    ) -> dict[str, Any]:
         """Return a result without points.
 
         graded: whether they are what the submission deserves; else it was not graded.
+        tasks: those that are asked for; () for all.
         """
         exercise = self.exercise(number)
-        tasks = [
+        asked = [task for task in exercise.tasks if not tasks or task.id in tasks]
+        records = [
             {"id": t.id, "title": t.title, "points": 0, "max_points": t.max_points, "message": "",
              "printed": ""}
-            for t in exercise.tasks
+            for t in asked
         ]  # fmt: skip
-        maximum = sum(task.max_points for task in exercise.tasks)
+        maximum = sum(task.max_points for task in asked)
         return {
             "exercise": number, "title": exercise.title, "points": 0, "max_points": maximum,
-            "tasks": tasks, "pictures": [], "missing": [], "problem": problem,
+            "tasks": records, "pictures": [], "missing": [], "problem": problem,
             "banner": "", "graded": graded,
         }  # fmt: skip
 
     def _key(self, job: Job) -> str:
         digest = hashlib.sha256(f"{self._secret}\n{_versions(self._root, job.number)}".encode())
+        digest.update(f"{job.file.name} {job.tasks}".encode(errors="surrogateescape"))
         for path in submission_files(job.file):
             name = str(path.relative_to(job.file.parent)).encode(errors="surrogateescape")
             digest.update(hashlib.sha256(name).digest())
@@ -260,7 +271,8 @@ def main() -> None:
     """Grades a file (argument 2) of an exercise (argument 1); the result goes to stdout as JSON.
 
     Argument 3: a pipe's descriptor; when its other end is closed, the grading is ended.
-    Argument 4: "alone" if nothing else is graded meanwhile.
+    Argument 4: "alone" if nothing else is graded meanwhile. Argument 5: the tasks to grade, with
+    commas between; "" for all.
     The exit code is MACHINE_FAULT if the machine was at fault.
     """
     number, file, lifeline = int(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3])
@@ -268,7 +280,9 @@ def main() -> None:
     out = os.dup(1)
     os.dup2(2, 1)  # whatever a grader prints is no part of the result
     try:
-        record = to_record(grade(load_exercise(number), file, alone=sys.argv[4] == "alone"))
+        exercise = load_exercise(number)
+        tasks = [exercise.find(task) for task in sys.argv[5].split(",")] if sys.argv[5] else None
+        record = to_record(grade(exercise, file, tasks=tasks, alone=sys.argv[4] == "alone"))
     except MachineFault as error:
         print(error, file=sys.stderr)
         sys.exit(MACHINE_FAULT)

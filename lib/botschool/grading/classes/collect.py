@@ -1,4 +1,4 @@
-"""A whole class: a folder of submissions to a table and a page of feedback per student."""
+"""A whole class: an export of submissions to a table and a page of feedback per student."""
 
 from __future__ import annotations
 
@@ -14,189 +14,191 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.batch import Grades, Job
-from botschool.grading.declare.checks import plain
-from botschool.grading.declare.exercise import folder_of
+from botschool.grading.classes.choice import Wanted
+from botschool.grading.classes.export import read_export
+from botschool.grading.classes.finding import find_submissions, numbered_folders
+from botschool.grading.classes.outputs import OWN, write_outputs
+from botschool.grading.classes.register import Graded, Register, Settings
+from botschool.grading.classes.tables import safe_cell
 from botschool.grading.report.feedback import GENERATOR, page
+from botschool.grading.run.temporary import temporary_folder
 from botschool.output import save_bytes
 
 TABLE, PAGES = "grades.csv", "feedback"
 _FIRST_COLUMNS = ["student", "total"]
 
+Asked = dict[int, tuple[str, ...]]
+"""Exercises, and of each the tasks that are asked for; () for all."""
+
 
 @dataclass
-class Submission:
-    """A student's folder: the file of each exercise, or why there is none."""
+class Class:
+    """What was graded of an export."""
 
-    folder: Path
-    files: dict[int, Path] = field(default_factory=dict)
-    problems: dict[int, str] = field(default_factory=dict)
-    unread: set[int] = field(default_factory=set)
-    """Exercises whose folder cannot be read: not graded, which is no 0."""
-
-    @property
-    def student(self) -> str:
-        return plain(os.fsencode(self.folder.name).decode(errors="replace"))
-
-
-def find_submissions(
-    folder: Path, numbers: list[int], grades: Grades, root: Path
-) -> list[Submission]:
-    """One for every sub-folder; hidden ones are left out. Raises BotschoolError."""
-    try:
-        folders = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
-    except OSError as error:
-        raise BotschoolError(f"{folder} cannot be read ({error.strerror}).") from None
-    found = []
-    for path in folders:
-        if path.is_dir() or path.is_symlink():
-            one = Submission(path)
-            for number in numbers:
-                _find(one, number, folder_of(number, root).name, grades.exercise(number).file)
-            found.append(one)
-    if not found:
-        raise BotschoolError(f"{folder} holds no sub-folders: one for each student is needed.")
-    return found
-
-
-def _find(one: Submission, number: int, exercise: str, file: str) -> None:
-    if one.folder.is_symlink():
-        one.problems[number] = "The submission is a link to another place."
-        return
-    top = one.folder.resolve()
-    for place in (exercise, f"exercises/{exercise}", "."):
-        path = one.folder / place / file
-        try:
-            if path.is_symlink() or not path.resolve().is_relative_to(top):
-                one.problems[number] = f"{file} is a link to another place."
-                return
-            if path.is_file():
-                one.files[number] = path
-                return
-        except (OSError, RuntimeError):  # unreadable, or links in a circle
-            one.problems[number] = f"The folder of {file} cannot be read."
-            one.unread.add(number)
-            return
-    one.problems[number] = f"There is no {file}."
+    rows: list[Graded]
+    register: Register
+    nobodys: list[str]
+    """Files that belong to nobody."""
+    notes: list[str]
+    written: list[Path] = field(default_factory=list)
+    """Files beside the table and the pages."""
 
 
 def grade_all(
-    folder: Path,
+    download: Path,
     output: Path,
-    numbers: list[int],
+    asked: Asked,
     root: Path,
     workers: int,
     fresh: bool,
     secret: str | None = None,
     start: Callable[[int], None] = lambda count: None,
     report: Callable[[], None] = lambda: None,
-) -> list[tuple[Submission, list[dict[str, Any]]]]:
-    """Grades every submission and writes grades.csv and feedback/STUDENT.html into `output`.
+    settings: Settings | None = None,
+) -> Class:
+    """Grade every submission and write grades.csv and feedback/STUDENT.html into `output`.
 
-    Raises BotschoolError, before it starts, if this machine lacks what an exercise that was handed
-    in needs. secret: of the grading seeds, else as of batch.Grades.
-    start(count) is called with the number of files, report() after each of them.
+    download: a folder or a zip file, as of export.read_export. Raises BotschoolError, before it
+    starts, if this machine lacks what an exercise that was handed in needs. secret: of the grading
+    seeds, else as of batch.Grades. start(count) is called with the number of files, report()
+    after each of them.
     """
-    grades = Grades(root, fresh, secret)
-    submissions = find_submissions(folder, numbers, grades, root)
-    for number in numbers:
-        if any(number in one.files for one in submissions):
-            grades.exercise(number).require()
-    names = page_names([one.folder.name for one in submissions])
+    settings = settings or Settings()
+    with temporary_folder() as temporary:
+        grades = Grades(root, fresh, secret)
+        new_folder = numbered_folders(temporary / "files")
+        wanted = [Wanted(number, grades.exercise(number).file, root) for number in asked]
+        export = read_export(download, wanted, new_folder)
+        submissions = find_submissions(export.people, wanted, root, new_folder)
+        for number in asked:
+            if any(number in one.files for one in submissions):
+                grades.exercise(number).require()
+        register = Register(submissions, settings)
+        rows = _grade(register, output, asked, grades, workers, start, report)
+        found = Class(rows, register, export.nobodys, export.notes)
+        skeletons = {one.number: one.skeleton for one in wanted}
+        found.written = write_outputs(output, rows, register, asked, skeletons)
+    return found
+
+
+def _grade(
+    register: Register,
+    output: Path,
+    asked: Asked,
+    grades: Grades,
+    workers: int,
+    start: Callable[[int], None],
+    report: Callable[[], None],
+) -> list[Graded]:
+    submissions = register.submissions
+    shown = [register.name(index) for index in range(len(submissions))]
+    names = page_names(shown, [f"{one.person.platform} {one.person.folder}" for one in submissions])
     _check_own(output, names)
-    jobs = {
-        (one.folder, number): Job(number, file.absolute())
-        for one in submissions
-        for number, file in one.files.items()
-    }
-    start(len(jobs))
-    waiting = {one.folder: set(one.files) for one in submissions}
-    by_file = {job: key for key, job in jobs.items()}
-    done: dict[tuple[Path, int], dict] = {}
+    places: dict[Job, list[tuple[int, int]]] = {}
+    for index, one in enumerate(submissions):
+        for number, file in one.files.items():
+            job = Job(number, file.absolute(), asked[number])
+            places.setdefault(job, []).append((index, number))
+    start(len(places))
+    waiting = {index: set(one.files) for index, one in enumerate(submissions)}
+    done: dict[tuple[int, int], dict] = {}
     (output / PAGES).mkdir(parents=True, exist_ok=True)
 
-    def all_of(one: Submission) -> list[dict[str, Any]]:
-        return [
-            done[one.folder, n]
-            if n in one.files
-            else grades.nothing(n, one.problems[n], graded=n not in one.unread)
-            for n in numbers
-        ]
+    def all_of(index: int) -> list[dict[str, Any]]:
+        results = []
+        for number in asked:
+            choice = submissions[index].choices[number]
+            result = done.get((index, number))
+            if result is None:
+                problem = choice.problem
+                result = grades.nothing(number, problem, not choice.unread, asked[number])
+            results.append(register.apply(index, result | {"notes": choice.notes}))
+        return results
 
-    def write(one: Submission, name: str) -> None:
-        text = page(one.student, all_of(one))
-        save_bytes(output / PAGES / name, text.encode("utf-8", "replace"))
+    def write(index: int) -> None:
+        if not register.is_missing(index):
+            text = page(shown[index], all_of(index), submissions[index].notes)
+            save_bytes(output / PAGES / names[index], text.encode("utf-8", "replace"))
 
-    places = {one.folder: (one, name) for one, name in zip(submissions, names, strict=True)}
-    for one, name in places.values():
+    for index, one in enumerate(submissions):
         if not one.files:
-            write(one, name)
+            write(index)
 
     def keep(job: Job, result: dict[str, Any]) -> None:
-        place, number = by_file[job]
-        done[place, number] = result
-        waiting[place].discard(number)
-        if not waiting[place]:
-            write(*places[place])
+        for index, number in places[job]:
+            done[index, number] = result
+            waiting[index].discard(number)
+            if not waiting[index]:
+                write(index)
         report()
 
-    grades.of(jobs.values(), workers, keep)
-    table = [(one, all_of(one)) for one in submissions]
-    save_bytes(output / TABLE, _table(table, names).encode("utf-8-sig", "replace"))
-    return table
+    grades.of(places, workers, keep)
+    rows = []
+    for index, one in enumerate(submissions):
+        results = all_of(index)
+        name = "" if register.is_missing(index) else names[index]
+        rows.append(Graded(one, shown[index], name, results, register.total(results)))
+    save_bytes(output / TABLE, _table(rows, register).encode("utf-8-sig", "replace"))
+    return rows
 
 
-def total_of(results: list[dict[str, Any]]) -> int | None:
-    """Return a student's points in all exercises; None if one of them was not graded."""
-    if not all(result["graded"] for result in results):
-        return None
-    return sum(result["points"] for result in results)
+def page_names(folders: list[str], keys: list[str] | None = None) -> list[str]:
+    """Return a file name for each person: readable, safe everywhere, and no two alike.
 
-
-def page_names(folders: list[str]) -> list[str]:
-    """A file name for each folder name: readable, safe everywhere, and no two alike."""
+    keys: what tells people of one name apart; else the names.
+    """
     names, seen = [], set()
-    for folder in folders:
+    for folder, key in zip(folders, keys or folders, strict=True):
         text = os.fsencode(folder).decode(errors="replace")
         name = re.sub(r"[^\w .@+-]", "_", text).strip(" .")[:80]
         reserved = re.fullmatch(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\..*)?", name)
         if not name or name != text or reserved or name.casefold() in seen:
-            name = f"{name or 'student'}-{hashlib.sha256(os.fsencode(folder)).hexdigest()[:8]}"
+            name = f"{name or 'student'}-{hashlib.sha256(os.fsencode(key)).hexdigest()[:8]}"
         seen.add(name.casefold())
         names.append(f"{name}.html")
     return names
 
 
-def _table(table: list[tuple[Submission, list[dict]]], names: list[str]) -> str:
-    exercises = table[0][1]
+def _table(rows: list[Graded], register: Register) -> str:
     columns = []
-    for result in exercises:
+    for result in rows[0].results:
         columns += [f"exercise {result['exercise']}", *(task["id"] for task in result["tasks"])]
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow([*_FIRST_COLUMNS, *columns, "feedback", "notes"])
-    for (one, results), name in zip(table, names, strict=True):
+    people = ["id", "email", "handed in as"] if register.roster else []
+    writer.writerow([*_FIRST_COLUMNS, *columns, "feedback", "notes", *people])
+    for index, row in enumerate(rows):
         points = []
-        for result in results:
+        for result in row.results:
             all_of = [result["points"], *(task["points"] for task in result["tasks"])]
             points += all_of if result["graded"] else [""] * len(all_of)
-        total = total_of(results)
-        notes = " ".join(
-            f"Exercise {r['exercise']}: {r['problem']}" for r in results if r["problem"]
-        )
-        shown = "" if total is None else total
-        writer.writerow([_cell(one.student), shown, *points, _cell(f"{PAGES}/{name}"), notes])
+        shown = "" if row.total is None else row.total
+        link = safe_cell(f"{PAGES}/{row.page}") if row.page else ""
+        notes = safe_cell(notes_of(row))
+        student = register.students[index]
+        person = row.submission.person
+        about = [student.id, student.mail] if student else ["", ""]
+        about = [*about, "" if register.is_missing(index) else person.student] if people else []
+        cells = [*points, link, notes, *map(safe_cell, about)]
+        writer.writerow([safe_cell(row.name), shown, *cells])
     return stream.getvalue()
 
 
-def _cell(text: str) -> str:
-    """Text that no spreadsheet takes for a formula."""
-    text = " ".join(text.split())
-    return f"'{text}" if text.startswith(("=", "+", "-", "@")) else text
+def notes_of(row: Graded) -> str:
+    """Return all that is to be known beside the points."""
+    notes = []
+    for result in row.results:
+        if said := " ".join(filter(None, [result["problem"], *result["notes"]])):
+            notes.append(f"Exercise {result['exercise']}: {said}")
+    return " ".join([*notes, *row.submission.notes])
 
 
 def _check_own(output: Path, names: list[str]) -> None:
     """Raises BotschoolError before a file is overwritten that grade-all did not make."""
     own = {TABLE: ",".join(_FIRST_COLUMNS), **{f"{PAGES}/{name}": GENERATOR for name in names}}
+    own |= {name: GENERATOR for name in OWN if name.endswith(".html")}
+    if not (output / TABLE).exists():  # then the tables beside it are not ours either
+        own |= dict.fromkeys(OWN, GENERATOR)
     for name, sign in own.items():
         path = output / name
         try:

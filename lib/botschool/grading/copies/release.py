@@ -57,11 +57,16 @@ class Released:
 
 
 def release(
-    root: Path, target: Path, numbers: set[int] | None = None, with_answers: bool = False
+    root: Path,
+    target: Path,
+    numbers: set[int] | None = None,
+    with_answers: bool = False,
+    trusted: bool = True,
 ) -> Released:
     """Makes the copy, or brings it up to date. numbers: exercises; None is all of them.
 
     with_answers: their solutions' texts come packed, to be shown after full marks.
+    trusted: whether the user may run the copy's graders where it is.
 
     A new copy is made whole or not at all. In one that is there already, exercises that it has
     stay, and files that were edited since are left alone; .git is never touched. Raises
@@ -102,7 +107,8 @@ def release(
                 target.rmdir()
             made.rename(target)
             with suppress(BotschoolError):  # else the copy can be used all the same, elsewhere
-                trust(target)
+                if trusted:
+                    trust(target)
             return Released(len(files), len(files))
         try:
             return _update(made, target, manifest, files)

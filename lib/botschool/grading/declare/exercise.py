@@ -185,6 +185,51 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
     return exercise
 
 
+def selected(text: str, root: Path | None = None) -> dict[int, tuple[str, ...]]:
+    """Return what "3", "3.2", "1-3,7" or "all" names: exercises, and the tasks of each.
+
+    () stands for all tasks. Raises BotschoolError for what is not there.
+    """
+    root = root or course_root()
+    if text.strip() == "all":
+        return dict.fromkeys(exercise_numbers(root), ())
+    found: dict[int, tuple[str, ...]] = {}
+    for part in text.split(","):
+        match = re.fullmatch(
+            r"\s*([0-9]{1,3})(?:\.([0-9]{1,3})|\s*-\s*([0-9]{1,3}))?\s*", part, re.ASCII
+        )
+        if not match:
+            raise BotschoolError(
+                f"'{text[:30]}' names no exercise: give its number, as 3, a task, as 3.2, or "
+                "several exercises, as 1-3,7."
+            )
+        first = int(match[1])
+        for number in range(first, int(match[3] or first) + 1):
+            task = f"{number}.{int(match[2])}" if match[2] else ""
+            whole = not task or found.get(number) == ()
+            found[number] = () if whole else (*found.get(number, ()), task)
+    for number, tasks in found.items():
+        folder_of(number, root)
+        for task in tasks:
+            load_exercise(number, root).find(task)
+    if not found:
+        raise BotschoolError(f"'{text[:30]}' names no exercise: the smaller number comes first.")
+    return dict(sorted(found.items()))
+
+
+def submission_place(submission: str, root: Path) -> Path:
+    """Return the folder or file that --submission names; `solutions` is the reference.
+
+    Raises BotschoolError where there is none.
+    """
+    base = Path(submission)
+    if submission == "solutions" and not base.is_dir():
+        base = root / "solutions"
+    if not base.exists():
+        raise BotschoolError(f"There is no {submission}: name a folder with --submission FOLDER.")
+    return base
+
+
 def submission_file(number: int, submission: str | None, root: Path | None = None) -> Path:
     """The file to grade: the student's own, the reference (`solutions`), or in another folder."""
     root = root or course_root()
@@ -192,9 +237,7 @@ def submission_file(number: int, submission: str | None, root: Path | None = Non
     if submission is None:
         places = [folder]
     else:
-        base = Path(submission)
-        if submission == "solutions" and not base.is_dir():
-            base = root / "solutions"
+        base = submission_place(submission, root)
         places = [base / folder.name, base]
     for place in places:
         if (place / exercise.file).is_file():

@@ -20,6 +20,7 @@ from botschool.grading.run.confined import (
     submission_files,
 )
 from botschool.grading.run.failures import Origin
+from botschool.grading.run.notebooks import code_cells
 from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 from botschool.sandbox.inside import read_inside
@@ -79,7 +80,7 @@ def grade(
     alone: bool = True,
     announce: Callable[[str], None] = lambda banner: None,
 ) -> Result:
-    """Grades a submission's file; reports each task as soon as it is judged.
+    """Grade a submission's file, a script or a notebook; report each task as soon as it is judged.
 
     announce: is called before, with the banner if there is one. tasks: else all; server: else one
     is made and closed.
@@ -90,7 +91,9 @@ def grade(
         with fork_server(exercise.imports) as own:
             return grade(exercise, file, report, tasks, own, alone, announce)
     results = []
-    with Submission(file, server, alone=alone, exercise=exercise) as submission:
+    sources = code_cells(file) if file.suffix == ".ipynb" else None
+    name = exercise.file if sources is not None else ""
+    with Submission(file, server, sources, name, alone, exercise) as submission:
         if submission.banner:
             announce(submission.banner)
         for task in exercise.tasks if tasks is None else tasks:

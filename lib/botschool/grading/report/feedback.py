@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import base64
 import re
+from collections.abc import Sequence
 from html import escape
 from string import Template
 from typing import Any
@@ -63,6 +64,8 @@ pre { background: var(--code); color: var(--ink); border-radius: .5rem; padding:
  margin: .4rem 0; white-space: pre-wrap; overflow-wrap: anywhere;
  font: .85rem/1.45 ui-monospace, "SF Mono", Menlo, Consolas, monospace; }
 .problem { border-left: .25rem solid var(--none); padding-left: .8rem; overflow-wrap: anywhere; }
+.note { border-left: .25rem solid var(--part); padding-left: .8rem; margin: .5rem 0;
+ overflow-wrap: anywhere; }
 .pictures { display: flex; flex-wrap: wrap; gap: 1rem; margin-top: .8rem; }
 figure { margin: 0; flex: 1 1 20rem; }
 figure img { max-width: 100%; max-height: 40rem; border: 1px solid var(--line);
@@ -77,7 +80,7 @@ figcaption { color: var(--soft); font-size: .85rem; overflow-wrap: anywhere; }
 <div><div class="soft">Feedback for</div><h1>$student</h1></div>
 <div class="sum">$points <small>of $maximum points</small></div>
 </header>
-$sections
+$notes$sections
 </main>
 </body>
 </html>
@@ -86,7 +89,7 @@ $sections
 _SECTION = Template("""<section>
 <div class="head"><h2>Exercise $number. $title</h2><b>$points <small>of $maximum</small></b></div>
 <div class="bar"><i style="width: $percent%"></i></div>
-$problem$banner$tasks$pictures
+$problem$notes$banner$tasks$pictures
 </section>""")
 
 _TASK = Template("""<div class="task">
@@ -96,21 +99,26 @@ $message$printed</div>
 """)
 
 
-def page(student: str, results: list[dict[str, Any]]) -> str:
-    """The page; results as of batch.Grades."""
+def page(student: str, results: list[dict[str, Any]], notes: Sequence[str] = ()) -> str:
+    """Return the page; results as of batch.Grades, notes: sentences for its head."""
     return _PAGE.substitute(
         generator=GENERATOR,
         student=escape(student),
         points=_points(results),
         maximum=sum(result["max_points"] for result in results),
+        notes=_notes(notes),
         sections="\n".join(map(_section, results)),
     )
+
+
+def _notes(notes: Sequence[str]) -> str:
+    return "".join(f'<p class="note">{escape(note)}</p>\n' for note in notes)
 
 
 def _points(results: list[dict[str, Any]]) -> str:
     """The sum, or a dash if one of them was not graded."""
     graded = all(result["graded"] for result in results)
-    return str(sum(int(result["points"]) for result in results)) if graded else "&ndash;"
+    return f"{sum(float(result['points']) for result in results):g}" if graded else "&ndash;"
 
 
 def _section(result: dict[str, Any]) -> str:
@@ -122,6 +130,7 @@ def _section(result: dict[str, Any]) -> str:
         maximum=int(result["max_points"]),
         percent=round(100 * result["points"] / max(1, result["max_points"])),
         problem=f'<p class="problem">{escape(problem)}</p>\n' if problem else "",
+        notes=_notes(result.get("notes", ())),
         banner=f'<pre class="problem">{escape(banner)}</pre>\n' if banner else "",
         tasks="" if problem else "".join(map(_task, result["tasks"])),
         pictures=_pictures(result["pictures"]),

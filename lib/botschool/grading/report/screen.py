@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from shlex import quote
@@ -30,12 +30,14 @@ class Screen:
         self.console = console or Console(highlight=False)
         self._file = Path()
 
-    def start(self, number: int, title: str, file: Path) -> None:
-        """The heading."""
+    def start(self, number: int, title: str, file: Path, notes: Sequence[str] = ()) -> None:
+        """Print the heading. notes: sentences on how the file was found."""
         file = file.resolve()
         self._file = file.relative_to(Path.cwd()) if file.is_relative_to(Path.cwd()) else file
         self.console.print(f"[bold]Exercise {number}. {escape(title)}[/]")
         self.console.print(f"[dim]{escape(str(self._file))}[/]", soft_wrap=True)
+        for note in notes:
+            self.console.print(f"[yellow]{escape(note)}[/]", soft_wrap=True)
 
     def banner(self, text: str) -> None:
         """What is to be mended before anything else."""

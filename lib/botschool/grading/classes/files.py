@@ -1,0 +1,149 @@
+"""The files that a person handed in, wherever they lie: in folders, beside others, in zip files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from botschool.grading.classes.unpack import (
+    ARCHIVES,
+    MAX_LEVELS,
+    Unpackable,
+    room_of_submission,
+    unpack,
+)
+from botschool.sandbox.inside import read_inside
+
+MAX_ZIP = 200 * 2**20
+"""Bytes of a zip file within a submission."""
+MAX_FILES, MAX_DEPTH = 20_000, 30
+"""Of a person: files that are looked at, and levels of folders."""
+JUNK = {
+    "__macosx", "__pycache__", ".git", ".ipynb_checkpoints", ".venv", "venv", ".idea", ".vscode",
+    ".ds_store", "thumbs.db", "desktop.ini", ".botschool", ".pytest_cache", ".ruff_cache",
+    "node_modules", ".trash",
+}  # fmt: skip
+"""What systems and tools leave, in lower case; it belongs to nobody."""
+
+
+def is_junk(name: str) -> bool:
+    """Return whether a file or folder of this name is nobody's work."""
+    lower = name.lower()
+    return lower in JUNK or lower.startswith("._") or lower.endswith((".pyc", ".pyo"))
+
+
+@dataclass(frozen=True)
+class File:
+    """A file that was handed in."""
+
+    top: Path
+    """The folder below which it is read, without following links."""
+    place: str
+    """Its path from there."""
+    shown: str
+    """Its path as the person knows it, without what a platform adds to names."""
+
+    @property
+    def path(self) -> Path:
+        return self.top / self.place
+
+    @property
+    def name(self) -> str:
+        return self.shown.rpartition("/")[2]
+
+    @property
+    def folder(self) -> str:
+        """ "" or a path that ends with a slash."""
+        return self.shown[: len(self.shown) - len(self.name)]
+
+    def read(self, most: int) -> bytes:
+        """Return up to `most` + 1 bytes. Raises OSError for a link, or what is no regular file."""
+        return read_inside(self.top, self.place, most)
+
+
+@dataclass
+class Handed:
+    """All that a person handed in."""
+
+    files: list[File] = field(default_factory=list)
+    links: list[str] = field(default_factory=list)
+    """Paths that are links, which nobody follows."""
+    notes: list[str] = field(default_factory=list)
+    """Sentences on what could not be looked into."""
+    unread: bool = False
+    """Whether a folder could not be read."""
+
+
+class Collector:
+    """Lists the files of a person."""
+
+    def __init__(self, new_folder: Callable[[], Path]) -> None:
+        """new_folder: makes an empty temporary folder for a zip file's content."""
+        self._new_folder = new_folder
+        self._room = room_of_submission()
+        self.handed = Handed()
+
+    def add_folder(self, folder: Path, shown: str = "", level: int = 0) -> None:
+        """Add what lies in a folder. shown: of its files, the beginning of their paths."""
+        if folder.is_symlink():
+            self.handed.links.append(shown.rstrip("/") or folder.name)
+            return
+        waiting = [("", 0)]
+        while waiting:
+            inner, depth = waiting.pop()
+            try:
+                with os.scandir(folder / inner) as entries:
+                    found = sorted(entries, key=lambda entry: entry.name)
+            except OSError:
+                self.handed.unread = True
+                self.handed.notes.append(
+                    f"The folder {shown + inner or folder.name} is unreadable."
+                )
+                continue
+            for entry in found:
+                name = inner + entry.name
+                if is_junk(entry.name):
+                    continue
+                if entry.is_symlink():
+                    self.handed.links.append(shown + name)
+                elif entry.is_dir(follow_symlinks=False):
+                    if depth < MAX_DEPTH:
+                        waiting.append((name + "/", depth + 1))
+                elif not self.add_file(folder, name, shown + name, level):
+                    return
+
+    def add_file(self, top: Path, place: str, shown: str, level: int = 0) -> bool:
+        """Add a file, or what a zip file holds; return False where there are too many."""
+        if len(self.handed.files) >= MAX_FILES:
+            self.handed.notes.append(f"There are more than {MAX_FILES} files: the others are left.")
+            return False
+        file = File(top, place, shown)
+        lower = shown.lower()
+        if lower.endswith(".zip"):
+            self._add_zip(file, level)
+        else:
+            if lower.endswith(ARCHIVES):
+                self.handed.notes.append(f"{shown} is no zip file, so it stays packed.")
+            self.handed.files.append(file)
+        return True
+
+    def _add_zip(self, file: File, level: int) -> None:
+        if level >= MAX_LEVELS:
+            self.handed.notes.append(f"{file.shown} is in too many zip files, so it stays packed.")
+            return
+        try:
+            content = file.read(MAX_ZIP)
+            if len(content) > MAX_ZIP:
+                raise Unpackable("is too large")
+            target = self._new_folder()
+            for name in unpack(content, target, self._room):
+                self.handed.links.append(f"{file.shown}/{name}")
+        except OSError:
+            self.handed.notes.append(f"{file.shown} cannot be read.")
+            self.handed.unread = True
+        except Unpackable as error:
+            self.handed.notes.append(f"{file.shown} {error}, so it stays packed.")
+        else:
+            self.add_folder(target, f"{file.shown}/", level + 1)

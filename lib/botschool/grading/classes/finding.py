@@ -1,0 +1,113 @@
+"""The file of each exercise, for each person: what grade-all and grade --submission share."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.choice import Choice, Wanted, choose, listed
+from botschool.grading.classes.export import Person, one_person
+from botschool.grading.declare.exercise import Exercise
+
+
+@dataclass
+class Submission:
+    """A person's files: that of each exercise, or why there is none."""
+
+    person: Person
+    choices: dict[int, Choice] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+    """On what belongs to no exercise."""
+
+    @property
+    def student(self) -> str:
+        return self.person.student
+
+    @property
+    def files(self) -> dict[int, Path]:
+        return {number: each.file for number, each in self.choices.items() if each.file}
+
+
+def find_submissions(
+    people: Iterable[Person], wanted: list[Wanted], root: Path, new_folder: Callable[[], Path]
+) -> list[Submission]:
+    """Choose the file of each exercise among what each person handed in."""
+    found = []
+    for person in people:
+        one = Submission(person)
+        for each in wanted:
+            if person.problem:
+                one.choices[each.number] = Choice(problem=person.problem)
+                continue
+            newest_first = person.platform == "canvas"
+            one.choices[each.number] = choose(person.handed, each, new_folder, newest_first)
+        one.notes = [*person.handed.notes, *_left(one, root)]
+        found.append(one)
+    return found
+
+
+def _left(one: Submission, root: Path) -> list[str]:
+    """Return a sentence on the files that are not used, without those that the course gave out."""
+    used = set().union(*(choice.used for choice in one.choices.values()))
+    tops = {""} | {
+        file.shown[: file.shown.index("exercises/")]
+        for file in one.person.handed.files
+        if re.search(r"(^|/)exercises/ex\d\d_", file.shown)
+    }
+    copies = len(tops) > 1 or any(f.shown.startswith("exercises/") for f in one.person.handed.files)
+    names, given = [], 0
+    for file in one.person.handed.files:
+        if file in used:
+            continue
+        inner = [file.shown[len(top) :] for top in tops if file.shown.startswith(top)]
+        if any(_is_given(name, root, copies) for name in inner):
+            given += 1
+        else:
+            names.append(file.shown)
+    names += [f"{link} (a link)" for link in one.person.handed.links]
+    return [f"Not used: {listed(names)}."] if names else []
+
+
+def _is_given(name: str, root: Path, copies: bool) -> bool:
+    """Return whether a path is one of the course, as copies of it have."""
+    if not copies and not re.match(r"ex\d\d_", name):
+        return False
+    return (root / name).is_file() or (root / "exercises" / name).is_file()
+
+
+def find_in(place: Path, exercise: Exercise, root: Path, folder: Path) -> Submission:
+    """Find an exercise in one person's folder, zip file or file, as grade-all finds it.
+
+    folder: a temporary one.
+    """
+    new_folder = numbered_folders(folder)
+    wanted = Wanted(exercise.number, exercise.file, root)
+    return find_submissions([one_person(place, new_folder)], [wanted], root, new_folder)[0]
+
+
+def find_one(place: Path, exercise: Exercise, root: Path, folder: Path) -> Submission:
+    """Find an exercise as `find_in`. Raises BotschoolError if there is nothing to grade."""
+    one = find_in(place, exercise, root, folder)
+    choice = one.choices[exercise.number]
+    if choice.file is None:
+        raise BotschoolError(
+            f"{place}: {choice.problem} Name another folder with --submission FOLDER, or "
+            "SUBMISSION=FOLDER for make."
+        )
+    return one
+
+
+def numbered_folders(base: Path) -> Callable[[], Path]:
+    """Return a function that makes a new folder in `base` each time."""
+    numbers = itertools.count(1)
+
+    def new_folder() -> Path:
+        folder = base / str(next(numbers))
+        folder.mkdir(parents=True)
+        return folder
+
+    return new_folder

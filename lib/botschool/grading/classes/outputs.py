@@ -1,0 +1,116 @@
+"""The files beside the table of grades: statistics, similarities, gradebooks, feedback."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.gradebook import (
+    canvas_feedback,
+    canvas_gradebook,
+    feedback_text,
+    moodle_feedback,
+    moodle_worksheet,
+)
+from botschool.grading.classes.register import Graded, Register
+from botschool.grading.classes.similar import Program, similar_pairs, similarity_page
+from botschool.grading.classes.statistics import by_task, statistics_page
+from botschool.grading.classes.texts import code_of_notebook
+from botschool.output import save_bytes
+
+OWN = (
+    "class.html", "similar.html", "moodle.csv", "canvas.csv", "moodle-feedback.zip",
+    "canvas-feedback.zip",
+)  # fmt: skip
+"""Names of these files."""
+
+
+def write_outputs(
+    output: Path,
+    rows: list[Graded],
+    register: Register,
+    asked: dict[int, tuple[str, ...]],
+    skeletons: dict[int, str],
+) -> list[Path]:
+    """Write what this class's platform and settings ask for; return the files.
+
+    Raises BotschoolError.
+    """
+    made = {"class.html": _statistics(rows, register)}
+    if similar := _similar(rows, asked, skeletons):
+        made["similar.html"] = similar
+    handed_in = [(row.submission.person, row) for row in rows if row.page]
+    if pages := [(p, row) for p, row in handed_in if p.platform == "moodle"]:
+        folder = output / "feedback"
+        made["moodle-feedback.zip"] = moodle_feedback(
+            [(person, (folder / row.page).read_bytes()) for person, row in pages]
+        )
+    if texts := [(p, row) for p, row in handed_in if p.platform == "canvas"]:
+        made["canvas-feedback.zip"] = canvas_feedback(
+            [(p, feedback_text(row.name, row.results, row.submission.notes)) for p, row in texts]
+        )
+    made |= _gradebook(output, rows, register)
+    for name, content in made.items():
+        save_bytes(output / name, content)
+    return [output / name for name in made]
+
+
+def _gradebook(output: Path, rows: list[Graded], register: Register) -> dict[str, bytes]:
+    book = register.settings.gradebook
+    if book is None:
+        return {}
+    points, maximum = {}, register.maximum(rows[0].results)
+    for student, row in zip(register.students, rows, strict=True):
+        known = book.find_student(student) if student else None
+        if known and row.total is not None and row.total >= points.get(known, (-1, ""))[0]:
+            points[known] = (row.total, _comment(row))
+    if output / f"{book.kind}.csv" == book.table.path:
+        raise BotschoolError(f"{book.table.path} would be overwritten: give another copy of it.")
+    if book.kind == "moodle":
+        return {"moodle.csv": moodle_worksheet(book, points, maximum)}
+    column = register.settings.column
+    return {"canvas.csv": canvas_gradebook(book, points, maximum, column)}
+
+
+def _comment(row: Graded) -> str:
+    """Return the points of each exercise and the notes, in a line for a gradebook."""
+    parts = [f"Exercise {r['exercise']}: {r['points']} of {r['max_points']}." for r in row.results]
+    notes = [note for result in row.results for note in (result["problem"], *result["notes"])]
+    return " ".join(filter(None, [*parts, *notes, *row.submission.notes]))
+
+
+def _statistics(rows: list[Graded], register: Register) -> bytes:
+    results = [result for row in rows for result in row.results]
+    totals = [row.total for row in rows if row.total is not None]
+    notes = [f"{sum(bool(row.page) for row in rows)} submissions."]
+    if totals:
+        mean, most = sum(totals) / len(totals), register.maximum(rows[0].results)
+        notes.append(f"{mean:.1f} of {most} points on average.")
+    if register.missing:
+        names = ", ".join(each.name for each in register.missing)
+        notes.append(f"{len(register.missing)} handed in nothing: {names}.")
+    if register.unknown:
+        notes.append(f"{len(register.unknown)} not on the roster: {', '.join(register.unknown)}.")
+    return statistics_page(by_task(results), notes).encode("utf-8", "replace")
+
+
+def _similar(
+    rows: list[Graded], asked: dict[int, tuple[str, ...]], skeletons: dict[int, str]
+) -> bytes:
+    found = {}
+    for number in asked:
+        programs, seen = [], set()
+        for row in rows:
+            file = row.submission.files.get(number)
+            if file is None or file in seen:  # a group's file is there once for each member
+                continue
+            seen.add(file)
+            try:
+                text = file.read_bytes().decode("utf-8", "replace")
+            except OSError:
+                continue
+            code = code_of_notebook(text) if file.suffix == ".ipynb" else text
+            programs.append(Program(row.name, code))
+        if len(programs) > 1:
+            found[number] = (len(programs), similar_pairs(programs, skeletons[number]))
+    return similarity_page(found).encode("utf-8", "replace") if found else b""

@@ -1,0 +1,271 @@
+"""What an instructor decides beside the points: deadlines, extensions, adjustments, weights.
+
+All of it stands in one file, class.yaml, and the tables that it names; it is applied anew to each
+grading (docs/specification.md, "Collecting submissions").
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, field
+from datetime import date, datetime, time, timedelta
+from pathlib import Path
+from typing import Any
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.roster import Student, words
+from botschool.grading.classes.tables import Table, read_table
+
+_LATE = re.compile(
+    r"(?P<off>\d+(?:\.\d+)?)\s*(?:points?\s*)?(?:/|per)\s*(?:started\s*)?(?P<unit>day|hour|week)"
+    r"(?:\s*,?\s*(?:at most|up to)\s*(?P<most>\d+(?:\.\d+)?))?",
+    re.IGNORECASE,
+)
+FILE = "class.yaml"
+_UNITS = {"hour": timedelta(hours=1), "day": timedelta(days=1), "week": timedelta(weeks=1)}
+_KEYS = ("roster", "due", "late", "extensions", "adjustments", "submitted", "weights")
+
+
+@dataclass
+class LateRule:
+    """Points of a hundred that each started day (hour, week) takes off."""
+
+    off: float
+    unit: str
+    most: float = 100.0
+
+    def points(self, by: timedelta) -> float:
+        """Return how many of a hundred points a delay takes off."""
+        return min(self.most, self.off * math.ceil(by / _UNITS[self.unit])) if by > _NONE else 0.0
+
+
+_NONE = timedelta()
+
+
+@dataclass
+class Adjustment:
+    """A change of somebody's points by hand."""
+
+    exercise: int
+    points: float
+    sets: bool
+    """Whether these are the points, and not a change."""
+    reason: str
+
+
+@dataclass
+class Policy:
+    """A class's settings; keys of people are those of roster.words or student ids."""
+
+    roster: Path | None = None
+    due: dict[int, datetime] = field(default_factory=dict)
+    late: LateRule | None = None
+    extensions: dict[str, dict[int, datetime]] = field(default_factory=dict)
+    adjustments: dict[str, list[Adjustment]] = field(default_factory=dict)
+    submitted: dict[str, dict[int, datetime]] = field(default_factory=dict)
+    """When, by a table; exercise 0 stands for all."""
+    weights: dict[int, float] = field(default_factory=dict)
+
+    def names(self, student: Student | None, shown: str) -> list[str]:
+        """Return the keys under which somebody may be named here."""
+        keys = sorted(student.keys()) if student else []
+        return [*keys, words(student.name if student else shown), shown.casefold()]
+
+    def apply(
+        self, result: dict[str, Any], names: list[str], moment: datetime | None, marked: bool
+    ) -> dict[str, Any]:
+        """Return a result with deadline and adjustments; names: as of `names`.
+
+        moment: when it was handed in; marked: whether the platform calls it late.
+        """
+        number = result["exercise"]
+        points, notes = float(result["points"]), []
+        for name in names:
+            times = self.submitted.get(name, {})
+            moment = times.get(number, times.get(0, moment))
+        due = self.due.get(number)
+        for name in names:
+            due = self.extensions.get(name, {}).get(number, due)
+        if moment:
+            moment = moment.replace(second=0, microsecond=0)  # 23:59 lasts a minute
+        if result["graded"] and due and moment and moment > due:
+            off = self.late.points(moment - due) * result["max_points"] / 100 if self.late else 0
+            off = min(points, off)
+            points -= off
+            notes.append(f"Late by {_duration(moment - due)}: {tidy(off)} points off.")
+        elif result["graded"] and due and marked and moment is None:
+            notes.append("The platform marks it late, but not how late: no points are taken off.")
+        for each in (a for name in dict.fromkeys(names) for a in self.adjustments.get(name, ())):
+            if each.exercise == number and (result["graded"] or each.sets):
+                points = each.points if each.sets else points + each.points
+                result = result | {"graded": True}
+                what = "Set to" if each.sets else "Adjusted by"
+                sign = "+" if each.points > 0 and not each.sets else ""
+                notes.append(
+                    f"{what} {sign}{tidy(each.points)} points: {each.reason or 'by hand'}."
+                )
+        return result | {"points": tidy(max(0.0, points)), "notes": [*result["notes"], *notes]}
+
+    def weight(self, number: int) -> float:
+        return self.weights.get(number, 1.0)
+
+
+def tidy(number: float) -> int | float:
+    """Return a number with at most two decimals, whole if it is."""
+    rounded = round(number, 2)
+    return int(rounded) if rounded == int(rounded) else rounded
+
+
+def _duration(by: timedelta) -> str:
+    hours = by / timedelta(hours=1)
+    if hours < 1:
+        return f"{max(1, round(hours * 60))} minutes"
+    return f"{hours:.1f} hours" if hours < 48 else f"{hours / 24:.1f} days"
+
+
+def read_policy(path: Path) -> Policy:
+    """Return the settings of a class.yaml. Raises BotschoolError, which names the place."""
+    import yaml
+
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+        found = yaml.safe_load(text)
+    except (OSError, UnicodeError) as error:
+        raise BotschoolError(f"{path} cannot be read ({error}).") from None
+    except (yaml.YAMLError, ValueError) as error:
+        mark = getattr(error, "problem_mark", None)
+        where = f", line {mark.line + 1}" if mark else ""
+        raise BotschoolError(f"{path}{where} is no YAML: mend it.") from None
+    found = found or {}
+    if not isinstance(found, dict):
+        raise BotschoolError(f"{path} holds no settings: write lines as 'late: 10 per day'.")
+    for key in found:
+        if key not in _KEYS:
+            raise BotschoolError(f"{path}: '{key}' is no setting; there are {', '.join(_KEYS)}.")
+    reader = _Reader(path)
+    policy = Policy()
+    for key, value in found.items():
+        setattr(policy, key, getattr(reader, key)(value))
+    return policy
+
+
+class _Reader:
+    """Reads the settings one by one."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+
+    def _wrong(self, what: str) -> BotschoolError:
+        return BotschoolError(f"{self._path}: {what}")
+
+    def _file(self, value: Any, key: str) -> Path:
+        if not isinstance(value, str):
+            raise self._wrong(f"'{key}' is no file name.")
+        return self._path.parent / value
+
+    def roster(self, value: Any) -> Path:
+        return self._file(value, "roster")
+
+    def due(self, value: Any) -> dict[int, datetime]:
+        if not isinstance(value, dict):
+            raise self._wrong(
+                "write under 'due' a line for each exercise, as '3: 2026-11-20 23:59'."
+            )
+        return {self._number(key): self._moment(each) for key, each in value.items()}
+
+    def late(self, value: Any) -> LateRule:
+        found = _LATE.fullmatch(str(value).strip())
+        if not found:
+            raise self._wrong(f"'late: {value}' is no rule: write '10 per day, at most 50'.")
+        return LateRule(float(found["off"]), found["unit"].lower(), float(found["most"] or 100))
+
+    def extensions(self, value: Any) -> dict[str, dict[int, datetime]]:
+        if not isinstance(value, dict):
+            raise self._wrong("write under 'extensions' a student, and under that '3: 2026-11-25'.")
+        return {_key(str(name)): self.due(dues) for name, dues in value.items()}
+
+    def weights(self, value: Any) -> dict[int, float]:
+        try:
+            return {self._number(key): float(each) for key, each in dict(value).items()}
+        except (TypeError, ValueError):
+            raise self._wrong(
+                "write under 'weights' a line for each exercise, as '3: 2'."
+            ) from None
+
+    def adjustments(self, value: Any) -> dict[str, list[Adjustment]]:
+        table = read_table(self._file(value, "adjustments"))
+        found: dict[str, list[Adjustment]] = {}
+        for line, row in enumerate(table.rows, 2):
+            points = table.get(row, "points").lstrip("'").replace(",", ".")
+            match = re.fullmatch(r"([=+-]?)(\d+(?:\.\d+)?)", points)
+            if not match:
+                raise BotschoolError(
+                    f"{table.path}, row {line}: '{points}' are no points: write +5, -10 or =80."
+                )
+            change = -float(match[2]) if match[1] == "-" else float(match[2])
+            number = self._number(table.get(row, "exercise"))
+            reason = table.get(row, "reason").rstrip(".")
+            one = Adjustment(number, change, match[1] == "=", reason)
+            found.setdefault(_named(table, row, line), []).append(one)
+        return found
+
+    def submitted(self, value: Any) -> dict[str, dict[int, datetime]]:
+        table = read_table(self._file(value, "submitted"))
+        found: dict[str, dict[int, datetime]] = {}
+        for line, row in enumerate(table.rows, 2):
+            if moment := table.get(row, "submitted"):
+                number = table.get(row, "exercise")
+                times = found.setdefault(_named(table, row, line), {})
+                times[self._number(number) if number else 0] = self._moment(moment)
+        return found
+
+    def _number(self, value: Any) -> int:
+        if not re.fullmatch(r"[0-9]{1,3}", str(value).strip()):
+            raise self._wrong(f"'{value}' is no exercise's number.")
+        return int(value)
+
+    def _moment(self, value: Any) -> datetime:
+        if isinstance(value, datetime):
+            moment = value
+        elif isinstance(value, date):
+            moment = datetime.combine(value, time(23, 59, 59))
+        else:
+            try:
+                text = str(value).strip()
+                moment = datetime.fromisoformat(text)
+                if re.fullmatch(r"\d{4}-\d\d-\d\d", text):
+                    moment = datetime.combine(moment, time(23, 59, 59))
+            except ValueError:
+                moment = moodle_moment(text)
+                if moment is None:
+                    raise self._wrong(f"'{value}' is no time: write 2026-11-20 23:59.") from None
+        return moment if moment.tzinfo is None else moment.astimezone().replace(tzinfo=None)
+
+
+def moodle_moment(text: str) -> datetime | None:
+    """Return the time of a text as "Friday, 20 November 2026, 9:14 PM"; None for another."""
+    for pattern in ("%A, %d %B %Y, %I:%M %p", "%A, %d %B %Y, %H:%M", "%A, %B %d, %Y, %I:%M %p"):
+        try:
+            return datetime.strptime(text.strip(), pattern)
+        except ValueError:
+            continue
+    return None
+
+
+def _named(table: Table, row: list[str], line: int) -> str:
+    for meaning in ("id", "mail", "user", "name"):
+        if name := table.get(row, meaning).lstrip("'"):
+            return _key(name)
+    raise BotschoolError(f"{table.path}, row {line} names no student (by name, id or email).")
+
+
+def _key(name: str) -> str:
+    """Return how somebody is looked up: an id, mail or user name as it is, a name by its words."""
+    return words(name) if " " in name.strip() else name.strip().casefold()
+
+
+def unknown_names(policy: Policy, known: set[str]) -> list[str]:
+    """Return names of extensions, adjustments and times that are nobody's."""
+    named = [*policy.extensions, *policy.adjustments, *policy.submitted]
+    return [name for name in dict.fromkeys(named) if name not in known]

@@ -1,0 +1,150 @@
+"""The class list: who handed in what, who is missing, and what each person's points become."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from datetime import datetime
+from typing import Any
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.choice import Choice
+from botschool.grading.classes.export import Person
+from botschool.grading.classes.finding import Submission
+from botschool.grading.classes.policy import Policy, moodle_moment, tidy, unknown_names
+from botschool.grading.classes.roster import Roster, Student
+
+MISSING = "Nothing was handed in."
+
+
+@dataclass
+class Settings:
+    """What is known of a class."""
+
+    policy: Policy = field(default_factory=Policy)
+    roster: Roster | None = None
+    gradebook: Roster | None = None
+    """The platform's table, which gets the grades."""
+    column: str = ""
+    """Of Canvas's gradebook."""
+
+
+@dataclass
+class Graded:
+    """A row of the class's table."""
+
+    submission: Submission
+    name: str
+    """The student's name."""
+    page: str
+    """The name of the feedback page; "" for somebody who handed in nothing."""
+    results: list[dict[str, Any]]
+    total: float | None
+    """The points of all exercises; None if one of them was not graded."""
+
+
+class Register:
+    """Submissions and the students of the class, side by side.
+
+    Who handed in nothing stands at the end, with a submission that says so.
+    """
+
+    def __init__(self, submissions: list[Submission], settings: Settings) -> None:
+        """Match them. Raises BotschoolError if settings name somebody who is not there."""
+        self.settings = settings
+        self.policy = settings.policy
+        self.roster = settings.roster or settings.gradebook
+        self.submissions = list(submissions)
+        self.students: list[Student | None] = [
+            self.roster.match(one.person) if self.roster else None for one in submissions
+        ]
+        self._handed_in = len(submissions)
+        self.unknown = [
+            one.student
+            for one, student in zip(submissions, self.students, strict=True)
+            if self.roster and student is None
+        ]
+        self.missing: list[Student] = []
+        if self.roster:
+            there = set(self.students)
+            self.missing = [each for each in self.roster.students if each not in there]
+        numbers = list(submissions[0].choices) if submissions else []
+        for student in self.missing:
+            person = Person(student.name, student.id or student.name, problem=MISSING)
+            choices = {number: Choice(problem=MISSING, unread=True) for number in numbers}
+            self.submissions.append(Submission(person, choices))
+            self.students.append(student)
+        self._names = [
+            self.policy.names(student, one.student)
+            for one, student in zip(self.submissions, self.students, strict=True)
+        ]
+        self._check_names()
+        self._mark_doubles()
+
+    def name(self, index: int) -> str:
+        """Return a student's name, of the roster if it is there."""
+        student = self.students[index]
+        return student.name if student else self.submissions[index].student
+
+    def is_missing(self, index: int) -> bool:
+        """Return whether a row stands for a student who handed in nothing."""
+        return index >= self._handed_in
+
+    def moment(self, index: int) -> datetime | None:
+        """Return when a submission was handed in, if the platform says so."""
+        person, student = self.submissions[index].person, self.students[index]
+        if person.submitted is None and student and self.roster.kind == "moodle":
+            row = self.roster.table.rows[student.row]
+            return moodle_moment(self.roster.table.get(row, "submitted"))
+        return person.submitted
+
+    def apply(self, index: int, result: dict[str, Any]) -> dict[str, Any]:
+        """Return a result with deadlines and adjustments."""
+        late = self.submissions[index].person.late
+        return self.policy.apply(result, self._names[index], self.moment(index), late)
+
+    def total(self, results: list[dict[str, Any]]) -> float | None:
+        """Return the weighted points of all exercises; None if one of them was not graded."""
+        if not all(result["graded"] for result in results):
+            return None
+        return tidy(sum(self.policy.weight(r["exercise"]) * r["points"] for r in results))
+
+    def maximum(self, results: list[dict[str, Any]]) -> float:
+        """Return the most that a total can be."""
+        return tidy(sum(self.policy.weight(r["exercise"]) * r["max_points"] for r in results))
+
+    def counts(self) -> dict[Student, list[int]]:
+        """Return the rows of each student who handed something in."""
+        found: dict[Student, list[int]] = {}
+        for index, student in enumerate(self.students):
+            if student and not self.is_missing(index):
+                found.setdefault(student, []).append(index)
+        return found
+
+    def _check_names(self) -> None:
+        known = {name for names in self._names for name in names}
+        if nobody := unknown_names(self.policy, known):
+            raise BotschoolError(
+                f"The class's settings name {nobody[0]}, who is not in the class: write the id, "
+                "email, user name or name of a student."
+            )
+        people = Counter()
+        for student, names in zip(self.students, self._names, strict=True):
+            people.update({(name, student) for name in names} if student else ())
+        several = Counter(name for name, _ in people)
+        for name in (*self.policy.extensions, *self.policy.adjustments, *self.policy.submitted):
+            if several[name] > 1:
+                raise BotschoolError(
+                    f"The class's settings name {name}, which is the name of {several[name]} "
+                    "students: write the id or the email."
+                )
+
+    def _mark_doubles(self) -> None:
+        for rows in self.counts().values():
+            if len(rows) > 1:
+                for index in rows:
+                    others = [self.submissions[each].student for each in rows if each != index]
+                    self.submissions[index].notes.append(
+                        f"The same student handed in {len(rows)} times, also as "
+                        f"{', '.join(others)}: the better one goes into the gradebook."
+                    )

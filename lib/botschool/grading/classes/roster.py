@@ -1,0 +1,150 @@
+"""Who is in a class, and whose submission is whose."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.export import Person
+from botschool.grading.classes.tables import Table, read_table
+
+
+@dataclass(frozen=True)
+class Student:
+    """A row of a roster."""
+
+    name: str
+    id: str = ""
+    mail: str = ""
+    user: str = ""
+    participant: str = ""
+    """Moodle's number."""
+    canvas: str = ""
+    """Canvas's number."""
+    row: int = 0
+
+    def keys(self) -> set[str]:
+        """Return the words that name this student alone, in lower case."""
+        given = (self.id, self.mail, self.user, self.mail.partition("@")[0])
+        return {key.casefold() for key in given if key}
+
+
+@dataclass
+class Roster:
+    """The students of a class, from a table of any of the platforms."""
+
+    table: Table
+    students: list[Student]
+    kind: str
+    """moodle (a grading worksheet), canvas (a gradebook) or plain."""
+    _by_key: dict[str, list[Student]] = field(default_factory=dict)
+
+    def find(self, key: str) -> Student | None:
+        """Return the only student with this id, mail, user name or name; else None."""
+        if not self._by_key:
+            for student in self.students:
+                for each in student.keys() | {words(student.name)}:
+                    self._by_key.setdefault(each, []).append(student)
+        for each in (key.strip().casefold(), words(key)):
+            found = self._by_key.get(each, []) if each else []
+            if len(found) == 1:
+                return found[0]
+        return None
+
+    def find_student(self, student: Student) -> Student | None:
+        """Return the row of this table for a student of another one."""
+        if student in self.students:
+            return student
+        for key in (student.mail, student.id, student.user, student.name):
+            if key and (found := self.find(key)):
+                return found
+        return None
+
+    def match(self, person: Person) -> Student | None:
+        """Return the student who handed this in; None if there is none or not only one."""
+        numbers = {"moodle": "participant", "canvas": "user"}
+        if number := person.ids.get(numbers.get(person.platform, "")):
+            key = "participant" if person.platform == "moodle" else "canvas"
+            found = [each for each in self.students if getattr(each, key) == number]
+            if len(found) == 1:
+                return found[0]
+        names = [person.ids.get("email", ""), person.ids.get("sid", ""), person.student]
+        if not person.platform:
+            names.append(person.folder)
+            # ASSIGNMENT-USER; the longest user name wins, as it may hold hyphens itself
+            parts = person.folder.split("-")
+            names += ["-".join(parts[at:]) for at in range(1, len(parts))]
+        for name in names:
+            if name and (student := self.find(name)):
+                return student
+        if person.platform == "canvas":
+            return self._of_squashed(person.student)
+        return None
+
+    def _of_squashed(self, name: str) -> Student | None:
+        """Return the student of Canvas's lastnamefirst."""
+        fitting = []
+        for student in self.students:
+            parts = _letters(student.name.replace(",", " ")).split()
+            turned = ["".join(parts[at:] + parts[:at]) for at in range(len(parts))]
+            if _letters(name).replace(" ", "") in turned:
+                fitting.append(student)
+        return fitting[0] if len(fitting) == 1 else None
+
+
+def _letters(text: str) -> str:
+    """Return a text in lower case, without accents and without all but letters and digits."""
+    plain = unicodedata.normalize("NFKD", text.casefold())
+    plain = "".join(letter for letter in plain if not unicodedata.combining(letter))
+    return " ".join(re.findall(r"[^\W_]+", plain))
+
+
+def words(name: str) -> str:
+    """Return the words of a name in an order that does not depend on who writes it."""
+    return " ".join(sorted(_letters(name).split()))
+
+
+def read_roster(path: Path) -> Roster:
+    """Return the class of a CSV file. Raises BotschoolError."""
+    table = read_table(path)
+    get = table.get
+    points_row = 0
+    kind = "plain"
+    if table.column("participant") is not None and "Grade" in " ".join(table.head):
+        kind = "moodle"
+    elif table.head[0].strip() == "Student" and table.column("id") is not None:
+        kind = "canvas"
+        points_row = next(
+            (i for i, row in enumerate(table.rows, 1) if "points possible" in row[0].lower()), 0
+        )
+    students = []
+    for index, row in enumerate(table.rows):
+        name = get(row, "name") or f"{get(row, 'first')} {get(row, 'last')}".strip()
+        if kind == "canvas" and (index < points_row or name == "Student, Test"):
+            continue
+        if "," in name:
+            last, _, first = name.partition(",")
+            name = f"{first.strip()} {last.strip()}"
+        digits = re.search(r"\d+", get(row, "participant"))
+        number = get(row, "id")
+        student = Student(
+            name or get(row, "user") or get(row, "mail") or number,
+            get(row, "sisuserid") if kind == "canvas" else number,
+            get(row, "mail"),
+            get(row, "user"),
+            digits[0] if digits else "",
+            number if kind == "canvas" else "",
+            index,
+        )
+        if student.name:
+            students.append(student)
+    if not students:
+        heads = ", ".join(table.head)[:80]
+        raise BotschoolError(
+            f"{path} names no students: a column 'name' (or 'first_name' and 'last_name'), 'id' or "
+            f"'email' is needed; there are {heads}."
+        )
+    return Roster(table, students, kind)

@@ -1,0 +1,159 @@
+"""Which submissions resemble each other: a page with the most similar pairs side by side.
+
+Programs are compared as sequences of tokens, without comments, layout and the names of variables.
+What the skeleton holds does not count, and what many have counts little, so that a similar pair
+is a reason to look, and no proof.
+"""
+
+from __future__ import annotations
+
+import io
+import itertools
+import keyword
+import math
+import tokenize
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from html import escape
+
+LENGTH = 9
+"""Tokens in a sequence that is compared."""
+LEAST, MOST_PAIRS = 0.5, 20
+"""Similarity of pairs that are shown, and their number."""
+MIN_SEQUENCES = 15
+"""Of its own, else a submission is too short to be compared."""
+MAX_TOKENS = 50_000
+
+
+@dataclass(frozen=True)
+class Program:
+    """A submission's code."""
+
+    student: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two submissions, their similarity (0 to 1), and the lines that are alike in each."""
+
+    first: Program
+    second: Program
+    similarity: float
+    lines: tuple[frozenset[int], frozenset[int]]
+
+
+def tokens(text: str) -> list[tuple[str, int]]:
+    """Return (token, line) of a program; names and numbers are replaced by what they are."""
+    found: list[tuple[str, int]] = []
+    reader = tokenize.generate_tokens(io.StringIO(text).readline)
+    skipped = (tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
+    try:
+        for token in itertools.islice(reader, MAX_TOKENS):
+            if token.type in skipped:
+                continue
+            word = token.string
+            if token.type == tokenize.NAME and not keyword.iskeyword(word):
+                word = "name"
+            elif token.type == tokenize.STRING:
+                word = "text"
+            found.append((word, token.start[0]))
+    except (tokenize.TokenError, SyntaxError, ValueError, RecursionError):
+        pass  # what comes before an error is compared
+    return found
+
+
+def _sequences(text: str) -> dict[tuple[str, ...], set[int]]:
+    """Return each sequence of tokens with the lines on which it stands."""
+    all_of = tokens(text)
+    found: dict[tuple[str, ...], set[int]] = {}
+    for at in range(len(all_of) - LENGTH + 1):
+        part = all_of[at : at + LENGTH]
+        found.setdefault(tuple(word for word, _ in part), set()).update(line for _, line in part)
+    return found
+
+
+def similar_pairs(programs: Sequence[Program], skeleton: str) -> list[Pair]:
+    """Return the most similar pairs, the most similar one first."""
+    given = _sequences(skeleton).keys()
+    all_of = []
+    for program in programs:
+        own = {key: lines for key, lines in _sequences(program.text).items() if key not in given}
+        if len(own) >= MIN_SEQUENCES:
+            all_of.append((program, own))
+    having = Counter(key for _, own in all_of for key in own)
+    weight = {key: math.log((len(all_of) + 1) / count) for key, count in having.items()}
+    sums = [sum(weight[key] for key in own) for _, own in all_of]
+    pairs = []
+    for (i, (first, a)), (j, (second, b)) in itertools.combinations(enumerate(all_of), 2):
+        if first.student == second.student:
+            continue
+        common = a.keys() & b.keys()
+        least = max(1e-9, min(sums[i], sums[j]))
+        similarity = min(1.0, sum(weight[key] for key in common) / least)
+        if similarity >= LEAST:
+            lines = (_lines(a, common), _lines(b, common))
+            pairs.append(Pair(first, second, similarity, lines))
+    pairs.sort(key=lambda pair: (-pair.similarity, pair.first.student, pair.second.student))
+    return pairs[:MOST_PAIRS]
+
+
+def _lines(own: dict[tuple[str, ...], set[int]], keys: Iterable[tuple[str, ...]]) -> frozenset[int]:
+    """Return the lines on which these sequences stand."""
+    return frozenset(line for key in keys for line in own[key])
+
+
+_STYLE = """
+body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem; color: #1d2430; background: #fff; }
+.pair { border-top: 2px solid #dde2ea; margin-top: 2rem; }
+.both { display: grid; grid-template-columns: 1fr 1fr; gap: 1rem; }
+pre { font: 12px/1.4 ui-monospace, Menlo, Consolas, monospace; background: #f4f6f9; padding: .6rem;
+ overflow-x: auto; margin: 0; }
+mark { background: #ffe08a; color: inherit; display: block; }
+.both pre > span { display: block; min-height: 1.4em; }
+h2 { overflow-wrap: anywhere; }
+"""
+
+
+def similarity_page(found: dict[int, tuple[int, list[Pair]]]) -> str:
+    """Return a page without scripts; found: exercise -> programs compared, and pairs."""
+    body = []
+    for number, (count, pairs) in found.items():
+        body.append(f"<h1>Exercise {number}: {len(pairs)} similar pairs of {count} programs</h1>")
+        if pairs:
+            items = "".join(
+                f'<li><a href="#e{number}p{i}">{_title(pair)}</a></li>'
+                for i, pair in enumerate(pairs)
+            )
+            body.append(f"<ol>{items}</ol>")
+        for i, pair in enumerate(pairs):
+            body.append(
+                f'<section class="pair" id="e{number}p{i}"><h2>{_title(pair)}</h2>'
+                f'<div class="both">{_listing(pair.first, pair.lines[0])}'
+                f"{_listing(pair.second, pair.lines[1])}</div></section>"
+            )
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta http-equiv="Content-Security-Policy"\n'
+        " content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
+        '<meta name="generator" content="botschool grade-all">\n'
+        "<title>Similar submissions</title>\n"
+        f"<style>{_STYLE}</style>\n</head>\n<body>\n"
+        "<p>Compared without comments, layout and the names of variables; what the skeleton holds "
+        "does not count, and what many have counts little. A similar pair is a reason to look, "
+        "and no proof.</p>\n" + "\n".join(body) + "\n</body>\n</html>\n"
+    )
+
+
+def _title(pair: Pair) -> str:
+    names = f"{escape(pair.first.student)} and {escape(pair.second.student)}"
+    return f"{round(100 * pair.similarity)}%: {names}"
+
+
+def _listing(program: Program, lines: frozenset[int]) -> str:
+    shown = []
+    for number, line in enumerate(program.text.splitlines(), 1):
+        tag = "mark" if number in lines else "span"
+        shown.append(f"<{tag}>{escape(line) or ' '}</{tag}>")
+    return f"<pre>{''.join(shown)}</pre>"

@@ -1,0 +1,92 @@
+"""Tables of other programs: CSV files of any delimiter, encoding and header."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.texts import decoded
+
+MAX_TABLE = 20 * 2**20
+
+COLUMNS = {
+    "name": ("name", "fullname", "student", "studentname", "displayname"),
+    "first": ("firstname", "first", "givenname", "forename", "vorname"),
+    "last": ("lastname", "last", "surname", "familyname", "nachname", "name2"),
+    "id": (
+        "id", "idnumber", "studentid", "sid", "sisuserid", "studentnumber", "matriculationnumber",
+        "matrikelnummer", "number",
+    ),
+    "mail": ("email", "emailaddress", "mail", "emailadresse"),
+    "user": ("username", "user", "login", "loginid", "sisloginid", "github", "githubusername"),
+    "participant": ("identifier", "participant"),
+    "exercise": ("exercise", "assignment"),
+    "points": ("points", "adjustment", "change"),
+    "reason": ("reason", "comment", "note", "notes"),
+    "submitted": ("submitted", "lastmodifiedsubmission", "submissiontime", "time", "date"),
+}  # fmt: skip
+"""What a column means, by the letters and digits of its head in lower case."""
+
+
+@dataclass
+class Table:
+    """A CSV file: its head, its rows, and how it was written."""
+
+    path: Path
+    head: list[str]
+    rows: list[list[str]]
+    delimiter: str = ","
+    marked: bool = False
+    """Whether it begins with a mark of its encoding."""
+
+    def column(self, meaning: str) -> int | None:
+        """Return the index of the first column with a meaning of COLUMNS, or with a name."""
+        heads = [re.sub(r"[\W_]", "", head.lower()) for head in self.head]
+        for known in COLUMNS.get(meaning, (meaning,)):
+            if known in heads:
+                return heads.index(known)
+        return None
+
+    def get(self, row: list[str], meaning: str) -> str:
+        """Return the cell, or "" where there is no such column."""
+        index = self.column(meaning)
+        return row[index].strip() if index is not None and index < len(row) else ""
+
+    def text(self) -> bytes:
+        """Return the file's content as it is now."""
+        stream = io.StringIO()
+        writer = csv.writer(stream, delimiter=self.delimiter, lineterminator="\r\n")
+        writer.writerows([self.head, *self.rows])
+        return stream.getvalue().encode("utf-8-sig" if self.marked else "utf-8", "replace")
+
+
+def read_table(path: Path) -> Table:
+    """Return a CSV file with a head. Raises BotschoolError."""
+    try:
+        with path.open("rb") as file:
+            content = file.read(MAX_TABLE + 1)
+    except OSError as error:
+        raise BotschoolError(f"{path} cannot be read ({error.strerror}).") from None
+    if len(content) > MAX_TABLE:
+        raise BotschoolError(f"{path} is larger than {MAX_TABLE // 2**20} MB: is it a table?")
+    text, encoding = decoded(content)
+    first = text.lstrip("\r\n").partition("\n")[0]
+    delimiter = max(",;\t", key=first.count)
+    try:
+        rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter))
+    except csv.Error as error:
+        raise BotschoolError(f"{path} is no table that can be read ({error}).") from None
+    rows = [row for row in rows if any(cell.strip() for cell in row)]
+    if not rows:
+        raise BotschoolError(f"{path} is empty: a table with a head is needed.")
+    return Table(path, rows[0], rows[1:], delimiter, "mark" in encoding)
+
+
+def safe_cell(text: str) -> str:
+    """Return a text in one line that no spreadsheet takes for a formula."""
+    text = " ".join(text.split())
+    return f"'{text}" if text.startswith(("=", "+", "-", "@")) else text

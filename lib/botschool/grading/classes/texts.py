@@ -1,0 +1,110 @@
+"""The text of a file that was handed in, whatever it is stored as."""
+
+from __future__ import annotations
+
+import codecs
+import html.parser
+import json
+import re
+
+MARKS = (
+    (codecs.BOM_UTF8, "utf-8-sig", "UTF-8 with a mark"),
+    (codecs.BOM_UTF32_LE, "utf-32", "UTF-32"),
+    (codecs.BOM_UTF32_BE, "utf-32", "UTF-32"),
+    (codecs.BOM_UTF16_LE, "utf-16", "UTF-16"),
+    (codecs.BOM_UTF16_BE, "utf-16", "UTF-16"),
+)
+COOKIE = re.compile(r"^([ \t\f]*#.*?coding[:=][ \t]*)([-\w.]+)", re.ASCII)
+_BLOCKS = {"p", "div", "br", "li", "tr", "pre", "h1", "h2", "h3", "h4", "table", "ul", "ol"}
+
+
+def decoded(content: bytes) -> tuple[str, str]:
+    """Return the text of a Python file and the name of its encoding; "" for plain UTF-8."""
+    for mark, codec, name in MARKS:
+        if content.startswith(mark):
+            return content.decode(codec, "replace"), name
+    if content[1:100:2].count(0) > 20 and len(content) % 2 == 0:
+        return content.decode("utf-16-le", "replace"), "UTF-16 without a mark"
+    if content.isascii():
+        return content.decode("ascii"), ""
+    for line in content.split(b"\n", 2)[:2]:
+        found = COOKIE.match(line.decode("latin-1"))
+        if found:
+            try:
+                codec = codecs.lookup(found[2]).name
+                text = content.decode(codec)
+            except (LookupError, UnicodeError, ValueError):
+                break
+            if not isinstance(text, str) or codec in ("utf-8", "ascii"):
+                break
+            return text, found[2]
+    try:
+        return content.decode("utf-8"), ""
+    except UnicodeDecodeError:
+        return content.decode("latin-1"), "Latin-1 (it does not say so)"
+
+
+def without_cookie(text: str) -> str:
+    """Return a text that is stored as UTF-8, so its first lines must not say anything else."""
+    lines = text.split("\n", 2)
+    return "\n".join(
+        [*(COOKIE.sub(r"\g<1>utf-8", line) for line in lines[:2]), *lines[2:]],
+    )
+
+
+def code_of_notebook(text: str) -> str:
+    """Return the code of a notebook; "" if it cannot be read."""
+    try:
+        cells = json.loads(text)["cells"]
+        sources = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+    except (ValueError, LookupError, TypeError, RecursionError):
+        return ""
+    return "\n".join(sources)
+
+
+def text_of_page(page: str) -> str:
+    """Return what was typed into a web page's editor, each line on a line of its own."""
+    reader = _Page()
+    reader.feed(page)
+    reader.close()
+    text = "".join(reader.parts).replace("\xa0", " ").replace("\u200b", "")
+    return re.sub(r"\n{3,}", "\n\n", text.replace("\r\n", "\n")).strip("\n") + "\n"
+
+
+class _Page(html.parser.HTMLParser):
+    def __init__(self) -> None:
+        super().__init__(convert_charrefs=True)
+        self.parts: list[str] = []
+        self._skipped = 0
+        self._preformatted = 0
+
+    def handle_starttag(self, tag: str, attributes: list) -> None:
+        if tag in ("script", "style", "head"):
+            self._skipped += 1
+        self._preformatted += tag == "pre"
+        if tag in _BLOCKS:
+            self._end_line(always=tag == "br")
+
+    def handle_startendtag(self, tag: str, attributes: list) -> None:
+        if tag in _BLOCKS:
+            self._end_line(always=tag == "br")
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag in ("script", "style", "head"):
+            self._skipped = max(0, self._skipped - 1)
+        self._preformatted = max(0, self._preformatted - (tag == "pre"))
+        if tag in _BLOCKS - {"br"}:
+            self._end_line(always=False)
+
+    def handle_data(self, data: str) -> None:
+        if self._skipped:
+            return
+        ended = not self.parts or self.parts[-1].endswith("\n")
+        if ended and not self._preformatted:
+            data = data.lstrip("\r\n")  # the page's own line end after <br> or <p>
+        if data:
+            self.parts.append(data)
+
+    def _end_line(self, always: bool) -> None:
+        if always or (self.parts and not self.parts[-1].endswith("\n")):
+            self.parts.append("\n")

@@ -1,0 +1,195 @@
+"""Exports of learning platforms for tests: the same submissions as each platform writes them."""
+
+import html
+import io
+import json
+import zipfile
+from dataclasses import dataclass, field
+from pathlib import Path
+
+
+@dataclass
+class Handed:
+    """What a person hands in: names of files, with folders, and their content."""
+
+    name: str
+    files: dict[str, bytes]
+    late: bool = False
+    attempts: list[dict[str, bytes]] = field(default_factory=list)
+    """Earlier ones."""
+    typed: str = ""
+    """Typed into the platform's page instead."""
+
+
+def notebook(*cells: str) -> bytes:
+    """A notebook with these code cells, each after a text."""
+    made = []
+    for cell in cells:
+        made.append({"cell_type": "markdown", "metadata": {}, "source": ["Some *text*"]})
+        made.append(
+            {"cell_type": "code", "metadata": {}, "source": cell.splitlines(keepends=True),
+             "outputs": [], "execution_count": None}
+        )  # fmt: skip
+    return json.dumps({"cells": made, "metadata": {}, "nbformat": 4, "nbformat_minor": 5}).encode()
+
+
+def zipped(files: dict[str, bytes], top: str = "") -> bytes:
+    """A zip file with these files."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in files.items():
+            archive.writestr(top + name, content)
+    return buffer.getvalue()
+
+
+def variations(file: str, solution: str, skeleton: str) -> dict[str, dict[str, bytes]]:
+    """Ways to hand in one right solution, all of which deserve full marks."""
+    stem, text = file.removesuffix(".py"), solution.encode()
+    latin = f"# -*- coding: latin-1 -*-\n# J\u00fcrgen\n{solution}".encode("latin-1")
+    spaced = stem.replace("_", " ").title()
+    return {
+        "plain": {file: text},
+        "second download": {f"{stem} (1).py": text},
+        "number": {f"{stem}-1.py": text},
+        "final": {f"{stem}_final.py": text},
+        "capitals": {f"{stem.title()}.PY": text},
+        "spaces": {f"{spaced} final version.py": text},
+        "text suffix": {f"{file}.txt": text},
+        "in the exercise's folder": {f"ex03_tiny/{file}": text},
+        "in some folder": {f"my work/week 3/{file}": text},
+        "the whole course": {
+            f"course/exercises/ex03_tiny/{file}": text,
+            "course/exercises/ex03_tiny/README.md": b"# Tiny\n",
+            "course/README.md": b"# The course\n",
+        },
+        "a zip file": {"work.zip": zipped({file: text})},
+        "a zip file in a zip file": {
+            "all.zip": zipped({"inner.zip": zipped({f"a/{file}": text}), "__MACOSX/._x": b"x"})
+        },
+        "a notebook": {f"{stem}.ipynb": notebook(*solution.split("\n\n\n"))},
+        "another notebook": {"Untitled1.ipynb": notebook(solution)},
+        "another name": {"main.py": text},
+        "UTF-8 with a mark": {file: b"\xef\xbb\xbf" + text},
+        "UTF-16": {file: f"# J\u00fcrgen\n{solution}".encode("utf-16")},
+        "Latin-1 that says so": {file: latin},
+        "Latin-1": {file: f"# J\u00fcrgen\n{solution}".encode("latin-1")},
+        "line ends of Windows": {file: solution.replace("\n", "\r\n").encode()},
+        "beside the skeleton": {file: skeleton.encode(), f"{stem}_final.py": text},
+        "the skeleton deeper": {file: text, f"backup/{file}": skeleton.encode()},
+        "with what systems leave": {
+            file: text, ".DS_Store": b"x", "__pycache__/tiny.cpython-311.pyc": b"x",
+            "__MACOSX/._tiny.py": b"x", "Thumbs.db": b"x",
+        },
+        "with a report": {file: text, "report/report.pdf": b"%PDF"},
+    }  # fmt: skip
+
+
+def class_of(file: str, solution: str, skeleton: str) -> list[Handed]:
+    """A person for each variation."""
+    return [
+        Handed(f"Per{chr(97 + i // 26)}{chr(97 + i % 26)} S\u00f8n{i}", files)
+        for i, files in enumerate(variations(file, solution, skeleton).values())
+    ]
+
+
+# --- platforms; each gives the files of the export
+def moodle(people: list[Handed], underscore: bool = True) -> dict[str, bytes]:
+    """In folders, with or without the last underscore of their names."""
+    made = {}
+    for number, one in enumerate(people, 1234560):
+        top = f"{one.name}_{number}_assignsubmission_"
+        for name, content in one.files.items():
+            made[f"{top}file{'_' * underscore}/{name}"] = content
+        if one.typed:
+            lines = [html.escape(line).replace("  ", "&nbsp; ") for line in one.typed.splitlines()]
+            page = "<p>" + "<br>\n".join(lines) + "</p>"
+            made[f"{top}onlinetext{'_' * underscore}/onlinetext.html"] = page.encode()
+    return made
+
+
+def moodle_loose(people: list[Handed]) -> dict[str, bytes]:
+    """Without folders; sub-folders are part of the names."""
+    return {
+        f"{one.name}_{number}_assignsubmission_file_{name}": content
+        for number, one in enumerate(people, 1234560)
+        for name, content in one.files.items()
+    }
+
+
+def canvas(people: list[Handed]) -> dict[str, bytes]:
+    """Flat; what has folders is handed in as a zip file."""
+    made = {}
+    for number, one in enumerate(people, 400):
+        short = "".join(one.name.lower().split()[::-1])
+        top = f"{short}_{'LATE_' * one.late}{number}_{number + 90000}_"
+        tries = [*one.attempts, one.files]
+        for attempt, files in enumerate(tries):
+            if any("/" in name for name in files):
+                files = {"work.zip": zipped(files)}
+            for name, content in files.items():
+                stem, dot, suffix = name.rpartition(".")
+                name = f"{stem}-{attempt}{dot}{suffix}" if attempt else name
+                made[top + name] = content
+    return made
+
+
+def gradescope(people: list[Handed]) -> dict[str, bytes]:
+    """Folders, and who handed them in beside them."""
+    made, lines = {}, ["---"]
+    for number, one in enumerate(people, 300001):
+        for name, content in one.files.items():
+            made[f"submission_{number}/{name}"] = content
+        lines += [
+            f"submission_{number}:",
+            "  :submitters:",
+            f"  - :name: {one.name}",
+            f"    :sid: '{number}'",
+            f"    :email: p{number}@example.org",
+            "  :created_at: 2026-11-20 21:14:03.563510000 Z",
+            "  :score: 0.0",
+        ]
+    made["submission_metadata.yml"] = "\n".join(lines).encode()
+    return {f"assignment_77_export/{name}": content for name, content in made.items()}
+
+
+def github(people: list[Handed]) -> dict[str, bytes]:
+    """Clones, as the command of a class makes them."""
+    made = {}
+    for one in people:
+        user = "".join(letter for letter in one.name.lower() if letter.isascii() and letter != " ")
+        top = f"tiny-submissions/tiny-{user}"
+        made[f"{top}/.git/HEAD"] = b"ref: refs/heads/main\n"
+        for name, content in one.files.items():
+            made[f"{top}/{name}"] = content
+    return made
+
+
+def folders(people: list[Handed]) -> dict[str, bytes]:
+    """A folder for each, as nbgrader and everybody's own script write."""
+    return {f"{one.name}/{name}": content for one in people for name, content in one.files.items()}
+
+
+PLATFORMS = {
+    "moodle": moodle,
+    "moodle without underscore": lambda people: moodle(people, underscore=False),
+    "moodle loose": moodle_loose,
+    "canvas": canvas,
+    "gradescope": gradescope,
+    "github": github,
+    "folders": folders,
+}
+
+
+def written(folder: Path, files: dict[str, bytes]) -> Path:
+    """The files of an export in a folder."""
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    return folder
+
+
+def saved(path: Path, files: dict[str, bytes]) -> Path:
+    """The files of an export in a zip file."""
+    path.write_bytes(zipped(files))
+    return path

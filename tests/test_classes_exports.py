@@ -1,0 +1,306 @@
+"""Exports of learning platforms: who is in them, and which file of each is graded."""
+
+import os
+import shutil
+import zipfile
+
+import pytest
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.choice import Wanted
+from botschool.grading.classes.export import one_person, read_export
+from botschool.grading.classes.finding import find_submissions, numbered_folders
+from botschool.grading.classes.texts import decoded, text_of_page
+from botschool.grading.classes.unpack import Room, Unpackable, unpack
+from botschool.grading.copies.skeleton import skeleton
+from botschool.grading.run.notebooks import code_cells
+from exports import (
+    PLATFORMS,
+    Handed,
+    class_of,
+    moodle,
+    notebook,
+    saved,
+    variations,
+    written,
+    zipped,
+)
+from running import call
+from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
+
+SKELETON = skeleton(SOLUTION)
+WAYS = variations(FILE, SOLUTION, SKELETON)
+PLAIN = {"plain", "in the exercise's folder", "line ends of Windows", "with what systems leave"}
+"""Ways of which nothing need be said, wherever they are handed in."""
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    root = make_course(tmp_path / "course")
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(root))
+    return root
+
+
+@pytest.fixture
+def find(course, tmp_path):
+    """Gives what is found in a download, by the person's name, and the export."""
+
+    def of(download):
+        folder = tmp_path / "unpacked"
+        shutil.rmtree(folder, ignore_errors=True)
+        new_folder, wanted = numbered_folders(folder), [Wanted(3, FILE, course)]
+        export = read_export(download, wanted, new_folder)
+        found = find_submissions(export.people, wanted, course, new_folder)
+        assert len({one.student for one in found}) == len(found)
+        return {one.student: one for one in found}, export
+
+    return of
+
+
+def is_solution(file):
+    """Whether the code to grade is the solution, in a file of the right name."""
+    if file.suffix == ".ipynb":
+        text = "\n".join(code_cells(file))
+    else:
+        assert file.name == FILE
+        text = file.read_bytes().decode("utf-8").replace("\r\n", "\n")
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    return lines == [line for line in SOLUTION.splitlines() if line.strip()]
+
+
+@pytest.mark.parametrize("as_zip", [False, True], ids=["folder", "zip"])
+@pytest.mark.parametrize("platform", PLATFORMS)
+def test_nobody_vanishes_and_the_solution_is_found(find, tmp_path, platform, as_zip):
+    people = class_of(FILE, SOLUTION, SKELETON)
+    if platform == "moodle loose":  # where folders of a submission are lost
+        people = [one for one in people if not any("/" in name for name in one.files)]
+    files = PLATFORMS[platform](people)
+    files |= {"__MACOSX/._x": b"x", ".DS_Store": b"x"}
+    target = tmp_path / "download"
+    found, export = find(saved(target, files) if as_zip else written(target, files))
+    assert len(found) == len(people)
+    named = {one.student.replace(" ", "").lower(): one for one in found.values()}
+    for one, (way, _) in zip(class_of(FILE, SOLUTION, SKELETON), WAYS.items(), strict=True):
+        if one not in people:
+            continue
+        key = one.name.replace(" ", "").lower()
+        if platform == "canvas":
+            key = "".join(one.name.lower().split()[::-1])
+        elif platform == "github":
+            key = "tiny-" + "".join(letter for letter in key if letter.isascii())
+        choice = named[key].choices[3]
+        assert choice.file is not None and is_solution(choice.file), (way, choice.problem)
+        said = [*choice.notes, *named[key].notes]
+        assert bool(said) or way in PLAIN | {"with a report", "the whole course"}, way
+        if way in PLAIN and not (platform == "canvas" and any("/" in name for name in one.files)):
+            assert not said, (way, said)
+    assert export.notes == []
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_one_folder_is_found_as_in_a_class(course, tmp_path, way):
+    place = written(tmp_path / "anna", WAYS[way])
+    new_folder = numbered_folders(tmp_path / "unpacked")
+    (one,) = find_submissions(
+        [one_person(place, new_folder)], [Wanted(3, FILE, course)], course, new_folder
+    )
+    assert is_solution(one.choices[3].file)
+
+
+def test_what_is_not_used_is_said(find, tmp_path):
+    files = {FILE: SKELETON.encode(), "tiny_final.py": SOLUTION.encode(), "notes/diary.docx": b"x",
+             "tiny_old.py": b"def double(x): return x\n", "work.rar": b"Rar!"}  # fmt: skip
+    found, _ = find(written(tmp_path / "class", moodle([Handed("Ada L", files)])))
+    (one,) = found.values()
+    said = " ".join([*one.choices[3].notes, *one.notes])
+    assert is_solution(one.choices[3].file)
+    for name in ("Graded: tiny_final.py", "Not used: tiny_old.py", "nothing was changed in it",
+                 "diary.docx", "work.rar is no zip file"):  # fmt: skip
+        assert name in said
+
+
+def test_the_skeleton_alone_is_graded_and_said(find, tmp_path):
+    found, _ = find(written(tmp_path / "class", {f"ada/{FILE}": SKELETON.encode()}))
+    assert found["ada"].choices[3].notes == [f"Nothing was changed in {FILE}."]
+
+
+def test_the_newest_attempt_that_was_changed_is_graded(find, tmp_path):
+    half = SOLUTION.replace("2 * numbers", "3 * numbers")
+    for last, right in ((SOLUTION, SOLUTION), (SKELETON, half)):
+        tries = [{FILE: SOLUTION.encode()}, {FILE: half.encode()}]
+        one = Handed("Ada L", {FILE: last.encode()}, late=True, attempts=tries)
+        shutil.rmtree(tmp_path / "class", ignore_errors=True)
+        found, _ = find(written(tmp_path / "class", PLATFORMS["canvas"]([one])))
+        assert found["lada"].person.late
+        assert found["lada"].choices[3].file.read_text() == right
+        assert any("Not used" in note for note in found["lada"].choices[3].notes)
+
+
+def test_text_that_was_typed_into_a_page_is_graded(find, tmp_path):
+    found, _ = find(written(tmp_path / "class", moodle([Handed("Ada L", {}, typed=SOLUTION)])))
+    choice = found["Ada L"].choices[3]
+    assert is_solution(choice.file) and choice.notes == ["Graded: the text that was typed in."]
+    assert text_of_page("<pre>def f(x):\n    return x &lt; 1</pre>") == (
+        "def f(x):\n    return x < 1\n"
+    )
+    assert text_of_page("<p>if x:</p><p>&nbsp; &nbsp; y()</p>") == "if x:\n    y()\n"
+
+
+def test_a_group_has_a_row_for_each(find, tmp_path):
+    metadata = (
+        "submission_7:\n  :submitters:\n  - :name: Ada\n    :email: a@b.c\n  - :name: Bob\n"
+        "  :created_at: !ruby/object:ActiveSupport::TimeWithZone\n    utc: 2026-11-20 21:14:03 Z\n"
+    )
+    written(tmp_path / "class" / "submission_7", {FILE: SOLUTION.encode()})
+    written(tmp_path / "class" / "submission_8", {FILE: SOLUTION.encode()})
+    (tmp_path / "class" / "submission_metadata.yml").write_text(metadata)
+    found, _ = find(tmp_path / "class")
+    assert set(found) == {"Ada", "Bob", "submission_8"}
+    assert found["Ada"].choices[3].file == found["Bob"].choices[3].file
+    assert found["Ada"].person.ids["email"] == "a@b.c"
+
+
+def test_files_of_a_persons_own_stay_beside_what_is_graded(find, tmp_path):
+    files = {"tiny (1).py": SOLUTION.encode(), "helper.py": b"x = 1\n", "data/weights.npy": b"9"}
+    found, _ = find(written(tmp_path / "class", {f"ada/w/{k}": v for k, v in files.items()}))
+    folder = found["ada"].choices[3].file.parent
+    assert sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file()) == [
+        "data/weights.npy", "helper.py", FILE,
+    ]  # fmt: skip
+
+
+def test_clones_that_lie_deeper_and_loose_files_are_people(find, tmp_path):
+    top = tmp_path / "class"
+    for name in ("anna", "bert"):
+        written(top / "monday" / f"tiny-{name}", {".git/HEAD": b"x", FILE: SOLUTION.encode()})
+    written(top, {"carl.py": SOLUTION.encode(), "dora.zip": zipped({FILE: SOLUTION.encode()}, "x/"),
+                  "notes.txt": b"hello", "eve.ipynb": notebook(SOLUTION)})  # fmt: skip
+    found, export = find(top)
+    assert set(found) == {"tiny-anna", "tiny-bert", "carl", "dora", "eve"}
+    assert all(is_solution(one.choices[3].file) for one in found.values())
+    assert export.nobodys == ["notes.txt"]
+
+
+def test_a_copy_of_the_course_is_one_submission(find, tmp_path):
+    path = saved(tmp_path / "ada.zip", {f"course/exercises/{FOLDER}/{FILE}": SOLUTION.encode()})
+    found, _ = find(path)
+    assert set(found) == {"ada"} or set(found) == {"course"}
+    (one,) = found.values()
+    assert is_solution(one.choices[3].file)
+
+
+def test_an_unreadable_notebook_and_an_empty_folder_are_said(find, tmp_path):
+    written(tmp_path / "class", {"ada/tiny.ipynb": b'{"cells": ', "bob/essay.docx": b"x"})
+    (tmp_path / "class" / "carl").mkdir()
+    found, _ = find(tmp_path / "class")
+    assert "tiny.ipynb is no notebook that can be read" in found["ada"].choices[3].problem
+    assert "There is no tiny.py. Handed in: essay.docx." in found["bob"].choices[3].problem
+    assert found["carl"].choices[3].problem == "There is no tiny.py."
+
+
+# --- what must not be followed or filled
+def test_links_are_not_followed(find, tmp_path):
+    secret = tmp_path / "secret.py"
+    secret.write_text(SOLUTION)
+    top = written(tmp_path / "class", {"ada/notes.txt": b"x", "bob/x.txt": b"x"})
+    (top / "ada" / "tiny (1).py").symlink_to(secret)
+    (top / "bob" / FOLDER).symlink_to(tmp_path)
+    (top / "carl").symlink_to(top / "ada")
+    (top / f"dlee_1_2_{FILE}").symlink_to(secret)
+    found, _ = find(top)
+    assert not any(one.files for one in found.values())
+    assert "link" in found["carl"].choices[3].problem + found["bob"].choices[3].problem
+
+
+def linked(name, target):
+    info = zipfile.ZipInfo(name)
+    info.create_system, info.external_attr = 3, 0o120777 << 16
+    return info, target
+
+
+def test_zip_files_stay_within_their_folder_and_limits(find, tmp_path):
+    path = tmp_path / "evil.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("../outside.py", "x")
+        archive.writestr("/absolute.py", "x")
+        archive.writestr("a/../../b.py", "x")
+        archive.writestr("C:\\windows.py", "x")
+        archive.writestr(*linked("ada/link.py", "/etc/passwd"))
+        archive.writestr("ada/tiny.py", SOLUTION)
+        archive.writestr("ada/tiny.py/inside", "x")
+    before = set(tmp_path.iterdir())
+    target = tmp_path / "target"
+    left_out = unpack(path, target, Room(10**6, 100))
+    assert len(left_out) == 6 and (target / "ada" / "tiny.py").read_text() == SOLUTION
+    assert set(tmp_path.iterdir()) == before | {target}
+    assert [p for p in target.rglob("*") if p.is_symlink()] == []
+    bomb = zipped({"zeros.py": b"0" * 10**7})
+    for room in (Room(10**6, 10), Room(10**8, 0)):
+        with pytest.raises(Unpackable, match="too many or too large"):
+            unpack(bomb, tmp_path / "bomb", room)
+    quine = zipped({FILE: b"x"})
+    for _ in range(6):
+        quine = zipped({"z.zip": quine})
+    found, _ = find(written(tmp_path / "class", {"ada/z.zip": quine, "bob/b.zip": b"PK"}))
+    assert "too many zip files" in found["ada"].notes[0]
+    assert "b.zip is damaged, or no zip file, so it stays packed." in found["bob"].notes
+
+
+def test_a_download_that_is_none(find, tmp_path):
+    (tmp_path / "x.zip").write_bytes(b"nothing")
+    with pytest.raises(BotschoolError, match="is damaged, or no zip file: download it again"):
+        find(tmp_path / "x.zip")
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(BotschoolError, match="holds no submissions"):
+        find(tmp_path / "empty")
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
+def test_an_unreadable_folder_is_no_zero(find, tmp_path):
+    written(tmp_path / "class", {f"ada/{FILE}": SOLUTION.encode()})
+    (tmp_path / "class" / "ada").chmod(0)
+    found, _ = find(tmp_path / "class")
+    (tmp_path / "class" / "ada").chmod(0o700)
+    assert found["ada"].choices[3].unread
+
+
+def test_encodings():
+    assert decoded("# coding: utf-8\n\u00e9".encode()) == ("# coding: utf-8\n\u00e9", "")
+    assert decoded("x = 'abc'\n".encode("utf-16-le") * 20)[1] == "UTF-16 without a mark"
+    assert decoded(b"# coding: nonsense\n\xe9")[0].endswith("\u00e9")
+
+
+# --- the commands
+def test_a_class_by_the_command(course, tmp_path):
+    people = class_of(FILE, SOLUTION, SKELETON)
+    people[1].files = {FILE: SKELETON.encode()}
+    names = ("plain", "second download", "a notebook", "UTF-16")
+    people = [one for one, way in zip(people, WAYS, strict=True) if way in names]
+    path = saved(tmp_path / "download.zip", moodle(people))
+    code, out, errors = call("grade-all", path, "-e", "3.1", "-o", tmp_path / "out", "-w", "2")
+    assert (code, errors) == (0, "") and "4 submissions, 45.0 of 60 points" in out
+    table = (tmp_path / "out" / "grades.csv").read_text(encoding="utf-8-sig")
+    assert "Nothing was changed in tiny.py." in table and "was stored as UTF-16" in table
+    pages = {path.name: path.read_text() for path in (tmp_path / "out" / "feedback").iterdir()}
+    assert len(pages) == 4 and "was stored as UTF-16" in pages[f"{people[3].name}.html"]
+
+
+def test_one_submission_by_the_command(course, tmp_path):
+    path = saved(tmp_path / "ada.zip", {"x/Tiny (1).py": SOLUTION.encode()})
+    for place in (path, written(tmp_path / "ada", {"Tiny.ipynb": notebook(SOLUTION)})):
+        code, out, _ = call("grade", "3", "--submission", place)
+        assert code == 0 and "Graded:" in out and "100 of 100 points" in out
+    code, out, _ = call("grade", "3.1,3.2", "--submission", submit(tmp_path / "b", SOLUTION))
+    assert code == 0 and "3.2" in out
+
+
+@pytest.mark.parametrize("command", ["grade", "grade-all", "release"])
+def test_the_same_words_name_exercises_everywhere(course, tmp_path, command):
+    first = {"grade": [], "grade-all": [submit(tmp_path / "c" / "a", SOLUTION).parents[2], "-e"],
+             "release": [tmp_path / "copy", "-e"]}[command]  # fmt: skip
+    for words, sentence in (("3-4", "There is no exercise 4"), ("3.9", "no task 3.9"),
+                            ("x", "names no exercise"), ("5-4", "names no exercise")):  # fmt: skip
+        code, _, errors = call(command, *first, words)
+        assert code == 2 and sentence in errors
+    code, out, _ = call(command, *first, "3", *(["-o", tmp_path / "o"] * (command == "grade-all")))
+    assert code == (command == "grade") and out

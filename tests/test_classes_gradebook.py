@@ -1,0 +1,345 @@
+"""A class: roster, deadlines, adjustments, statistics, similar submissions, gradebooks."""
+
+import csv
+import io
+import zipfile
+from datetime import datetime, timedelta
+
+import pytest
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.export import Person
+from botschool.grading.classes.gradebook import canvas_gradebook, moodle_worksheet
+from botschool.grading.classes.policy import LateRule, read_policy
+from botschool.grading.classes.roster import read_roster
+from botschool.grading.classes.similar import Program, similar_pairs, similarity_page
+from botschool.grading.classes.statistics import by_task, hardest, statistics_page
+from botschool.grading.copies.skeleton import skeleton
+from botschool.grading.declare.trust import trust
+from exports import Handed, canvas, gradescope, moodle, saved, written
+from running import call, one_sentence
+from tiny_course import FILE, SOLUTION, make_course
+
+HALF = SOLUTION.replace("2 * numbers_of_the_students", "3 * numbers_of_the_students")
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    root = make_course(tmp_path / "course")
+    trust(root)
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(root))
+    return root
+
+
+def rows_of(path):
+    with open(path, encoding="utf-8-sig", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def roster(tmp_path, text, name="students.csv"):
+    path = tmp_path / name
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return path
+
+
+# --- rosters
+@pytest.mark.parametrize(
+    "text",
+    [
+        "name,id,email\nAda Lovelace,7,ada@x.org\n",
+        "Last name;First name;ID number;E-Mail\nLovelace;Ada;7;ada@x.org\n",
+        "\ufeffStudent ID\tFull Name\tEmail address\n7\tLovelace, Ada\tada@x.org\n",
+        "username,first_name,last_name,email,section,github_id\nada7,Ada,Lovelace,ada@x.org,,1\n",
+        "Nachname;Vorname;Matrikelnummer;E-Mail\r\nLovelace;Ada;7;ada@x.org\r\n",
+    ],
+)
+def test_heads_of_rosters_vary(tmp_path, text):
+    (ada,) = read_roster(roster(tmp_path, text)).students
+    assert (ada.name, ada.mail) == ("Ada Lovelace", "ada@x.org") and (ada.id or ada.user)
+
+
+def test_a_table_that_is_no_roster(tmp_path):
+    for text, sentence in (
+        ("", "is empty"),
+        ("a,b\n1,2\n", "names no students"),
+        ("name\n", "no st"),
+    ):
+        with pytest.raises(BotschoolError, match=sentence):
+            read_roster(roster(tmp_path, text))
+
+
+def test_people_are_matched_however_their_platform_names_them(tmp_path):
+    text = (
+        "name,id,email,username\nAda Lovelace,7,ada@x.org,ada-l\nJo\u00e3o da Silva,8,js@x.org,js\n"
+        "Kim Lee,9,kim@x.org,kim\nKim Lee,10,lee@x.org,lee\n"
+    )
+    found = read_roster(roster(tmp_path, text))
+
+    def id_of(person):
+        student = found.match(person)
+        return student.id if student else None
+
+    assert id_of(Person("Lovelace Ada", "x")) == "7"
+    assert id_of(Person("lovelaceada", "x", "canvas")) == "7"
+    assert id_of(Person("dasilvajo\u00e3o", "x", "canvas")) == "8"
+    assert id_of(Person("Joao Da Silva", "x", "moodle", {"participant": "5"})) == "8"
+    assert id_of(Person("ex3-ada-l", "ex3-ada-l")) == "7"
+    assert id_of(Person("8", "8")) == "8" and id_of(Person("ada", "ada")) == "7"
+    assert id_of(Person("x", "x", "gradescope", {"email": "KIM@x.org"})) == "9"
+    assert id_of(Person("Kim Lee", "x")) is None  # two have this name
+    assert id_of(Person("Eve", "x")) is None
+
+
+# --- deadlines
+def settings(tmp_path, text):
+    path = tmp_path / "class.yaml"
+    path.write_text(text)
+    return path
+
+
+def test_the_late_rule():
+    rule, hour = LateRule(10, "day", 35), timedelta(hours=1)
+    assert [rule.points(n * hour) for n in (0, 1, 24, 25, 100)] == [0, 10, 10, 20, 35]
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("late: soon", "'late: soon' is no rule"),
+        ("due: 5", "a line for each exercise"),
+        ("due:\n  3: tomorrow", "'tomorrow' is no time"),
+        ("deadline: 5", "'deadline' is no setting"),
+        ("due: [", "is no YAML"),
+        ("adjustments: none.csv", "cannot be read"),
+        ("weights: 5", "under 'weights'"),
+        ("- 5", "holds no settings"),
+    ],
+)
+def test_settings_that_are_wrong(tmp_path, text, sentence):
+    with pytest.raises(BotschoolError, match=sentence):
+        read_policy(settings(tmp_path, text))
+
+
+def result(points=80, graded=True):
+    return {"exercise": 3, "points": points, "max_points": 100, "graded": graded, "notes": []}
+
+
+def test_deadlines_extensions_and_adjustments(tmp_path):
+    roster(
+        tmp_path,
+        "email,exercise,points,reason\nada@x.org,3,+5.5,A good question.\nbob,3,=50,\n",
+        "changes.csv",
+    )
+    policy = read_policy(
+        settings(
+            tmp_path,
+            (
+                "due:\n  3: 2026-11-20 23:59\nlate: 10 per day, at most 30\n"
+                "adjustments: changes.csv\n"
+                "extensions:\n  eve@x.org:\n    3: 2026-11-22\n"
+            ),
+        )
+    )
+
+    def points(name, moment, given=80, graded=True, marked=False):
+        found = policy.apply(result(given, graded), [name], moment, marked)
+        return found["points"], " ".join(found["notes"])
+
+    def at(day, hour=12):
+        return datetime(2026, 11, day, hour)
+
+    assert points("x", at(20)) == (80, "")
+    assert points("x", datetime(2026, 11, 20, 23, 59, 40)) == (80, "")
+    assert points("x", at(21, 10)) == (70, "Late by 10.0 hours: 10 points off.")
+    assert points("x", at(28))[0] == 50 and points("x", at(28), given=20)[0] == 0
+    assert points("eve@x.org", at(22, 20)) == (80, "") and points("eve@x.org", at(24))[0] == 60
+    assert points("ada@x.org", at(20)) == (85.5, "Adjusted by +5.5 points: A good question.")
+    assert points("bob", None, graded=False) == (50, "Set to 50 points: by hand.")
+    assert "no points are taken off" in points("x", None, marked=True)[1]
+    assert points("x", at(21), given=0, graded=False) == (0, "")
+
+
+# --- a class by the command
+def test_a_class_with_all_that_happens(course, tmp_path):
+    people = [
+        Handed("Ada Lovelace", {FILE: SOLUTION.encode()}),
+        Handed("Bob =1+1", {FILE: HALF.encode()}),
+        Handed("Eve Unknown", {FILE: skeleton(SOLUTION).encode()}),
+    ]
+    download = saved(tmp_path / "download.zip", moodle(people))
+    sheet = roster(
+        tmp_path,
+        (
+            "\ufeffIdentifier,Full name,Email address,Status,Grade,Maximum Grade,"
+            "Last modified (submission),Feedback comments\r\n"
+            "Participant 1234560,Ada Lovelace,ada@x.org,Submitted,,50.00,"
+            '"Friday, 20 November 2026, 9:14 PM",\r\n'
+            'Participant 1234561,Bob =1+1,bob@x.org,Submitted,,50.00,"Sunday, 22 November 2026, '
+            '9:14 PM",\r\n'
+            "Participant 99,Carl Gauss,carl@x.org,No submission,,50.00,-,\r\n"
+        ),
+        "sheet.csv",
+    )
+    roster(tmp_path, "student,exercise,points,reason\nAda Lovelace,3,-1,typo\n", "changes.csv")
+    settings(tmp_path, "due:\n  3: 2026-11-20 23:59\nlate: 10 per day\nadjustments: changes.csv\n")
+    arguments = ("grade-all", download, "-e", "3", "-o", tmp_path / "out", "--gradebook", sheet)
+    for _ in range(2):  # adjustments survive regrading, and are made once
+        code, out, errors = call(*arguments, "-w", "2")
+        out = " ".join(out.split())
+        assert (code, errors) == (1, "")
+        assert "3 submissions" in out and "Nothing from: Carl Gauss." in out
+        assert "Not on the roster: Eve Unknown." in out
+        assert "Where the class stumbled: 3.1 Doubling (33%), 3.2 Adding (67%)." in out
+        rows = {row["student"]: row for row in rows_of(tmp_path / "out" / "grades.csv")}
+        assert {name: row["total"] for name, row in rows.items()} == {
+            "Ada Lovelace": "99",
+            "Bob =1+1": "20",
+            "Eve Unknown": "0",
+            "Carl Gauss": "",
+        }
+    assert "2 days" in rows["Bob =1+1"]["notes"] or "hours" in rows["Bob =1+1"]["notes"]
+    assert rows["Carl Gauss"]["notes"] == "Exercise 3: Nothing was handed in."
+    assert rows["Ada Lovelace"]["3.1"] == "60" and rows["Ada Lovelace"]["email"] == "ada@x.org"
+    back = rows_of(tmp_path / "out" / "moodle.csv")
+    assert [row["Grade"] for row in back] == ["49.50", "10.00", ""]
+    assert back[2]["Email address"] == "carl@x.org" and "typo" in back[0]["Feedback comments"]
+    assert (tmp_path / "out" / "moodle.csv").read_bytes().startswith(b"\xef\xbb\xbfIdentifier")
+    with zipfile.ZipFile(tmp_path / "out" / "moodle-feedback.zip") as archive:
+        names = archive.namelist()
+        assert f"{people[0].name}_1234560_assignsubmission_file_/feedback.html" in names
+        assert len(names) == 3 and b"Ada Lovelace" in archive.read(names[0])
+    page = (tmp_path / "out" / "feedback" / "Ada Lovelace.html").read_text()
+    assert "<h1>Ada Lovelace</h1>" in page and "Adjusted by -1 points: typo." in page
+    assert "1 handed in nothing: Carl Gauss." in (tmp_path / "out" / "class.html").read_text()
+    for name in ("class.html", "similar.html"):
+        assert "<script" not in (tmp_path / "out" / name).read_text()
+
+
+def test_canvas_takes_its_gradebook_and_feedback_back(course, tmp_path):
+    people = [Handed("Ada Lovelace", {FILE: SOLUTION.encode()}, late=True)]
+    download = written(tmp_path / "download", canvas(people))
+    book = roster(
+        tmp_path,
+        (
+            "Student,ID,SIS User ID,SIS Login ID,Section,Homework 2 (11),Exercise 3 (12)\n"
+            "    Points Possible,,,,,10,20\n"
+            '"Lovelace, Ada",400,7,ada,A,9,\n'
+            '"Gauss, Carl",401,8,carl,A,5,3\n"Student, Test",402,,,A,,\n'
+        ),
+    )
+    arguments = ("grade-all", download, "-o", tmp_path / "out", "--gradebook", book)
+    code, _, errors = call(*arguments)
+    one_sentence(code, errors, "name one assignment's column with --column")
+    code, out, _ = call(*arguments, "--column", "exercise 3")
+    assert code == 1 and "Nothing from: Carl Gauss." in out
+    table = list(csv.reader(io.StringIO((tmp_path / "out" / "canvas.csv").read_text())))
+    assert table == [
+        ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Exercise 3 (12)"],
+        ["    Points Possible", "", "", "", "", "20"],
+        ["Lovelace, Ada", "400", "7", "ada", "A", "20"],
+    ]
+    with zipfile.ZipFile(tmp_path / "out" / "canvas-feedback.zip") as archive:
+        assert archive.namelist() == [f"lovelaceada_LATE_400_90400_{FILE}"]
+        assert b"Exercise 3. Tiny: 100 of 100" in archive.read(archive.namelist()[0])
+
+
+def test_a_student_who_handed_in_twice_and_wrong_names(course, tmp_path):
+    download = written(
+        tmp_path / "class",
+        {
+            f"ada/{FILE}": HALF.encode(),
+            f"7/{FILE}": SOLUTION.encode(),
+        },
+    )
+    people = roster(tmp_path, "name,id,email\nAda Lovelace,7,ada@x.org\n")
+    arguments = ("grade-all", download, "-o", tmp_path / "out", "--roster", people)
+    code, _, errors = call(*arguments)
+    assert (code, errors) == (0, "")
+    rows = rows_of(tmp_path / "out" / "grades.csv")
+    assert [row["student"] for row in rows] == ["Ada Lovelace"] * 2
+    assert all("handed in 2 times, also as" in row["notes"] for row in rows)
+    assert len({row["feedback"] for row in rows}) == 2
+    settings(tmp_path, "extensions:\n  bob:\n    3: 2026-11-20\n")
+    one_sentence(*call(*arguments)[::2], "name bob, who is not in the class")
+
+
+def test_gradescopes_times_count(course, tmp_path):
+    people = [Handed("Ada Lovelace", {FILE: SOLUTION.encode()})]
+    download = saved(tmp_path / "x.zip", gradescope(people))
+    settings(tmp_path, "due:\n  3: 2026-11-15\nlate: 1 per day\nweights:\n  3: 0.5\n")
+    assert call("grade-all", download, "-o", tmp_path / "out")[0] == 0
+    (row,) = rows_of(tmp_path / "out" / "grades.csv")
+    assert row["exercise 3"] in ("94", "95") and float(row["total"]) == float(row["exercise 3"]) / 2
+
+
+def test_gradebooks_that_do_not_fit(tmp_path):
+    sheet = read_roster(roster(tmp_path, "Identifier,Full name,Final Grade\nParticipant 1,A,\n"))
+    with pytest.raises(BotschoolError, match="no column 'Grade'"):
+        moodle_worksheet(sheet, {}, 100)
+    book = read_roster(roster(tmp_path, 'Student,ID,Section\n"B, A",1,\n'))
+    with pytest.raises(BotschoolError, match="there are: none"):
+        canvas_gradebook(book, {}, 100, "")
+
+
+# --- who stumbled, and who is alike
+def task(points, message="", id="3.1"):
+    return {"id": id, "title": "T", "points": points, "max_points": 10, "message": message}
+
+
+def test_statistics_of_tasks():
+    results = [
+        {
+            "graded": graded,
+            "problem": "",
+            "tasks": [task(points, f"got {points}.5"), task(9, id="3.2")],
+        }
+        for graded, points in ((True, 0), (True, 4), (True, 10), (False, 0))
+    ]
+    first, second = by_task(results)
+    assert first.points == [0, 4, 10] and (first.full, first.none) == (1, 1)
+    assert first.messages == {"got #": 2} and hardest([first, second]) == [first]
+    page = statistics_page([first], ["<b>"])
+    assert "4.7 of 10" in page and "2 times: got #" in page and "&lt;b&gt;" in page
+
+
+OTHER = """
+import numpy as np
+
+def double(numbers):
+    result = []
+    for row in np.atleast_2d(numbers):
+        line = []
+        for value in row:
+            line.append(value + value)
+        result.append(line)
+    return np.array(result).reshape(np.shape(numbers))
+
+def total(numbers):
+    count, left = 0.0, list(np.ravel(numbers))
+    while left:
+        count = count + left.pop(0)
+    return count
+"""
+
+
+def test_a_copy_with_other_names_is_found_and_the_skeleton_does_not_count():
+    copied = OTHER.replace("result", "table").replace("value", "v").replace("    ", "  ")
+    copied = "# my own work\n" + copied.replace("count", "s")
+    given = skeleton(SOLUTION)
+    third = given.replace(
+        'raise NotImplementedError("task 3.1: double the numbers")',
+        "return np.add(numbers, numbers) if len(numbers) else numbers * 0 + 0",
+    )
+    programs = [
+        Program("ada", OTHER),
+        Program("<bob>", copied),
+        Program("carl", SOLUTION),
+        Program("dora", third),
+        Program("eve", given),
+        Program("fred", "def (:\n'''"),
+    ]
+    (pair,) = similar_pairs(programs, given)
+    assert {pair.first.student, pair.second.student} == {"ada", "<bob>"} and pair.similarity == 1
+    page = similarity_page({3: (6, [pair])})
+    assert "100%: ada and &lt;bob&gt;" in page and page.count("<mark>") > 20 and "<bob>" not in page
+    assert similar_pairs([Program("a", given), Program("b", given)], given) == []
