@@ -17,7 +17,7 @@ from botschool.grading.classes.texts import (
     text_of_page,
     without_cookie,
 )
-from botschool.grading.copies.skeleton import skeleton
+from botschool.grading.copies.starting import original
 from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import folder_of
 from botschool.sandbox.scratch import MAX_COPIED, MAX_COPIED_FILES
@@ -44,13 +44,11 @@ class Wanted:
         self.number, self.file = number, file
         self.folder = folder_of(number, root).name
         self.stem = squashed(Path(file).stem)
-        given = root / "exercises" / self.folder / file
-        solution = root / "solutions" / self.folder / file
         try:
-            text = solution.read_text(encoding="utf-8")
-            self.skeleton = skeleton(text)
-        except (OSError, ValueError):
-            self.skeleton = given.read_text(encoding="utf-8") if given.is_file() else ""
+            self.skeleton = original(number, root)
+        except BotschoolError:  # then nothing can be told to be as it was given out
+            self.skeleton = ""
+        self.known = bool(self.skeleton)
         self.lines = code_lines(self.skeleton)
         self.names = set(_NAMES.findall(self.skeleton))
         self.places = {f"{self.folder}/{file}", f"exercises/{self.folder}/{file}", file}
@@ -120,7 +118,8 @@ class Candidate:
     @cached_property
     def differs(self) -> bool:
         """Whether it is not as it was given out."""
-        return bool(self.code.strip()) and code_lines(self.code) != self.wanted.lines
+        lines = code_lines(self.code)
+        return bool(lines) and (not self.wanted.known or lines != self.wanted.lines)
 
     def fits(self) -> bool:
         """Return whether it is the exercise's by its name or by what it defines."""
