@@ -18,7 +18,7 @@ from botschool.grading.declare.exercise import Exercise as Declared
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.trust import trust
 from botschool.grading.declare.values import apart, kind, pasted, show
-from botschool.grading.judge.judging import same
+from botschool.grading.judge.looking import same
 from botschool.grading.judge.submission import grade
 from botschool.grading.run.confined import fork_server
 from tiny_course import FILE, SOLUTION, make_course, submit

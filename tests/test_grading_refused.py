@@ -8,7 +8,9 @@ from tiny_course import submit
 
 NAMES = (
     "fractions:Fraction.limit_denominator",
-    "bisect:insort_left",  # written in C: it cannot be refused, and nothing breaks
+    "bisect:insort_left",  # written in C, as are these
+    "collections:deque.rotate",  # whose type cannot be changed: it stays, and nothing breaks
+    "math:gamma",
     "colorsys:rgb_to_hsv",
     "functools:total_ordering",
     "nowhere:nothing",
@@ -67,6 +69,15 @@ def by_hand():
     import colorsys
     return [int(Fraction(6, 3)), colorsys.hsv_to_rgb(0, 0, 1)[0]]
 
+import bisect
+from math import gamma
+
+def written_in_c():
+    bisect.insort_left([], 1)
+
+def written_in_c_by_its_name():
+    return gamma(3.0)
+
 def die():
     import os
     os._exit(1)
@@ -90,6 +101,8 @@ def student(tmp_path):
         ("by_a_second_module", "fractions.Fraction.limit_denominator"),
         ("by_a_reload", "fractions.Fraction.limit_denominator"),
         ("without_finders", "colorsys.rgb_to_hsv"),
+        ("written_in_c", "bisect.insort_left"),
+        ("written_in_c_by_its_name", "math.gamma"),
         ("by_an_own_loader", "other.Fraction.limit_denominator"),
     ],
 )

@@ -20,6 +20,7 @@ from botschool.grading import (
     expect_fields,
     show,
 )
+from botschool.grading.declare.libraries import OPENAI_ES
 
 exercise = Exercise(8, "OpenAI-ES", file="openai_es.py")
 SIZES = ((1, 1), (3, 2), (20, 37))
@@ -77,7 +78,7 @@ def adam_step(centre, d, m, v, t, stepsize):
 
 
 # ------------------------------------------------------------------- 8.1
-sampling = exercise.task("8.1", "Symmetric sampling")
+sampling = exercise.task("8.1", "Symmetric sampling", refused=OPENAI_ES)
 
 
 @sampling.check(8)
@@ -108,7 +109,7 @@ def samples_without_side_effects(student: Student):
 
 
 # ------------------------------------------------------------------- 8.2
-ranks = exercise.task("8.2", "Utilities")
+ranks = exercise.task("8.2", "Utilities", refused=OPENAI_ES)
 
 
 @ranks.check(8)
@@ -141,7 +142,7 @@ def equals_in_their_order(student: Student):
 
 
 # ------------------------------------------------------------------- 8.3
-direction = exercise.task("8.3", "The gradient")
+direction = exercise.task("8.3", "The gradient", refused=OPENAI_ES)
 
 
 @direction.check(8)
@@ -176,7 +177,7 @@ def points_uphill(student: Student):
 
 
 # ------------------------------------------------------------------- 8.4
-decay = exercise.task("8.4", "Weight decay")
+decay = exercise.task("8.4", "Weight decay", refused=OPENAI_ES)
 
 
 def compare_descent(student: Student, index: int, wdecay: int) -> None:
@@ -215,7 +216,7 @@ def decay_by_sign(student: Student):
 
 
 # ------------------------------------------------------------------- 8.5
-optimiser = exercise.task("8.5", "Adam")
+optimiser = exercise.task("8.5", "Adam", refused=OPENAI_ES)
 
 
 def compare_adam(student: Student, arguments: list) -> None:
@@ -282,7 +283,9 @@ def steps_without_side_effects(student: Student):
 
 
 # ------------------------------------------------------------------- 8.6
-whole = exercise.task("8.6", "The whole algorithm", needs=("8.1", "8.2", "8.3", "8.4", "8.5"))
+whole = exercise.task(
+    "8.6", "The whole algorithm", needs=("8.1", "8.2", "8.3", "8.4", "8.5"), refused=OPENAI_ES
+)
 
 
 def evolved(module, centre, target, generations, seed, options):
@@ -436,7 +439,9 @@ def verdicts(student: Student):
 
 
 # ------------------------------------------------------------------- 8.8
-training = exercise.task("8.8", "CartPole and Pendulum", seconds=50, needs=("8.6",))
+training = exercise.task(
+    "8.8", "CartPole and Pendulum", seconds=50, needs=("8.6",), refused=OPENAI_ES
+)
 
 
 def trained(module, environment, seed, signs):

@@ -57,8 +57,9 @@ class Network(nn.Module):
 # %% [markdown]
 # ## Task 11.2. The gradient by hand
 #
-# No torch here (its `backward` is refused), only NumPy and the formulas of `README.md`. X holds the
-# inputs (n rows), T the targets (m columns). Forward:
+# No torch here (its `backward` is refused), only NumPy and the formulas of `README.md`; differences
+# of the loss, (L(w + h) - L(w)) / h, are not exact enough. X holds the inputs (n rows), T the
+# targets (m columns). Forward:
 #
 # $$H = \mathrm{logistic}(X W_1^\top + b_1) \qquad Y = H W_2^\top + b_2 \qquad
 # L = \frac{1}{n m} \sum (Y - T)^2$$

@@ -22,6 +22,7 @@ from botschool.grading import (
     expect_fields,
     show,
 )
+from botschool.grading.declare.libraries import BACKPROPAGATION
 
 exercise = Exercise(
     11,
@@ -149,10 +150,15 @@ def outputs_are_linear(student: Student):
 
 
 # ------------------------------------------------------------------- 11.2
+FAR = 1e6
+"""What the targets of the second output are near, where a gradient is asked for by formulas. The
+loss is then near 5e11: its differences say nothing about what the first output's parameters do."""
+
+
 by_hand = exercise.task(
     "11.2",
     "The gradient by hand",
-    refused=("torch.autograd:backward", "torch.autograd:grad"),
+    refused=BACKPROPAGATION,
 )
 by_torch = exercise.task("11.3", "The gradient by torch")
 
@@ -171,6 +177,29 @@ def compare_gradient(student: Student, name: str, index: int, keys: tuple[str, .
             expect_close(f"{said}: {key}", value, right[key], 1e-9)
 
 
+def expect_no_differences(student: Student, name: str, index: int, keys: tuple[str, ...]) -> None:
+    """What the first output learns, where the second one is far off and has no weights."""
+    rng = generator(index)
+    w1, b1, w2, b2 = random_network(rng, 3, 4, 2)
+    patterns, targets = random_set(rng, 6, 3, 2)
+    targets[:, 1] += FAR
+    w2[1] = 0
+    answer = student.call(name, patterns, targets, w1, b1, w2, b2)
+    said = f"{name}(inputs (6, 3), targets (6, 2), w1, b1, w2, b2)"
+    values = expect_fields(said, answer, *keys)
+    right = dict(zip(NAMES, gradient_of((w1, b1, w2, b2), patterns, targets)[1], strict=True))
+    for key, value in zip(keys, values, strict=True):
+        got, wanted = expect_array(f"{said}: {key}", value, right[key].shape), right[key]
+        if key in ("w2", "b2"):
+            got, wanted = got[0], wanted[0]
+        expect(
+            bool(np.abs(got - wanted).max() < 1e-4 * np.abs(wanted).max()),
+            f"{said}: {key} is not right for the first output where the targets of the second one "
+            f"are near {FAR:,.0f}. Differences of the loss, as in (loss(w + h) - loss(w)) / h, "
+            "drown in rounding there: go backward instead.",
+        )
+
+
 @by_hand.check(3)
 def loss_by_hand(student: Student):
     compare_gradient(student, "gradient_by_hand", 3, ("loss",))
@@ -179,17 +208,20 @@ def loss_by_hand(student: Student):
 @by_hand.check(6)
 def output_layer_by_hand(student: Student):
     compare_gradient(student, "gradient_by_hand", 4, ("w2", "b2"))
+    expect_no_differences(student, "gradient_by_hand", 7, ("w2", "b2"))
 
 
 @by_hand.check(9)
 def hidden_layer_by_hand(student: Student):
     compare_gradient(student, "gradient_by_hand", 5, ("w1", "b1"))
+    expect_no_differences(student, "gradient_by_hand", 9, ("w1", "b1"))
 
 
 # ------------------------------------------------------------------- 11.3
 @by_torch.check(10)
 def gradient_by_torch(student: Student):
     compare_gradient(student, "gradient_by_torch", 6, ("loss", *NAMES))
+    expect_no_differences(student, "gradient_by_torch", 8, NAMES)
 
 
 # ------------------------------------------------------------------- 11.4

@@ -25,6 +25,7 @@ from botschool.grading import (
     show,
     went_on,
 )
+from botschool.grading.declare.libraries import CROSS_ENTROPY, GAUSSIAN_DENSITY, TRAINING
 
 gymnasium.register_envs(botschool.envs)
 exercise = Exercise(
@@ -388,9 +389,7 @@ def keeps_whole_actions_whole(student: Student):
 surprise = exercise.task(
     "12.5",
     "Cross-entropy",
-    refused=tuple(
-        f"torch.nn.functional:{name}" for name in ("cross_entropy", "nll_loss", "log_softmax")
-    ),
+    refused=CROSS_ENTROPY,
 )
 
 
@@ -541,7 +540,7 @@ def losses_before_each_update(student: Student):
 
 
 # ------------------------------------------------------------------- 12.7
-continuous = exercise.task("12.7", "Continuous actions")
+continuous = exercise.task("12.7", "Continuous actions", refused=GAUSSIAN_DENSITY)
 
 
 def moved(module, mean, log_deviation, seed, times):
@@ -626,12 +625,7 @@ training = exercise.task(
     "Training",
     seconds=90,
     needs=("12.1", "12.2", "12.3", "12.4", "12.5", "12.6", "12.7"),
-    refused=(
-        "stable_baselines3.common.on_policy_algorithm:OnPolicyAlgorithm.learn",
-        "stable_baselines3.common.off_policy_algorithm:OffPolicyAlgorithm.learn",
-        "botschool.rl.training:train",
-        "botschool.evolution.run:Run.advance",
-    ),
+    refused=TRAINING,
 )
 UPDATES = 10
 """Gradients that a training must have computed at least, and calls of its losses; the solution

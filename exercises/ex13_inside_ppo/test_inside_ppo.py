@@ -13,6 +13,12 @@ from typing import Any
 import numpy as np
 
 from botschool.grading import Exercise, Student, expect, expect_array, expect_close, show
+from botschool.grading.declare.libraries import (
+    ADVANTAGES,
+    ENTROPY,
+    EXPLAINED_VARIANCE,
+    UPDATES_MADE,
+)
 
 exercise = Exercise(13, "Inside PPO", file="inside_ppo.py", extras=("rl",))
 CLOSE = 1e-6
@@ -82,7 +88,7 @@ def seen(rollout) -> np.ndarray:
 estimating = exercise.task(
     "13.1",
     "Advantages",
-    refused=("stable_baselines3.common.buffers:RolloutBuffer.compute_returns_and_advantage",),
+    refused=ADVANTAGES,
 )
 
 
@@ -324,14 +330,7 @@ def with_clipping(student: Student):
 undecided = exercise.task(
     "13.4",
     "Entropy",
-    refused=(
-        "stable_baselines3.common.distributions:CategoricalDistribution.entropy",
-        "stable_baselines3.common.distributions:DiagGaussianDistribution.entropy",
-        "torch.distributions.categorical:Categorical.entropy",
-        "torch.distributions.independent:Independent.entropy",
-        "torch.distributions.normal:Normal.entropy",
-        "torch.distributions.multivariate_normal:MultivariateNormal.entropy",
-    ),
+    refused=ENTROPY,
 )
 
 
@@ -377,9 +376,7 @@ def of_gaussians(student: Student):
 
 
 # ------------------------------------------------------------------- 13.5
-moving = exercise.task(
-    "13.5", "How far has the policy moved?", refused=("botschool.rl.reference:updates_made",)
-)
+moving = exercise.task("13.5", "How far has the policy moved?", refused=UPDATES_MADE)
 
 
 @moving.check(8)
@@ -428,9 +425,7 @@ def goes_on_when_near(student: Student):
 
 
 # ------------------------------------------------------------------- 13.6
-together = exercise.task(
-    "13.6", "All together", refused=("stable_baselines3.common.utils:explained_variance",)
-)
+together = exercise.task("13.6", "All together", refused=EXPLAINED_VARIANCE)
 
 
 @together.check(6)

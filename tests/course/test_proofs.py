@@ -12,6 +12,8 @@ import building
 from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.copies.release import release, released_files
 from botschool.grading.copies.skeleton import find_leaks, pairs
+from botschool.grading.declare.mistakes import THIS
+from botschool.grading.judge.judging import TOLD
 from botschool.grading.report.hints import read_hints
 
 pytestmark = pytest.mark.course
@@ -120,8 +122,12 @@ def test_mutant_loses_what_it_names(grade, mutant, tmp_path):
     messages = {task.id: task.message for task in result.tasks if task.message}
     assert tuple(task.id for task in lost) == mutant.loses, messages
     assert all(task.message for task in lost)
-    if mutant.says:
-        assert re.search(mutant.says, f"{result.banner}\n{lost[0].message}"), lost[0].message
+    told = {line for text in messages.values() for line in text.splitlines() if TOLD in line}
+    assert told <= {f"{TOLD} {mutant.what}"}, "the sentence of another mistake is said"
+    if mutant.says and not told:
+        said = f"{result.banner}\n{lost[0].message}"
+        assert mutant.says != THIS, said
+        assert re.search(mutant.says, said), said
 
 
 def test_graded_apart_alike(grade, tmp_path):

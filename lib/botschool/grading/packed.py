@@ -1,8 +1,9 @@
 """Graders and answers in the students' copy: packed, so that nobody reads one there by accident.
 
-A grader computes again what a task asks for, and has our functions of the tasks that others need.
-This hides them from readers, not from somebody who is determined to unpack them: what counts is
-graded elsewhere.
+A grader computes again what a task asks for, and has our solution and its known mistakes: the tasks
+that others need are taken from it, and the mistakes are tried where an answer is wrong. This hides
+them from readers, not from somebody who is determined to unpack them: what counts is graded
+elsewhere.
 """
 
 from __future__ import annotations
@@ -21,14 +22,14 @@ PACKED = "ANSWERS.packed"
 """In an exercise's folder of the copy, if the instructor allows it."""
 
 
-def pack(grader: str, references: str = "") -> str:
+def pack(grader: str, solution: str = "", mistakes: str = "") -> str:
     """The text of a Python file that declares the same exercise as this one.
 
-    references: of the exercise, packed with it. Its extras stay readable, as `make test-exN` must
+    solution, mistakes: what the exercise knows, packed with it. Its extras stay readable, as `make test-exN` must
     know them before there is a Python.
     """
-    both = json.dumps([grader, references]).encode()
-    packed = base64.b85encode(zlib.compress(both, 9)).decode()
+    all_of_it = json.dumps([grader, solution, mistakes]).encode()
+    packed = base64.b85encode(zlib.compress(all_of_it, 9)).decode()
     lines = "\n".join(f'    "{packed[at : at + 90]}"' for at in range(0, len(packed), 90))
     extras = re.search(r"extras=\([^)]*\)", grader)
     needs = f"# Needs {extras[0]}.\n" if extras else ""
@@ -41,7 +42,7 @@ def pack(grader: str, references: str = "") -> str:
 
 def unpack(file: str, packed: str) -> Any:
     """The exercise that a packed grader declares; `file` is where it lies."""
-    source, references = json.loads(zlib.decompress(base64.b85decode(packed)))
+    source, *known = json.loads(zlib.decompress(base64.b85decode(packed)))
     name = str(Path(file).with_suffix(".unpacked"))
     # so that the source of its drivers can be sent to a child
     linecache.cache[name] = (len(source), None, source.splitlines(keepends=True), name)
@@ -49,7 +50,7 @@ def unpack(file: str, packed: str) -> Any:
     module.__file__ = file
     sys.modules[module.__name__] = module  # dataclasses look their module up
     exec(compile(source, name, "exec", dont_inherit=True), vars(module))
-    module.exercise.references = references
+    module.exercise.knows(*known)
     return module.exercise
 
 

@@ -19,7 +19,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% ten_times_as_large loses 3.1
-# Standard deviation 1 instead of 0.1.
+# The weights have standard deviation 1 instead of 0.1.
 # says: have standard deviation 1.0
 def initial_population(popsize, nbiases, nweights, seed):
     weights = np.random.default_rng(seed).standard_normal((popsize, nweights))
@@ -27,14 +27,14 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 
 # %% uniform_weights loses 3.1
-# Uniform weights with the right deviation, and random biases.
+# The weights are drawn evenly instead of from a Gaussian, and the biases are not 0.
 def initial_population(popsize, nbiases, nweights, seed):
     limit = 0.1 * np.sqrt(3)
     return np.random.default_rng(seed).uniform(-limit, limit, (popsize, nbiases + nweights))
 
 
 # %% ranks_instead_of_numbers loses 3.2
-# Returns the place of each individual instead of the numbers in order.
+# It returns the place of each individual instead of the numbers in order.
 # says: argsort
 def rank(fitness):
     return np.argsort(np.argsort(-np.asarray(fitness), kind="stable"), kind="stable")
@@ -71,7 +71,7 @@ def train(environment, seed):
 
 
 # %% unstable_ranking loses 3.2
-# The rising order turned around: of equals the one with the higher number comes first.
+# The rising order is turned around: of equals the one with the higher number comes first.
 def rank(fitness):
     return np.argsort(fitness, kind="stable")[::-1]
 
@@ -134,7 +134,7 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% one_noise_for_all loses 3.3
-# One vector of noise is added to all copies.
+# The same vector of noise is added to all copies.
 def next_population(population, fitness, mutrate, rng):
     ranking = rank(fitness)
     half = len(population) // 2
@@ -145,7 +145,7 @@ def next_population(population, fitness, mutrate, rng):
 
 
 # %% best_of_the_last_generation loses 3.4
-# Reports the best of the last generation instead of the best of all.
+# The best of the last generation is reported instead of the best of all.
 # says: the last of 12 values, but the largest
 def evolve(evaluate, population, generations, mutrate, seed):
     rng = np.random.default_rng(seed)
@@ -175,7 +175,7 @@ def evolve(evaluate, population, generations, mutrate, seed):
 
 
 # %% lucky_climber loses 3.5
-# Keeps a variation only if it beats the best fitness ever met, luck included.
+# A variation is kept only if it beats the best fitness ever met, luck included.
 def hill_climb(evaluate, start, generations, mutrate, seed):
     rng = np.random.default_rng(seed)
     best, highest, history = start, -np.inf, []
@@ -190,7 +190,7 @@ def hill_climb(evaluate, start, generations, mutrate, seed):
 
 
 # %% population_deviation loses 3.6
-# Divides by the number of replications instead of that number minus one.
+# The sum is divided by the number of replications instead of that number minus one.
 # says: n and n - 1 were mixed up
 # -     histories = np.array([run["history"] for run in runs])
 # -     many = len(seeds) > 1

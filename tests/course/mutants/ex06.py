@@ -2,18 +2,18 @@
 
 
 # %% forget_gate_without_one loses 6.1
-# Leaves out the 1 that opens the forget gate.
+# The 1 that opens the forget gate is left out.
 # -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
 # +     cells = memory[0] * logistic(forget) + np.tanh(candidate) * logistic(enter)
 
 
 # %% gates_in_another_order loses 6.1
-# Takes the input gate for the forget gate.
+# The input gate is taken for the forget gate.
 # -     forget, enter, leave, candidate = brain["gates"] @ z
 # +     enter, forget, leave, candidate = brain["gates"] @ z
 
 # %% memory_overwritten loses 6.1
-# Writes the new memory into the array of the old one.
+# The new memory is written into the array of the old one.
 # says: Keep a copy each time \(.copy\(\)\)
 _think = think
 
@@ -256,3 +256,59 @@ def reactions(brain, observation, memories):
     memories = np.array(memories)
     memories[:, 1] = 0
     return _reactions(brain, observation, memories)
+
+
+# %% outputs_without_tanh loses 6.1
+# The new cells go to the outputs without tanh.
+# says: this
+# -     outputs = np.tanh(cells) * logistic(leave)
+# +     outputs = cells * logistic(leave)
+
+
+# %% candidate_by_logistic loses 6.1
+# The candidate goes through the logistic function instead of tanh.
+# says: this
+# -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
+# +     cells = memory[0] * logistic(forget + 1) + logistic(candidate) * logistic(enter)
+
+
+# %% cells_for_outputs loses 6.1
+# The network sees its cells instead of its outputs of the step before.
+# says: this
+# -     z = np.concatenate([observation, memory[1]])
+# +     z = np.concatenate([observation, memory[0]])
+
+
+# %% rows_of_memory_exchanged loses 6.1
+# The rows of the new memory are exchanged: the outputs stand before the cells.
+# says: this
+# -     return action, np.stack([cells, outputs])
+# +     return action, np.stack([outputs, cells])
+
+
+# %% outputs_before_observation loses 6.1
+# The outputs of the step before stand in front of the observation instead of behind it.
+# says: this
+# -     z = np.concatenate([observation, memory[1]])
+# +     z = np.concatenate([memory[1], observation])
+
+
+# %% action_without_tanh loses 6.1
+# The action is not put through tanh.
+# says: this
+# -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
+# +     action = brain["readout"] @ outputs + brain["bias"]
+
+
+# %% action_of_the_cells loses 6.1
+# The action is read from the cells instead of the outputs.
+# says: this
+# -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
+# +     action = np.tanh(brain["readout"] @ cells + brain["bias"])
+
+
+# %% old_cells_kept_whole loses 6.1
+# The forget gate is not applied: the old cells are kept whole.
+# says: this
+# -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
+# +     cells = memory[0] + np.tanh(candidate) * logistic(enter)

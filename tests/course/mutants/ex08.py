@@ -248,3 +248,23 @@ def train(environment, seed):
     robot = Robot(environment)
     centre = np.random.default_rng(seed).normal(scale=0.1, size=robot.nbiases + robot.nweights)
     return _evolve_8(robot.evaluate, centre, 1, seed)["centre"]
+
+
+# %% asks_the_tools_own_ranks loses 8.2
+# The tool's own ranks are taken for the utilities.
+# says: write it yourself: botschool
+def utilities(fitness):
+    from botschool.evolution.algorithms.openaies import ranks
+
+    found = np.empty(len(fitness))
+    found[np.argsort(fitness, kind="stable")] = ranks(len(fitness))
+    return found
+
+
+# %% asks_the_tools_own_gradient loses 8.3
+# The tool's own gradient is returned.
+# says: write it yourself: botschool
+def gradient(samples, utilities):
+    from botschool.evolution.algorithms import openaies
+
+    return openaies.gradient(np.asarray(utilities), np.asarray(samples))

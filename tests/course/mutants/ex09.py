@@ -8,7 +8,7 @@ def progress(distance, duration):
 
 
 # %% fallen_get_nothing loses 9.1
-# The fallen get 0 instead of -1.
+# A fallen robot gets 0 instead of -1.
 # says: The fallen get 0
 _alive_bonus = alive_bonus
 
@@ -34,14 +34,14 @@ def progress(distance, duration):
 
 
 # %% progress_in_metres loses 9.1
-# Forgets to divide by the duration of a step.
+# The progress is not divided by the duration of a step.
 # says: duration of a step is left out
 def progress(distance, duration):
     return distance[:-1] - distance[1:]
 
 
 # %% electricity_of_sums loses 9.2
-# Adds the costs of the joints up instead of taking their mean.
+# The costs of the joints are added up instead of averaged.
 # says: a sum for a mean
 _electricity = electricity
 
@@ -68,14 +68,14 @@ def electricity(robot, actions, speeds):
 
 
 # %% upper_limits_only loses 9.2
-# Counts joints at their upper limits only.
+# Only joints at their upper limits are counted.
 # says: lower limits count, too
 def joints_at_limit(positions):
     return -0.1 * (positions > 0.99).sum(axis=1)
 
 
 # %% components_with_the_sum loses 9.3
-# Returns the reward as a further component.
+# The reward itself is returned as a further component.
 # says: does not have: \['reward'\]
 _components_v0 = components_v0
 
@@ -117,7 +117,7 @@ def reward_v5(trajectory):
 
 
 # %% divides_by_nothing loses 9.5
-# Divides by 0 for a robot that earns nothing.
+# It divides by 0 for a robot that earns nothing.
 _gait = gait
 
 

@@ -101,7 +101,7 @@ def gradient_by_torch(inputs, targets, *parameters):
 
 
 # %% loss_after_the_step loses 11.4
-# Returns the loss of each epoch as it is after the step.
+# The loss of each epoch is measured after the step instead of before it.
 # says: one place too early
 _train = train
 
@@ -112,7 +112,7 @@ def train(network, inputs, targets, *rest, **more):
 
 
 # %% momentum_always_the_same loses 11.4
-# Uses a momentum of 0.9, whatever it is asked for.
+# The momentum is 0.9, whatever is asked for.
 _train = train
 
 
@@ -302,3 +302,67 @@ _feature_maps = feature_maps
 
 def feature_maps(network, low, high, n):
     return _feature_maps(network, low, high - (high - low) / n, n)
+
+
+# %% central_differences loses 11.2
+# The gradient comes of differences of the loss, not of the formulas.
+# says: go backward instead
+def gradient_by_hand(inputs, targets, w1, b1, w2, b2):
+    def loss(w1, b1, w2, b2):
+        hidden = 1 / (1 + np.exp(-(inputs @ w1.T + b1)))
+        return np.mean((hidden @ w2.T + b2 - targets) ** 2)
+
+    names, parameters = ("w1", "b1", "w2", "b2"), [w1.copy(), b1.copy(), w2.copy(), b2.copy()]
+    found = {"loss": loss(*parameters)}
+    for name, array in zip(names, parameters, strict=True):
+        found[name] = np.zeros_like(array)
+        for place in np.ndindex(array.shape):
+            kept, each = array[place], []
+            for step in (-2e-4, -1e-4, 1e-4, 2e-4):
+                array[place] = kept + step
+                each.append(loss(*parameters))
+            array[place] = kept
+            found[name][place] = (each[0] - 8 * each[1] + 8 * each[2] - each[3]) / 12e-4
+    return found
+
+
+# %% central_differences_for_torch loses 11.3
+# The gradient comes of differences of the loss, not of backward().
+# says: go backward instead
+def gradient_by_torch(inputs, targets, w1, b1, w2, b2):
+    def loss(w1, b1, w2, b2):
+        hidden = 1 / (1 + np.exp(-(inputs @ w1.T + b1)))
+        return np.mean((hidden @ w2.T + b2 - targets) ** 2)
+
+    names, parameters = ("w1", "b1", "w2", "b2"), [w1.copy(), b1.copy(), w2.copy(), b2.copy()]
+    found = {"loss": loss(*parameters)}
+    for name, array in zip(names, parameters, strict=True):
+        found[name] = np.zeros_like(array)
+        for place in np.ndindex(array.shape):
+            kept, each = array[place], []
+            for step in (-2e-4, -1e-4, 1e-4, 2e-4):
+                array[place] = kept + step
+                each.append(loss(*parameters))
+            array[place] = kept
+            found[name][place] = (each[0] - 8 * each[1] + 8 * each[2] - each[3]) / 12e-4
+    return found
+
+
+# %% gradients_never_cleared loses 11.4
+# The old gradients are never cleared (optimiser.zero_grad), so they add up.
+# says: this
+# -         optimiser.zero_grad()
+# -         loss = nn.functional.mse_loss(network(inputs), targets)
+# +         loss = nn.functional.mse_loss(network(inputs), targets)
+
+
+# %% cleared_before_the_step loses 11.4
+# The gradients are cleared between backward and step, so no step moves anything.
+# says: this
+# -         loss.backward()
+# -         optimiser.step()
+# -         losses.append(loss.item())
+# +         loss.backward()
+# +         optimiser.zero_grad()
+# +         optimiser.step()
+# +         losses.append(loss.item())

@@ -1,7 +1,7 @@
 """Wrong solutions of exercise 13; building.py describes how a case is written."""
 
 # %% end_of_the_wrong_step loses 13.1
-# Takes the first step of an episode for its last one.
+# The first step of an episode is taken for the last one.
 _advantages = advantages
 
 
@@ -11,7 +11,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% ends_ignored loses 13.1
-# Lets the surprises after an end count for the actions before it.
+# Ends of episodes are ignored: later surprises count for the actions of the episode before.
 # says: Ends of episodes on the way .* are left out
 _advantages = advantages
 
@@ -22,7 +22,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% lambda_forgotten loses 13.1
-# Later surprises count less by gamma alone.
+# gae_lambda is left out: later surprises count less by gamma alone.
 # says: gae_lambda is left out
 _advantages = advantages
 
@@ -32,7 +32,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% last_end_ignored loses 13.1
-# Does not look whether the last step ended its episode.
+# It does not matter whether the last step ended its episode (dones).
 _advantages = advantages
 
 
@@ -41,7 +41,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% last_value_forgotten loses 13.1
-# Takes the rollout for over: nothing comes after its last step.
+# The value after the last step (last_values) is left out.
 # says: \(last_values\) is left out
 _advantages = advantages
 
@@ -51,7 +51,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% one_step_only loses 13.1
-# Stops at the first surprise.
+# Only the first surprise counts: those of later steps are left out.
 _advantages = advantages
 
 
@@ -89,7 +89,7 @@ def explained_variance(values, returns):
 
 
 # %% always_clipped loses 13.2
-# Takes the clipped product always, instead of the smaller one of the two.
+# The clipped product is always taken, instead of the smaller one of the two.
 _policy_loss = policy_loss
 
 
@@ -101,7 +101,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% clips_the_logarithm loses 13.2
-# Counts as clipped what is far from 0 in the logarithm.
+# The logarithm of the ratio is compared with clip_range, not the ratio's distance from 1.
 _policy_loss = policy_loss
 
 
@@ -111,7 +111,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% not_normalised loses 13.2
-# Takes the advantages as they are.
+# The advantages are not normalised.
 # says: not normalised
 def policy_loss(log_prob, old_log_prob, advantages, clip_range):
     ratio = np.exp(log_prob - old_log_prob)
@@ -132,7 +132,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% sign_of_the_loss loses 13.2
-# Makes the surrogate small instead of large.
+# The loss has the wrong sign: the surrogate becomes small instead of large.
 # says: Right but for the sign
 _policy_loss = policy_loss
 
@@ -174,7 +174,7 @@ def value_loss(values, old_values, returns, clip_range_vf=None):
 
 
 # %% value_never_clipped loses 13.3
-# Ignores the clipping.
+# The movement of the value is not clipped.
 # says: is not clipped
 _value_loss = value_loss
 
@@ -304,3 +304,31 @@ def responses(activations, observations):
     h, x = activations - activations.mean(axis=0), observations - observations.mean(axis=0)
     with np.errstate(all="ignore"):
         return (h / np.sqrt((h**2).sum(0))).T @ (x / np.sqrt((x**2).sum(0)))
+
+
+# %% leaks_over_ends loses 13.1
+# The sum of surprises goes on over the end of an episode, although the value stops there.
+# says: this
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    found, after = np.zeros_like(values), 0.0
+    for t in reversed(range(len(rewards))):
+        last = t == len(rewards) - 1
+        following = last_values if last else values[t + 1]
+        goes_on = 1.0 - (dones if last else episode_starts[t + 1])
+        after = rewards[t] + gamma * following * goes_on - values[t] + gamma * gae_lambda * after
+        found[t] = after
+    return found
+
+
+# %% value_leaks_over_ends loses 13.1
+# The value of the next episode's first step is counted at the end of an episode.
+# says: this
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    found, after = np.zeros_like(values), 0.0
+    for t in reversed(range(len(rewards))):
+        last = t == len(rewards) - 1
+        following = last_values if last else values[t + 1]
+        goes_on = 1.0 - (dones if last else episode_starts[t + 1])
+        after = rewards[t] + gamma * following - values[t] + gamma * gae_lambda * goes_on * after
+        found[t] = after
+    return found

@@ -257,7 +257,7 @@ def red_queen(matrix):
 
 
 # %% bell_shaped loses 15.7
-# Assumes a bell-shaped distribution: mean and 1.96 standard deviations.
+# A bell-shaped distribution is assumed: mean and 1.96 standard deviations.
 _interval = interval
 
 
@@ -273,7 +273,7 @@ def interval(table, measure, rng, resamples=300):
 
 
 # %% the_same_for_all loses 15.7
-# Draws the same individuals for all generations.
+# The same individuals are drawn for all generations.
 def interval(table, measure, rng, resamples=300):
     measures = []
     for _ in range(resamples):
@@ -286,7 +286,7 @@ def interval(table, measure, rng, resamples=300):
 
 
 # %% without_replacement loses 15.7
-# Draws without replacement: the same individuals in another order.
+# The individuals are drawn without replacement: the same ones in another order.
 class _Shuffled:
     def __init__(self, rng):
         self._rng = rng
@@ -396,3 +396,31 @@ def describe(poses):
     to_wall = np.minimum(before[..., :2], 3000 - before[..., :2]).min(axis=-1)
     found["wall"] = (to_wall <= 300).mean(axis=0)
     return found
+
+
+# %% quantiles_of_ninety loses 15.7
+# The quantiles are those of 90 %, 0.05 and 0.95.
+# says: this
+# -     low, high = np.quantile(measures, [0.025, 0.975])
+# +     low, high = np.quantile(measures, [0.05, 0.95])
+
+
+# %% predators_alone_are_drawn loses 15.7
+# Only the predators are drawn anew; the prey stay as they are.
+# says: this
+# -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
+# +         measures.append(measure(drawn))
+
+
+# %% prey_drawn_first loses 15.7
+# The prey are drawn before the predators, which gives other individuals.
+# says: this
+# -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
+# +         hunted, hunters = rng.integers(m, size=(columns, m)), rng.integers(n, size=(rows, n))
+
+
+# %% smallest_and_largest loses 15.7
+# The smallest and the largest measure are returned instead of the quantiles.
+# says: this
+# -     low, high = np.quantile(measures, [0.025, 0.975])
+# +     low, high = np.min(measures), np.max(measures)

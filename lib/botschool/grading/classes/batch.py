@@ -24,7 +24,14 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
-from botschool.grading.declare.exercise import STATE, Exercise, folder_of, load_exercise, make_state
+from botschool.grading.declare.exercise import (
+    MISTAKES,
+    STATE,
+    Exercise,
+    folder_of,
+    load_exercise,
+    make_state,
+)
 from botschool.grading.declare.secret import DEFAULT, VARIABLE
 from botschool.grading.judge.submission import Result, grade
 from botschool.grading.run.confined import MachineFault, Unread, machine_fault, submission_files
@@ -258,12 +265,16 @@ def to_record(result: Result) -> dict[str, Any]:
 def _versions(root: Path, number: int) -> str:
     """What a result depends on beside the submission."""
     stamps = [sys.version, str(number)]
-    package = IMPORT_ROOT / "botschool"
-    for top in (package, folder_of(number, root)):
-        for path in sorted(top.rglob("*") if top == package else top.glob("test_*.py")):
-            if path.suffix in (".py", ".so", ".pyd"):
-                status = path.stat()
-                stamps.append(f"{path} {status.st_size} {status.st_mtime_ns}")
+    folder = folder_of(number, root)
+    for path in (
+        *sorted((IMPORT_ROOT / "botschool").rglob("*")),
+        *sorted(folder.glob("test_*.py")),
+        *sorted((root / "solutions" / folder.name).glob("*.py")),
+        *root.glob(f"{MISTAKES}/ex{number:02d}.py"),
+    ):
+        if path.suffix in (".py", ".so", ".pyd"):
+            status = path.stat()
+            stamps.append(f"{path} {status.st_size} {status.st_mtime_ns}")
     return "\n".join(stamps)
 
 

@@ -172,8 +172,8 @@ def _build(root: Path, made: Path, numbers: set[int]) -> None:
             text = skeleton(solution.read_text(encoding="utf-8"))
             released.write_text(text, encoding="utf-8", newline="\n")
     for grader in made.glob("exercises/ex[0-9][0-9]_*/test_*.py"):
-        references = load_exercise(int(grader.parent.name[2:4]), root).references
-        _change(grader, partial(pack, references=references))
+        known = load_exercise(int(grader.parent.name[2:4]), root).known
+        _change(grader, partial(pack, solution=known.solution, mistakes=known.mistakes))
     start = made / START
     if start.is_file():
         _change(start, lambda text: _rows(text, start.parent))

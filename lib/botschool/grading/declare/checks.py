@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 import numpy as np
@@ -27,6 +30,26 @@ class Mismatch(Wrong):
     ) -> None:
         super().__init__(sentence)
         self.got, self.wanted, self.mistakes = got, wanted, mistakes or {}
+
+
+_keep: ContextVar[Callable[[Mismatch], None] | None] = ContextVar("keep", default=None)
+
+
+@contextmanager
+def keeping(keep: Callable[[Mismatch], None]) -> Iterator[None]:
+    """Let a check go on behind an answer that differs, in the block; `keep` is given each."""
+    token = _keep.set(keep)
+    try:
+        yield
+    finally:
+        _keep.reset(token)
+
+
+def _found(mismatch: Mismatch) -> None:
+    """Raises it, or keeps it."""
+    if (keep := _keep.get()) is None:
+        raise mismatch
+    keep(mismatch)
 
 
 class NotDone(Wrong):
@@ -77,11 +100,12 @@ def expect_close(
     wanted = np.asarray(expected, dtype=np.float64)
     array = _array(said, value, wanted.shape)
     if array.shape != wanted.shape:
-        raise Mismatch(_but(said, value, wanted.shape), array, wanted, mistakes)
+        _found(Mismatch(_but(said, value, wanted.shape), array, wanted, mistakes))
+        return
     got = expect_array(said, value, wanted.shape)
     close = np.isclose(got, wanted, rtol=tolerance, atol=tolerance)
     if not close.all():
-        raise Mismatch(_unequal(said, got, wanted, close), got, wanted, mistakes)
+        _found(Mismatch(_unequal(said, got, wanted, close), got, wanted, mistakes))
 
 
 def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError
+from botschool.grading.declare.mistakes import Known
 from botschool.grading.declare.references import pruned
 from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
 from botschool.grading.declare.trust import check_trusted
@@ -23,6 +24,8 @@ STATE = ".botschool"
 """In the course folder: what the commands remember."""
 POINTS = 100
 """What every exercise is worth."""
+MISTAKES = "tests/course/mutants"
+"""Of a course: the wrong solutions of its exercises, which the students' copy has packed."""
 
 
 Check = Callable[[Any], None]
@@ -92,6 +95,14 @@ class Exercise:
         """What the grading seeds follow from; "" for BOTSCHOOL_GRADING_SEED, or else DEFAULT."""
         self.references = ""
         """Our own functions of the tasks that others need, as a Python file (references.py)."""
+        self.known = Known(number)
+        """Our solution and its known mistakes, which are tried where an answer is wrong."""
+
+    def knows(self, solution: str, mistakes: str = "") -> None:
+        """Takes references and known mistakes from the texts of a solution and of wrong ones."""
+        self.known = Known(self.number, solution, mistakes)
+        needed = {id for task in self.tasks for id in task.needs}
+        self.references = pruned(solution, needed)
 
     def task(
         self,
@@ -178,10 +189,12 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
     sys.modules[name] = module  # dataclasses look their module up
     spec.loader.exec_module(module)
     exercise = module.exercise
-    solution = (root or course_root()) / "solutions" / folder.name / exercise.file
-    if not exercise.references and solution.is_file():
-        needed = {id for task in exercise.tasks for id in task.needs}
-        exercise.references = pruned(solution.read_text(encoding="utf-8"), needed)
+    root = root or course_root()
+    solution = root / "solutions" / folder.name / exercise.file
+    if not exercise.known.solution and solution.is_file():
+        mistakes = root / MISTAKES / f"ex{number:02d}.py"
+        text = mistakes.read_text(encoding="utf-8") if mistakes.is_file() else ""
+        exercise.knows(solution.read_text(encoding="utf-8"), text)
     return exercise
 
 

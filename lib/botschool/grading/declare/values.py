@@ -105,10 +105,10 @@ def arrays_apart(one: np.ndarray, other: np.ndarray) -> tuple[str, str]:
 def argument(value: Any) -> str:
     """An argument in the name of a call: few numbers, or the shape."""
     if isinstance(value, np.ndarray):
-        return numbers(value, 5) if value.size <= 4 else f"<array {value.shape}>"
-    if isinstance(value, (list, tuple)) and len(repr_of(value)) > 30:
+        return numbers(value, 5) if value.size <= FEW else f"<array {value.shape}>"
+    if isinstance(value, (list, tuple)) and len(repr_of(value)) > 40:
         return f"<list of {len(value)}>"
-    return show(value, 30)
+    return show(value, 40)
 
 
 def pasted(name: str, arguments: tuple, options: dict) -> str:

@@ -165,7 +165,8 @@ class Submission:
     def _attempt(self, task: Task, references: dict | None = None) -> TaskResult:
         file = self._file if self._script else self._given
         origin = Origin(self._place if self._script else None, self._lost)
-        return grade_task(task, file, self._server, self._alone, origin, references)
+        known = self._exercise.known if self._exercise else None
+        return grade_task(task, file, self._server, self._alone, origin, references, known)
 
     def _with_references(self, task: Task, result: TaskResult) -> TaskResult:
         """The result, or a better one with our functions of tasks that do not pass."""

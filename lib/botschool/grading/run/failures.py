@@ -60,7 +60,7 @@ _ADVICE = (
         r"could not be broadcast|could not broadcast|must match the size of tensor",
         "Arrays of these shapes cannot be combined number by number: print .shape of both.",
     ),
-    (r"'NoneType'", "Something is None: does a function end without `return`?"),
+    (r"'NoneType'", "Something is None here: print what each part of the line is."),
     (
         r"too many values to unpack|not enough values to unpack",
         "In Gymnasium reset returns (observation, info), and step returns (observation, reward, "
@@ -164,7 +164,8 @@ def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
             "the exercise's file gives it."
         )
     colon = f": {text}" if text else ""
-    means = [advice for pattern, advice in _ADVICE if re.search(pattern, text)][:1]
+    # not about a line of the grader's own
+    means = [advice for pattern, advice in _ADVICE if place and re.search(pattern, text)][:1]
     below = place + "".join(f"\n  {advice}" for advice in means)
     return Wrong(f"{said} raised {name}{colon}{_suggested(near, text)}{below}")
 

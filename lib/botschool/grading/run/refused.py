@@ -6,13 +6,15 @@ from __future__ import annotations
 def refuse(module, names):
     """In the child: a function of this name raises a sentence, from wherever it was imported.
 
-    names: as "package.module:function" or "package.module:Class.method", of functions written in
-    Python. Those of modules that are not imported yet follow as soon as they are, and each time
-    that the file of such a module is executed: by an import, by one after sys.modules was emptied,
-    or by a loader that the submission makes itself. Functions keep their identity and get other
-    code, so that a name bound before is refused, too. Sent to the child as source (Student.run),
-    so it imports what it needs itself.
+    names: as "package.module:function" or "package.module:Class.method". Those of modules that are
+    not imported yet follow as soon as they are, and each time that the file of such a module is
+    executed: by an import, by one after sys.modules was emptied, or by a loader that the submission
+    makes itself. Functions keep their identity and get other code, so that a name bound before is
+    refused, too; one that is not written in Python has no code, so another takes its place there
+    and among the names of the submission. Sent to the child as source (Student.run), so it imports
+    what it needs itself.
     """
+    import contextlib
     import functools
     import sys
     from importlib.machinery import PathFinder, SourceFileLoader
@@ -24,9 +26,12 @@ def refuse(module, names):
             function = getattr(owner, last, None)
             while hasattr(function, "__wrapped__"):
                 function = function.__wrapped__
-            if not hasattr(function, "__code__"):
+            if function is None:
                 continue
             sentence = f"write it yourself: {place.__name__}.{path} is not to be used here"
+            if not hasattr(function, "__code__"):
+                replace(owner, last, function, sentence)
+                continue
             free = [f"free_{i}" for i in range(len(function.__code__.co_freevars))]
             names = {}
             lines = ["def make():", *(f"    {name} = None" for name in free)]
@@ -36,6 +41,18 @@ def refuse(module, names):
             exec("\n".join([*lines, "    return refused"]), names)
             function.__defaults__ = function.__kwdefaults__ = None
             function.__code__ = names["make"]().__code__
+
+    def replace(owner, last, function, sentence):
+        """Put another function in the place of one that is not written in Python."""
+
+        def refused(*arguments, **options):
+            raise RuntimeError(sentence)
+
+        with contextlib.suppress(TypeError, AttributeError):  # a type that is not either
+            setattr(owner, last, refused)
+        for name, value in list(vars(module).items()):
+            if value is function:
+                setattr(module, name, refused)
 
     def file_of(name):
         """The file of a module, found without importing what it is in; None if there is none."""

@@ -22,6 +22,7 @@ from botschool.grading.run.confined import (
 from botschool.grading.run.failures import Origin, SourceLines, explained, where_it_was
 from botschool.grading.run.refused import refuse
 from botschool.sandbox import Allowance, Child, ForkServer, Limits
+from botschool.sandbox.protocol import pack
 from botschool.sandbox.usage import is_full
 
 
@@ -71,6 +72,8 @@ class Student:
         """The last one."""
         self.answer: Any = None
         """To the last request."""
+        self.trace: list[tuple[bytes, bytes]] | None = None
+        """Packed requests with their packed answers, once this is a list."""
         self._references = references
         self._source = SourceLines(self._file, origin or Origin(), quiet=references is not None)
         self._scratch = scratch_copy(self._file)
@@ -95,6 +98,11 @@ class Student:
         """
         self.said, self.pasted = said or f"{driver.__name__}(...)", ""
         return self._request(_driven(driver, *arguments))
+
+    def ask(self, request: dict[str, Any]) -> Any:
+        """Makes a request of another Student's trace; its answer. Raises Wrong."""
+        self.said = str(request["name"])
+        return self._request(request)
 
     def twice(self, request: dict[str, Any]) -> dict[str, Any] | None:
         """The answers to a request that is made twice, and its arguments after the first time.
@@ -186,6 +194,8 @@ class Student:
         if "value" not in answer:
             raise Wrong(f"{self.said} sent back something that is no plain data.")
         self.answer = answer["value"]
+        if self.trace is not None:
+            self.trace.append((pack(request), pack(self.answer)))
         return self.answer
 
     def _blame_the_machine_for_a_kill(self) -> None:

@@ -1,0 +1,116 @@
+"""Known mistakes of an exercise: the wrong solutions that prove its grader, as graders replay them.
+
+tests/course/mutants/exNN.py holds the wrong solutions of an exercise, tests/course/alternatives
+right ones in other styles. A case is a section of the file:
+
+    # %% noise_of_the_first_only loses 16.2, 16.3
+    # Only the first sensor has noise.
+    # says: this
+    # -     noise = rng.normal(0, 0.1, len(sensors))
+    # +     noise = rng.normal(0, 0.1)
+
+The first line gives the name and the tasks that lose points; an alternative loses none. The second
+line says what is wrong, as a sentence for the learner: a grader says it where a submission answers
+exactly as this case does (grading/judge/known.py). Lines with `-` are lines of the solution, which
+must hold them once and without a gap; the lines with `+` take their place; the next `-` begins
+another change. Code that follows is put behind the solution's functions: what it defines takes the
+place of the solution's.
+
+`says` is optional: what the message of the first of these tasks must say. `this` is the second
+line; anything else is a regular expression for the words of a check, or the second line if that is
+said.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from itertools import groupby
+
+THIS = "this"
+"""What the second line `says`."""
+_TITLE = re.compile(r"(\w+)(?: loses (\d+\.\d+(?:, \d+\.\d+)*))?")
+_MAIN = re.compile(r'^if __name__ == "__main__":', re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Case:
+    """A solution with something wrong or different."""
+
+    number: int
+    name: str
+    loses: tuple[str, ...]
+    """Tasks."""
+    what: str
+    """What is wrong or different, in a sentence."""
+    says: str | None
+    changes: tuple[tuple[str, str], ...]
+    """Lines of the solution, and the lines that take their place."""
+    code: str
+
+    def __str__(self) -> str:
+        return f"ex{self.number:02d}-{self.name}"
+
+    def of(self, solution: str) -> str:
+        """Return the text of the submission. Raises ValueError if a change does not fit."""
+        for old, new in self.changes:
+            if solution.count("\n" + old) != 1:
+                raise ValueError(f"{self}: the solution must hold this once:\n{old}")
+            solution = solution.replace("\n" + old, "\n" + new)
+        return inserted(solution, self.code) if self.code else solution
+
+
+@dataclass(frozen=True)
+class Known:
+    """What a grader knows of an exercise: its solution, and the texts of its wrong solutions."""
+
+    number: int = 0
+    solution: str = ""
+    mistakes: str = ""
+
+    def of(self, task: str) -> list[Case]:
+        """Return the mistakes that cost a task points, those made in this task first."""
+        found = [case for case in read_cases(self.number, self.mistakes) if task in case.loses]
+        return sorted(found, key=lambda case: case.loses.index(task))
+
+
+def inserted(text: str, addition: str) -> str:
+    """Return a file's text with something added behind its functions, before its main part."""
+    found = _MAIN.search(text)
+    at = found.start() if found else len(text)
+    return f"{text[:at]}\n{addition}\n\n{text[at:]}"
+
+
+def read_cases(number: int, text: str, make: type[Case] = Case) -> list[Case]:
+    """Return all cases of a file of an exercise's cases. Raises ValueError."""
+    _, *parts = re.split(r"^# ?%% ?(.*)\n", text, flags=re.MULTILINE)
+    return [
+        make(number, *_parts(f"exercise {number}", title, body))
+        for title, body in zip(parts[::2], parts[1::2], strict=True)
+    ]
+
+
+def _parts(where: str, title: str, text: str) -> tuple:
+    """Return what follows the number in a Case; text: what follows the section's first line."""
+    found = _TITLE.fullmatch(title)
+    if not found:
+        raise ValueError(f"{where}: write '# %% NAME loses N.2, N.4', not '# %% {title}'")
+    name, loses = found.groups()
+    head = re.match(r"(?:#.*\n)*", text).group()
+    what, *lines = [line[2:] for line in head.splitlines()]
+    if not re.match(r"\w", what):
+        raise ValueError(f"{where}: {name}: the second line says what is wrong or different")
+    says = [line[6:] for line in lines if line.startswith("says: ")]
+    edits = re.findall(r"^# ([-+])(?: (.*))?\n", head, re.MULTILINE)
+    if len(says) + len(edits) != len(lines):
+        raise ValueError(f"{where}: {name}: a comment that is neither says, - nor +")
+    changes = []
+    for is_old, group in groupby(edits, key=lambda edit: edit[0] == "-"):
+        block = "".join(f"{line}\n" for _, line in group)
+        if is_old:
+            changes.append((block, ""))
+        else:
+            changes[-1] = (changes[-1][0], block)
+    code = text[len(head) :].strip("\n")
+    tasks = tuple(loses.split(", ")) if loses else ()
+    return name, tasks, what, says[0] if says else None, tuple(changes), code

@@ -1,0 +1,110 @@
+"""Whether two answers are the same, and whether a difference between two tells anything."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+MAX_LEAVES = 20_000
+"""Arrays, numbers and texts in an answer that is compared."""
+TIE, TINY = 1e-6, 1e-9
+"""Relative differences: that of answers which are the same to rounding, single precision included;
+that which no rounding makes in double precision."""
+SHARE = 1e-3
+"""Two answers are the same only if they differ by less than this share of what they differ from
+ours."""
+
+
+def distance(one: Any, other: Any) -> float:
+    """Return the largest relative difference of two answers; infinity if they are built otherwise.
+
+    A list of numbers is an array, whole numbers are numbers.
+    """
+    first, second = _leaves(one), _leaves(other)
+    if first is None or second is None or len(first) != len(second):
+        return math.inf
+    return max((_apart(a, b) for a, b in zip(first, second, strict=True)), default=0.0)
+
+
+def fits(got: Any, made: Any, ours: Any) -> bool:
+    """Return whether `made` is `got` to rounding, and not only because all are nearly `ours`."""
+    error, effect = distance(got, made), distance(got, ours)
+    return error <= TIE and (effect <= TIE or error <= SHARE * effect)
+
+
+def weight(got: Any, made: Any, ours: Any) -> float:
+    """Return how much it tells that `made` fits `got`: 1, or 1/2 if it is a yes or no, or 0."""
+    effect = distance(got, ours)
+    if effect <= TINY or distance(got, made) > SHARE * effect:
+        return 0.0
+    leaves = [leaf for _, leaf in _leaves(got) or [] if isinstance(leaf, np.ndarray)]
+    many = sum(leaf.size for leaf in leaves)
+    choices = many < 8 and all(np.isin(leaf, (0, 1)).all() for leaf in leaves)
+    return 0.5 if choices else 1.0
+
+
+def _leaves(value: Any) -> list[tuple[str, Any]] | None:
+    """(its place, an array or a value that is no number) of all parts; None if there are many."""
+    found: list[tuple[str, Any]] = []
+    waiting = [("", value)]
+    while waiting:
+        if len(found) + len(waiting) > MAX_LEAVES:
+            return None
+        place, part = waiting.pop()
+        if isinstance(part, dict):
+            waiting += [(f"{place}.{key}", part[key]) for key in sorted(part)]
+        elif isinstance(part, (bool, int, float, np.ndarray)):
+            found.append((place, _numbers(part)))
+        elif isinstance(part, (list, tuple)):
+            if part and all(isinstance(each, (bool, int, float)) for each in part):
+                found.append((place, _numbers(part)))
+            elif (table := _table(part)) is not None:
+                found.append((place, table))
+            else:
+                waiting += [(f"{place}[{i}]", each) for i, each in enumerate(part)]
+        else:
+            found.append((place, part))
+    return found
+
+
+def _numbers(value: Any) -> np.ndarray | str:
+    try:
+        return np.asarray(value).astype(np.float64)
+    except (OverflowError, ValueError, TypeError):
+        return repr(type(value))
+
+
+def _table(value: Any) -> np.ndarray | None:
+    """A list of lists or arrays of numbers that have the same length."""
+    if not value or not all(isinstance(each, (list, tuple, np.ndarray)) for each in value):
+        return None
+    try:
+        array = np.asarray(value)
+    except (ValueError, TypeError, OverflowError):
+        return None
+    return array.astype(np.float64) if array.dtype.kind in "biuf" else None
+
+
+def _apart(one: tuple[str, Any], other: tuple[str, Any]) -> float:
+    """The relative difference of two leaves."""
+    (place, a), (where, b) = one, other
+    if place != where or isinstance(a, np.ndarray) != isinstance(b, np.ndarray):
+        return math.inf
+    if not isinstance(a, np.ndarray):
+        return 0.0 if type(a) is type(b) and a == b else math.inf
+    if a.shape != b.shape:
+        return math.inf
+    finite = np.isfinite(a)
+    odd = ~finite
+    if not np.array_equal(finite, np.isfinite(b)) or not np.array_equal(
+        a[odd], b[odd], equal_nan=True
+    ):
+        return math.inf
+    if not finite.any():
+        return 0.0
+    with np.errstate(over="ignore", invalid="ignore"):
+        largest = float(np.abs(a[finite] - b[finite]).max())
+        scale = float(max(np.abs(a[finite]).max(), np.abs(b[finite]).max()))
+    return largest / scale if scale else 0.0

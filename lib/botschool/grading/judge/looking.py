@@ -1,0 +1,207 @@
+"""Failed checks, looked at for a likely cause; and the limit of processor time that checks have."""
+
+from __future__ import annotations
+
+import re
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from botschool.grading.declare.checks import Mismatch, NotDone, Wrong, keeping
+from botschool.grading.declare.diagnosis import diagnose
+from botschool.grading.declare.diagnosis.comparison import Comparison
+from botschool.grading.declare.values import show
+from botschool.grading.run.student import Student
+from botschool.sandbox.protocol import pack
+
+MAX_SECONDS = 0.5
+"""Of processor time that a check may have taken whose call is made again."""
+MAX_CASES = 50
+"""Wrong answers of a task that are looked at."""
+INPUTS = 2
+"""Different calls that must look alike before a cause is guessed."""
+Check = Callable[[Student], None]
+_DIGITS = re.compile(r"[-+]?\d[\d.e+-]*")
+
+
+@dataclass
+class Failure:
+    """A check that was not passed."""
+
+    text: str
+    check: Check | None = None
+    quick: bool = False
+    """Whether the call is worth another look: it was answered, in little time."""
+    request: dict[str, Any] = field(default_factory=dict)
+    pasted: str = ""
+    """The call, to paste, if the text does not show it."""
+    answered: bool = False
+    """Whether the submission gave an answer to the last call."""
+    cause: str = ""
+    """What the answers look like."""
+
+    @property
+    def name(self) -> str:
+        """Of the function called, or of the driver."""
+        return str(self.request.get("name"))
+
+
+def failure_of(error: Wrong, check: Check, student: Student, seconds: float) -> Failure:
+    """What a check's exception says.
+
+    seconds: of processor time that the submission used in this check.
+    """
+    text = str(error)
+    answered = not isinstance(error, NotDone) and student.answer is not None
+    pasted = student.pasted if answered and student.pasted not in text else ""
+    if pasted and not isinstance(error, Mismatch):
+        pasted += f" returned {show(student.answer)}"
+    quick = answered and seconds < MAX_SECONDS
+    return Failure(text, check, quick, student.request, pasted, answered)
+
+
+@dataclass
+class Case:
+    """An answer that differs from what a check expects."""
+
+    check: Check
+    text: str
+    request: bytes
+    pasted: str
+    cause: str
+    certain: bool
+    """Whether one case is enough: the check itself names the mistake, by many numbers."""
+
+
+def look_for_causes(failures: list[Failure], student: Student) -> None:
+    """Run quick checks again to their end, and let each failure tell its smallest case.
+
+    And its cause, if a detector gives the same one for two different calls. student: the submission
+    anew, whose time counts for nothing.
+    """
+    cases = _cases([each.check for each in failures if each.quick and each.check], student)
+    calls: dict[str, set[bytes]] = {}
+    for case in cases:
+        calls.setdefault(_DIGITS.sub("", case.cause), set()).add(case.request)
+    for failure in failures:
+        own = sorted((c for c in cases if c.check is failure.check), key=lambda c: len(c.request))
+        for case in own[:1]:
+            failure.text = case.text
+            failure.pasted = "" if case.pasted in case.text else case.pasted
+            if case.certain or len(calls[_DIGITS.sub("", case.cause)]) >= INPUTS:
+                failure.cause = case.cause
+
+
+def _cases(checks: list[Check], student: Student) -> list[Case]:
+    found: list[Case] = []
+
+    def keep(error: Mismatch) -> None:
+        options = student.request.get("options", {}).values()
+        given = (*student.request.get("arguments", ()), *options)
+        cause = diagnose(error.got, error.wanted, given, student.answer, error.mistakes)
+        certain = cause in error.mistakes and Comparison(error.got, error.wanted).varied > 2
+        request = pack({key: student.request[key] for key in ("name", "arguments")})
+        if len(found) < MAX_CASES:
+            found.append(Case(check, str(error), request, student.pasted, cause, certain))
+
+    try:
+        for check in checks:
+            before = len(found)
+            try:
+                with processor_time_limit(MAX_SECONDS), keeping(keep):
+                    check(student)
+            except TookTooLong:
+                continue
+            except Exception as error:  # also by going on behind a wrong answer
+                if len(found) == before and not isinstance(error, Wrong):
+                    raise
+    except Exception:  # of the machine: it will show itself again, or does not matter here
+        return []
+    return found
+
+
+def looked_at_again(failure: Failure, student: Student) -> str:
+    """What two more calls with the same arguments tell, as lines to add; "" if nothing.
+
+    student: as of look_for_causes.
+    """
+    try:
+        found = student.twice(failure.request)
+    except Exception:  # of the machine: it will show itself again, or does not matter here
+        found = None
+    if found is None:
+        return ""
+    first, second = found["answers"]
+    text = ""
+    if not same(first, second):
+        text += (
+            "\n  Called twice with the same arguments it gives different answers: random numbers "
+            "that do not come from the seed, or something kept from call to call."
+        )
+    if "driver" not in failure.request and isinstance(found["arguments"], list):
+        for number, (before, after) in enumerate(
+            zip(failure.request["arguments"], found["arguments"], strict=False), 1
+        ):
+            if isinstance(before, (np.ndarray, list, dict)) and not same(before, after):
+                text += (
+                    f"\n  It changes its argument number {number} in place, which others go on "
+                    "using: work on a copy (.copy())."
+                )
+    return text
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two values of plain data are equal, bit by bit; tuples and lists are alike."""
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        if not (isinstance(one, np.ndarray) and isinstance(other, np.ndarray)):
+            return False
+        return one.shape == other.shape and one.tobytes() == other.tobytes()
+    if isinstance(one, (list, tuple)) and isinstance(other, (list, tuple)):
+        return len(one) == len(other) and all(map(same, one, other))
+    if isinstance(one, dict) and isinstance(other, dict):
+        keys = [str(key) for key in one]
+        return keys == [str(key) for key in other] and all(map(same, one.values(), other.values()))
+    return one == other or (one != one and other != other)
+
+
+POLL_SECONDS = 0.5
+"""Of processor time of the whole process, between two looks."""
+
+
+class TookTooLong(BaseException):
+    """The block was ended; no `except Exception` inside it catches this."""
+
+
+@contextmanager
+def processor_time_limit(seconds: float) -> Iterator[None]:
+    """Raises TookTooLong in the block when this thread has used so much processor time.
+
+    Only in the main thread, where Python runs signal handlers; elsewhere there is no limit. A call
+    into a library is interrupted when it returns. The threads of a library do not count: there
+    may be many that wait busily.
+    """
+    main = threading.current_thread() is threading.main_thread()
+    if not main or not hasattr(signal, "setitimer"):
+        yield
+        return
+
+    start = time.thread_time()
+
+    def end(number: int, frame: object) -> None:
+        if time.thread_time() - start >= seconds:
+            raise TookTooLong
+
+    before = signal.signal(signal.SIGPROF, end)
+    try:
+        # again and again, since Python drops an exception that meets a destructor
+        signal.setitimer(signal.ITIMER_PROF, min(seconds, POLL_SECONDS), POLL_SECONDS)
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)

@@ -1,0 +1,211 @@
+"""A known mistake is named where a submission answers exactly as it does, and nowhere else."""
+
+import numpy as np
+import pytest
+
+from botschool.grading import Exercise, expect, expect_close
+from botschool.grading.declare.mistakes import read_cases
+from botschool.grading.judge import known as replay
+from botschool.grading.judge.alike import distance, fits, weight
+from botschool.grading.judge.judging import TOLD
+from botschool.grading.judge.submission import grade
+from botschool.grading.packed import pack
+from botschool.grading.run.confined import fork_server
+from tiny_course import FILE, submit
+
+SOLUTION = '''"""A solution."""
+import numpy as np
+
+
+def spread(values):
+    """The deviation."""
+    ### BEGIN SOLUTION task 3.1: the spread of the values
+    spread_marks_our_own_first = np.std(values, ddof=1)
+    return float(spread_marks_our_own_first)
+    ### END SOLUTION
+
+
+def walk(step, many):
+    """A loop."""
+    ### BEGIN SOLUTION task 3.2: walk
+    return [step(i) for i in range(many)]
+    ### END SOLUTION
+
+
+if __name__ == "__main__":
+    print(spread([1, 2]))
+'''
+MISTAKES = '''"""Wrong solutions."""
+
+
+# %% by_n loses 3.1
+# The sum is divided by n instead of n - 1.
+# -     spread_marks_our_own_first = np.std(values, ddof=1)
+# +     spread_marks_our_own_first = np.std(values)
+
+
+# %% half_range loses 3.1
+# Half of the distance from the smallest to the largest value is returned.
+def spread(values):
+    return float(np.ptp(values)) / 2
+
+
+# %% from_one loses 3.2
+# The count of the steps begins at 1.
+def walk(step, many):
+    return [step(i) for i in range(1, many + 1)]
+'''
+RIGHT = "import numpy as np\ndef walk(step, many): return [step(i) for i in range(many)]\n"
+BY_N = "def spread(x): return float((sum((np.array(x) - np.mean(x)) ** 2) / len(x)) ** 0.5)\n"
+"""Another way to write the first mistake."""
+
+
+@pytest.fixture(scope="module")
+def server():
+    with fork_server() as one:
+        yield one
+
+
+def steps(module, many, factor):
+    """A driver."""
+    return module.walk(lambda i: factor * i, many)
+
+
+def declared(inputs=((1.0, 2.0, 4.0), (3.0, 9.0, 1.0, 2.0)), mistakes=MISTAKES):
+    exercise = Exercise(3, "Three", FILE)
+    first = exercise.task("3.1", "First", seconds=5)
+    second = exercise.task("3.2", "Second", seconds=5)
+
+    @first.check(40)
+    def spreads(student):
+        for values in inputs:
+            expect_close(
+                "spread(...)", student.call("spread", list(values)), np.std(values, ddof=1)
+            )
+
+    @second.check(60)
+    def walks(student):
+        for many, factor in ((5, 1.5), (7, 2.5)):
+            found = student.run(steps, many, factor)
+            expect(found == [factor * i for i in range(many)], f"walk(step, {many}): not the steps")
+
+    exercise.knows(SOLUTION, mistakes)
+    return exercise
+
+
+@pytest.fixture
+def messages(server, tmp_path):
+    def of(text, exercise=None):
+        file = submit(tmp_path / str(len(list(tmp_path.iterdir()))), text)
+        return [task.message for task in grade(exercise or declared(), file, server=server).tasks]
+
+    return of
+
+
+def test_a_known_mistake_leads_the_message(messages):
+    first, second = messages(RIGHT + BY_N)
+    lines = first.splitlines()
+    assert lines[0] == f"{TOLD} The sum is divided by n instead of n - 1."
+    assert lines[1].startswith("spread(...) returned 1.24722, but 1.52753 was expected")
+    assert second == ""
+
+
+def test_so_does_one_that_a_driver_meets(messages):
+    text = RIGHT.replace("range(many)", "range(1, 1 + many)") + BY_N.replace(
+        "len(x)", "(len(x) - 1)"
+    )
+    first, second = messages(text)
+    assert first == "" and second.startswith(f"{TOLD} The count of the steps begins at 1.")
+
+
+def test_one_input_is_not_enough(messages):
+    """Of the first input by_n's value, and a right one of the second: two mistakes, or chance."""
+    once = "def spread(x): return float(np.std(x, ddof=1 if len(x) > 3 else 0))\n"
+    assert TOLD not in messages(RIGHT + once)[0]
+    other = "def spread(x): return float(np.std(x)) if len(x) < 4 else 0.0\n"
+    assert TOLD not in messages(RIGHT + other)[0]
+    single = declared(inputs=((1.0, 2.0, 4.0),))
+    assert TOLD not in messages(RIGHT + BY_N, single)[0]
+    same = declared(inputs=((1.0, 2.0, 4.0),) * 3)
+    assert TOLD not in messages(RIGHT + BY_N, same)[0]
+
+
+def test_right_answers_start_no_trial(messages, monkeypatch):
+    monkeypatch.setattr(replay, "_calls", None)
+    right = RIGHT + BY_N.replace("len(x)", "(len(x) - 1)")
+    assert messages(right) == ["", ""]
+    with pytest.raises(TypeError):
+        messages(RIGHT + BY_N)
+
+
+def test_time_is_limited(messages, monkeypatch):
+    """A mistake that never ends uses up the time of those after it; nothing else happens."""
+    monkeypatch.setattr(replay, "SECONDS", 0.5)
+    endless = (
+        "\n\n# %% endless loses 3.1\n# It never ends.\ndef spread(values):\n    while True: pass\n"
+    )
+    by_n, rest = MISTAKES.split("\n\n# %% half", 1)
+    head, by_n = by_n.split("\n\n# %% by_n", 1)
+    text = f"{head}{endless}\n\n# %% by_n{by_n}\n\n# %% half{rest}"
+    assert [case.name for case in read_cases(3, text)][:2] == ["endless", "by_n"]
+    first, _ = messages(RIGHT + BY_N, declared(mistakes=text))
+    assert first.startswith("spread(...) returned")
+
+
+def test_a_mistake_that_fits_no_more_is_left_out(messages):
+    text = MISTAKES.replace("# -     spread_marks", "# -     another_marks", 1)
+    with pytest.raises(ValueError, match="must hold this once"):
+        read_cases(3, text)[0].of(SOLUTION)
+    assert TOLD not in messages(RIGHT + BY_N, declared(mistakes=text))[0]
+    half = "def spread(x): return (max(x) - min(x)) / 2\n"
+    assert "Half of the distance" in messages(RIGHT + half, declared(mistakes=text))[0]
+
+
+def test_the_smallest_failing_case_is_told(messages):
+    exercise = declared(inputs=((1.0, 2.0, 4.0, 5.5, 8.0), (1.0, 4.0)), mistakes="")
+    first, _ = messages(RIGHT + "def spread(x): return -float(np.std(x, ddof=1))\n", exercise)
+    assert first.startswith("spread(...) returned -2.12132")
+    assert "To try it: spread([1.0, 4.0])" in first
+
+
+def test_a_cause_is_guessed_from_two_calls(messages):
+    text = RIGHT + "def spread(x): return -float(np.std(x, ddof=1))\n"
+    sign = "Right but for the sign"
+    assert sign in messages(text, declared(mistakes=""))[0]
+    assert sign not in messages(text, declared(inputs=((1.0, 4.0),), mistakes=""))[0]
+    assert sign not in messages(text, declared(inputs=((1.0, 4.0),) * 2, mistakes=""))[0]
+
+
+GRADER = '''"""A grader."""
+import numpy as np
+from botschool.grading import Exercise, expect_close
+exercise = Exercise(3, "Three", "three.py")
+first = exercise.task("3.1", "First")
+@first.check(100)
+def spreads(student):
+    for values in ((1.0, 2.0, 4.0), (3.0, 9.0, 1.0, 2.0)):
+        expect_close("spread(...)", student.call("spread", list(values)), np.std(values, ddof=1))
+'''
+
+
+def test_a_packed_grader_knows_them_and_shows_nothing(messages, tmp_path):
+    packed = pack(GRADER, SOLUTION, MISTAKES)
+    for text in ("marks_our_own", "divided by n", "np.std", "ddof"):
+        assert text not in packed
+    names = {"__file__": str(tmp_path / "test_three.py")}
+    exec(packed, names)
+    (first,) = messages(BY_N.replace("np.", "__import__('numpy')."), names["exercise"])
+    assert first.startswith(f"{TOLD} The sum is divided by n instead of n - 1.")
+
+
+def test_answers_are_compared_part_by_part():
+    one = {"a": [1.0, 2], "b": [np.eye(2), None, "x"]}
+    assert distance(one, {"b": [[[1, 0], [0, 1]], None, "x"], "a": np.array([1.0, 2])}) == 0
+    assert distance(1.0, 1 + 1e-7) < 1e-6 < distance([1e6, 1.0], [1e6, 10.0])
+    for other in (None, "x", [1.0], [[1.0]], {"a": 1.0}, np.nan, [1.0, "x"]):
+        assert distance(1.0, other) == np.inf
+    assert distance([np.nan, np.inf], np.array([np.nan, np.inf])) == 0
+    assert fits(2.0, 2.0 + 1e-7, 1.0) and not fits(2.0, 2.1, 1.0)
+    assert not fits(1 + 2e-6, 1 + 1e-6, 1.0)  # nearer to each other than ours, but not the same
+    assert weight(2.0, 2.0, 1.0) == 1 and weight(2.0, 2.0, 2.0) == 0
+    assert weight(True, True, False) == 0.5 and weight([1, 0], [1, 0], [0, 0]) == 0.5
