@@ -25,8 +25,8 @@ PACKED = "ANSWERS.packed"
 def pack(grader: str, solution: str = "", mistakes: str = "") -> str:
     """The text of a Python file that declares the same exercise as this one.
 
-    solution, mistakes: what the exercise knows, packed with it. Its extras stay readable, as `make test-exN` must
-    know them before there is a Python.
+    solution, mistakes: what the exercise knows, packed with it. Its extras stay readable, since
+    `make test-exN` must know them before there is a Python.
     """
     all_of_it = json.dumps([grader, solution, mistakes]).encode()
     packed = base64.b85encode(zlib.compress(all_of_it, 9)).decode()

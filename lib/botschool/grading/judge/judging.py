@@ -128,9 +128,9 @@ def _grade_task(
     except Wrong as error:
         problems.append(str(error))
     finally:
-        for each in (student, again):
-            if each is not None:
-                each.close()
+        for used in (student, again):
+            if used is not None:
+                used.close()
     # the same exception at the same line is said once, though several checks meet it
     said: dict[str, str] = {}
     for each in problems:
