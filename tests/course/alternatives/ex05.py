@@ -323,8 +323,8 @@ def sizes(parameters):
     )
     return {
         "masses": lengths * thicknesses * (5 + 0.8 * squeezed[-11:]),
-        "lengths": lengths.tolist(),
-        "thicknesses": thicknesses.tolist(),
+        "lengths": lengths,
+        "thicknesses": thicknesses,
     }
 
 
