@@ -1,7 +1,8 @@
 """Grader of exercise 3; run it with `make test-ex3`.
 
 Stochastic checks (task 3.7), each with two seeds and 20 unseen episodes a controller, on robots
-whose parameters count with signs drawn in secret (botschool.course.rewiring):
+whose parameters count with gains drawn in secret (botschool.course.rewiring; the margins were
+measured with signs alone):
 
 - CartPole-v0 needs a mean of at least 195. The solution reaches 199.9 to 200 for 100 seeds and
   robots (margin 4.9 steps). Of random controllers 3 % reach it too, so this part can also be had by
