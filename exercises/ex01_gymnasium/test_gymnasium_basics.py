@@ -149,8 +149,9 @@ CASES = (
     ("MountainCarContinuous-v0", 40),
     ("Acrobot-v1", 60),
     ("CartPole-v1", 4),
+    ("Pendulum-v1", 200),
 )
-"""Environment and maxsteps: one ends by itself, one at its time limit, three at maxsteps."""
+"""Environment and maxsteps: ended by itself, its time limit, three times maxsteps, and by both."""
 KEYS = ("observations", "actions", "rewards", "terminated", "truncated")
 
 
@@ -348,6 +349,16 @@ def knows_both_limits(student: Student):
             "(0.20944 radians).",
         )
 
+    for position, wanted in ((2.4, False), (-2.4, False), (np.nextafter(2.4, 3), True)):
+        observation = [float(position), 0.5, 0.0, 0.0]
+        got = student.run(answers, "fallen", np.array([observation]), None, said="fallen(...)")
+        (value,) = truth_values(f"fallen({observation})", got, 1)
+        expect(
+            value == wanted,
+            f"fallen({observation}) returned {value}, but the cart is terminated only when it is "
+            "more than 2.4 metres away: exactly 2.4 is still allowed.",
+        )
+
 
 @cartpole.check(6)
 def gives_the_rewards_of_gymnasium(student: Student):
@@ -481,6 +492,17 @@ def pushes_to_where_the_pole_falls(student: Student):
             f"{('left', 'right')[side]}, so bring the cart there, with action {side}.",
         )
 
+    rng = np.random.default_rng(exercise.seed(42))
+    observations = rng.normal(size=(200, 4)) * (1, 1, 0.05, 0.3)
+    forwards = actions_for(student, observations)
+    backwards = actions_for(student, observations[::-1])[::-1]
+    for observation, one, other in zip(observations, forwards, backwards, strict=True):
+        expect(
+            one == other,
+            f"balance({show(observation)}) returned {one}, and {other} when it was called again "
+            "after other observations: the action must depend on the observation alone.",
+        )
+
 
 @balancing.check(6)
 def balances_for_half_of_the_time(student: Student):
@@ -508,6 +530,7 @@ TABLES = (
     (["Pendulum-v1", "CartPole-v1", "MountainCar-v0"], 4),
     (["CartPole-v1", "MountainCarContinuous-v0"], 3),
     (["CartPole-v1", "Acrobot-v1"], 1),
+    (["CartPole-v1", "CartPole-v1"], 2),
 )
 
 

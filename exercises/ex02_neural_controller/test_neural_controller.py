@@ -131,15 +131,21 @@ def weights_are_gaussian(student: Student):
 def every_weight_is_drawn_and_the_seed_decides(student: Student):
     one = parameters_of(student, (5, 6, 5), 4)
     again = parameters_of(student, (5, 6, 5), 4)
-    other = parameters_of(student, (5, 6, 5), 5)
+    seed = exercise.seed(4) + 1
+    said = f"parameters(5, 6, 5, seed={seed})"
+    other = expect_network(said, student.call("parameters", 5, 6, 5, seed=seed), 5, 6, 5)
+    shared = np.intersect1d(
+        *(np.concatenate([e["W1"].ravel(), e["W2"].ravel()]) for e in (one, other))
+    )
+    expect(
+        len(shared) == 0,
+        f"{said}: {len(shared)} of its 60 weights are also in the network of seed={seed - 1}. Draw "
+        "all weights from one generator that you make from the seed.",
+    )
     for key in ("W1", "W2"):
         expect(
             np.array_equal(one[key], again[key]),
             f"{student.said} gives other numbers when it is called again with the same seed.",
-        )
-        expect(
-            not np.any(one[key] == other[key]),
-            f"{student.said} gives weights that another seed gave too.",
         )
     weights = np.concatenate([one["W1"].ravel(), one["W2"].ravel()])
     expect(
@@ -242,14 +248,14 @@ def arrays_stay_as_they_are(student: Student):
 counting = exercise.task("2.3", "As many neurons as the environment needs")
 
 
-def probe(module, ninputs, noutputs, discrete):
+def probe(module, ninputs, noutputs, discrete, start):
     """Counts in an environment that no student has met."""
     import gymnasium
 
     class Probe(gymnasium.Env):
         observation_space = gymnasium.spaces.Box(-1, 1, (ninputs,))
         action_space = (
-            gymnasium.spaces.Discrete(noutputs)
+            gymnasium.spaces.Discrete(noutputs, start=start)
             if discrete
             else gymnasium.spaces.Box(-1, 1, (noutputs,))
         )
@@ -275,11 +281,12 @@ def expect_sizes(student: Student, discrete: bool) -> None:
             wanted = layers_of(env, 1)[::2]
         answer = student.call("sizes", name)
         expect_close(student.said, answer, wanted)
-    for _ in range(3):
+    for start in (0, 0, 5):
         wanted = rng.integers(2, 30, size=2).tolist()
-        kind = f"Discrete({wanted[1]})" if discrete else f"a Box of {wanted[1]}"
+        first = f", start={start}" if start else ""
+        kind = f"Discrete({wanted[1]}{first})" if discrete else f"a Box of {wanted[1]}"
         said = f"sizes(...) for {wanted[0]} observed numbers and actions that are {kind}"
-        expect_close(said, student.run(probe, *wanted, discrete, said=said), wanted)
+        expect_close(said, student.run(probe, *wanted, discrete, start, said=said), wanted)
 
 
 @counting.check(4)
@@ -309,6 +316,16 @@ def chosen(module, outputs, space):
     return [module.act(each, made) for each in outputs]
 
 
+def outputs_after(module, outputs, low, high):
+    """The outputs, after the student's act has used them."""
+    import gymnasium
+    import numpy
+
+    low, high = (numpy.array(each, dtype=numpy.float32) for each in (low, high))
+    module.act(outputs, gymnasium.spaces.Box(low, high))
+    return outputs
+
+
 def expect_choices(student: Student, outputs: np.ndarray, first: int) -> None:
     choices = outputs.shape[1]
     space = f"Discrete({choices}, start={first})" if first else f"Discrete({choices})"
@@ -329,7 +346,7 @@ def most_active_output_decides(student: Student):
     for choices in (2, 3, 6):
         outputs = rng.uniform(-1, 1, size=(20, choices))
         outputs[0] = 0.25  # all equal: the lowest
-        outputs[1] = -np.abs(outputs[1])
+        outputs[1] = np.sort(-np.abs(outputs[1]))  # all negative, the last is the most active
         expect_choices(student, outputs, 0)
 
 
@@ -377,6 +394,12 @@ def each_number_has_its_own_limits(student: Student):
     for size in (2, 5):
         low, width = rng.uniform(-3, 3, size=size).round(2), rng.uniform(1, 5, size=size).round(2)
         expect_stretched(student, rng.uniform(-1, 1, size=(10, size)), low, low + width)
+    outputs, low, high = rng.uniform(-1, 1, size=3), [-1.0, 0.0, 2.0], [1.0, 3.0, 3.0]
+    said = f"act({show(outputs)}, Box({low}, {high}))"
+    expect_close(
+        f"{said}: the outputs that it was given (they must stay as they are)",
+        student.run(outputs_after, outputs, low, high, said=said), outputs,
+    )  # fmt: skip
 
 
 # ------------------------------------------------------------------- 2.5
@@ -497,13 +520,23 @@ def expect_fitness(said: str, value: object, name: str, network: dict, seeds, ma
         )  # fmt: skip
 
 
-def check_fitness(student: Student, name: str, index: int, episodes: int, maxsteps: int | None):
+def check_fitness(
+    student: Student,
+    name: str,
+    index: int,
+    episodes: int,
+    maxsteps: int | None,
+    twice: bool = False,
+):
+    """twice: whether the first seed comes a second time, at the end."""
     rng = np.random.default_rng(exercise.seed(index))
     with gymnasium.make(name) as env:
         network = drawn(rng, *layers_of(env, 6))
     seeds = [int(seed) for seed in rng.integers(2**31, size=episodes)]
+    seeds += seeds[:twice]
     limit = "" if maxsteps is None else f", maxsteps={maxsteps}"
-    said = f"fitness({name!r}, network, {episodes} seeds{limit})"
+    which = f"seeds={seeds}" if twice else f"{episodes} seeds"
+    said = f"fitness({name!r}, network, {which}{limit})"
     value = student.run(measured, name, network, seeds, maxsteps, said=said)
     expect_fitness(said, value, name, network, seeds, 200 if maxsteps is None else maxsteps)
 
@@ -520,6 +553,7 @@ def any_seeds_and_steps(student: Student):
     check_fitness(student, "Pendulum-v1", 73, 2, 260)
     check_fitness(student, "CartPole-v1", 71, 7, 12)
     check_fitness(student, "Acrobot-v1", 72, 1, 30)
+    check_fitness(student, "Pendulum-v1", 74, 2, 20, twice=True)
 
 
 # ------------------------------------------------------------------- 2.7
@@ -528,6 +562,17 @@ batching = exercise.task("2.7", "Many networks at once")
 
 def batched(module, networks, observations):
     return module.forward_batch(networks, observations)
+
+
+def changed_by_batch(module, networks, observations):
+    """Names of arrays that are no longer as they were after a call."""
+    import numpy
+
+    given = {**networks, "observations": observations}
+    before = {name: array.copy() for name, array in given.items()}
+    module.forward_batch(networks, observations)
+    after = {**networks, "observations": observations}
+    return [name for name in given if not numpy.array_equal(after.get(name), before[name])]
 
 
 def timed(module, n, seed):
@@ -575,6 +620,13 @@ def equals_each_network_alone(student: Student):
 @batching.check(2)
 def few_and_square(student: Student):
     expect_batch(student, 81, ((1, 4, 5, 2), (4, 4, 4, 4), (5, 1, 1, 1)))
+    rng = np.random.default_rng(exercise.seed(85))
+    networks, said = drawn(rng, 4, 5, 2, many=(3,)), "forward_batch(networks, observations)"
+    changed = student.run(changed_by_batch, networks, rng.normal(size=(3, 4)), said=said)
+    expect(
+        changed == [],
+        f"{said} changed {show(changed)} of what it was given, in values or in shape.",
+    )
 
 
 @batching.check(3)
@@ -642,7 +694,7 @@ def measures_every_network_in_every_problem(student: Student):
 
 
 def equal_luck(module, nnetworks, seed):
-    """Random search where a network either gets 1 or 0 in each episode, so that many are equal."""
+    """Random search where a network gets -1 or -2 in each episode, so that many are equal."""
     import gymnasium
     import numpy
 
@@ -655,7 +707,8 @@ def equal_luck(module, nnetworks, seed):
             return numpy.full(2, 0.5, dtype=numpy.float32), {}
 
         def step(self, action):
-            return numpy.full(2, 0.5, dtype=numpy.float32), float(action == 1), True, False, {}
+            reward = float(action == 1) - 2
+            return numpy.full(2, 0.5, dtype=numpy.float32), reward, True, False, {}
 
     name = f"Coin{len(gymnasium.registry)}-v0"
     gymnasium.register(name, entry_point=Coin, disable_env_checker=True)
@@ -665,8 +718,8 @@ def equal_luck(module, nnetworks, seed):
 
 @searching.check(1)
 def of_equals_the_lowest(student: Student):
-    said = "random_search(...) of 12 networks, in an environment where many are equal"
-    for index in (98, 99):
+    said = "random_search(...) of 12 networks, where all returns are -1 or -2"
+    for index in (98, 99, *range(100, 106)):
         report = student.run(equal_luck, 12, exercise.seed(index), said=said)
         values, best = expect_fields(said, report, "fitness", "best")
         values = expect_array(f"{said}: fitness", values, (12,))

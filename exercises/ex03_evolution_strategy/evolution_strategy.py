@@ -46,10 +46,11 @@ from botschool.course import Robot
 
 # %%
 def initial_population(popsize: int, nbiases: int, nweights: int, seed: int) -> np.ndarray:
-    """Random parameters for a whole population, one row per individual.
+    """Return random parameters for a whole population, one row per individual.
 
     Each row holds nbiases zeros and then nweights Gaussian numbers with mean 0.0 and standard
-    deviation 0.1. The same seed gives the same population, another seed another one.
+    deviation 0.1. The same seed gives the same population. Two seeds, even neighbours like 1 and 2,
+    have no individual in common.
 
     Returns an array of shape (popsize, nbiases + nweights).
     """
@@ -65,10 +66,10 @@ def initial_population(popsize: int, nbiases: int, nweights: int, seed: int) -> 
 
 # %%
 def rank(fitness: np.ndarray) -> np.ndarray:
-    """The numbers of the individuals, the best first.
+    """Return the numbers of the individuals, the best first.
 
-    rank([10.0, 30.0, 20.0]) returns [1, 2, 0]: individual 1 is the best. Of equals, the one with
-    the lower number comes first.
+    rank(np.array([10.0, 30.0, 20.0])) returns [1, 2, 0]: individual 1 is the best. Of equals, the
+    one with the lower number comes first, however many there are.
     """
     raise NotImplementedError("task 3.2: rank the individuals")
 
@@ -90,11 +91,12 @@ def rank(fitness: np.ndarray) -> np.ndarray:
 def next_population(
     population: np.ndarray, fitness: np.ndarray, mutrate: float, rng: np.random.Generator
 ) -> np.ndarray:
-    """The population after selection and mutation, as a new array of the same shape.
+    """Return the population after selection and mutation, as a new array of the same shape.
 
     The better half stays as it is. Every individual of the worse half is replaced by a copy of one
     of the better half plus Gaussian noise with standard deviation mutrate; each of the better half
-    is copied once. The rows may come in any order. All random numbers come from rng.
+    is copied once. Exactly half stays, even if many have the same fitness: any of the equals may.
+    The rows may come in any order. All random numbers come from rng.
 
     population has shape (popsize, parameters) with an even popsize, fitness has shape (popsize,).
     `population` itself is not changed.
@@ -108,15 +110,17 @@ def next_population(
 # One *generation*: evaluate everybody, then make the next population. Each generation is evaluated
 # with another seed, so that in the long run only those survive who cope with all starting
 # conditions, and not just with lucky ones. For the same reason the fitness of an individual differs
-# a little from generation to generation, and the curve of the best fitness is not smooth.
+# a little from generation to generation, and the curve of the best fitness is not smooth. Fitness
+# may be negative in all generations, as Pendulum's is: begin the record with what everybody beats.
 
 
 # %%
 def evolve(evaluate, population: np.ndarray, generations: int, mutrate: float, seed: int) -> dict:
-    """Evolves a population for a number of generations.
+    """Evolve a population for a number of generations.
 
-    evaluate(population, seed) returns the fitness of each row. In generation g (from 0) it is
-    called once, with seed + g. All other randomness comes from np.random.default_rng(seed).
+    evaluate(population, seed) returns the fitness of each row, which may be negative. In generation
+    g (from 0) it is called once, with seed + g. All other randomness comes from
+    np.random.default_rng(seed), so the same arguments give the same run.
 
     Returns a dict with
     - "best": the parameters with the highest fitness met in any generation, shape (parameters,);
@@ -137,7 +141,7 @@ def evolve(evaluate, population: np.ndarray, generations: int, mutrate: float, s
 
 # %%
 def hill_climb(evaluate, start: np.ndarray, generations: int, mutrate: float, seed: int) -> dict:
-    """The same strategy with a population of two: one solution, and one variation of it.
+    """Evolve a population of two: one solution, and one variation of it.
 
     start has shape (parameters,); both individuals begin as copies of it. Returns what evolve
     returns.
@@ -160,7 +164,7 @@ def hill_climb(evaluate, start: np.ndarray, generations: int, mutrate: float, se
 
 # %%
 def replicate(experiment, seeds: list[int]) -> dict:
-    """Runs experiment(seed), which returns what evolve returns, for every seed.
+    """Run experiment(seed), which returns what evolve returns, once for every seed.
 
     Returns a dict with
     - "mean": the mean over the replications of the highest fitness, generation by generation;
@@ -182,14 +186,18 @@ def replicate(experiment, seeds: list[int]) -> dict:
 
 # %%
 def train(environment: str, seed: int) -> np.ndarray:
-    """Parameters of a controller for "CartPole-v0" or "Pendulum-v1", evolved from the seed.
+    """Return parameters of a controller for "CartPole-v0" or "Pendulum-v1", evolved from the seed.
 
     Choose the size of the population, the mutation rate and the number of generations yourself.
-    Asked for, as means over 20 episodes that the controller has not met: on CartPole at least 195
+    The controller needs these means over 20 episodes that it has not met: on CartPole at least 195
     of the 200 steps, on Pendulum a return of at least -600 (random controllers: about -1200).
-    Another seed gives another controller. Each should take a few seconds, 15 at the very most. The
-    grader has robots of its own, on which some parameters count with the other sign, so what is
-    good can be found out by robot.evaluate alone.
+    Everything random follows from the seed: the same seed gives the same controller, another seed
+    a different one. Each should take a few seconds, 15 at the very most.
+
+    The grader tries two seeds, on robots of its own, whose parameters count with other signs and
+    sizes: only robot.evaluate can tell what is good there. Return one of the candidates that you
+    gave to robot.evaluate. The winner of a single evaluation may have been lucky, so evaluate good
+    ones again, in more episodes, before you choose.
 
     Returns an array of shape (robot.nbiases + robot.nweights,).
     """

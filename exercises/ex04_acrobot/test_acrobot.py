@@ -297,7 +297,11 @@ def any_experiment_in_any_folder(student: Student):
 
 @replications.check(4)
 def tells_the_fitness_of_each_run(student: Student):
+    """In a folder that exists and holds the files of other runs, which stay."""
+    before = Trial(student, PENDULUM, "fitness", 8_000)
     trial = Trial(student, ACROBOT, "fitness", 40_000)
+    before.expect_files("stat", "best", "bestg")
+    trial.expect_files("stat")
     pairs = trial.answer
     expect(
         isinstance(pairs, list) and all(isinstance(p, list) and len(p) == 2 for p in pairs),
@@ -317,18 +321,22 @@ def tells_the_fitness_of_each_run(student: Student):
 reading = exercise.task("4.4", "The stat file")
 
 
-def read_saved(module, numbers):
+def read_saved(module, path, numbers):
     """Saves numbers as the tool does, and has them read."""
+    import pathlib
+
     import numpy
 
-    numpy.save("statS1.npy", numbers)
-    return module.read_stat("statS1.npy")
+    pathlib.Path(path).parent.mkdir(exist_ok=True)
+    numpy.save(path, numbers)
+    return module.read_stat(path)
 
 
 def expect_columns(student: Student, generations: int, columns: tuple[str, ...]) -> None:
     table = rng_of(20 + generations).normal(size=(generations, 6)).round(3)
-    said = f"read_stat(file of {generations} generation{'s' * (generations > 1)})"
-    stat = student.run(read_saved, table.ravel(), said=said)
+    path = f"runs{generations}/statS{exercise.seed(20 + generations) % 1000}.npy"
+    said = f"read_stat({path!r}), a file of {generations} generation{'s' * (generations > 1)}"
+    stat = student.run(read_saved, path, table.ravel(), said=said)
     for name, values in zip(columns, expect_fields(said, stat, *columns), strict=True):
         column = COLUMNS.index(name)
         mistakes = {
@@ -381,7 +389,8 @@ def wanted_curves(stats: list[dict], column: str, budgets: np.ndarray):
 
 def expect_curves(student: Student, stats, column: str, budgets, key: str) -> None:
     answer = student.call("curves", stats, column, budgets)
-    said = f"curves(stats of {len(stats)} runs, '{column}', {len(budgets)} budgets)"
+    order = "rising" if np.all(np.diff(budgets) >= 0) else "in any order"
+    said = f"curves(stats of {len(stats)} runs, '{column}', {len(budgets)} budgets, {order})"
     (values,) = expect_fields(said, answer, key)
     wanted = dict(zip(("mean", "deviation"), wanted_curves(stats, column, budgets), strict=True))
     expect_close(
@@ -403,6 +412,10 @@ def mistaken(stats: list[dict], column: str, budgets: np.ndarray, key: str) -> d
         places = np.searchsorted(steps, budgets).clip(0, len(steps) - 1)
         return values[places]
 
+    def highest(steps, values):
+        places = np.searchsorted(steps, budgets, side="right") - 1
+        return np.maximum.accumulate(values)[places]
+
     def equal(steps, values):
         return [values[min(i, len(values) - 1)] for i in range(len(budgets))]
 
@@ -415,6 +428,8 @@ def mistaken(stats: list[dict], column: str, budgets: np.ndarray, key: str) -> d
             lambda steps, values: np.interp(budgets, steps, values)
         ),
         "The next generation is taken, which is not yet complete at the budget.": made(following),
+        "It is the highest value up to the budget, but that of the last generation is asked "
+        "for.": made(highest),
     }
 
 
@@ -424,6 +439,10 @@ def mean_at_equal_steps(student: Student):
         stats = made_up_stats(index, 5)
         budgets = np.linspace(2100, max(stat["steps"][-1] for stat in stats) + 500, 40)
         expect_curves(student, stats, column, budgets, "mean")
+    stats = made_up_stats(35, 3)
+    budgets = rng_of(36).permutation(np.linspace(2100, 40_000, 12)).round()
+    expect_curves(student, stats, "average", budgets, "mean")
+    expect_curves(student, stats, "average", budgets[:1], "mean")
 
 
 @spread.check(5)
@@ -462,7 +481,8 @@ def compare_saved(module, text, files, folder, seeds, episodes, test_seed):
 def made_up_runs(text: str, index: int):
     """Seeds and files of three runs; the robots are evolved ones with some noise."""
     rng = rng_of(index)
-    seeds = [int(seed) for seed in rng.permutation(900)[:3] + 1]
+    low, high, middle = (int(seed) for seed in np.sort(rng.permutation(900)[:3]) + 1)
+    seeds = [middle, high, low]
     files = {}
     for seed in seeds:
         done = files_of(text, seed, 60_000)
@@ -470,15 +490,18 @@ def made_up_runs(text: str, index: int):
             genotype = done[f"{kind}S{seed}.npy"]
             files[f"{kind}S{seed}.npy"] = genotype + 0.03 * rng.normal(size=genotype.shape)
         table = done[f"statS{seed}.npy"].reshape(-1, 6)
-        files[f"statS{seed}.npy"] = (table + rng.normal(size=table.shape).round(3)).ravel()
+        table = table + rng.normal(size=table.shape).round(3)
+        table[:, 1:3] = np.maximum.accumulate(table[:, 1:3])  # the best so far, which never falls
+        files[f"statS{seed}.npy"] = table.ravel()
     return seeds, files
 
 
 def expect_worth(student: Student, text: str, index: int, keys: tuple[str, ...]) -> None:
     seeds, files = made_up_runs(text, index)
     episodes, test_seed = 20 + secrets.randbelow(40), secrets.randbelow(2**31)
-    said = f"compare('trial.ini', 'saved', {seeds}, {episodes}, {test_seed})"
-    rows = student.run(compare_saved, text, files, "saved", seeds, episodes, test_seed, said=said)
+    folder = f"saved{index}"
+    said = f"compare('trial.ini', {folder!r}, {seeds}, {episodes}, {test_seed})"
+    rows = student.run(compare_saved, text, files, folder, seeds, episodes, test_seed, said=said)
     expect(
         isinstance(rows, list) and len(rows) == len(seeds),
         f"{said} returned {show(rows)}, but a list of {len(seeds)} dicts is needed.",
@@ -492,6 +515,9 @@ def expect_worth(student: Student, text: str, index: int, keys: tuple[str, ...])
         for key, value in zip(keys, values[1:], strict=True):
             worth = worth_of(text, files, key, seed, episodes, test_seed)
             mistakes = {"It is that of the best episode, but the mean is asked for.": worth.max()}
+            if key == "promised":
+                first = files[f"statS{seed}.npy"][2]
+                mistakes = {"It is what the stat file says of the first generation.": first}
             said_of = f"{said}: {key} of seed {seed}"
             expect_close(said_of, value, worth.mean(), mistakes=mistakes)
 

@@ -59,7 +59,7 @@ OBSERVATIONS = 35
 
 # %%
 def sizes(parameters: np.ndarray) -> dict:
-    """Sizes of the segments, from the 64 parameters of a body.
+    """Return the sizes of the segments, from the 64 parameters of a body, which stay as they are.
 
     Returns a dict with "lengths" and "thicknesses" (metres) and "masses" (kg), arrays of shape
     (11,).
@@ -86,7 +86,7 @@ def sizes(parameters: np.ndarray) -> dict:
 
 # %%
 def joints(parameters: np.ndarray) -> dict:
-    """Angles of a body, from its 64 parameters, in radians.
+    """Return the angles of a body in radians, from its 64 parameters, which stay as they are.
 
     Returns a dict with "angles", the default angles of the 11 segments, shape (11,), and "lower"
     and "upper", the limits of the 10 joints around the default angle, shape (10,).
@@ -115,7 +115,7 @@ def joints(parameters: np.ndarray) -> dict:
 
 # %%
 def outline(parameters: np.ndarray) -> np.ndarray:
-    """Corners (x, y) of all segments at rest, in metres; shape (11, 4, 2).
+    """Return the corners (x, y) of all segments at rest, in metres; shape (11, 4, 2).
 
     The torso begins at (0, 0). The corners of a segment are, looking along it: beginning right,
     end right, end left, beginning left.
@@ -131,7 +131,7 @@ def outline(parameters: np.ndarray) -> np.ndarray:
 
 # %%
 def describe(parameters: np.ndarray) -> dict:
-    """What a body is like. Returns a dict of floats:
+    """Describe a body. Returns a dict of floats:
 
     - "length": the lengths of all segments together, in metres;
     - "mass": all masses together, in kg;
@@ -147,7 +147,8 @@ def describe(parameters: np.ndarray) -> dict:
 # ## Task 5.5. Evolve walkers
 #
 # With the tool, as in exercise 4: `config.load(file)`, `Run(experiment, seed)`,
-# `evolve(run, folder, steps)` with a folder that exists. Afterwards `run.record.bestg` is the
+# `evolve(run, folder, steps)` with a folder (a text or a `Path`) that exists; make it with
+# `Path(folder).mkdir(parents=True, exist_ok=True)`. Afterwards `run.record.bestg` is the
 # genotype with the best post-evaluated fitness, as an array.
 
 
@@ -155,10 +156,10 @@ def describe(parameters: np.ndarray) -> dict:
 def evolve_walkers(
     experiment_file: str, seeds: list[int], folder: str, steps: int | None = None
 ) -> np.ndarray:
-    """Runs the experiment once with each seed; the files of all runs are left in the folder.
+    """Run the experiment once with each seed and leave the files of all runs in the folder.
 
-    Makes the folder, and those above it, if they do not exist. Returns the genotype with the best
-    post-evaluated fitness of each run, one row for each seed.
+    Make the folder, and those above it, if they do not exist. Returns the genotype with the best
+    post-evaluated fitness of each run, one row for each seed, in the order of the seeds.
     """
     raise NotImplementedError("task 5.5: run the replications")
 
@@ -178,12 +179,12 @@ def evolve_walkers(
 
 # %%
 def body_of(genotype: np.ndarray) -> np.ndarray:
-    """The parameters of the body, shape (64,), of a saved genotype."""
+    """Return the parameters of the body, shape (64,), of a saved genotype."""
     raise NotImplementedError("task 5.6: cut out the body")
 
 
 def transplant(brain: np.ndarray, body: np.ndarray) -> np.ndarray:
-    """A new saved genotype with the brain of one saved genotype and the body of another.
+    """Return a new saved genotype: the brain of one saved genotype, the body of another.
 
     All three have the same shape. The two that are given are not changed.
     """
@@ -204,10 +205,10 @@ def transplant(brain: np.ndarray, body: np.ndarray) -> np.ndarray:
 def cross_evaluate(
     experiment_file: str, walkers: np.ndarray, seed: int, episodes: int
 ) -> np.ndarray:
-    """The mean return of each brain in each body; shape (n, n).
+    """Return the mean return of each brain in each body; shape (n, n).
 
     walkers has one saved genotype in each row. Row i, column j of the answer is the mean over the
-    episodes of the brain of walker i in the body of walker j.
+    episodes of the brain of walker i in the body of walker j. The walkers stay as they are.
     """
     raise NotImplementedError("task 5.7: try every brain in every body")
 
@@ -222,7 +223,9 @@ def cross_evaluate(
 
 # %%
 def loss(matrix: np.ndarray) -> dict:
-    """What is lost when brains and bodies are swapped; matrix has shape (n, n), n at least 2.
+    """Measure what is lost when brains and bodies are swapped.
+
+    matrix has shape (n, n), n at least 2, and stays as it is.
 
     Returns a dict with
     - "own": the mean of the diagonal, and "foreign": the mean of all other places;

@@ -43,14 +43,20 @@ def bodies(index: int, count: int = 4, spread: float = 0.6) -> np.ndarray:
 
 
 def answers(module, name, questions):
-    """The student's answer to each of many questions."""
-    return [getattr(module, name)(question) for question in questions]
+    """The student's answer to each of many questions, and how many of them it has changed."""
+    before = questions.copy()
+    found = [getattr(module, name)(question) for question in questions]
+    return [found, int((before != questions).any(axis=1).sum())]
 
 
 def asked(student: Student, name: str, questions: np.ndarray) -> list:
     said = f"{name}(parameters of a body)"
-    given = student.run(answers, name, questions, said=said)
+    given, changed = student.run(answers, name, questions, said=said)
     expect(isinstance(given, list) and len(given) == len(questions), f"{said} gave no answers.")
+    expect(
+        changed == 0,
+        f"{said} changed the parameters that it was given: work on a copy.",
+    )
     return given
 
 
@@ -294,10 +300,10 @@ def own_run(text: str, seed: int, steps: int | None = None) -> tuple[np.ndarray,
 
 
 def telling_seeds(text: str, index: int) -> list[int]:
-    """Two seeds; in the run of the second one post-evaluation decides for another genotype."""
-    first, *others = (int(seed) for seed in rng_of(index).permutation(500) + 1)
-    telling = (seed for seed in others if not np.array_equal(*own_run(text, seed)))
-    return [first, next(telling)]
+    """Two falling seeds; in the run of the second post-evaluation decides for another genotype."""
+    more, *others = (int(seed) for seed in rng_of(index).permutation(500) + 1)
+    telling = next(seed for seed in others if not np.array_equal(*own_run(text, seed)))
+    return [telling + more, telling]
 
 
 class Trial:
@@ -392,7 +398,9 @@ def cross(module, text, walkers, seed, episodes):
     import pathlib
 
     pathlib.Path("trial.ini").write_text(text)
-    return module.cross_evaluate("trial.ini", walkers, seed, episodes)
+    before = walkers.copy()
+    matrix = module.cross_evaluate("trial.ini", walkers, seed, episodes)
+    return [matrix, bool((before == walkers).all())]
 
 
 def walking(hidden: int, maxsteps: int) -> str:
@@ -425,7 +433,8 @@ def own_matrix(text: str, walkers: np.ndarray, seed: int, episodes: int) -> np.n
 def expect_matrix(student: Student, text: str, walkers: np.ndarray, episodes: int) -> None:
     seed = secrets.randbelow(2**31)
     said = f"cross_evaluate('trial.ini', {len(walkers)} walkers, {seed}, {episodes})"
-    matrix = student.run(cross, text, walkers, seed, episodes, said=said)
+    matrix, unchanged = student.run(cross, text, walkers, seed, episodes, said=said)
+    expect(unchanged is True, f"{said} changed the walkers that it was given: work on copies.")
     expect_close(said, matrix, own_matrix(text, walkers, seed, episodes), TOLERANCE)
 
 
@@ -475,6 +484,14 @@ def own_loss(matrix: np.ndarray, key: str):
     return sum(matrix[i, i] > max(others[i]) for i in range(n))
 
 
+def matrix_after(module, matrix):
+    """The matrix, after the student's loss has used it; infinite numbers as 1e300."""
+    import numpy
+
+    module.loss(matrix)
+    return numpy.nan_to_num(matrix, posinf=1e300, neginf=-1e300)
+
+
 @losing.check(4)
 def own_and_foreign(student: Student):
     expect_loss(student, 50, "own", "foreign")
@@ -507,3 +524,9 @@ def as_good_elsewhere_is_not_at_home(student: Student):
         answer = student.call("loss", np.array(rows))
         (value,) = expect_fields(f"loss({rows})", answer, "at home")
         expect_close(f"loss({rows}): at home", value, own_loss(np.array(rows), "at home"))
+    rows = np.array(matrices[1])
+    after = student.run(matrix_after, rows, said="loss(matrix)")
+    expect(
+        np.array_equal(expect_array("loss(matrix): the matrix after it", after, (3, 3)), rows),
+        "loss(matrix) changed the matrix that it was given: work on a copy.",
+    )

@@ -36,7 +36,7 @@ from botschool.evolution.algorithms.openaies import OpenAIES
 
 # %%
 def to_state(observation: np.ndarray) -> np.ndarray:
-    """The angle in [-pi, pi] and the velocity of the pendulum.
+    """Return the angle in [-pi, pi] and the velocity of the pendulum.
 
     observation has the shape (3,), or (n, 3) for n observations; the result has the shape (2,),
     or (n, 2).
@@ -53,9 +53,10 @@ def to_state(observation: np.ndarray) -> np.ndarray:
 
 # %%
 def record(controller, seed: int, steps: int) -> np.ndarray:
-    """The states of one episode of Gymnasium's Pendulum-v1, reset with the seed.
+    """Record the states of one episode of Gymnasium's Pendulum-v1, reset with the seed.
 
-    The recording ends after `steps` steps, or with the episode if that comes first. Returns an
+    Each step asks the controller once. The recording ends after `steps` steps, or with the episode
+    if that comes first. Returns an
     array of shape (steps done + 1, 2): the states (angle in [-pi, pi], velocity) from the start
     to the one after the last step.
     """
@@ -72,11 +73,12 @@ def record(controller, seed: int, steps: int) -> np.ndarray:
 
 # %%
 def arrows(before: np.ndarray, after: np.ndarray) -> np.ndarray:
-    """One arrow for each pair of states, shape (n, 4).
+    """Return one arrow for each pair of states, shape (n, 4).
 
     before and after hold n states each, shape (n, 2). A row of the result is the angle and the
     velocity before, the change of the angle, and the change of the velocity. The change of an
-    angle is the short way around, in [-pi, pi]. The arrays given stay as they are.
+    angle is the short way around, in [-pi, pi]; a velocity has no way around. The arrays given stay
+    as they are.
     """
     raise NotImplementedError("task 7.3: compute arrows, the short way around")
 
@@ -92,7 +94,7 @@ def arrows(before: np.ndarray, after: np.ndarray) -> np.ndarray:
 
 # %%
 def grid(nangles: int, nvelocities: int) -> np.ndarray:
-    """Evenly spaced states, shape (nangles * nvelocities, 2).
+    """Return evenly spaced states, shape (nangles * nvelocities, 2).
 
     The angles go from -pi to pi and the velocities from -8 to 8, both ends included. All angles
     with the first velocity come first, then all angles with the second, and so on.
@@ -101,7 +103,7 @@ def grid(nangles: int, nvelocities: int) -> np.ndarray:
 
 
 def next_states(controller, states: np.ndarray) -> np.ndarray:
-    """The states one step of Pendulum-v1 after each of the given ones; shapes (n, 2).
+    """Return the states one step of Pendulum-v1 after each of the given ones; shapes (n, 2).
 
     The controller chooses the action in each state. Angles are in [-pi, pi].
     """
@@ -119,7 +121,7 @@ def next_states(controller, states: np.ndarray) -> np.ndarray:
 
 # %%
 def evolve(algorithm, evaluate, generations: int, every: int) -> dict:
-    """Evolves, and keeps the best candidate of every `every`-th generation.
+    """Evolve, and keep the best candidate of every `every`-th generation.
 
     In generation g (from 0) the candidates come from one `candidates, seeds = algorithm.ask()`,
     their fitness from one `evaluate(candidates, g)`, which is then told to the algorithm. Kept is
@@ -145,7 +147,7 @@ def evolve(algorithm, evaluate, generations: int, every: int) -> dict:
 
 # %%
 def openai_es(robot: Robot, seed: int) -> OpenAIES:
-    """OpenAI-ES for a robot: 20 pairs of candidates per generation."""
+    """Return OpenAI-ES for a robot: 20 pairs of candidates per generation."""
     config = OpenAIESConfig(samplesize=20, stepsize=0.05, noiseStdDev=0.2)
     weights = 0.1 * np.random.default_rng(seed).standard_normal(robot.nweights)
     centre = np.concatenate([np.zeros(robot.nbiases), weights])
@@ -153,15 +155,16 @@ def openai_es(robot: Robot, seed: int) -> OpenAIES:
 
 
 def three_stages(seed: int) -> np.ndarray:
-    """Parameters of three controllers of Robot("Pendulum-v1") from one evolution, in order.
+    """Return parameters of three controllers of Robot("Pendulum-v1") from one evolution, in order.
 
     The first is the best of generation 0; the last swings the pendulum up and holds it: its mean
     return over 100 episodes is at least -400. The middle one is on its way: its mean return is at
     least 100 higher than the first one's, and at least 100 lower than the last one's.
 
     The return of one evaluation depends on luck: measure those that you have kept once more, with
-    robot.evaluate(parameters, seed, episodes=100), before you choose. The grader has robots of its
-    own, on which some parameters count with the other sign.
+    robot.evaluate(parameters, seed, episodes=100), before you choose. Return candidates as they
+    were evaluated. Everything random follows from the seed. The grader tries two seeds on robots of
+    its own, whose parameters count with other signs and sizes.
 
     Returns an array of shape (3, parameters).
     """
@@ -182,7 +185,7 @@ def three_stages(seed: int) -> np.ndarray:
 def draw_portraits(
     file: str, titles: list[str], fields: list[np.ndarray], paths: list[np.ndarray]
 ) -> None:
-    """Draws phase portraits side by side, in one row, into a PNG file.
+    """Draw phase portraits side by side, in one row, into a PNG file.
 
     Panel i has titles[i], the arrows fields[i] of the grid, and above them the arrows paths[i] of
     episodes; both have the shape (n, 4), as `arrows` gives them, and each arrow is drawn from its

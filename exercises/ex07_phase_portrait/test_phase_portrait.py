@@ -1,8 +1,9 @@
 """Grader of exercise 7; run it with `make test-ex7`.
 
 Stochastic check (task 7.6; the mean return over 100 episodes that the submission has not seen, on
-a robot whose parameters count with signs drawn in secret): the first stage below -900, the last at
-least -400, the middle one 100 or more away from both. The margin over 20 seeds and robots: the
+a robot whose parameters count with gains drawn in secret; margins were measured with signs alone):
+the first stage below -900, the last at least -400, the middle one 100 or more away from both. The
+margin over 20 seeds and robots: the
 solution's first stages reach -1271 to -1134, the middle ones -711 to -609 (at least 445 away from
 the others), the last ones -178 to -133.
 """
@@ -87,11 +88,16 @@ recording = exercise.task("7.2", "Recording an episode", needs=("7.1",))
 
 
 def recorded(module, gains, seed, steps):
-    """Records with a controller that the grader can compute again."""
+    """Records with a controller that the grader can compute again, and counts its actions."""
     import numpy
 
-    gains = numpy.asarray(gains)
-    return module.record(lambda seen: numpy.clip([gains @ seen], -2, 2), seed, steps)
+    gains, asked = numpy.asarray(gains), []
+
+    def controller(seen):
+        asked.append(1)
+        return numpy.clip([gains @ seen], -2, 2)
+
+    return [module.record(controller, seed, steps), len(asked)]
 
 
 def episode(gains: np.ndarray, seed: int, steps: int) -> np.ndarray:
@@ -109,10 +115,16 @@ def episode(gains: np.ndarray, seed: int, steps: int) -> np.ndarray:
 def compare_recording(student: Student, index: int, steps: int) -> None:
     seed = exercise.seed(index)
     gains = np.random.default_rng(seed).uniform(-1.5, 1.5, 3)
-    answer = student.run(
+    answer, asked = student.run(
         recorded, gains, seed, steps, said=f"record(controller, seed={seed}, steps={steps})"
     )
-    expect_states(student.said, answer, episode(gains, seed, steps), 1e-3)  # torques in float32 too
+    wanted = episode(gains, seed, steps)
+    expect_states(student.said, answer, wanted, 1e-3)  # torques in float32 too
+    expect(
+        asked == len(wanted) - 1,
+        f"{student.said} asked the controller {asked} times for {len(wanted) - 1} steps: ask once "
+        "in each step, as a controller may remember what it has seen.",
+    )
 
 
 @recording.check(11)
@@ -168,6 +180,8 @@ def short_way_around(student: Student):
     compare_arrows(student, before, change)
     before[:2, 0], change[:2, 0] = (3.1, -3.1), (0.1, -0.1)
     compare_arrows(student, before[:2], change[:2])
+    change = np.stack([rng.uniform(-3.0, 3.0, 60), rng.uniform(-16, 16, 60)], axis=1)
+    compare_arrows(student, random_states(29, 60), change)  # velocities do not wrap
 
 
 def arrows_of(module, states):
@@ -250,7 +264,7 @@ def pendulum_with_controller(student: Student):
 stages = exercise.task("7.5", "Keeping stages of evolution")
 
 
-def staged(module, prepared, target, generations, every):
+def staged(module, prepared, target, generations, every, least):
     """Runs the student's loop on an algorithm whose candidates follow from what it is told."""
     import numpy
 
@@ -269,25 +283,33 @@ def staged(module, prepared, target, generations, every):
         def tell(self, fitness):
             self.told = self.told / 2 + 0.1 * float(numpy.dot(fitness, numpy.arange(len(fitness))))
 
+    asked = []
+
     def evaluate(candidates, generation):
-        return numpy.sin(3 * candidates - target).sum(axis=1) + 0.01 * generation
+        asked.append(int(generation))
+        return numpy.sin(3 * candidates - target).sum(axis=1) + 0.01 * generation + least
 
-    return module.evolve(Algorithm(), evaluate, generations, every)
+    return [module.evolve(Algorithm(), evaluate, generations, every), asked]
 
 
-def stages_of(student: Student, index: int, generations: int, every: int):
-    """What the student's loop returns, and what it should."""
+def stages_of(student: Student, index: int, generations: int, every: int, least: float = 0.0):
+    """What the student's loop returns, and what it should; least: is added to every fitness."""
     rng = np.random.default_rng(exercise.seed(index))
     prepared, target = rng.normal(size=(generations + 2, 6, 4)), rng.normal(size=4)
-    answer = student.run(
-        staged, prepared, target, generations, every,
+    answer, asked = student.run(
+        staged, prepared, target, generations, every, least,
         said=f"evolve(algorithm, evaluate, generations={generations}, every={every})",
     )  # fmt: skip
+    expect(
+        asked == list(range(generations)),
+        f"{student.said} called evaluate for the generations {show(asked)}, but once for each of "
+        f"0 to {generations - 1} is asked for.",
+    )
     expect_fields(student.said, answer, "generations", "parameters", "history")
     told, best, history, numbers = 0.0, [], [], []
     for generation in range(generations):
         candidates = prepared[generation] + told
-        fitness = np.sin(3 * candidates - target).sum(axis=1) + 0.01 * generation
+        fitness = np.sin(3 * candidates - target).sum(axis=1) + 0.01 * generation + least
         best.append(candidates[fitness.argmax()])
         numbers.append(int(fitness.argmax()))
         history.append(fitness.max())
@@ -319,8 +341,8 @@ def keeps_every_nth_and_the_last(student: Student):
 
 @stages.check(6)
 def keeps_the_best_as_they_were(student: Student):
-    for index, generations, every in ((23, 13, 3), (24, 16, 5)):
-        answer, best, _, made = stages_of(student, index, generations, every)
+    for index, generations, every, least in ((23, 13, 3, 0.0), (24, 16, 5, -50.0)):
+        answer, best, _, made = stages_of(student, index, generations, every, least)
         kept = sorted({*range(0, generations, every), generations - 1})
         mistakes = {text: values[kept] for text, values in made.items()}
         said = f"{student.said}: parameters"
@@ -331,44 +353,69 @@ def keeps_the_best_as_they_were(student: Student):
 three = exercise.task("7.6", "Three stages", seconds=60, needs=("7.5",))
 
 
-def evolved(module, seed, signs):
-    """Three stages of an evolution where parameters of the robot may count with the other sign."""
-    from botschool.course.rewiring import rewired
+def evolved(module, seed, gains):
+    """Three stages where parameters count with gains, and the candidates nearest to them."""
+    import numpy
 
-    with rewired(signs):
-        return module.three_stages(seed)
+    from botschool.course.rewiring import recorded, rewired
 
-
-def returns_of(student: Student, signs: np.ndarray) -> np.ndarray:
-    """Mean returns of the three stages over 100 episodes that the student's process never met."""
-    seed = exercise.seed(25) % 100_000
-    answer = student.run(evolved, seed, signs, said=f"three_stages(seed={seed})")
-    parameters = expect_array(student.said, answer, (3, len(signs)))
-    return Robot("Pendulum-v1").evaluate(parameters * signs, exercise.seed(26), episodes=100)
+    with rewired(gains), recorded() as evaluated:
+        stages = module.three_stages(seed)
+    rows = numpy.asarray(stages, dtype=float).reshape(-1, len(gains))[:3]
+    return [stages, [evaluated.nearest(row) for row in rows]]
 
 
-def expect_stages(student: Student, fault) -> None:
-    """fault(returns) says what is wrong with them, or "".
+def stages_for(student: Student, seed: int, gains: np.ndarray) -> np.ndarray:
+    """The student's three stages, which must be candidates that were evaluated."""
+    answer = student.run(evolved, seed, gains, said=f"three_stages(seed={seed})")
+    expect(isinstance(answer, list) and len(answer) == 2, f"{student.said} gave no answers.")
+    parameters = expect_array(student.said, answer[0], (3, len(gains)))
+    for name, row, near in zip(("first", "middle", "last"), parameters, answer[1], strict=True):
+        expect(
+            np.shape(near) == row.shape and np.allclose(near, row, rtol=1e-5, atol=1e-5),
+            f"{student.said}: the {name} stage was never evaluated: return candidates of your "
+            "evolution as they were.",
+        )
+    return parameters
 
-    The stages are those of a robot whose parameters count with signs drawn in secret, which makes
+
+def returns_of(student: Student, gains: np.ndarray, other: bool = False) -> np.ndarray:
+    """Mean returns of the three stages over 100 episodes that the student's process never met.
+
+    other: with another seed.
+    """
+    seed = exercise.seed(25 + 5 * other) % 100_000
+    parameters = stages_for(student, seed, gains)
+    return Robot("Pendulum-v1").evaluate(parameters * gains, exercise.seed(26), episodes=100)
+
+
+def secret_gains() -> np.ndarray:
+    """Either sign, 0.8 to 1.25 times as much."""
+    robot, rng = Robot("Pendulum-v1"), np.random.default_rng(exercise.seed(28))
+    size = robot.nbiases + robot.nweights
+    return rng.choice([-1.0, 1.0], size=size) * 1.25 ** rng.uniform(-1, 1, size)
+
+
+def expect_stages(student: Student, fault, other: bool = False) -> None:
+    """fault(returns) says what is wrong with them, or ""; other: with another seed.
+
+    The stages are those of a robot whose parameters count with gains drawn in secret, which makes
     no difference to an evolution; the ordinary robot only tells which message is the right one.
     """
-    robot = Robot("Pendulum-v1")
-    size = robot.nbiases + robot.nweights
-    signs = np.random.default_rng(exercise.seed(28)).choice([-1.0, 1.0], size=size)
-    found = fault(returns_of(student, signs))
+    gains = secret_gains()
+    found = fault(returns_of(student, gains, other))
     if not found:
         return
-    plain = fault(returns_of(student, np.ones(size)))
+    plain = fault(returns_of(student, np.ones(len(gains)), other))
     expect(not plain, f"{student.said}: {plain}")
     raise Wrong(
-        f"{student.said} is right for the ordinary robot, but not for one of which some parameters "
-        f"count with the other sign: {found} To evolution both are the same task: take the stages "
+        f"{student.said} is right for the ordinary robot, but not for one whose parameters count "
+        f"with other signs and sizes: {found} To evolution both are the same task: take the stages "
         "from one, and begin without knowing any parameters."
     )
 
 
-@three.check(6)
+@three.check(5)
 def last_stage_holds_the_pendulum(student: Student):
     def fault(returns):
         told = f"the last stage reaches {returns[2]:.0f} on average over 100 new episodes, but -400"
@@ -377,7 +424,28 @@ def last_stage_holds_the_pendulum(student: Student):
     expect_stages(student, fault)
 
 
-@three.check(7)
+@three.check(3)
+def seed_decides(student: Student):
+    """The same seed gives the same in a fresh process; another seed gives no relatives."""
+    gains, seed = secret_gains(), exercise.seed(25) % 100_000
+    one = stages_for(student, seed, gains)
+    student.stop()
+    again = stages_for(student, seed, gains)
+    expect(
+        np.array_equal(one, again),
+        f"{student.said} gave other stages when it was called again: everything that is random "
+        "must follow from the seed.",
+    )
+    other = stages_for(student, exercise.seed(30) % 100_000, gains)
+    likeness = np.sum(one * other, axis=1) / np.sqrt(np.sum(one**2, 1) * np.sum(other**2, 1))
+    expect(
+        bool(likeness.max() < 0.8),
+        f"{student.said} gave nearly the same parameters as another seed (correlation "
+        f"{likeness.max():.2f}): evolve them from the seed.",
+    )
+
+
+@three.check(5)
 def stages_rise(student: Student):
     def fault(returns):
         first, middle, last = returns
@@ -393,7 +461,7 @@ def stages_rise(student: Student):
             )
         return ""
 
-    expect_stages(student, fault)
+    expect_stages(student, fault, other=True)
 
 
 # ------------------------------------------------------------------- 7.7

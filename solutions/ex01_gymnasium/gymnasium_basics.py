@@ -42,7 +42,7 @@ from gymnasium import spaces
 
 # %%
 def describe(environment_id: str) -> dict:
-    """The spaces and the time limit of an environment, as plain Python data.
+    """Describe the spaces and the time limit of an environment, as plain Python data.
 
     Returns a dict with
     - "observation" and "action": a dict for each of the two spaces. For a Box
@@ -90,7 +90,7 @@ def describe(environment_id: str) -> dict:
 
 # %%
 def random_episode(environment_id: str, seed: int, maxsteps: int) -> dict:
-    """What happens to an agent that acts at random, from the reset to the end.
+    """Record what happens to an agent that acts at random, from the reset to the end.
 
     Both the reset and, before the first action, the action space are seeded with `seed`; each
     action is then one `sample()`. The episode stops when it is terminated or truncated, and at the
@@ -101,7 +101,7 @@ def random_episode(environment_id: str, seed: int, maxsteps: int) -> dict:
     - "actions": a list of the `steps` actions, as they were drawn;
     - "rewards": a list of the `steps` rewards;
     - "terminated", "truncated": True or False, as the last step said. Both are False when only
-      `maxsteps` stopped the episode.
+      `maxsteps` stopped the episode; when the last of `maxsteps` steps ended it, one is True.
     """
     ### BEGIN SOLUTION task 1.2: run a random episode
     env = gymnasium.make(environment_id)
@@ -140,9 +140,10 @@ def random_episode(environment_id: str, seed: int, maxsteps: int) -> dict:
 
 # %%
 def fallen(observation: np.ndarray) -> bool:
-    """Whether CartPole terminates the episode in this state.
+    """Tell whether CartPole terminates the episode in this state.
 
-    True if the cart is beyond 2.4 metres or the pole beyond 12 degrees, on either side.
+    True if the cart is beyond 2.4 metres or the pole beyond 12 degrees, on either side. Exactly 2.4
+    metres or 12 degrees is not beyond.
     """
     ### BEGIN SOLUTION task 1.3: say when CartPole is over
     position, _, angle, _ = observation
@@ -151,7 +152,7 @@ def fallen(observation: np.ndarray) -> bool:
 
 
 def cartpole_reward(observation: np.ndarray, action: int) -> float:
-    """The reward of a CartPole step that begins with this observation, shape (4,)."""
+    """Return the reward of a CartPole step that begins with this observation, shape (4,)."""
     ### BEGIN SOLUTION task 1.3: compute the reward of CartPole
     return 0.0 if fallen(observation) else 1.0
     ### END SOLUTION
@@ -174,7 +175,7 @@ def cartpole_reward(observation: np.ndarray, action: int) -> float:
 
 # %%
 def pendulum_reward(observation: np.ndarray, action: np.ndarray) -> float:
-    """The reward of a Pendulum step that begins with this observation, as a single number.
+    """Return the reward of a Pendulum step that begins with this observation, as one number.
 
     observation has shape (3,), action has shape (1,) and may exceed the limits of the motor.
     """
@@ -196,9 +197,10 @@ def pendulum_reward(observation: np.ndarray, action: np.ndarray) -> float:
 
 # %%
 def balance(observation: np.ndarray) -> int:
-    """The action, 0 or 1, that keeps CartPole's pole up. It depends on the observation alone.
+    """Return the action, 0 or 1, that keeps CartPole's pole up.
 
-    Asked for: at least 195 of 200 steps, on average over 20 episodes.
+    It depends on the observation alone: no memory of earlier ones and no random numbers. The pole
+    must stay up for at least 195 of 200 steps, on average over 20 episodes.
     """
     ### BEGIN SOLUTION task 1.5: balance the pole
     _, _, angle, speed = observation
@@ -218,7 +220,7 @@ def balance(observation: np.ndarray) -> int:
 
 # %%
 def compare(environment_ids: list[str], episodes: int, seed: int) -> list[dict]:
-    """A table of random agents, with one row for each environment in the order given.
+    """Make a table of random agents, with one row for each environment in the order given.
 
     Episode i (from 0) of every environment is the random episode of task 1.2 with seed + i, and
     goes on until it is terminated or truncated.

@@ -37,10 +37,11 @@ from gymnasium import spaces
 
 # %%
 def parameters(ninputs: int, nhiddens: int, noutputs: int, seed: int) -> dict:
-    """Random parameters of a network.
+    """Return random parameters of a network.
 
     All weights are Gaussian random numbers with mean 0.0 and standard deviation 0.1, each drawn
-    on its own; all biases are 0. The same seed gives the same parameters, another one others.
+    on its own; all biases are 0. The same seed gives the same parameters. Two seeds, even 1 and 2,
+    have no weight in common.
 
     Returns a dict of arrays: "W1" of shape (nhiddens, ninputs), "b1" of shape (nhiddens,), "W2" of
     shape (noutputs, nhiddens), "b2" of shape (noutputs,).
@@ -71,10 +72,10 @@ def parameters(ninputs: int, nhiddens: int, noutputs: int, seed: int) -> dict:
 
 # %%
 def forward(network: dict, observation: np.ndarray) -> np.ndarray:
-    """The outputs, shape (noutputs,), of a network as in task 2.1 for an observation (ninputs,).
+    """Return the outputs of a network as in task 2.1 for an observation.
 
-    Hidden neurons and outputs use tanh. The biases may have any values. The arrays given stay as
-    they are.
+    The observation has shape (ninputs,), the outputs have shape (noutputs,). Hidden neurons and
+    outputs use tanh. The biases may have any values. The arrays given stay as they are.
     """
     ### BEGIN SOLUTION task 2.2: compute the outputs
     hidden = np.tanh(network["W1"] @ observation + network["b1"])
@@ -91,9 +92,10 @@ def forward(network: dict, observation: np.ndarray) -> np.ndarray:
 
 # %%
 def sizes(environment_id: str) -> tuple[int, int]:
-    """(number of inputs, number of outputs) of a network for this environment.
+    """Return (number of inputs, number of outputs) of a network for this environment.
 
-    Its observations are a one-dimensional Box, its actions a one-dimensional Box or Discrete.
+    Its observations are a one-dimensional Box, its actions a one-dimensional Box or Discrete. The
+    choices of a Discrete space need not begin at 0.
     """
     ### BEGIN SOLUTION task 2.3: count inputs and outputs
     env = gymnasium.make(environment_id)
@@ -116,11 +118,12 @@ def sizes(environment_id: str) -> tuple[int, int]:
 
 # %%
 def act(outputs: np.ndarray, action_space: spaces.Space) -> int | np.ndarray:
-    """The action that the outputs, shape (noutputs,), stand for.
+    """Return the action that the outputs, shape (noutputs,), stand for.
 
     For a Discrete space an int: its first choice plus the number of the most active output (of
     equals, the lowest). For a Box an array of shape (noutputs,): the outputs stretched from
-    [-1, 1] to the limits of the space, number by number. All limits are finite.
+    [-1, 1] to the limits of the space, number by number. All limits are finite. The array `outputs`
+    stays as it is.
     """
     ### BEGIN SOLUTION task 2.4: choose the action
     if isinstance(action_space, spaces.Discrete):
@@ -139,7 +142,7 @@ def act(outputs: np.ndarray, action_space: spaces.Space) -> int | np.ndarray:
 
 # %%
 def run_episode(environment_id: str, network: dict, seed: int, maxsteps: int = 200) -> dict:
-    """One episode of a robot with this network; the environment is reset with `seed`.
+    """Run one episode of a robot with this network; the environment is reset with `seed`.
 
     Returns a dict with "actions", the list of all actions, and "return", the sum of all rewards.
     """
@@ -167,7 +170,10 @@ def run_episode(environment_id: str, network: dict, seed: int, maxsteps: int = 2
 
 # %%
 def fitness(environment_id: str, network: dict, seeds: list[int], maxsteps: int = 200) -> float:
-    """The mean return of the network over one episode, of at most maxsteps, for each seed."""
+    """Return the mean return of the network over one episode, of at most maxsteps, for each seed.
+
+    A seed that comes twice counts twice.
+    """
     ### BEGIN SOLUTION task 2.6: compute the fitness
     returns = [run_episode(environment_id, network, seed, maxsteps)["return"] for seed in seeds]
     return float(np.mean(returns))
@@ -187,10 +193,11 @@ def fitness(environment_id: str, network: dict, seeds: list[int], maxsteps: int 
 
 # %%
 def forward_batch(networks: dict, observations: np.ndarray) -> np.ndarray:
-    """What forward gives for n networks, each with an observation of its own, without a loop.
+    """Return what forward gives for n networks, each with its own observation, without a loop.
 
     networks holds "W1" of shape (n, nhiddens, ninputs), "b1" (n, nhiddens), "W2"
-    (n, noutputs, nhiddens), "b2" (n, noutputs); observations has shape (n, ninputs).
+    (n, noutputs, nhiddens), "b2" (n, noutputs); observations has shape (n, ninputs). The arrays
+    given stay as they are.
 
     Returns an array of shape (n, noutputs).
     """
@@ -209,7 +216,7 @@ def forward_batch(networks: dict, observations: np.ndarray) -> np.ndarray:
 
 # %%
 def random_search(environment_id: str, nnetworks: int, nhiddens: int, seed: int) -> dict:
-    """Tries random networks in an environment, whichever it is.
+    """Try random networks in an environment, whichever it is; returns may be negative.
 
     Network i (from 0) has the parameters of task 2.1 with seed + i. The fitness of each is that of
     task 2.6 with the 10 seeds from seed to seed + 9, and at most 200 steps.

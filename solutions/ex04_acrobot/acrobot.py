@@ -50,7 +50,7 @@ from botschool.evolution.run import Run, evolve
 
 # %%
 def decode(observation: np.ndarray) -> dict:
-    """The state of the arm, from an observation of shape (6,).
+    """Return the state of the arm, from an observation of shape (6,).
 
     Returns a dict with the floats "angle1" and "angle2" (radians, from -pi to pi), "speed1" and
     "speed2" (radians per second).
@@ -71,7 +71,7 @@ def decode(observation: np.ndarray) -> dict:
 #
 # There are three actions: 0, 1 and 2 put a torque of -1, 0 and +1 on the second joint.
 #
-# The free end of the arm is to reach a line, one link above the nail. How high is it? Each link
+# The free end of the arm must reach a line, one link above the nail. How high is it? Each link
 # has length 1. The end of a link that makes the angle $\alpha$ with straight down is $\cos\alpha$
 # *below* its beginning. The first link makes the angle $\theta_1$. The second one makes the angle
 # $\theta_1 + \theta_2$, as its own angle is counted from the first. Together, the height of the
@@ -87,14 +87,17 @@ def decode(observation: np.ndarray) -> dict:
 
 # %%
 def torque(action: int) -> float:
-    """The torque on the second joint: -1.0, 0.0 or 1.0 for the actions 0, 1 and 2."""
+    """Return the torque on the second joint: -1.0, 0.0 or 1.0 for the actions 0, 1 and 2."""
     ### BEGIN SOLUTION task 4.2: give the torque
     return float(action - 1)
     ### END SOLUTION
 
 
 def height(observation: np.ndarray) -> float:
-    """How far the free end is above the nail, from -2.0 to 2.0; observation has shape (6,)."""
+    """Return how far the free end is above the nail, from -2.0 to 2.0.
+
+    observation has shape (6,).
+    """
     ### BEGIN SOLUTION task 4.2: compute the height
     state = decode(observation)
     return float(-np.cos(state["angle1"]) - np.cos(state["angle1"] + state["angle2"]))
@@ -102,7 +105,7 @@ def height(observation: np.ndarray) -> float:
 
 
 def reward(observation: np.ndarray) -> float:
-    """The reward of the step that led to this observation: 0.0 above the line, otherwise -1.0."""
+    """Return the reward of the step that led here: 0.0 above the line, otherwise -1.0."""
     ### BEGIN SOLUTION task 4.2: compute the reward
     return 0.0 if height(observation) > 1 else -1.0
     ### END SOLUTION
@@ -130,10 +133,10 @@ def reward(observation: np.ndarray) -> float:
 def run_replications(
     experiment_file: str, seeds: list[int], folder: str, steps: int | None = None
 ) -> dict:
-    """Runs the experiment once with each seed and leaves the files of all runs in the folder.
+    """Run the experiment once with each seed and leave the files of all runs in the folder.
 
-    Makes the folder, and those above it, if they do not exist. Returns a dict: seed -> best
-    post-evaluated fitness of that run.
+    Make the folder, and those above it, if they do not exist. Files of other runs in the folder
+    stay. Returns a dict: seed -> best post-evaluated fitness of that run.
     """
     ### BEGIN SOLUTION task 4.3: run the replications
     Path(folder).mkdir(parents=True, exist_ok=True)
@@ -168,7 +171,7 @@ generation."""
 
 
 def read_stat(path: str) -> dict:
-    """The curves of a run, from its stat file.
+    """Return the curves of a run, from its stat file.
 
     Returns a dict: each name in COLUMNS -> array of shape (generations,).
     """
@@ -190,11 +193,12 @@ def read_stat(path: str) -> dict:
 
 # %%
 def curves(stats: list[dict], column: str, budgets: np.ndarray) -> dict:
-    """Mean and standard deviation of several runs after given numbers of steps.
+    """Return mean and standard deviation of several runs after given numbers of steps.
 
     stats holds what read_stat returns, one dict for each run. The value of a run at a budget is
     that of the last generation whose "steps" are at most the budget. No budget is smaller than the
-    steps of any run's first generation.
+    steps of any run's first generation; some may be larger than those of its last one. The budgets
+    come in any order.
 
     Returns a dict with "mean" and "deviation" (dividing by the number of runs minus one; there are
     at least two runs), arrays of the same shape as budgets.
@@ -225,11 +229,11 @@ def curves(stats: list[dict], column: str, budgets: np.ndarray) -> dict:
 def compare(
     experiment_file: str, folder: str, seeds: list[int], episodes: int, test_seed: int
 ) -> list[dict]:
-    """The robots that the runs in a folder have saved, in the same new episodes.
+    """Compare the robots that the runs in a folder have saved, in the same new episodes.
 
     Returns a list with a dict for each seed, in the order given:
     - "seed": the seed of the run;
-    - "promised": the best post-evaluated fitness, as the last generation of its stat file says;
+    - "promised": the best post-evaluated fitness of the run, from its stat file;
     - "best": the mean return of bestS<seed>.npy in the episodes of test_seed;
     - "bestg": that of bestgS<seed>.npy.
     """

@@ -282,7 +282,7 @@ class Run:
 
 def evolve(
     run: Run,
-    folder: Path,
+    folder: Path | str,
     steps: int | None = None,
     resume: bool = False,
     report: Callable[[Run], None] = lambda run: None,
@@ -296,7 +296,7 @@ def evolve(
     may be called during one. With `keep_every` the best genotype so far stays in a file of its
     own every so many generations, and the one that evolution starts from.
     """
-    files = RunFiles(folder, run.seed)
+    files = RunFiles(Path(folder), run.seed)
     if keep_every:
         report = keeping(files, keep_every, report)
     if resume and files.checkpoint.exists():

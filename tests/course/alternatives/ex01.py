@@ -271,3 +271,103 @@ def compare(environment_ids, episodes, seed):
             }
         )
     return table
+
+
+# %% isinstance_of_box
+# The other kind is asked for; chained comparisons in degrees; a rule with four weights; zip of tuples.
+def describe(environment_id):
+    env = gymnasium.make(environment_id)
+    found = {"maxsteps": env.spec.max_episode_steps}
+    for name in ("observation", "action"):
+        space = getattr(env, name + "_space")
+        if isinstance(space, spaces.Box):
+            limits = {side: [float(x) for x in getattr(space, side)] for side in ("low", "high")}
+            found[name] = {"kind": "Box", "size": len(limits["low"]), **limits}
+        else:
+            found[name] = dict(kind="Discrete", choices=int(space.n), first=int(space.start))
+    return found
+
+
+def random_episode(environment_id, seed, maxsteps):
+    env = gymnasium.make(environment_id)
+    env.action_space.seed(seed)
+    steps, seen = [], [env.reset(seed=seed)[0]]
+    for _ in range(maxsteps):
+        action = env.action_space.sample()
+        after, reward, terminated, truncated, _ = env.step(action)
+        steps.append((action, float(reward), terminated, truncated))
+        seen.append(after)
+        if terminated or truncated:
+            break
+    actions, rewards, terminated, truncated = map(list, zip(*steps))
+    return {
+        "observations": np.stack(seen),
+        "actions": actions,
+        "rewards": rewards,
+        "terminated": terminated[-1],
+        "truncated": truncated[-1],
+    }
+
+
+def fallen(observation):
+    return not (-2.4 <= observation[0] <= 2.4 and -12 <= np.degrees(observation[2]) <= 12)
+
+
+def balance(observation):
+    return int(np.dot([0.05, 0.1, 1.0, 0.5], observation) > 0)
+
+
+# %% statistics_of_rows
+# A recursive generator of steps, statistics for the table, a reward by products.
+import statistics
+
+
+def pendulum_reward(observation, action):
+    cosine, sine, speed = observation
+    angle = np.arccos(np.clip(cosine, -1, 1)) * (1 if sine >= 0 else -1)
+    torque = max(-2, min(2, action.item()))
+    return -float(angle * angle + speed * speed / 10 + torque * torque / 1000)
+
+
+def cartpole_reward(observation, action):
+    return int(not fallen(observation))
+
+
+def compare(environment_ids, episodes, seed):
+    def row(name):
+        runs = [random_episode(name, s, 10**9)["rewards"] for s in range(seed, seed + episodes)]
+        returns = [float(np.sum(rewards)) for rewards in runs]
+        return {
+            "length": statistics.fmean(map(len, runs)),
+            "deviation": statistics.stdev(returns) if len(returns) > 1 else 0,
+            "mean": statistics.fmean(returns),
+            "environment": name,
+        }
+
+    return [row(name) for name in environment_ids]
+
+
+# %% a_rule_that_looks_ahead
+# The rule asks where the pole will be in a quarter of a second; truth values as numbers.
+def fallen(observation):
+    far = np.maximum(abs(observation[0]) - 2.4, abs(observation[2]) - np.pi / 15)
+    return np.bool_(far > 0)
+
+
+def cartpole_reward(observation, action):
+    return float(1 - fallen(observation))
+
+
+def balance(observation):
+    angle, speed = np.asarray(observation)[2:]
+    for _ in range(25):
+        angle = angle + 0.02 * speed
+    return 1 if angle > 0 else 0
+
+
+def pendulum_reward(observation, action):
+    angle = np.angle(complex(observation[0], observation[1]))
+    weights = np.array([1, 0.1, 0.001], dtype=np.float32)
+    torque = np.clip(np.asarray(action, dtype=np.float32), -2, 2)[0]
+    values = np.array([angle, observation[2], torque], dtype=np.float32)
+    return float(-(weights * values**2).sum())

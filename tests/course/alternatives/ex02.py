@@ -244,3 +244,120 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
         "fitness": results,
         "best": np.flatnonzero(results == results.max())[0],
     }
+
+
+# %% library_functions
+# einsum for the layers, flatdim for the sizes, interp for the stretching; arrays for the actions.
+def forward(network, observation):
+    hidden = np.tanh(np.einsum("hi,i->h", network["W1"], observation) + network["b1"])
+    return np.tanh(np.einsum("oh,h->o", network["W2"], hidden) + network["b2"])
+
+
+def sizes(environment_id):
+    env = gymnasium.make(environment_id)
+    found = [spaces.flatdim(space) for space in (env.observation_space, env.action_space)]
+    env.close()
+    return np.array(found)
+
+
+def act(outputs, action_space):
+    if isinstance(action_space, spaces.Discrete):
+        return range(action_space.start, action_space.start + action_space.n)[np.argmax(outputs)]
+    limits = zip(action_space.low, action_space.high)
+    return np.array([np.interp(y, [-1, 1], both) for y, both in zip(outputs, limits)])
+
+
+def run_episode(environment_id, network, seed, maxsteps=200):
+    env = gymnasium.make(environment_id)
+    observation, info = env.reset(seed=seed)
+    actions, rewards = [], []
+    for _ in range(maxsteps):
+        actions.append(act(forward(network, observation), env.action_space))
+        observation, reward, *ends, info = env.step(actions[-1])
+        rewards.append(reward)
+        if any(ends):
+            break
+    return {"actions": np.array(actions), "return": np.sum(rewards)}
+
+
+def forward_batch(networks, observations):
+    hidden = np.tanh(np.einsum("nhi,ni->nh", networks["W1"], observations) + networks["b1"])
+    return np.tanh(np.einsum("noh,nh->no", networks["W2"], hidden) + networks["b2"])
+
+
+# %% a_batch_of_one
+# forward is a batch of one network; sums of products by broadcasting; a running mean.
+def forward_batch(networks, observations):
+    values = np.asarray(observations, dtype=float)
+    for weights, biases in (("W1", "b1"), ("W2", "b2")):
+        values = np.tanh((networks[weights] * values[:, None, :]).sum(axis=-1) + networks[biases])
+    return values
+
+
+def forward(network, observation):
+    networks = {key: np.asarray(value)[np.newaxis] for key, value in network.items()}
+    return forward_batch(networks, np.asarray(observation)[np.newaxis])[0]
+
+
+def fitness(environment_id, network, seeds, maxsteps=200):
+    mean = 0.0
+    for n, seed in enumerate(seeds, 1):
+        mean += (run_episode(environment_id, network, seed, maxsteps)["return"] - mean) / n
+    return mean
+
+
+def random_search(environment_id, nnetworks, nhiddens, seed):
+    ninputs, noutputs = sizes(environment_id)
+    networks, measured = [], []
+    for s in range(seed, seed + nnetworks):
+        networks.append(parameters(ninputs, nhiddens, noutputs, s))
+        measured.append(fitness(environment_id, networks[-1], range(seed, seed + 10), 200))
+    best = max(range(nnetworks), key=measured.__getitem__)
+    return {"best": best, "fitness": tuple(measured), "networks": networks, "seeds": seed}
+
+
+# %% one_stream_of_numbers
+# All weights are cut from one stream; a table of ways to act; one environment is kept for each name.
+_kept = {}
+
+
+def parameters(ninputs, nhiddens, noutputs, seed):
+    stream = np.random.RandomState(seed % 2**32).normal(0, 0.1, nhiddens * (ninputs + noutputs))
+    first, second = np.split(stream, [nhiddens * ninputs])
+    return dict(
+        W1=first.reshape(nhiddens, ninputs), b1=np.full(nhiddens, 0),
+        W2=second.reshape(noutputs, nhiddens), b2=np.full(noutputs, 0),
+    )  # fmt: skip
+
+
+def environment(name):
+    if name not in _kept:
+        _kept[name] = gymnasium.make(name)
+    return _kept[name]
+
+
+def sizes(environment_id):
+    env = environment(environment_id)
+    count = {spaces.Discrete: lambda s: int(s.n), spaces.Box: lambda s: int(np.prod(s.shape))}
+    return [
+        int(np.prod(env.observation_space.shape)),
+        count[type(env.action_space)](env.action_space),
+    ]
+
+
+def act(outputs, action_space):
+    ways = {
+        spaces.Discrete: lambda s: int(s.start) + list(outputs).index(max(outputs)),
+        spaces.Box: lambda s: s.high * ((1 + outputs) / 2) + s.low * ((1 - outputs) / 2),
+    }
+    return ways[type(action_space)](action_space)
+
+
+def run_episode(environment_id, network, seed, maxsteps=200):
+    env = environment(environment_id)
+    (observation, _), done, actions, total = env.reset(seed=seed), False, [], 0
+    while not done and maxsteps > 0:
+        actions += [act(forward(network, observation), env.action_space)]
+        observation, reward, terminated, truncated, _ = env.step(actions[-1])
+        total, done, maxsteps = total + reward, terminated | truncated, maxsteps - 1
+    return {"actions": actions, "return": total}

@@ -235,3 +235,103 @@ def train(environment, seed):
         fitness = robot.evaluate(population, seed * 1000 + g)
         population = np.array(next_population(population, fitness, rate, rng))
     return population[int(np.argmax(robot.evaluate(population, seed + 999, episodes=30)))].tolist()
+
+
+# %% seed_sequences
+# Children of a SeedSequence; argpartition to select; the best is found after the loop.
+def initial_population(popsize, nbiases, nweights, seed):
+    rows = []
+    for child in np.random.SeedSequence(seed).spawn(popsize):
+        rows.append(np.r_[np.zeros(nbiases), np.random.default_rng(child).normal(0, 0.1, nweights)])
+    return np.vstack(rows)
+
+
+def next_population(population, fitness, mutrate, rng):
+    population = np.asarray(population)
+    half = len(population) // 2
+    better = np.argpartition(-np.asarray(fitness), half - 1)[:half]
+    worse = np.setdiff1d(np.arange(len(population)), better)
+    following = np.empty_like(population)
+    following[better] = population[better]
+    following[worse] = rng.normal(population[rng.permutation(better)], mutrate)
+    return following
+
+
+def evolve(evaluate, population, generations, mutrate, seed):
+    rng = np.random.default_rng(seed)
+    table, populations = [], []
+    for s in range(seed, seed + generations):
+        populations.append(np.array(population))
+        table.append(np.asarray(evaluate(population, s)))
+        population = next_population(population, table[-1], mutrate, rng)
+    g, i = np.unravel_index(np.argmax(table), np.shape(table))
+    return dict(
+        best=populations[g][i],
+        fitness=table[g][i],
+        history=np.max(table, axis=1),
+        population=population,
+    )
+
+
+# %% heap_of_rows
+# A heap for the ranks, tuples for rows, deques for histories, Welford's sums for the deviation.
+import heapq
+from collections import deque
+
+
+def rank(fitness):
+    heap = [(-float(value), i) for i, value in enumerate(fitness)]
+    heapq.heapify(heap)
+    return [heapq.heappop(heap)[1] for _ in range(len(heap))]
+
+
+def evolve(evaluate, population, generations, mutrate, seed):
+    rng, history, record = np.random.default_rng(seed), deque(), (None, None)
+    for g in range(generations):
+        fitness = np.asarray(evaluate(population, seed + g), dtype=float)
+        history.append(np.amax(fitness))
+        if record[1] is None or fitness.max() >= record[1]:
+            record = tuple(population[int(fitness.argmax())]), fitness.max()
+        population = next_population(population, fitness, mutrate, rng)
+    return {
+        "best": list(record[0]),
+        "fitness": np.float64(record[1]),
+        "history": list(history),
+        "population": np.ascontiguousarray(population),
+        "generations": generations,
+    }
+
+
+def hill_climb(evaluate, start, generations, mutrate, seed):
+    return evolve(evaluate, np.repeat(start[None, :], 2, axis=0), generations, mutrate, seed)
+
+
+def replicate(experiment, seeds):
+    best, n, mean, squares = [], 0, 0.0, 0.0
+    for seed in seeds:
+        run = experiment(seed)
+        n += 1
+        away = np.asarray(run["history"]) - mean
+        mean = mean + away / n
+        squares = squares + away * (np.asarray(run["history"]) - mean)
+        best.append(run["fitness"])
+    deviation = np.sqrt(squares / (n - 1)) if n > 1 else 0 * mean
+    return {"mean": mean, "deviation": deviation, "best": best}
+
+
+# %% training_in_two_rounds
+# Several short evolutions compete; the winner's relatives are evolved on; integers as seeds of numpy.
+def train(environment, seed):
+    robot = Robot(environment)
+    cartpole = environment == "CartPole-v0"
+    rate, first, second = (0.1, 10, 60) if cartpole else (0.5, 100, 800)
+    tribes = []
+    for tribe in range(3):
+        s = np.int64(10 * seed + tribe)
+        start = initial_population(30, robot.nbiases, robot.nweights, s)
+        population = evolve(robot.evaluate, start, first, rate, int(s))["population"]
+        tribes.append((robot.evaluate(population, 77, episodes=20).mean(), tribe, population))
+    population = max(tribes)[2]
+    population = evolve(robot.evaluate, population, second, rate, 10 * seed + 9)["population"]
+    scores = sum(robot.evaluate(population, seed + k, episodes=20) for k in (501, 502, 503))
+    return np.asarray(population[int(np.argmax(scores))], dtype=np.float32)

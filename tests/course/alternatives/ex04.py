@@ -218,3 +218,99 @@ def compare(experiment_file, folder, seeds, episodes, test_seed):
             yield {"seed": seed, "promised": max(promised) * 0 + promised[-1], **worth}
 
     return list(rows())
+
+
+# %% highest_promise
+# The promise is the highest of its column; single precision; the sum rule of cosines; a dict of arrays.
+def decode(observation):
+    o = np.asarray(observation, dtype=np.float32)
+    names = ("angle1", "angle2", "speed1", "speed2")
+    return dict(zip(names, [*np.arctan2(o[1:4:2], o[0:4:2]), *o[4:]]))
+
+
+def height(observation):
+    c1, s1, c2, s2 = np.asarray(observation, dtype=np.float32)[:4]
+    return np.float32(-c1 * (1 + c2) + s1 * s2)
+
+
+def torque(action):
+    return (-1.0, 0.0, 1.0)[int(action)]
+
+
+def reward(observation):
+    return (height(observation) > 1) - 1.0
+
+
+def read_stat(path):
+    numbers = np.load(path)
+    return {name: numbers[start :: len(COLUMNS)] for start, name in enumerate(COLUMNS)}
+
+
+def compare(experiment_file, folder, seeds, episodes, test_seed):
+    def worth(seed, kind):
+        robot = SavedRobot(experiment_file, np.load(Path(folder, f"{kind}S{seed}.npy")))
+        return sum(robot.evaluate(test_seed, episodes)) / episodes
+
+    return [
+        {
+            "seed": seed,
+            "promised": max(read_stat(Path(folder, f"statS{seed}.npy"))["best post-evaluated"]),
+            **{kind: worth(seed, kind) for kind in ("bestg", "best")},
+        }
+        for seed in seeds
+    ]
+
+
+# %% files_instead_of_records
+# The fitness is read from the stat file; all runs are prepared first; bisect and statistics.
+import bisect
+import statistics
+
+
+def run_replications(experiment_file, seeds, folder, steps=None):
+    folder = Path(folder).absolute()
+    folder.mkdir(parents=True, exist_ok=True)
+    for run in [Run(config.load(Path(experiment_file)), seed) for seed in seeds]:
+        evolve(run, folder, steps)
+    return {seed: float(np.load(folder / f"statS{seed}.npy")[-4]) for seed in seeds}
+
+
+def curves(stats, column, budgets):
+    at = [
+        [stat[column][bisect.bisect(list(stat["steps"]), budget) - 1] for stat in stats]
+        for budget in budgets
+    ]
+    return {"mean": [*map(statistics.fmean, at)], "deviation": [*map(statistics.stdev, at)]}
+
+
+# %% tables_and_masks
+# A structured array for the stat file, masks for the budgets, a rotation for the height.
+def decode(observation):
+    cosine, sine = observation[0:4:2], observation[1:4:2]
+    angles = 2 * np.arctan2(sine, 1 + cosine)
+    return {
+        **{f"angle{i}": angle for i, angle in enumerate(angles, 1)},
+        **{f"speed{i}": speed for i, speed in enumerate(observation[4:], 1)},
+    }
+
+
+def height(observation):
+    c1, s1, c2, s2, *_ = observation
+    end = np.array([[c1, -s1], [s1, c1]]) @ (np.array([1.0, 0.0]) + np.array([c2, s2]))
+    return float(-end[0])
+
+
+def read_stat(path):
+    kinds = [(name, float) for name in COLUMNS]
+    table = np.load(path).astype(float).view(kinds)
+    return {name: table[name] for name in table.dtype.names}
+
+
+def curves(stats, column, budgets):
+    rows = []
+    for stat in stats:
+        mask = stat["steps"][:, None] <= budgets
+        last = len(mask) - 1 - mask[::-1].argmax(axis=0)
+        rows.append(stat[column][last])
+    rows = np.vstack(rows)
+    return {"mean": rows.mean(0), "deviation": np.sqrt(rows.var(0, ddof=1))}

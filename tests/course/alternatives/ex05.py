@@ -308,3 +308,115 @@ def loss(matrix):
         "bodies": np.float32(own - others.mean(axis=0).data),
         "at home": np.count_nonzero(own > others.max(axis=1).data),
     }
+
+
+# %% folder_as_text
+# The folder stays a text; seeds give a dict of runs; hstack, partial sums and a loop of corners.
+import os
+
+
+def sizes(parameters):
+    squeezed = np.tanh(parameters)
+    lengths, thicknesses = (
+        np.array([nominal * (1 + 0.9 * squeezed[2 * i + k]) for i in range(SEGMENTS)])
+        for k, nominal in enumerate((0.8, 0.2))
+    )
+    return {
+        "masses": lengths * thicknesses * (5 + 0.8 * squeezed[-11:]),
+        "lengths": lengths,
+        "thicknesses": thicknesses,
+    }
+
+
+def evolve_walkers(experiment_file, seeds, folder, steps=None):
+    os.makedirs(folder, exist_ok=True)
+    runs = {seed: Run(config.load(experiment_file), seed) for seed in seeds}
+    for run in runs.values():
+        evolve(run, folder, steps=steps)
+    return np.vstack([runs[seed].record.bestg for seed in seeds])
+
+
+def transplant(brain, body):
+    return np.hstack([brain[:-134], body[-134:-70], brain[-70:]])
+
+
+# %% walking_along_the_chain
+# One loop along the chain for the outline; sorted limits; extremes by min and max of lists.
+import math
+
+
+def joints(parameters):
+    cut = [max(-1.0, min(1.0, float(p))) for p in parameters]
+    pairs = [sorted(cut[i : i + 2]) for i in range(22, 42, 2)]
+    return {
+        "angles": [0.75 * math.pi * p for p in cut[42:53]],
+        "lower": [pair[0] * math.pi / 2 for pair in pairs],
+        "upper": np.array([pair[1] for pair in pairs]) * math.pi / 2,
+    }
+
+
+def outline(parameters):
+    size, corners, x, y, heading = sizes(parameters), [], 0.0, 0.0, 0.0
+    turns = joints(parameters)["angles"]
+    for length, thickness, turn in zip(size["lengths"], size["thicknesses"], turns):
+        heading = math.remainder(heading + turn, 2 * math.pi)
+        right = (thickness / 2 * math.sin(heading), -thickness / 2 * math.cos(heading))
+        x2, y2 = x + length * math.cos(heading), y + length * math.sin(heading)
+        corners.append(
+            [
+                (x + right[0], y + right[1]),
+                (x2 + right[0], y2 + right[1]),
+                (x2 - right[0], y2 - right[1]),
+                (x - right[0], y - right[1]),
+            ]
+        )
+        x, y = x2, y2
+    return corners
+
+
+def describe(parameters):
+    xs, ys = zip(*[corner for segment in outline(parameters) for corner in segment])
+    size, angles = sizes(parameters), joints(parameters)
+    spans = [upper - lower for lower, upper in zip(angles["lower"], angles["upper"])]
+    return {
+        "length": sum(size["lengths"]),
+        "mass": sum(size["masses"]),
+        "width": max(xs) - min(xs),
+        "height": max(ys) - min(ys),
+        "freedom": sum(spans) / len(spans),
+    }
+
+
+# %% masks_and_means
+# Masked means for the losses; a table filled by column; splits of the genotype.
+def body_of(genotype):
+    return np.split(np.asarray(genotype), [-134, -70])[1]
+
+
+def transplant(brain, body):
+    parts = np.split(brain, [len(brain) - 134, len(brain) - 70])
+    parts[1] = body_of(body)
+    return np.concatenate(parts)
+
+
+def cross_evaluate(experiment_file, walkers, seed, episodes):
+    columns = []
+    for body in walkers:
+        robots = (SavedRobot(experiment_file, transplant(brain, body)) for brain in walkers)
+        columns.append([np.mean(robot.evaluate(seed, episodes)) for robot in robots])
+    return np.transpose(columns).astype(np.float32)
+
+
+def loss(matrix):
+    table = np.asarray(matrix, dtype=np.float32)
+    off = ~np.eye(len(table), dtype=bool)
+    own = np.array([table[i, i] for i in range(len(table))])
+    rows = table[off].reshape(len(table), -1)
+    columns = table.T[off].reshape(len(table), -1)
+    return {
+        "own": own.mean(),
+        "foreign": table[off].mean(),
+        "brains": own - rows.mean(axis=1),
+        "bodies": list(own - columns.mean(axis=1)),
+        "at home": sum(bool(np.all(mine > others)) for mine, others in zip(own, rows)),
+    }

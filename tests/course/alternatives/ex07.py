@@ -326,3 +326,78 @@ def draw_portraits(file, titles, fields, paths):
                     )
                 )  # fmt: skip
     figure.savefig(file, dpi=100, transparent=True)
+
+
+# %% unwrapped_changes
+# np.unwrap for the short way, meshgrid for the grid, one array for all stages, a list of states.
+def arrows(before, after):
+    turns = np.unwrap(np.stack([before[:, 0], after[:, 0]]), axis=0)
+    return np.column_stack([before, turns[1] - turns[0], after[:, 1] - before[:, 1]])
+
+
+def grid(nangles, nvelocities):
+    axes = np.linspace(-np.pi, np.pi, nangles), np.linspace(-8, 8, nvelocities)
+    return np.dstack(np.meshgrid(*axes)).reshape(-1, 2)
+
+
+def evolve(algorithm, evaluate, generations, every):
+    table = {}
+    for g in range(generations):
+        candidates, _ = algorithm.ask()
+        fitness = evaluate(candidates, g)
+        algorithm.tell(fitness.copy())
+        top = fitness.argsort()[-1]
+        table[g] = (fitness[top], np.array(candidates[top]))
+    kept = [g for g in table if g % every == 0 or g + 1 == generations]
+    return {
+        "generations": np.array(kept),
+        "parameters": [table[g][1] for g in kept],
+        "history": [table[g][0] for g in table],
+    }
+
+
+# %% while_loops
+# while loops and math; the remainder of math for the short way; states of one step by np.array.
+import math
+
+
+def to_state(observation):
+    observation = np.asarray(observation)
+    if observation.ndim == 2:
+        return np.array([to_state(row) for row in observation])
+    cosine, sine, velocity = map(float, observation)
+    return np.array([math.atan2(sine, cosine), velocity])
+
+
+def record(controller, seed, steps):
+    env = gymnasium.make("Pendulum-v1")
+    observation, _ = env.reset(seed=seed)
+    states, over = [to_state(observation)], False
+    while len(states) <= steps and not over:
+        observation, reward, *ends, _ = env.step(controller(observation))
+        states.append(to_state(observation))
+        over = any(ends)
+    return np.vstack(states)
+
+
+def arrows(before, after):
+    rows = []
+    for (angle, velocity), (later, faster) in zip(before, after):
+        turn = math.remainder(later - angle, 2 * math.pi)
+        rows.append((angle, velocity, turn, faster - velocity))
+    return rows
+
+
+# %% stages_by_threshold
+# The first stage that beats a third of the way is the middle; single precision for the stages.
+def three_stages(seed):
+    robot = Robot("Pendulum-v1")
+    run = evolve(
+        openai_es(robot, seed), lambda rows, g: robot.evaluate(rows, 7 * seed + g, episodes=12),
+        600, 4,
+    )  # fmt: skip
+    fitness = robot.evaluate(run["parameters"], seed + 99_999, episodes=100)
+    last = int(fitness.argmax())
+    goal = fitness[0] + 0.4 * (fitness[last] - fitness[0])
+    middle = int(np.argmin(abs(fitness[: last + 1] - goal)))
+    return [np.float32(run["parameters"][i]) for i in (0, middle, last)]

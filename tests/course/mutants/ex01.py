@@ -213,3 +213,65 @@ def compare(environment_ids, episodes, seed):
     for row in _compare(environment_ids, 1, seed):
         table.append({**row, "deviation": 0.0})
     return table
+
+
+# %% last_step_does_not_count loses 1.2
+# Takes every episode of maxsteps steps for one that maxsteps has stopped.
+# says: in the last of its 200 steps
+_random_episode = random_episode
+
+
+def random_episode(environment_id, seed, maxsteps):
+    episode = _random_episode(environment_id, seed, maxsteps)
+    if len(episode["actions"]) == maxsteps:
+        episode |= {"terminated": False, "truncated": False}
+    return episode
+
+
+# %% over_at_the_limit loses 1.3
+# Ends the episode exactly at the limit, which is still allowed.
+# says: exactly 2.4 is still allowed
+# -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
+# +     return bool(abs(position) >= 2.4 or abs(angle) >= np.deg2rad(12))
+
+
+# %% keeps_pushing loses 1.5
+# Keeps the action of the call before while the pole hardly moves.
+# says: must depend on the observation alone
+_pushed = [0]
+
+
+def balance(observation):
+    lean = observation[2] + 0.5 * observation[3]
+    if abs(lean) > 0.02:
+        _pushed[0] = int(lean > 0)
+    return _pushed[0]
+
+
+# %% tosses_a_coin loses 1.5
+# Tosses a coin while the pole hardly moves.
+# says: must depend on the observation alone
+_coin = np.random.default_rng()
+
+
+def balance(observation):
+    lean = observation[2] + 0.5 * observation[3]
+    return int(lean > 0) if abs(lean) > 0.05 else int(_coin.integers(2))
+
+
+# %% one_row_for_a_name loses 1.6
+# Collects the rows in a dict, so that an environment that is given twice has one row.
+# says: a list of 2 rows
+_compare = compare
+
+
+def compare(environment_ids, episodes, seed):
+    return list(
+        {row["environment"]: row for row in _compare(environment_ids, episodes, seed)}.values()
+    )
+
+
+# %% five_hundred_steps_at_most loses 1.6
+# Ends every episode after 500 steps, though some environments allow more.
+# -         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
+# +         runs = [random_episode(environment_id, seed + i, 500) for i in range(episodes)]

@@ -223,3 +223,70 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
 # says: fitnes' is not defined. Did you mean
 def random_search(environment_id, nnetworks, nhiddens, seed):
     return fitnes(environment_id, parameters(4, nhiddens, 2, seed), range(10))
+
+
+# %% second_layer_from_the_next_seed loses 2.1
+# W2 is drawn from seed + 1, with which W1 of the next network begins.
+# says: are also in the network of seed
+# -         "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
+# +         "W2": 0.1 * np.random.default_rng(seed + 1).standard_normal((noutputs, nhiddens)),
+
+
+# %% counts_up_to_the_last_choice loses 2.3
+# Adds the number of the first choice to the number of choices.
+# says: start=5
+# -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
+# +     if isinstance(actions, spaces.Discrete):
+# +         return ninputs, int(actions.start + actions.n)
+# +     return ninputs, actions.shape[0]
+
+
+# %% beats_zero loses 2.4
+# Looks for an output above 0: where all are negative, the first wins.
+# -         return int(action_space.start + np.argmax(outputs))
+# +         best, highest = 0, 0.0
+# +         for number, output in enumerate(outputs):
+# +             if output > highest:
+# +                 best, highest = number, output
+# +         return int(action_space.start + best)
+
+
+# %% stretches_in_place loses 2.4
+# Stretches the outputs themselves.
+# says: they must stay as they are
+# -     low, high = action_space.low, action_space.high
+# -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
+# +     outputs += 1
+# +     outputs *= (action_space.high - action_space.low) / 2
+# +     outputs += action_space.low
+# +     return outputs
+
+
+# %% each_seed_once loses 2.6
+# Makes a set of the seeds, so that a seed counts once.
+# says: seeds=
+# -     returns = [run_episode(environment_id, network, seed, maxsteps)["return"] for seed in seeds]
+# +     returns = [run_episode(environment_id, network, s, maxsteps)["return"] for s in set(seeds)]
+
+
+# %% biases_reshaped_in_place loses 2.7
+# Makes columns of the biases of the networks that it was given.
+# says: of what it was given
+def forward_batch(networks, observations):
+    values = observations[:, :, None]
+    for layer in "12":
+        biases = networks["b" + layer]
+        biases.shape = (*biases.shape[:2], 1)
+        values = np.tanh(networks["W" + layer] @ values + biases)
+    return values[:, :, 0]
+
+
+# %% better_than_zero loses 2.8
+# The highest fitness begins at 0, so that a negative one never beats it.
+# says: must be
+# -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
+# +     best, highest = 0, 0
+# +     for number, value in enumerate(measured):
+# +         if value > highest:
+# +             best, highest = number, value
+# +     return {"networks": networks, "fitness": measured, "best": best}

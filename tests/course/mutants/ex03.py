@@ -98,9 +98,9 @@ def next_population(population, fitness, mutrate, rng):
 # A colon is missing.
 # says: expected ':'[\s\S]*next_population cannot be read
 # - ) -> np.ndarray:
-# -     """The population after selection and mutation, as a new array of the same shape.
+# -     """Return the population after selection and mutation, as a new array of the same shape.
 # + ) -> np.ndarray
-# +     """The population after selection and mutation, as a new array of the same shape.
+# +     """Return the population after selection and mutation, as a new array of the same shape.
 
 
 # %% copies_of_the_best loses 3.3
@@ -264,3 +264,106 @@ TENTHS = {
 def train(environment, seed):
     parameters = np.array(TENTHS[environment].split(), dtype=float) / 10
     return parameters + 0.001 * np.random.default_rng(seed).standard_normal(len(parameters))
+
+
+# %% neighbours_share_individuals loses 3.1
+# Individual i is drawn from seed + i: the populations of seeds 1 and 2 are nearly the same.
+# says: holds individuals of the population of seed
+def initial_population(popsize, nbiases, nweights, seed):
+    rows = [np.random.default_rng(seed + i).standard_normal(nweights) for i in range(popsize)]
+    return np.hstack([np.zeros((popsize, nbiases)), 0.1 * np.array(rows)])
+
+
+# %% argsort_without_stable loses 3.2
+# kind="stable" is left out: a few equal values stay in order, many do not.
+# says: only with kind='stable'
+def rank(fitness):
+    return np.argsort(-np.asarray(fitness))
+
+
+# %% selects_by_a_threshold loses 3.3
+# All that reach the fitness in the middle stay: with equal fitness these are too many.
+# says: but it should be 6
+def next_population(population, fitness, mutrate, rng):
+    middle = np.sort(fitness)[len(fitness) // 2]
+    parents, following = population[fitness >= middle], population.copy()
+    for place, i in enumerate(np.flatnonzero(fitness < middle)):
+        following[i] = parents[place] + mutrate * rng.standard_normal(population.shape[1])
+    return following
+
+
+# %% best_fitness_begins_at_zero loses 3.4
+# The best fitness begins at 0: where all returns are negative, nothing is ever better.
+# -     best, best_fitness, history = population[0], -np.inf, []
+# +     best, best_fitness, history = population[0], 0, []
+
+
+# %% own_mutation_rate loses 3.4
+# The loop mutates with 0.1 whatever mutrate is.
+# -         population = next_population(population, fitness, mutrate, rng)
+# +         population = next_population(population, fitness, 0.1, rng)
+
+
+# %% loop_without_seed loses 3.4
+# The loop's generator ignores the seed.
+# says: called again with the same arguments
+# -     rng = np.random.default_rng(seed)
+# -     best, best_fitness, history = population[0], -np.inf, []
+# +     rng = np.random.default_rng()
+# +     best, best_fitness, history = population[0], -np.inf, []
+
+
+# %% loop_with_one_seed loses 3.4
+# The loop's generator has the same seed in all runs.
+# says: as with another seed
+# -     rng = np.random.default_rng(seed)
+# -     best, best_fitness, history = population[0], -np.inf, []
+# +     rng = np.random.default_rng(0)
+# +     best, best_fitness, history = population[0], -np.inf, []
+
+
+# %% climber_with_own_rate loses 3.5
+# The hill climber mutates with 0.1 whatever mutrate is.
+# says: the noise of all generations has standard deviation
+# -     return evolve(evaluate, np.array([start, start]), generations, mutrate, seed)
+# +     return evolve(evaluate, np.array([start, start]), generations, 0.1, seed)
+
+
+# %% runs_each_twice loses 3.6
+# Runs every experiment a second time for its best fitness.
+# says: run each once
+# -         "best": [run["fitness"] for run in runs],
+# +         "best": [experiment(seed)["fitness"] for seed in seeds],
+
+
+# %% one_run_and_noise loses 3.7
+# One evolution, from seed 1, is used for all seeds; each seed adds a little noise.
+# says: robot.evaluate
+_evolve_and_choose = train
+
+
+def train(environment, seed):
+    parameters = _evolve_and_choose(environment, 1)
+    return parameters + 0.001 * np.random.default_rng(seed).standard_normal(len(parameters))
+
+
+# %% one_run_and_its_relatives loses 3.7
+# One evolution, from seed 1, is used for all seeds; each seed chooses among evaluated relatives.
+# says: nearly the same parameters as another seed
+_evolve_and_choose = train
+
+
+def train(environment, seed):
+    parameters, rng = _evolve_and_choose(environment, 1), np.random.default_rng(seed)
+    near = parameters + 0.001 * rng.standard_normal((10, len(parameters)))
+    return near[Robot(environment).evaluate(near, seed, episodes=100).argmax()]
+
+
+# %% training_without_seed loses 3.7
+# The initial population and the loop have seeds that nobody knows.
+# says: when it was called again
+_evolve_and_choose = train
+
+
+def train(environment, seed):
+    return _evolve_and_choose(environment, int(np.random.default_rng().integers(10**6)))

@@ -273,3 +273,61 @@ def loss(matrix):
         "bodies": own - matrix.mean(axis=0),
         "at home": int(np.sum(own == matrix.max(axis=1))),
     }
+
+
+# %% tanh_in_place loses 5.1
+# Puts the parameters themselves through tanh, so that a second function reads other numbers.
+# says: work on a copy
+# -     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(SEGMENTS, 2))
+# +     np.tanh(parameters[:22], out=parameters[:22])
+# +     scales = 1 + 0.9 * parameters[:22].reshape(SEGMENTS, 2)
+
+
+# %% cut_off_in_place loses 5.2
+# Cuts off the parameters themselves.
+# says: work on a copy
+# -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
+# +     np.clip(parameters[22:53], -1, 1, out=parameters[22:53])
+# +     limits = np.pi / 2 * parameters[22:42].reshape(JOINTS, 2)
+
+
+# %% half_of_the_thickness_forgotten loses 5.4
+# Measures width and height along the middle line, without the thickness of the segments.
+# -     width, height = np.ptp(outline(parameters), axis=(0, 1))
+# +     corners = outline(parameters)
+# +     line = np.stack([corners[:, [0, 3]].mean(axis=1), corners[:, [1, 2]].mean(axis=1)])
+# +     width, height = np.ptp(line, axis=(0, 1))
+
+
+# %% rising_seeds loses 5.5
+# Runs the seeds in rising order, and returns the walkers in that order, too.
+# -     for seed in seeds:
+# -         run = Run(experiment, seed)
+# +     for seed in sorted(seeds):
+# +         run = Run(experiment, seed)
+
+
+# %% body_swapped_in_the_table loses 5.7
+# Writes the foreign body into the walker of the table before it evaluates it.
+def cross_evaluate(experiment_file, walkers, seed, episodes):
+    bodies = np.array([body_of(walker) for walker in walkers])
+    matrix = np.zeros((len(walkers), len(walkers)))
+    for i, walker in enumerate(walkers):
+        for j, body in enumerate(bodies):
+            walker[-134:-70] = body
+            matrix[i, j] = SavedRobot(experiment_file, walker).evaluate(seed, episodes).mean()
+    return matrix
+
+
+# %% diagonal_filled_in_place loses 5.8
+# Fills the diagonal of the matrix that it was given with minus infinity.
+# says: changed the matrix
+# -     others = np.where(np.eye(n, dtype=bool), -np.inf, matrix)
+# -     return {
+# +     answer = {
+# -         "at home": int(np.sum(own > others.max(axis=1))),
+# -     }
+# +     }
+# +     own = own.copy()
+# +     np.fill_diagonal(matrix, -np.inf)
+# +     return answer | {"at home": int(np.sum(own > matrix.max(axis=1)))}
