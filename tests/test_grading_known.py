@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from botschool.grading import Exercise, expect, expect_close
-from botschool.grading.declare.mistakes import read_cases
+from botschool.grading.declare.mistakes import Known, read_cases
 from botschool.grading.judge import known as replay
 from botschool.grading.judge.alike import distance, fits, weight
 from botschool.grading.judge.judging import TOLD
@@ -150,6 +150,12 @@ def test_time_is_limited(messages, monkeypatch):
     assert [case.name for case in read_cases(3, text)][:2] == ["endless", "by_n"]
     first, _ = messages(RIGHT + BY_N, declared(mistakes=text))
     assert first.startswith("spread(...) returned")
+
+
+def test_mistakes_that_import_something_come_last():
+    slow = "# %% slow loses 3.1\n# It asks a library.\nimport statistics\n\n"
+    names = [case.name for case in Known(3, SOLUTION, slow + MISTAKES).of("3.1")]
+    assert names == ["by_n", "half_range", "slow"]
 
 
 def test_a_mistake_that_fits_no_more_is_left_out(messages):
