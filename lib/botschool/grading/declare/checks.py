@@ -71,6 +71,8 @@ def expect_close(
 ) -> None:
     """The value equals the expected number or array, within a relative and absolute tolerance.
 
+    Fractions in single precision may be as far off as single precision is (see `_allowed`).
+
     mistakes: what typical mistakes make of it, each by a sentence that names the mistake ("The
     biases are left out."). Raises Mismatch, for which a likely cause is looked for.
     """
@@ -79,7 +81,7 @@ def expect_close(
     if array.shape != wanted.shape:
         raise Mismatch(_but(said, value, wanted.shape), array, wanted, mistakes)
     got = expect_array(said, value, wanted.shape)
-    close = np.isclose(got, wanted, rtol=tolerance, atol=tolerance)
+    close = np.abs(got - wanted) <= _allowed(got, wanted, tolerance)
     if not close.all():
         raise Mismatch(_unequal(said, got, wanted, close), got, wanted, mistakes)
 
@@ -98,6 +100,19 @@ def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
             f"{shape} is needed."
         )
     return array.astype(np.float64)
+
+
+def _allowed(got: np.ndarray, wanted: np.ndarray, tolerance: float) -> np.ndarray:
+    """How far off each number may be; numbers that all fit into float32 may be as far as those are.
+
+    That is a share of 1e-5, or 1e-6 of the largest number. Whole numbers stay exact.
+    """
+    allowed = tolerance * (1 + np.abs(wanted))
+    with np.errstate(over="ignore"):
+        single = got.size > 0 and bool((got.astype(np.float32) == got).all())
+    if single and (got % 1).any():
+        allowed = np.maximum(allowed, 1e-5 * np.abs(wanted) + 1e-6 * np.abs(wanted).max())
+    return allowed
 
 
 def _but(said: str, value: Any, shape: tuple[int, ...]) -> str:
