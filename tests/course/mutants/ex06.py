@@ -256,3 +256,58 @@ def reactions(brain, observation, memories):
     memories = np.array(memories)
     memories[:, 1] = 0
     return _reactions(brain, observation, memories)
+
+
+# %% outputs_without_tanh loses 6.1
+# The cells are not squashed by tanh before the output gate shows them.
+# -     outputs = np.tanh(cells) * logistic(leave)
+# +     outputs = cells * logistic(leave)
+
+
+# %% candidate_is_logistic loses 6.1
+# The candidate goes through the logistic function instead of tanh.
+# -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
+# +     cells = memory[0] * logistic(forget + 1) + logistic(candidate) * logistic(enter)
+
+
+# %% shows_the_old_cells loses 6.1
+# The outputs show the cells of the step before, not the new ones.
+# -     outputs = np.tanh(cells) * logistic(leave)
+# +     outputs = np.tanh(memory[0]) * logistic(leave)
+
+
+# %% cells_for_outputs loses 6.1
+# The gates see the cells of the step before instead of the outputs.
+# -     z = np.concatenate([observation, memory[1]])
+# +     z = np.concatenate([observation, memory[0]])
+
+
+# %% input_gate_is_the_rest loses 6.1
+# The input gate is 1 minus the forget gate, not a gate of its own.
+# -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
+# +     kept = logistic(forget + 1)
+# +     cells = memory[0] * kept + np.tanh(candidate) * (1 - kept)
+
+
+# %% action_without_tanh loses 6.1
+# The action is not squashed by tanh, so wheels may be asked for more than full speed.
+# -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
+# +     action = brain["readout"] @ outputs + brain["bias"]
+
+
+# %% readout_without_bias loses 6.1
+# The bias of the two wheels is left out.
+# -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
+# +     action = np.tanh(brain["readout"] @ outputs)
+
+
+# %% wall_includes_its_limit loses 6.4
+# A robot exactly 72.5 mm from a wall counts as near it.
+# -         "wall": mean(to_wall[:search] < 72.5),
+# +         "wall": mean(to_wall[:search] <= 72.5),
+
+
+# %% merges_at_the_threshold loses 6.5
+# Families exactly as far apart as the threshold are merged.
+# -         if min(apart) >= threshold:
+# +         if min(apart) > threshold:

@@ -396,3 +396,28 @@ def describe(poses):
     to_wall = np.minimum(before[..., :2], 3000 - before[..., :2]).min(axis=-1)
     found["wall"] = (to_wall <= 300).mean(axis=0)
     return found
+
+
+# %% prey_are_drawn_first loses 15.7
+# The prey are drawn before the predators, so each gets the other's random numbers.
+# -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
+# +         hunted, hunters = rng.integers(m, size=(columns, m)), rng.integers(n, size=(rows, n))
+
+
+# %% ninety_percent loses 15.7
+# The limits are the 5 % and the 95 % quantile, between which lie only 90 %.
+# -     low, high = np.quantile(measures, [0.025, 0.975])
+# +     low, high = np.quantile(measures, [0.05, 0.95])
+
+
+# %% last_individual_never_drawn loses 15.7
+# The last individual of a generation is never drawn.
+# -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
+# +         hunters = rng.integers(max(n - 1, 1), size=(rows, n))
+# +         hunted = rng.integers(max(m - 1, 1), size=(columns, m))
+
+
+# %% only_predators_are_drawn loses 15.7
+# The predators are drawn anew, but the prey stay as they are.
+# -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
+# +         measures.append(measure(drawn))
