@@ -57,9 +57,9 @@ class Network(nn.Module):
 # %% [markdown]
 # ## Task 11.2. The gradient by hand
 #
-# No torch here (its `backward` is refused), only NumPy and the formulas of `README.md`; quotients of
-# differences of the loss are not exact enough. X holds the inputs (n rows), T the targets (m
-# columns). Forward:
+# No torch here (its `backward` is refused), only NumPy and the formulas of `README.md`: quotients
+# of differences are not exact enough. X holds the inputs (n rows), T the targets (m columns).
+# Forward:
 #
 # $$H = \mathrm{logistic}(X W_1^\top + b_1) \qquad Y = H W_2^\top + b_2 \qquad
 # L = \frac{1}{n m} \sum (Y - T)^2$$
@@ -187,8 +187,8 @@ def learn(inputs: torch.Tensor, targets: torch.Tensor, hiddens: int, seed: int) 
 def normalise(inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The inputs with mean 0 and standard deviation 1 in each column, the mean, the deviation.
 
-    inputs has the shape (n, i) and stays as it is, mean and deviation have (i,). The deviation is that of NumPy
-    (which divides by n). A column that never changes gets the deviation 1, and so becomes 0; mind
+    inputs has the shape (n, i) and stays as it is, mean and deviation have (i,). The deviation is
+    that of NumPy (which divides by n). A column that never changes gets the deviation 1, and so becomes 0; mind
     that rounding may make a number such as 1e-17 of its deviation.
     """
     raise NotImplementedError("task 11.6: normalise each column")
