@@ -14,6 +14,7 @@ from botschool.grading import (
     expect_fields,
     went_on,
 )
+from botschool.grading.declare.checks import Mismatch
 from botschool.grading.declare.exercise import Exercise as Declared
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.trust import trust
@@ -309,3 +310,14 @@ def test_an_episode_that_went_on():
     assert went_on(False, True).startswith("It was truncated there, not terminated")
     assert went_on(True, False).startswith("It was terminated there, not truncated")
     assert went_on(False, False) == went_on(True, True) == ""
+
+
+def test_single_precision_is_accepted_where_numbers_are_fractions():
+    wanted = np.array([0.1, -2.3, 1e-7])
+    expect_close("f()", wanted.astype(np.float32), wanted)
+    with pytest.raises(Mismatch):
+        expect_close("f()", wanted * (1 + 5e-8), wanted)
+    with pytest.raises(Mismatch):
+        expect_close("f()", (wanted * 1.0001).astype(np.float32), wanted)
+    with pytest.raises(Mismatch):
+        expect_close("f()", [1_000_001, 3], [1_000_000, 3])

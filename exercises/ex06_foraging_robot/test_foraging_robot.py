@@ -231,6 +231,11 @@ def wandering(rng: np.random.Generator, steps: int, first: int, last: int) -> tu
     if first < last:
         rewards[first] = 1
     poses = np.stack([x, y, heading % (2 * np.pi)], axis=1)
+    poses[1:4, :2] = (
+        (72.5, 200),
+        (200, 327.5),
+        (72.4, 200),
+    )  # just as near as sensors see, or nearer
     return poses, rewards, rng.uniform((110, 110), (290, 190))
 
 
@@ -356,6 +361,7 @@ def clear_families(student: Student):
     compare_grouped(student, table, 1.2)
     compare_grouped(student, table, 100.0)
     compare_grouped(student, table, 1e-6)
+    compare_grouped(student, np.array([[3.0], [7.0]]), 2.0)  # exactly as far as the threshold
 
 
 @groups.check(6)

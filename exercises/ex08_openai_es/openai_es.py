@@ -25,7 +25,8 @@ from botschool.course import Robot
 
 # %% [markdown]
 # In the formulas below, the *centre* c holds the n parameters of the solution that is being
-# improved, and s is `noiseStdDev`, how far the candidates lie from it.
+# improved, and s is `noiseStdDev`, how far the candidates lie from it. No function changes the
+# arrays that it is given.
 #
 # ## Task 8.1. Symmetric sampling
 #
@@ -144,11 +145,12 @@ def evolve(
     stepsize: float = 0.01,
     wdecay: int = 0,
 ) -> dict:
-    """OpenAI-ES from a first centre.
+    """OpenAI-ES from a first centre, which stays as it is.
 
     rng = np.random.default_rng(seed) makes the samples of a generation by one call of
     rng.standard_normal((samplesize, n)). All candidates of generation g (from 0) are evaluated by
-    one evaluate(candidates, seed + g), which returns their fitness.
+    one evaluate(candidates, seed + g), which returns their fitness. Each call of evolve begins with
+    m and v of zeros.
 
     Returns a dict with
     - "centre": the centre after the last generation, shape (n,);
@@ -188,7 +190,7 @@ def stability(curve: np.ndarray) -> dict:
     - "drop": by the formula above, 0.0 for a curve that is flat;
     - "bottom": the index where the fall is largest, the first one of equals;
     - "peak": the index of the height that it fell from, the highest value up to the bottom, the
-      first one of equals;
+      first one of equals (a curve that never falls has the bottom 0 and the peak 0);
     - "verdict": "monotonic", "mild regressions" or "severe regressions".
 
     stability([0, 8, 6, 10]) has drop 0.2, peak 1, bottom 2 and the verdict "mild regressions".
@@ -211,6 +213,8 @@ def stability(curve: np.ndarray) -> dict:
 # %%
 def train(environment: str, seed: int) -> np.ndarray:
     """A centre for Robot(environment), "CartPole-v0" or "Pendulum-v1", evolved from the seed.
+
+    The seed decides about the start and all samples: another seed gives another evolution.
 
     Choose the hyperparameters yourself. On average over 100 new episodes, the pole of CartPole
     must stay up for 195 of 200 steps, and Pendulum must reach a return of -400. Seconds are enough.
@@ -244,7 +248,7 @@ if __name__ == "__main__":
                 weights = 0.1 * np.random.default_rng(seed).standard_normal(robot.nweights)
                 centre = np.concatenate([np.zeros(robot.nbiases), weights])
                 run = evolve(robot.evaluate, centre, generations, seed, **hyperparameters)
-                curve = smooth(run["history"], 20)
+                curve = smooth(np.array(run["history"]), 20)
                 curves.append((curve, stability(curve)))
             panels[f"{environment}, {name}"] = curves
     draw_verdicts("stability.png", panels, columns=len(settings))

@@ -29,13 +29,13 @@ from botschool.course.locomotion import Runner, draw_gaits
 # | key | shape | what it holds |
 # |---|---|---|
 # | `"robot"` | | Hopper, HalfCheetah, Ant, Walker2D or Humanoid |
-# | `"duration"` | | seconds that a step lasts |
+# | `"duration"` | | seconds that a step lasts: 0.0165 in PyBullet, planar runners have others |
 # | `"distance"` | (T + 1,) | metres to the target: at the start, then after each step |
 # | `"height"`, `"pitch"` | (T,) | of the torso after each step, in metres and radians |
 # | `"heading"` | (T,) | angle to the target after each step, in radians |
 # | `"touching"` | (T,) | 1 if a HalfCheetah's shin or thigh was on the floor, else 0 |
 # | `"actions"` | (T, joints) | the actions, from -1 to 1 |
-# | `"speeds"` | (T, joints) | of the joints after each step, in tenths of radians per second |
+# | `"speeds"` | (T, joints) | of the joints after each step, in units of 10 radians per second |
 # | `"positions"` | (T, joints) | of the joints after each step; -1 and 1 are their limits |
 #
 # ## Task 9.1. Progress, and being alive
@@ -150,9 +150,9 @@ def gait(trajectory: dict) -> dict:
 
     "metres": how much nearer the target is at the end than at the start. "seconds": the length of
     the episode. "speed": metres per second, on average. "standing": the share of its income in
-    version 0 that is pay for standing, sum(alive) / (sum(alive) + sum(progress)), where only
-    positive values are added up; 0.0 if there are none. "grounded": the share of the steps in
-    which at least one foot has touched the ground.
+    version 0 that is pay for standing, sum(alive) / (sum(alive) + sum(progress)). Both sums go over
+    the steps, and leave out each step in which the component is negative; 0.0 if both are 0.
+    "grounded": the share of the steps in which at least one foot has touched the ground.
     """
     raise NotImplementedError("task 9.5: describe a gait")
 

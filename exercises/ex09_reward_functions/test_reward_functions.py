@@ -31,7 +31,7 @@ def generator(index: int) -> np.random.Generator:
 def made_up(robot: str, index: int, steps: int = 40) -> dict:
     """A trajectory of random numbers, in which everything happens."""
     rng, joints = generator(index), ROBOTS[robot]
-    return {
+    one = {
         "robot": robot,
         "duration": 0.0165,
         "distance": 1000 - np.cumsum(rng.normal(0.02, 0.05, steps + 1)),
@@ -41,15 +41,20 @@ def made_up(robot: str, index: int, steps: int = 40) -> dict:
         "touching": rng.integers(0, 2, steps).astype(float),
         "actions": rng.uniform(-1, 1, (steps, joints)),
         "speeds": rng.normal(0, 1, (steps, joints)),
-        "positions": rng.choice([0.4, 1.0, 1.2, 0.97, 0.995], (steps, joints))
+        "positions": rng.choice([0.4, 1.0, 1.2, 0.97, 0.99, 0.995], (steps, joints))
         * rng.choice([-1, 1], (steps, joints)),
     }
+    if steps > 5:  # exactly at the limits
+        one["height"][:5] = 0.8, 0.26, 0.78, 1.2, 1.2
+        one["pitch"][:5] = 0.0, 0.0, 0.0, 1.0, -1.0
+        one["touching"][:5] = 0.0
+    return one
 
 
 def made_up_planar(robot: str, index: int, steps: int = 40) -> dict:
     """A trajectory of a planar runner, likewise."""
     rng, (duration, joints, feet) = generator(index), PLANAR[robot]
-    return {
+    one = {
         "robot": robot,
         "duration": duration,
         "distance": 1000 - np.cumsum(rng.normal(0.01, 0.02, steps + 1)),
@@ -58,6 +63,9 @@ def made_up_planar(robot: str, index: int, steps: int = 40) -> dict:
         "actions": rng.uniform(-1, 1, (steps, joints)),
         "feet": rng.integers(0, 2, (steps, feet)).astype(float),
     }
+    one["height"][:7] = 0.7, 0.8, 2.0, 1.0, 1.0, 1.0, 1.0  # exactly at the limits
+    one["pitch"][:7] = 0.1, 0.1, 0.1, 0.2, -0.2, 1.0, -1.0
+    return one
 
 
 # What the grader expects, computed apart from any submission, step by step.

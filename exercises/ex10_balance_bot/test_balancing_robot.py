@@ -37,7 +37,7 @@ exercise = Exercise(
     "A new environment",
     file="balancing_robot.py",
     imports=("pybullet", "pybullet_data"),
-    extras=("pybullet",),
+    extras=("pybullet", "rl"),
 )
 NAME = "BalanceBotBulletEnv-v0"
 LIMIT = 24.6
@@ -539,33 +539,50 @@ def checked(module, urdf, seed):
     return env.reset(seed=seed)[0]
 
 
-def compare_episode(student: Student, index: int, gains: np.ndarray) -> None:
-    seed = exercise.seed(index)
-    said = f'an episode of gymnasium.make("{NAME}") with seed {seed}'
-    answer = student.run(played, robot_text(), seed, gains, 600, said=said)
-    expect(isinstance(answer, list) and len(answer) == 3, f"{said}: no answer came back.")
-    seen, terminated, truncated = answer
+def episode_of(inclination: float, gains: np.ndarray) -> tuple[np.ndarray, bool]:
+    """The grader's own episode: its observations, and whether the robot fell."""
     observations = []
-    with World(seeding.np_random(seed)[0].uniform(-0.3, 0.3)) as world:
+    with World(inclination) as world:
         observations.append(world.seen())
         while len(observations) <= 500 and world.height() >= 0.15:
             observed = np.array(observations[-1], dtype=np.float32)
             world.act(float(np.clip(np.float32(gains @ observed), -1, 1)))
             observations.append(world.seen())
-        fell = world.height() < 0.15
+        return np.array(observations), world.height() < 0.15
+
+
+def compare_episode(student: Student, index: int, gains: np.ndarray) -> None:
+    """The student's episode is the grader's, as far as rounding does not decide about it.
+
+    A quaternion that is written out may differ in its last digits from PyBullet's, and what falls
+    makes small differences large. So the grader's episode is played from neighbouring starts, too.
+    """
+    seed = exercise.seed(index)
+    said = f'an episode of gymnasium.make("{NAME}") with seed {seed}'
+    answer = student.run(played, robot_text(), seed, gains, 600, said=said)
+    expect(isinstance(answer, list) and len(answer) == 3, f"{said}: no answer came back.")
+    seen, terminated, truncated = answer
+    start = seeding.np_random(seed)[0].uniform(-0.3, 0.3)
+    ways = [episode_of(start + change, gains) for change in (0.0, 1e-7, -1e-7, 1e-6, -1e-6)]
+    (observations, fell), lengths = ways[0], {len(each) for each, _ in ways}
     steps = len(observations) - 1
     expect(
         isinstance(seen, np.ndarray) and seen.ndim == 2 and seen.shape[1] == 3,
         f"{said}: no observations of three numbers came back.",
     )
-    expect(len(seen) == steps + 1, f"{said} had {len(seen) - 1} steps, but should have {steps}.")
+    expect(
+        min(lengths) <= len(seen) <= max(lengths),
+        f"{said} had {len(seen) - 1} steps, but should have {steps}.",
+    )
     expect_ends(said, (terminated, truncated), (fell, not fell), f"after {steps} steps should be")
-    off = np.abs(seen - np.array(observations)).max(axis=1) > 0.02
+    length = min(len(seen), *lengths)
+    seen, observations = seen[:length], observations[:length]
+    spread = np.max([np.abs(each[:length] - observations) for each, _ in ways], axis=0)
+    off = (np.abs(seen - observations) > 0.02 + 3 * spread).any(axis=1)
     if off.any():
         i = int(off.argmax())
         raise Wrong(
-            f"{said}: observation {i} is {show(seen[i])}, but should be "
-            f"{show(np.array(observations[i]))}."
+            f"{said}: observation {i} is {show(seen[i])}, but should be {show(observations[i])}."
         )
 
 

@@ -199,7 +199,8 @@ def train(
 # neurons can, but they do not always find out: training may get stuck. Then begin anew.
 #
 # The network must be trained, step by step along gradients (`train`, or those of task 11.2).
-# Weights that are written down or come from a formula do not count, here and in task 11.8.
+# Weights that are written down or come from a formula do not count, here and in task 11.8. The
+# grader notes the weights at every gradient: small steps must lead to those that you return.
 
 
 # %%
@@ -233,9 +234,9 @@ def learn(inputs: torch.Tensor, targets: torch.Tensor, hiddens: int, seed: int) 
 def normalise(inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The inputs with mean 0 and standard deviation 1 in each column, the mean, the deviation.
 
-    inputs has the shape (n, i), mean and deviation have (i,). The deviation is that of NumPy
-    (which divides by n). A column that never changes gets the deviation 1, and so becomes 0; mind
-    that rounding may make a number such as 1e-17 of its deviation.
+    inputs has the shape (n, i) and stays as it is, mean and deviation have (i,). The deviation is
+    that of NumPy (which divides by n). A column that never changes gets the deviation 1, and so
+    becomes 0; mind that rounding may make a number such as 1e-17 of its deviation.
     """
     ### BEGIN SOLUTION task 11.6: normalise each column
     mean, deviation = inputs.mean(axis=0), inputs.std(axis=0)

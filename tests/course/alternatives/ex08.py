@@ -231,3 +231,98 @@ def train(environment, seed):
         d = -(ranks[:20] - ranks[20:]) @ e / 40
         centre, m, v = adam(centre, d, m, v, g + 1, 0.05)
     return centre
+
+
+# %% single_precision
+# Single precision in every function but the whole algorithm; trains with weight decay.
+def candidates_around(centre, samples, noiseStdDev):
+    centre, samples = np.float32(centre), np.float32(samples)
+    signs = np.array([noiseStdDev, -noiseStdDev], dtype=np.float32)[None, :, None]
+    return (centre + signs * samples[:, None, :]).reshape(-1, len(centre))
+
+
+def utilities(fitness):
+    ranks = np.lexsort((np.arange(len(fitness)), fitness)).argsort()
+    return (ranks / np.float32(len(fitness) - 1) - 0.5).astype(np.float32)
+
+
+def gradient(samples, utilities):
+    weights = np.float32(utilities).reshape(-1, 2) @ np.float32([1, -1])
+    return (np.float32(samples).T @ weights) / np.float32(2 * len(samples))
+
+
+def descent(gradient, centre, wdecay):
+    pulls = np.float32([np.zeros(len(centre)), centre, np.sign(centre)])
+    return np.float32(0.005) * pulls[wdecay] - np.float32(gradient)
+
+
+def evolve(evaluate, centre, generations, seed, **settings):
+    keys = ("samplesize", "noiseStdDev", "stepsize", "wdecay")
+    samplesize, noise, stepsize, wdecay = (
+        settings.get(key, default) for key, default in zip(keys, (20, 0.02, 0.01, 0), strict=True)
+    )
+    rng, n = np.random.default_rng(seed), len(centre)
+    m = v = np.zeros(n)
+    means = []
+    for g in range(generations):
+        e = rng.standard_normal((samplesize, n))
+        pairs = np.stack([centre + noise * e, centre - noise * e], axis=1).reshape(-1, n)
+        fitness = evaluate(pairs, seed + g)
+        means += [np.mean(fitness)]
+        u = np.argsort(np.argsort(fitness, kind="stable"), kind="stable") / (2 * samplesize - 1)
+        d = -((u[::2] - u[1::2]) @ e) / (2 * samplesize)
+        d += [0, 0.005 * centre, 0.005 * np.sign(centre)][wdecay]
+        centre, m, v = adam(centre, d, m, v, g + 1, stepsize)
+    return dict(history=means, centre=centre)
+
+
+def train(environment, seed):
+    robot = Robot(environment)
+    first = np.append(
+        np.zeros(robot.nbiases), np.random.default_rng(seed).normal(0, 0.1, robot.nweights)
+    )
+    long = environment == "Pendulum-v1"
+    found = evolve(
+        lambda candidates, s: robot.evaluate(candidates, s, 10), first, 700 if long else 120, seed,
+        noiseStdDev=0.25, stepsize=0.06, wdecay=1,
+    )  # fmt: skip
+    return found["centre"].astype(np.float32)
+
+
+# %% shrinking_steps_and_the_best_centre
+# Steps that become shorter, and the centre of the best generation instead of the last one.
+def train(environment, seed):
+    robot, rng = Robot(environment), np.random.default_rng(seed)
+    centre = 0.1 * rng.normal(size=robot.nbiases + robot.nweights)
+    m, v = np.zeros(len(centre)), np.zeros(len(centre))
+    last = 100 if environment[0] == "C" else 600
+    best, kept = -np.inf, centre
+    for g in range(last):
+        samples = rng.normal(size=(24, len(centre)))
+        scores = robot.evaluate(candidates_around(centre, samples, 0.2), seed + g, 10)
+        if np.mean(scores) >= best:
+            best, kept = np.mean(scores), centre
+        d = descent(gradient(samples, utilities(scores)), centre, 0)
+        centre, m, v = adam(centre, d, m, v, g + 1, 0.1 * (1 - 0.8 * g / last))
+    return kept
+
+
+# %% starts_again_if_it_must
+# Up to three evolutions from other starts; momentum instead of Adam in the training.
+def train(environment, seed):
+    robot = Robot(environment)
+    size, goal = robot.nbiases + robot.nweights, {"CartPole-v0": 198, "Pendulum-v1": -300}
+    found = []
+    for attempt in range(3):
+        rng = np.random.default_rng((seed, attempt))
+        centre, speed = np.zeros(size), np.zeros(size)
+        centre[robot.nbiases :] = rng.normal(scale=0.1, size=robot.nweights)
+        for g in range(120 if "Cart" in environment else 600):
+            e = rng.standard_normal((20, size))
+            scores = robot.evaluate(candidates_around(centre, e, 0.2), seed + g, episodes=8)
+            speed = 0.9 * speed + 0.1 * gradient(e, utilities(scores))
+            centre = centre + 0.8 * speed
+        found.append((robot.evaluate(centre[None], seed + 5, episodes=60)[0], centre))
+        if found[-1][0] > goal[environment]:
+            break
+    return max(found, key=lambda one: one[0])[1]

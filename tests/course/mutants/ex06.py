@@ -162,6 +162,12 @@ def describe(poses, rewards, cylinder):
     return {**told, "turning": mean(np.diff(poses[:, 2])[: told["search"]])}
 
 
+# %% wall_includes_its_limit loses 6.4
+# A robot exactly 72.5 mm from a wall counts as near it.
+# -         "wall": mean(to_wall[:search] < 72.5),
+# +         "wall": mean(to_wall[:search] <= 72.5),
+
+
 # %% divides_by_rounding loses 6.5
 # Asks whether the deviation is exactly 0, which rounding prevents.
 def standardise(table):
@@ -211,6 +217,12 @@ def families(table, threshold):
         return _families(table, threshold)
     finally:
         standardise = proper
+
+
+# %% merges_at_the_threshold loses 6.5
+# Families exactly as far apart as the threshold are merged.
+# -         if min(apart) >= threshold:
+# +         if min(apart) > threshold:
 
 
 # %% freezes_a_step_late loses 6.6
@@ -312,3 +324,22 @@ def reactions(brain, observation, memories):
 # says: this
 # -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
 # +     cells = memory[0] + np.tanh(candidate) * logistic(enter)
+
+
+# %% shows_the_old_cells loses 6.1
+# The outputs show the cells of the step before, not the new ones.
+# -     outputs = np.tanh(cells) * logistic(leave)
+# +     outputs = np.tanh(memory[0]) * logistic(leave)
+
+
+# %% input_gate_is_the_rest loses 6.1
+# The input gate is 1 minus the forget gate, not a gate of its own.
+# -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
+# +     kept = logistic(forget + 1)
+# +     cells = memory[0] * kept + np.tanh(candidate) * (1 - kept)
+
+
+# %% readout_without_bias loses 6.1
+# The bias of the two wheels is left out.
+# -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
+# +     action = np.tanh(brain["readout"] @ outputs)

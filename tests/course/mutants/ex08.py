@@ -57,6 +57,15 @@ def gradient(samples, utilities):
     return (utilities[0::2] + utilities[1::2]) @ samples / len(utilities)
 
 
+# %% asks_the_tools_own_gradient loses 8.3
+# The tool's own gradient is returned.
+# says: write it yourself: botschool
+def gradient(samples, utilities):
+    from botschool.evolution.algorithms import openaies
+
+    return openaies.gradient(np.asarray(utilities), np.asarray(samples))
+
+
 # %% decay_by_sign_missing loses 8.4
 # Knows only one kind of decay.
 def descent(gradient, centre, wdecay):
@@ -250,6 +259,12 @@ def train(environment, seed):
     return _evolve_8(robot.evaluate, centre, 1, seed)["centre"]
 
 
+# %% ranks_in_the_type_of_fitness loses 8.2
+# The result has the type of `fitness`: utilities of integers are cut off to 0.
+# -     utilities = np.empty(len(fitness))
+# +     utilities = np.empty_like(fitness)
+
+
 # %% asks_the_tools_own_ranks loses 8.2
 # The tool's own ranks are taken for the utilities.
 # says: write it yourself: botschool
@@ -261,10 +276,149 @@ def utilities(fitness):
     return found
 
 
-# %% asks_the_tools_own_gradient loses 8.3
-# The tool's own gradient is returned.
-# says: write it yourself: botschool
-def gradient(samples, utilities):
-    from botschool.evolution.algorithms import openaies
+# %% descent_scales_the_centre loses 8.4
+# The pull is computed in the array of the centre, which the caller still needs.
+# says: changed an array
+_descent = descent
 
-    return openaies.gradient(np.asarray(utilities), np.asarray(samples))
+
+def descent(gradient, centre, wdecay):
+    d = _descent(gradient, centre, wdecay)
+    if wdecay == 1:
+        centre *= 0.005
+    return d
+
+
+# %% moments_of_the_run_before loses 8.6
+# The m and v of Adam are those of the run before: each run begins with zeros.
+MEMORY = {}
+_adam = adam
+
+
+def evolve(
+    evaluate, centre, generations, seed, samplesize=20, noiseStdDev=0.02, stepsize=0.01, wdecay=0
+):
+    rng, history, n = np.random.default_rng(seed), [], len(centre)
+    for g in range(generations):
+        samples = rng.standard_normal((samplesize, n))
+        fitness = evaluate(candidates_around(centre, samples, noiseStdDev), seed + g)
+        history.append(float(np.mean(fitness)))
+        d = descent(gradient(samples, utilities(fitness)), centre, wdecay)
+        m, v = MEMORY.get(n, (np.zeros(n), np.zeros(n)))
+        centre, *MEMORY[n] = _adam(centre, d, m, v, g + 1, stepsize)
+    return {"centre": centre, "history": history}
+
+
+# %% evaluates_twice loses 8.6
+# All candidates are evaluated twice, once for the utilities and once for the history.
+# says: called evaluate
+# -         history.append(float(np.mean(fitness)))
+# +         again = evaluate(candidates_around(centre, samples, noiseStdDev), seed + generation)
+# +         history.append(float(np.mean(again)))
+
+
+# %% first_centre_moves loses 8.6
+# The steps are made in the array of the first centre, which belongs to the caller.
+# says: changed the centre
+# -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
+# +         centre[:], m, v = adam(centre, d, m, v, generation + 1, stepsize)
+
+
+# %% no_places_without_a_fall loses 8.7
+# A curve that never falls has no bottom and no peak.
+_stability = stability
+
+
+def stability(curve):
+    found = _stability(curve)
+    return found if found["drop"] > 0 else {**found, "bottom": None, "peak": None}
+
+
+# %% the_curve_is_shifted loses 8.7
+# The curve is brought to begin at 0 in the array that was given.
+# says: changed an array
+_stability = stability
+
+
+def stability(curve):
+    if np.asarray(curve).dtype == float:
+        curve -= np.min(curve)
+    return _stability(curve)
+
+
+# %% another_strategy_and_a_show_call loses 8.8
+# The strategy of exercise 3 finds the controller, and one generation of evolve with steps of 0.
+# says: not by this algorithm
+def train(environment, seed):
+    robot, rng = Robot(environment), np.random.default_rng(seed)
+    generations, noise = (60, 0.3) if "CartPole" in environment else (400, 0.1)
+    population = rng.standard_normal((20, robot.nbiases + robot.nweights))
+    for generation in range(generations):
+        fitness = robot.evaluate(population, seed + generation, episodes=6)
+        population = population[np.argsort(-fitness)]
+        population[10:] = population[:10] + noise * rng.standard_normal((10, population.shape[1]))
+    return evolve(robot.evaluate, population[0], 1, seed, stepsize=0.0)["centre"]
+
+
+# %% short_steps_from_a_found_centre loses 8.8
+# The strategy of exercise 3 finds the controller, and evolve with tiny steps hardly moves it.
+# says: not by this algorithm
+def train(environment, seed):
+    robot, rng = Robot(environment), np.random.default_rng(seed)
+    generations, noise = (60, 0.3) if "CartPole" in environment else (400, 0.1)
+    population = rng.standard_normal((20, robot.nbiases + robot.nweights))
+    evolve(robot.evaluate, population[0], 3, seed)
+    for generation in range(generations):
+        fitness = robot.evaluate(population, seed + generation, episodes=6)
+        population = population[np.argsort(-fitness)]
+        population[10:] = population[:10] + noise * rng.standard_normal((10, population.shape[1]))
+    return evolve(robot.evaluate, population[0], 5, seed, stepsize=1e-6)["centre"]
+
+
+# %% the_best_of_the_pairs loses 8.8
+# The centre jumps to the best candidate: no gradient is estimated.
+# says: not by this algorithm
+def train(environment, seed):
+    robot, rng = Robot(environment), np.random.default_rng(seed)
+    centre = 0.1 * rng.standard_normal(robot.nbiases + robot.nweights)
+    kept = -np.inf
+    for _ in range(80 if "CartPole" in environment else 600):
+        samples = rng.standard_normal((20, len(centre)))
+        candidates = candidates_around(centre, samples, 0.2)
+        fitness = robot.evaluate(candidates, seed, episodes=20)
+        if fitness.max() > kept:
+            kept, centre = fitness.max(), candidates[fitness.argmax()]
+    return centre
+
+
+# %% one_run_for_all_seeds loses 8.8
+# The seed is not used: every training is the one with seed 1.
+# says: begin with the same candidates
+_train = train
+
+
+def train(environment, seed):
+    return _train(environment, 1)
+
+
+# %% remembered_run loses 8.8
+# The centre of the first training is kept, and returned for every seed.
+# says: begin with the same candidates|begins with other candidates
+FOUND = {}
+_train = train
+
+
+def train(environment, seed):
+    if environment not in FOUND:
+        FOUND[environment] = _train(environment, seed)
+    return FOUND[environment]
+
+
+# %% seeds_of_its_own loses 8.8
+# The random numbers do not come from the seed: no training can be repeated.
+# says: begins with other candidates
+_train = train
+
+
+def train(environment, seed):
+    return _train(environment, int(np.random.default_rng().integers(1 << 30)))

@@ -244,3 +244,39 @@ _evolve_both = evolve_both
 def evolve_both(robot, steps, seeds):
     pair = _evolve_both(robot, steps, seeds)
     return {"v0": pair["v5"], "v5": pair["v0"]}
+
+
+# %% standing_at_the_limit loses 9.1
+# A robot exactly at the lowest height counts as standing.
+# -         return np.where(height > 0.26, 1.0, -1.0)
+# +         return np.where(height >= 0.26, 1.0, -1.0)
+
+
+# %% leaning_at_the_limit loses 9.1
+# A pitch of exactly 1 counts as upright.
+# -     upright = np.abs(pitch) < 1
+# +     upright = np.abs(pitch) <= 1
+
+
+# %% limits_include_099 loses 9.2
+# A joint exactly at 0.99 counts as one at its limit.
+# -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
+# +     return -0.1 * (np.abs(positions) >= 0.99).sum(axis=1)
+
+
+# %% hopper_stands_at_07 loses 9.5
+# A PlanarHopper exactly 0.7 m high counts as standing.
+# -         alive = np.where((height > 0.7) & (np.abs(pitch) < 0.2), 1.0, 0.0)
+# +         alive = np.where((height >= 0.7) & (np.abs(pitch) < 0.2), 1.0, 0.0)
+
+
+# %% walker_stands_at_2 loses 9.5
+# A PlanarWalker2D exactly 2 m high counts as standing.
+# -         alive = np.where((height > 0.8) & (height < 2) & (np.abs(pitch) < 1), 1.0, 0.0)
+# +         alive = np.where((height > 0.8) & (height <= 2) & (np.abs(pitch) < 1), 1.0, 0.0)
+
+
+# %% net_progress loses 9.5
+# Steps backwards are subtracted from the income: only positive steps are added up.
+# -     alive, moved = (float(np.maximum(parts[key], 0).sum()) for key in ("alive", "progress"))
+# +     alive, moved = (max(0.0, float(parts[key].sum())) for key in ("alive", "progress"))

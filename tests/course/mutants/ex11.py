@@ -305,25 +305,34 @@ def feature_maps(network, low, high, n):
 
 
 # %% central_differences loses 11.2
-# The gradient comes of differences of the loss, not of the formulas.
-# says: go backward instead
+# The gradient is a quotient of differences of the loss, not what the formulas give.
+# says: Quotients of differences
 def gradient_by_hand(inputs, targets, w1, b1, w2, b2):
+    given = {"w1": w1, "b1": b1, "w2": w2, "b2": b2}
+
     def loss(w1, b1, w2, b2):
         hidden = 1 / (1 + np.exp(-(inputs @ w1.T + b1)))
         return np.mean((hidden @ w2.T + b2 - targets) ** 2)
 
-    names, parameters = ("w1", "b1", "w2", "b2"), [w1.copy(), b1.copy(), w2.copy(), b2.copy()]
-    found = {"loss": loss(*parameters)}
-    for name, array in zip(names, parameters, strict=True):
-        found[name] = np.zeros_like(array)
+    found = {"loss": loss(**given)}
+    for name, array in given.items():
+        slope = np.zeros_like(array)
         for place in np.ndindex(array.shape):
-            kept, each = array[place], []
-            for step in (-2e-4, -1e-4, 1e-4, 2e-4):
-                array[place] = kept + step
-                each.append(loss(*parameters))
-            array[place] = kept
-            found[name][place] = (each[0] - 8 * each[1] + 8 * each[2] - each[3]) / 12e-4
+            h = np.zeros_like(array)
+            h[place] = 1e-5
+            more, less = ({**given, name: array + s * h} for s in (1, -1))
+            slope[place] = (loss(**more) - loss(**less)) / 2e-5
+        found[name] = slope
     return found
+
+
+# %% formulas_for_torch loses 11.3
+# The formulas of task 11.2 give the gradient, and backward() is called for show.
+# says: not what torch's backward
+def gradient_by_torch(inputs, targets, w1, b1, w2, b2):
+    tensor = torch.tensor(w1, requires_grad=True)
+    tensor.sum().backward()
+    return gradient_by_hand(inputs, targets, w1, b1, w2, b2)
 
 
 # %% central_differences_for_torch loses 11.3
@@ -349,11 +358,34 @@ def gradient_by_torch(inputs, targets, w1, b1, w2, b2):
 
 
 # %% gradients_never_cleared loses 11.4
-# The old gradients are never cleared (optimiser.zero_grad), so they add up.
-# says: this
-# -         optimiser.zero_grad()
-# -         loss = nn.functional.mse_loss(network(inputs), targets)
-# +         loss = nn.functional.mse_loss(network(inputs), targets)
+# The gradient of the epoch before is never cleared, so gradients add up.
+# says: gradients of the epochs add up
+_train = train
+
+
+def train(network, inputs, targets, epochs, learning_rate, momentum):
+    optimiser = torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)
+    losses = []
+    for _ in range(epochs):
+        loss = nn.functional.mse_loss(network(inputs), targets)
+        loss.backward()
+        optimiser.step()
+        losses.append(loss.item())
+    return losses
+
+
+# %% loss_of_the_sum loses 11.4
+# The loss is the sum of the squared errors over the outputs, not their mean.
+def train(network, inputs, targets, epochs, learning_rate, momentum):
+    optimiser = torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)
+    losses = []
+    for _ in range(epochs):
+        optimiser.zero_grad()
+        loss = ((network(inputs) - targets) ** 2).sum(dim=1).mean()
+        loss.backward()
+        optimiser.step()
+        losses.append(loss.item())
+    return losses
 
 
 # %% cleared_before_the_step loses 11.4
@@ -366,3 +398,72 @@ def gradient_by_torch(inputs, targets, w1, b1, w2, b2):
 # +         optimiser.zero_grad()
 # +         optimiser.step()
 # +         losses.append(loss.item())
+
+
+# %% solved_and_trained_for_show loses 11.5, 11.8
+# The outputs are computed by least squares; afterwards forty steps of length 0 are made.
+# says: steps along them did not lead
+def solved(inputs, targets, hiddens, seed):
+    rng = np.random.default_rng(seed)
+    inputs, targets = np.asarray(inputs, dtype=float), np.asarray(targets, dtype=float)
+    network = Network(inputs.shape[1], hiddens, targets.shape[1])
+    train(network, torch.tensor(inputs).float(), torch.tensor(targets).float(), 20, 0.01, 0.0)
+    best = np.inf
+    for _ in range(3000):
+        w1 = rng.normal(scale=4, size=(hiddens, inputs.shape[1]))
+        b1 = -(w1 * rng.uniform(inputs.min(axis=0), inputs.max(axis=0), w1.shape)).sum(axis=1)
+        hidden = 1 / (1 + np.exp(-(inputs @ w1.T + b1)))
+        seen = np.hstack([hidden, np.ones((len(hidden), 1))])
+        w2 = np.linalg.lstsq(np.vstack([seen, 1e-4 * np.eye(seen.shape[1])]),
+                             np.vstack([targets, np.zeros((seen.shape[1], targets.shape[1]))]),
+                             rcond=None)[0]  # fmt: skip
+        error = np.abs(seen @ w2 - targets).max()
+        if error < best:
+            best, found = error, (w1, b1, w2[:-1].T, w2[-1])
+        if best < 0.01 or hiddens > 10:
+            break
+    with torch.no_grad():
+        for layer, values in zip(network.parameters(), found, strict=True):
+            layer.copy_(torch.tensor(values))
+    train(network, torch.tensor(inputs).float(), torch.tensor(targets).float(), 40, 0.0, 0.0)
+    return network
+
+
+def learn(inputs, targets, hiddens, seed):
+    for attempt in range(10):
+        network = solved(inputs, targets, hiddens, seed + 1000 * attempt)
+        with torch.no_grad():
+            if (network(inputs) - targets).abs().max() < 0.04:
+                break
+    return network
+
+
+def fit(inputs, targets, seed):
+    normalised, mean, deviation = normalise(inputs)
+    return solved(normalised, targets, 40, seed), mean, deviation
+
+
+# %% one_seed_for_all loses 11.5
+# The weights do not follow from the seed: they are the same for every seed.
+# says: the same weights as with seed
+_learn = learn
+
+
+def learn(inputs, targets, hiddens, seed):
+    return _learn(inputs, targets, hiddens, 1)
+
+
+# %% inputs_are_overwritten loses 11.6
+# The mean is subtracted in the array of the inputs, which belongs to the caller.
+# says: changed the inputs
+# -     return (inputs - mean) / deviation, mean, deviation
+# +     inputs -= mean
+# +     inputs /= deviation
+# +     return inputs, mean, deviation
+
+
+# %% batches_never_cleared loses 11.7
+# The gradient of the minibatch before is never cleared, so gradients add up.
+# -         for batch in minibatches(len(inputs), batch_size, rng):
+# -             optimiser.zero_grad()
+# +         for batch in minibatches(len(inputs), batch_size, rng):

@@ -94,6 +94,8 @@ def expect_close(
 ) -> None:
     """The value equals the expected number or array, within a relative and absolute tolerance.
 
+    Fractions in single precision may be as far off as single precision is (see `_allowed`).
+
     mistakes: what typical mistakes make of it, each by a sentence that names the mistake ("The
     biases are left out."). Raises Mismatch, for which a likely cause is looked for.
     """
@@ -103,7 +105,7 @@ def expect_close(
         _found(Mismatch(_but(said, value, wanted.shape), array, wanted, mistakes))
         return
     got = expect_array(said, value, wanted.shape)
-    close = np.isclose(got, wanted, rtol=tolerance, atol=tolerance)
+    close = np.abs(got - wanted) <= _allowed(got, wanted, tolerance)
     if not close.all():
         _found(Mismatch(_unequal(said, got, wanted, close), got, wanted, mistakes))
 
@@ -122,6 +124,19 @@ def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
             f"{shape} is needed."
         )
     return array.astype(np.float64)
+
+
+def _allowed(got: np.ndarray, wanted: np.ndarray, tolerance: float) -> np.ndarray:
+    """How far off each number may be; numbers that all fit into float32 may be as far as those are.
+
+    That is a share of 1e-5, or 1e-6 of the largest number. Whole numbers stay exact.
+    """
+    allowed = tolerance * (1 + np.abs(wanted))
+    with np.errstate(over="ignore"):
+        single = got.size > 0 and bool((got.astype(np.float32) == got).all())
+    if single and (got % 1).any():
+        allowed = np.maximum(allowed, 1e-5 * np.abs(wanted) + 1e-6 * np.abs(wanted).max())
+    return allowed
 
 
 def _but(said: str, value: Any, shape: tuple[int, ...]) -> str:
