@@ -101,48 +101,52 @@ class Check:
             part.lose(str(error))
             return
         self.runs = own_runs(self.lab, self.sheet, self.place.runs)
-        if any(self.runs.values()):
-            part.points = part.max_points
-        else:
+        if not any(self.runs.values()):
             why = changed(self.lab, self.sheet, self.place.runs)
             part.lose(why or f"There are no runs yet: botschool lab {self.lab.number} run.")
 
     def _runs(self) -> None:
-        part = self.parts["runs"]
-        lacking = [
-            f"{c.name} has {len(self.runs.get(c.name, []))}"
-            for c in self.lab.conditions
-            if c.name not in self.whole
-        ]
-        part.points = COMPLETE * len(self.whole) / len(self.lab.conditions)
+        part, lab = self.parts["runs"], self.lab
+        there = {c.name: len(self.runs.get(c.name, [])) for c in lab.conditions}
+        lacking = [f"{c} has {n}" for c, n in there.items() if n < lab.replications]
         if lacking:
             part.lose(
-                f"Each condition needs {self.lab.replications} finished runs with your seeds, but "
-                f"{', '.join(lacking)}: botschool lab {self.lab.number} run."
+                f"Each condition needs {lab.replications} finished runs with your seeds, but "
+                f"{', '.join(lacking)}: botschool lab {lab.number} run."
             )
-        if not any(self.runs.values()):
+        if not any(there.values()):
             return
+        false = self._prove()
+        if false:
+            part.lose(
+                f"Evolving from the same seeds gives other files than these: {'; '.join(false[:5])}"
+                f"{' and others' if len(false) > 5 else ''}. They do not count as runs: remove "
+                "their files and run again."
+            )
+        proven = sum(map(len, self.runs.values()))
+        if proven:
+            self.parts["prediction"].points = PARTS["prediction"]
+        else:
+            self.parts["prediction"].lose("It counts once there are runs that follow from it.")
+        part.points = COMPLETE * len(self.whole) / len(lab.conditions)
+        if not false and proven > len(lab.conditions) * lab.replications / 2:
+            part.points += EVIDENCE
+        part.points = round(part.points, 1)
+
+    def _prove(self) -> list[str]:
+        """Leave the runs that are proven; return the names of the others."""
         false = []
         again = {(r.condition.name, r.seed) for r in drawn(self.runs, self.lab.redone, self.draw)}
         for name, runs in self.runs.items():
             proven = []
             for run in runs:
                 redo = (name, run.seed) in again
-                true = genuine(run) and (not redo or same(run, evolved(run.condition, run.seed)))
-                proven.append(run) if true else false.append(f"{name}, seed {run.seed}")
+                if genuine(run) and (not redo or same(run, evolved(run.condition, run.seed))):
+                    proven.append(run)
+                else:
+                    false.append(f"{name}, seed {run.seed}")
             self.runs[name] = proven
-        if false:
-            part.lose(
-                f"Evolving from the same seeds gives other files than these: {'; '.join(false[:5])}"
-                f"{' and others' if len(false) > 5 else ''}. What rests on them does not count; "
-                "remove their files and run again."
-            )
-        else:
-            share = sum(map(len, self.runs.values())) / (
-                len(self.lab.conditions) * self.lab.replications
-            )
-            part.points += EVIDENCE if share > 0.5 else 0
-        part.points = round(part.points, 1)
+        return false
 
     def _measurements(self) -> None:
         """measure.py on unseen runs, and on the student's own."""
@@ -218,8 +222,8 @@ class Check:
 
     def _figure(self) -> None:
         part, figure = self.parts["figure"], self.lab.figure
-        if not set(figure.conditions) <= self.whole:
-            part.lose("The figure counts once all conditions that it shows have proven runs.")
+        if not all(self.runs.get(name) for name in figure.conditions):
+            part.lose("The figure counts once each condition that it shows has runs.")
             return
         try:
             with student_file(self.place.folder / "figure.py") as student:

@@ -9,7 +9,8 @@ import numpy as np
 
 from botschool.labs.declare import Answers, Column, Condition, Data, Field, Figure, Lab, Statement
 from botschool.labs.judging import Judged, larger, p_value
-from botschool.labs.measuring import interval, play_again
+from botschool.labs.lab03.reference import reference
+from botschool.labs.measuring import interval
 
 SIZES = (4, 20, 100)
 PROBLEMS = {
@@ -21,8 +22,6 @@ PROBLEMS = {
         "evaluations": 4000,
     },
 }
-SOLVED = 475.0
-"""CartPole: mean of 20 new episodes."""
 
 
 def condition(problem: str, size: int) -> Condition:
@@ -47,20 +46,6 @@ def condition(problem: str, size: int) -> Condition:
         generations=told["evaluations"] // size,
         x=size,
     )
-
-
-def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """Reported and new fitness, evaluations until solved, and whether it is solved."""
-    size = run["experiment"]["algo"]["popsize"]
-    reported = np.asarray(run["stat"])[:, 2]
-    solved = reported >= SOLVED
-    generations = int(solved.argmax()) + 1 if solved.any() else len(solved)
-    return {
-        "reported": float(reported[-1]),
-        "fresh": float(np.mean(play_again(run, seed=1, episodes=100))),
-        "evaluations": float(size * generations),
-        "solved": float(solved.any()),
-    }
 
 
 def lost(problem: str) -> Any:

@@ -9,7 +9,8 @@ import numpy as np
 
 from botschool.labs.declare import Answers, Column, Condition, Data, Field, Figure, Lab, Statement
 from botschool.labs.judging import CANNOT_TELL, Judged, larger, p_value, span
-from botschool.labs.measuring import interval, record
+from botschool.labs.lab09.reference import reference
+from botschool.labs.measuring import interval
 
 BONUSES = (0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0)
 MSTEPS = 4
@@ -51,18 +52,6 @@ def condition(bonus: float) -> Condition:
         },
         x=bonus,
     )
-
-
-def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """Metres ahead, share of steps with the foot on the ground, and whether it is a statue."""
-    seen = record(run, seed=1)
-    metres = float(seen["distance"][0] - seen["distance"][-1])
-    rule = answers.get("rule", 5.0)
-    return {
-        "metres": metres,
-        "ground": float(seen["feet"].max(axis=1).mean()),
-        "statue": float(metres < rule),
-    }
 
 
 def separate(measured: list[dict[str, float]]) -> str:
