@@ -57,10 +57,11 @@ def fill(text, id, value):
     assert marker, id
     end = re.search(r"<!-- field|^## |\Z", rest, re.MULTILINE).start()
     field, rest = rest[:end], rest[end:]
-    if "[ ]" in field or "[x]" in field:
+    line = field.lstrip().startswith("answer:")
+    if not line and ("[ ]" in field or "[x]" in field):
         field = field.replace("[x]", "[ ]")
         filled = re.sub(rf"\[ \] {re.escape(value)}(?=\s|$)", f"[x] {value}", field, count=1)
-    elif "answer:" in field:
+    elif line:
         filled = re.sub(r"answer:[^\n]*", f"answer: {value}", field, count=1)
     else:
         filled = re.sub(r"^>.*$", f"> {value}", field, count=1, flags=re.MULTILINE)

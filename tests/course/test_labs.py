@@ -115,7 +115,9 @@ def test_an_edited_genotype_costs_the_evidence_and_what_rests_on_the_run(spoiled
 
 
 def test_a_curve_that_was_drawn_by_hand_is_found_when_its_run_is_made_again(spoiled):
-    spoiled = type(spoiled)(small(9).__class__(**vars(spoiled.lab) | {"redone": 28}), spoiled.folder)
+    spoiled = type(spoiled)(
+        small(9).__class__(**vars(spoiled.lab) | {"redone": 28}), spoiled.folder
+    )
     file = next((spoiled.runs / "bonus 1").glob("statS*.npy"))
     stat = np.load(file)
     stat[4] += 1
@@ -149,8 +151,8 @@ def test_a_conclusion_against_its_own_data_costs_its_points(spoiled):
 
 def test_a_figure_of_means_costs_the_figure(spoiled):
     path = spoiled.folder / "figure.py"
-    path.write_text(path.read_text().replace('values["metres"], "o"', 'values["metres"].mean(), "o"')
-                    .replace("[x] * len(values[\"metres\"])", "x"))  # fmt: skip
+    runs = '[x] * len(values["metres"]), values["metres"]'
+    path.write_text(path.read_text().replace(runs, 'x, values["metres"].mean()'))
     assert points(spoiled) == FULL | {"figure": 0}
     assert "not their means" in messages(spoiled)
 

@@ -61,7 +61,7 @@ class Sheet:
     def raw(self, id: str) -> str:
         """The lines that belong to a field: to the next one, the next heading or table."""
         markers = list(_MARKER.finditer(self.text))
-        for marker, after in zip(markers, [*markers[1:], None], strict=True):
+        for marker, after in zip(markers, [*markers[1:], None], strict=False):
             if marker[1] == id:
                 part = self.text[marker.end() : after.start() if after else None]
                 return re.split(r"^#|^\|", part, maxsplit=1, flags=re.MULTILINE)[0]
