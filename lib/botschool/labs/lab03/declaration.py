@@ -151,5 +151,6 @@ LAB = Lab(
     robot="evolutions",
     shown=(PENDULUM[0], PENDULUM[-1]),
     best=lambda values: values["fresh"],
+    redone=12,
     resources=Path(__file__).parent,
 )
