@@ -10,6 +10,7 @@ from botschool.grading.packed import pack_module
 from botschool.labs.declare import NUMBERS, PARTS, WORDS, Field, load_lab
 from botschool.labs.folder import Place, start
 from botschool.labs.measuring import interval, permutation_test
+from botschool.labs.report import _inline
 from botschool.labs.runs import make_runs
 from botschool.labs.sheet import Sheet, Unreadable, base_seed, numbers_in, seeds_of
 from botschool.problems import Episodes
@@ -134,6 +135,13 @@ def test_one_rule_for_all_robots_is_refused():
     far, near = {"metres": 20.0, "statue": 0.0}, {"metres": 1.0, "statue": 1.0}
     assert separate([far, near]) == ""
     assert "the same" in separate([far | {"statue": 1.0}, near])
+
+
+def test_a_report_shows_answers_boxes_and_code():
+    shown = _inline("`answer: <b>` is *it* [x] left   [ ] tall\nP: answer: 5 < 6")
+    assert "<code>answer: &lt;b&gt;</code> is <em>it</em>" in shown
+    assert "&#9745; left</b>" in shown and "&#9744; tall</span>" in shown
+    assert '<b class="answer">5 &lt; 6</b>' in shown
 
 
 def test_statistics():

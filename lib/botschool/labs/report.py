@@ -30,7 +30,8 @@ b.answer, b.chosen { color: #0072b2 } .open { opacity: .55 } li { margin: .3rem 
 def write_report(place: Place, checked: Checked, folder: Path) -> Path:
     """Write report.html into the laboratory's folder; folder: for temporary files."""
     lab = place.lab
-    title, *sections = re.split(r"^## +", place.sheet().text, flags=re.MULTILINE)
+    text = re.sub(r"^Write after `answer:`.*?\n\n", "", place.sheet().text, flags=re.M | re.S)
+    title, *sections = re.split(r"^## +", text, flags=re.MULTILINE)
     body = [_markdown(title)]
     for section in sections:
         head, _, text = section.partition("\n")
@@ -116,9 +117,21 @@ def _block(block: str) -> str:
 
 
 def _inline(text: str) -> str:
-    text = escape(text)
-    text = re.sub(r"`([^`]+)`(?!:)", r"<code>\1</code>", text)
+    """Code as it is; emphasis, answers and boxes elsewhere."""
+    pieces = re.split(r"`([^`]+)`", text)
+    pieces[1::2] = [f"<code>{escape(code)}</code>" for code in pieces[1::2]]
+    pieces[::2] = [_answers(escape(piece)) for piece in pieces[::2]]
+    return "".join(pieces)
+
+
+def _answers(text: str) -> str:
     text = re.sub(r"\*([^*\n]+)\*", r"<em>\1</em>", text)
-    text = re.sub(r"(?<!<code>)answer:[ \t]*(.*)", r'<b class="answer">\1</b>', text)
-    text = re.sub(r"\[[xX]\]\s*([^\[\n]+)", r'<b class="chosen">&#9745; \1</b>', text)
-    return re.sub(r"\[\s*\]\s*([^\[\n&lt;]+)", r'<span class="open">&#9744; \1</span>', text)
+    text = re.sub(r"answer:[ \t]*(.*)", r'<b class="answer">\1</b>', text)
+    return re.sub(r"\[\s*([xX]?)\s*\]\s*([^\[\n<]+)", _box, text)
+
+
+def _box(found: re.Match) -> str:
+    mark, label = found[1], found[2].strip()
+    if mark:
+        return f'<b class="chosen">&#9745; {label}</b> '
+    return f'<span class="open">&#9744; {label}</span> '
