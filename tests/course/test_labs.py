@@ -161,7 +161,7 @@ def test_a_figure_of_means_costs_the_figure(spoiled):
     ("change", "says"),
     [
         (("metres < RULE", "metres > RULE"), "statue"),
-        (("seed=1", "seed=2"), "of a run of ours"),
+        (('"metres": metres', '"metres": metres + 1'), "of a run of ours"),
         (('"ground": seen["feet"].mean(), ', ""), "returns no 'ground'"),
         (("seen = record", "import os; os._exit(0)\n    seen = record"), "ended"),
     ],
