@@ -33,6 +33,8 @@ LAYERS = (
     {"grading.report"},
     {"grading.classes"},
     {"grading"},
+    {"labs.declare"},
+    {"labs"},
     {"cli"},
     {"__main__"},
 )

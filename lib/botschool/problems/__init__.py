@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from botschool.arenas.plan import PROBLEM, Plan
 from botschool.errors import BotschoolError
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
-from botschool.problems.native import NATIVE, NativeProblem
+from botschool.problems.native import NATIVE, NativeProblem, alive_of
 
 __all__ = ["Episodes", "Interrupted", "Outcome", "Problem", "make", "names", "of"]
 
@@ -31,14 +31,14 @@ def make(
     declared arena, for ErArena.
 
     wrappers: those around its environment (botschool.wrappers); a native problem is then played as
-    a Gymnasium environment. options: keywords of the environment's constructor. competitive: two
+    a Gymnasium environment. options: keywords of the environment's constructor; a native planar
+    runner takes `alive`, the pay for each step without a fall. competitive: two
     sides evolve against each other in it. Raises BotschoolError when there is no such problem, or
     it has no such robots, wrappers or options.
     """
     if name in NATIVE and not wrappers:
-        if options:
-            raise BotschoolError(f"{name} takes no options: remove the line options = {options}.")
-        return NativeProblem(name, robots, plan=plan)
+        alive = alive_of(name, options) if options else 0.0
+        return NativeProblem(name, robots, plan=plan, alive=alive)
     if plan is not None and name == PROBLEM:
         raise BotschoolError(f"A declared arena takes no wrappers: remove wrappers = {wrappers}.")
     if name in NATIVE and NativeProblem(name).interface.robots > 1:

@@ -14,6 +14,7 @@ from botschool.errors import BotschoolError
 from botschool.policies.policy import Interface, Policy
 from botschool.problems.base import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.transition import Transition
+from botschool.wrappers import keywords
 
 INFOS = {info["name"]: info for info in _core.native_problems()}
 """What lib/arena/problems says of each native problem, by its name in C++."""
@@ -22,6 +23,11 @@ NATIVE = {name: (name, info["limit"]) for name, info in INFOS.items()} | {
     info["alias"]: (name, info["alias_limit"]) for name, info in INFOS.items() if info["alias"]
 }
 """Name in experiment files -> (name in C++, longest episode)."""
+
+RUNNERS = tuple(
+    f"Planar{body}-v{version}" for body in ("Hopper", "Walker2D", "HalfCheetah") for version in "05"
+)
+"""Problems that take the option `alive`."""
 
 # Stopping is possible between batches of about this many steps.
 BATCH_STEPS = 20_000_000
@@ -44,8 +50,12 @@ class NativeProblem(Problem):
         robots: Sequence[str] = (),
         instruction_set: str = "",
         plan: Plan | None = None,
+        alive: float = 0.0,
     ) -> None:
+        """alive: what a planar runner is paid for each step that does not end its episode early,
+        beside the problem's own reward."""
         self.name = name
+        self.alive = alive
         self.dynamics, self.limit = NATIVE[name]
         self.plan = Plan() if plan is None and name == PROBLEM else plan
         """A declared arena; None for other problems."""
@@ -124,6 +134,8 @@ class NativeProblem(Problem):
             raise self.broken(
                 f"a return of {fitness[first]}", episodes.seed[first], episodes.episode[first]
             )
+        if self.alive:
+            fitness = fitness + self.alive * (steps - (steps < limit))
         return Outcome(fitness, steps, moments)
 
     def play(
@@ -146,7 +158,10 @@ class NativeProblem(Problem):
             self._options,
         )
         total = 0.0
+        fell = len(tape["rewards"]) < self.steps(maxsteps)
         for t, reward in enumerate(tape["rewards"]):
+            if self.alive and not (fell and t == len(tape["rewards"]) - 1):
+                reward = reward + self.alive
             total += reward
             yield Transition(
                 step=t + 1,
@@ -157,6 +172,24 @@ class NativeProblem(Problem):
                 activations=tape["activations"][t],
                 state=tape["states"][t + 1],
             )
+
+
+def alive_of(name: str, options: str) -> float:
+    """The pay for standing that the options of a native problem name. Raises BotschoolError."""
+    if name not in RUNNERS:
+        raise BotschoolError(f"{name} takes no options: remove the line options = {options}.")
+    given = keywords(options)
+    value = given.pop("alive", None)
+    if given or isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise BotschoolError(
+            f"{name} takes one option, the pay for each step without a fall: write options = "
+            f"alive=0.5 instead of options = {options}."
+        )
+    if not -100 <= value <= 100:
+        raise BotschoolError(
+            f"alive = {value} is out of range: it needs a number from -100 to 100."
+        )
+    return float(value)
 
 
 def _concatenated(parts: list[tuple]) -> tuple:

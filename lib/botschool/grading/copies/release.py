@@ -18,7 +18,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.copies.skeleton import find_leaks, pairs, skeleton
 from botschool.grading.declare.exercise import exercise_numbers, folder_of, load_exercise
 from botschool.grading.declare.trust import check_trusted, trust
-from botschool.grading.packed import PACKED, pack, pack_answers
+from botschool.grading.packed import PACKED, pack, pack_answers, pack_module
 from botschool.output import written_whole
 from botschool.sandbox.scratch import remove_tree
 
@@ -174,6 +174,8 @@ def _build(root: Path, made: Path, numbers: set[int]) -> None:
     for grader in made.glob("exercises/ex[0-9][0-9]_*/test_*.py"):
         known = load_exercise(int(grader.parent.name[2:4]), root).known
         _change(grader, partial(pack, solution=known.solution, mistakes=known.mistakes))
+    for measures in made.glob("lib/botschool/labs/lab[0-9][0-9]/reference.py"):
+        _change(measures, pack_module)
     start = made / START
     if start.is_file():
         _change(start, lambda text: _rows(text, start.parent))

@@ -1,0 +1,1 @@
+"""Laboratories: experiments of the student's own, checked by doing them again."""

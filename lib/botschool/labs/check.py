@@ -1,0 +1,281 @@
+"""Give the points of a laboratory, part by part, from the evidence."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.run.confined import MachineFault
+from botschool.labs.confined import drawn_figure, measured, student_file
+from botschool.labs.declare import PARTS, WORDS
+from botschool.labs.folder import Place
+from botschool.labs.runs import SavedRun, changed, drawn, evolved, genuine, own_runs, same
+from botschool.labs.sheet import Sheet, Unreadable, check_specific, numbers_in
+
+COMPLETE, EVIDENCE = 10, 15
+"""Points of the part `runs`: all are there; none is anything but evolved."""
+MEASURE, TABLE = 10, 15
+"""Points of the part `measurements`: measure.py; the table."""
+
+
+@dataclass
+class Part:
+    """The points of a part of the sheet."""
+
+    name: str
+    max_points: float
+    points: float = 0
+    messages: list[str] = field(default_factory=list)
+
+    def lose(self, message: str) -> None:
+        """Say why points are missing."""
+        self.messages.append(message)
+
+
+@dataclass
+class Checked:
+    """A sheet that was checked."""
+
+    parts: list[Part]
+    answers: dict[str, Any]
+    data: dict[str, dict[str, np.ndarray]]
+    """The measurements of the student's runs that are proven."""
+    runs: dict[str, list[SavedRun]]
+    picture: bytes = b""
+    """The figure, as PNG."""
+
+    @property
+    def points(self) -> float:
+        """The points that a machine gives, of 90."""
+        return round(sum(part.points for part in self.parts), 1)
+
+    def plain(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "points": self.points,
+            "max_points": sum(PARTS.values()),
+            "instructor_points": WORDS,
+            "parts": [asdict(part) for part in self.parts],
+        }
+
+
+class Check:
+    """Checks one sheet; `draw` gives random bytes, by which runs to make again are drawn."""
+
+    def __init__(self, place: Place, draw: Callable[[int], bytes] = os.urandom) -> None:
+        self.place, self.lab, self.draw = place, place.lab, draw
+        self.sheet: Sheet = place.sheet()
+        self.parts = {name: Part(name, most) for name, most in PARTS.items()}
+        self.answers, self.missing = self.sheet.values(self.lab.predictions + self.lab.fields)
+        self.runs: dict[str, list[SavedRun]] = {}
+        self.data: dict[str, dict[str, np.ndarray]] = {}
+        self.picture = b""
+
+    def all(self) -> Checked:
+        """Check every part. Raises BotschoolError for what is no fault of the sheet."""
+        self._prediction()
+        self._runs()
+        self._measurements()
+        self._table()
+        self._figure()
+        self._conclusion()
+        return Checked(list(self.parts.values()), self.answers, self.data, self.runs, self.picture)
+
+    @property
+    def whole(self) -> set[str]:
+        """The conditions with enough proven runs: what rests on others has no evidence."""
+        return {name for name, runs in self.runs.items() if len(runs) == self.lab.replications}
+
+    def _prediction(self) -> None:
+        part = self.parts["prediction"]
+        try:
+            check_specific(self.sheet, self.lab)
+        except BotschoolError as error:
+            part.lose(str(error))
+            return
+        self.runs = own_runs(self.lab, self.sheet, self.place.runs)
+        if not any(self.runs.values()):
+            why = changed(self.lab, self.sheet, self.place.runs)
+            part.lose(why or f"There are no runs yet: botschool lab {self.lab.number} run.")
+
+    def _runs(self) -> None:
+        part, lab = self.parts["runs"], self.lab
+        there = {c.name: len(self.runs.get(c.name, [])) for c in lab.conditions}
+        lacking = [f"{c} has {n}" for c, n in there.items() if n < lab.replications]
+        if lacking:
+            part.lose(
+                f"Each condition needs {lab.replications} finished runs with your seeds, but "
+                f"{', '.join(lacking)}: botschool lab {lab.number} run."
+            )
+        if not any(there.values()):
+            return
+        false = self._prove()
+        if false:
+            part.lose(
+                f"Evolving from the same seeds gives other files than these: {'; '.join(false[:5])}"
+                f"{' and others' if len(false) > 5 else ''}. They do not count as runs: remove "
+                "their files and run again."
+            )
+        proven = sum(map(len, self.runs.values()))
+        if proven:
+            self.parts["prediction"].points = PARTS["prediction"]
+        else:
+            self.parts["prediction"].lose("It counts once there are runs that follow from it.")
+        part.points = COMPLETE * len(self.whole) / len(lab.conditions)
+        if not false and proven > len(lab.conditions) * lab.replications / 2:
+            part.points += EVIDENCE
+        part.points = round(part.points, 1)
+
+    def _prove(self) -> list[str]:
+        """Leave the runs that are proven; return the names of the others."""
+        false = []
+        again = {(r.condition.name, r.seed) for r in drawn(self.runs, self.lab.redone, self.draw)}
+        for name, runs in self.runs.items():
+            proven = []
+            for run in runs:
+                redo = (name, run.seed) in again
+                if genuine(run) and (not redo or same(run, evolved(run.condition, run.seed))):
+                    proven.append(run)
+                else:
+                    false.append(f"{name}, seed {run.seed}")
+            self.runs[name] = proven
+        return false
+
+    def _measurements(self) -> None:
+        """measure.py on unseen runs, and on the student's own."""
+        part, names = self.parts["measurements"], tuple(self.lab.measures)
+        if not any(self.runs.values()):
+            part.lose("Measurements count once there are runs of your own that are proven.")
+            return
+        seed = int.from_bytes(self.draw(4), "big") & 0x7FFFFFFF
+        try:
+            with student_file(self.place.folder / "measure.py") as student:
+                found = []
+                for i, condition in enumerate(self.lab.unseen):
+                    run = evolved(condition, seed + i).plain()
+                    found.append(measured(student, run, names))
+                    self._compare(found[-1], run)
+                if told := self.lab.separate(found):
+                    raise Wrong(told)
+                for name, runs in self.runs.items():
+                    rows = [measured(student, run.plain(), names) for run in runs]
+                    self._remember(name, rows)
+            part.points = MEASURE
+        except MachineFault:
+            raise
+        except Wrong as error:
+            part.lose(f"measure.py: {error}")
+            for name, runs in self.runs.items():
+                self._remember(name, [self._reference(run.plain()) for run in runs])
+
+    def _reference(self, run: dict[str, Any]) -> dict[str, float]:
+        return self.lab.reference(run, self.answers)
+
+    def _remember(self, condition: str, rows: list[dict[str, float]]) -> None:
+        self.data[condition] = {
+            name: np.array([row[name] for row in rows]) for name in self.lab.measures
+        }
+
+    def _compare(self, found: dict[str, float], run: dict[str, Any]) -> None:
+        """Raises Wrong unless the student's measures are those that the sheet describes."""
+        right = self._reference(run)
+        for name, tolerance in self.lab.measures.items():
+            if abs(found[name] - right[name]) > tolerance * max(1.0, abs(right[name])):
+                raise Wrong(
+                    f"of a run of ours ({run['condition']}) it gives {name} = {found[name]:.4g}, "
+                    f"expected {right[name]:.4g}: read what the sheet says of {name}."
+                )
+
+    def _table(self) -> None:
+        part = self.parts["measurements"]
+        cells = [(c, col) for c in self.lab.conditions for col in self.lab.columns]
+        cells = [(c, col) for c, col in cells if col.only(c.name)]
+        right = 0
+        for condition, column in cells:
+            if condition.name not in self.whole:
+                continue
+            titles = [col.title for col in self.lab.columns]
+            try:
+                row = self.sheet.row(condition.name)
+                at = titles.index(column.title)
+                true = column.of(self.data[condition.name])
+                what = f"The table, {condition.name}, {column.title}"
+                given = numbers_in(row[at] if at < len(row) else "", what, len(true))
+            except Unreadable as error:
+                part.lose(str(error))
+                continue
+            off = max(abs(a - b) for a, b in zip(given, true, strict=True))
+            if off <= column.tolerance(true) + 1e-9:
+                right += 1
+            else:
+                told = " to ".join(f"{value:.4g}" for value in true)
+                part.lose(f"{what}: your runs give {told}.")
+        part.points = round(part.points + TABLE * right / len(cells), 1)
+        part.messages = _shortened(part.messages)
+
+    def _figure(self) -> None:
+        part, figure = self.parts["figure"], self.lab.figure
+        if not all(self.runs.get(name) for name in figure.conditions):
+            part.lose("The figure counts once each condition that it shows has runs.")
+            return
+        try:
+            with student_file(self.place.folder / "figure.py") as student:
+                drawn_ = drawn_figure(student, {k: dict(v) for k, v in self.data.items()})
+            self.picture = drawn_["png"]
+            if not all(x.strip() and y.strip() for x, y in drawn_["labels"]):
+                raise Wrong("name both axes, with set_xlabel and set_ylabel.")
+            names = " ".join(y for _, y in drawn_["labels"]).lower()
+            if not any(unit in names for unit in figure.units):
+                raise Wrong(f"the vertical axis needs its unit: {' or '.join(figure.units)}.")
+            _check_points(drawn_["points"], figure.conditions, figure.y, self.data)
+            part.points = part.max_points
+        except MachineFault:
+            raise
+        except Wrong as error:
+            part.lose(f"figure.py: {error}")
+
+    def _conclusion(self) -> None:
+        part = self.parts["conclusion"]
+        part.messages += [text for text in self.missing if part.max_points and self._late(text)]
+        for statement in self.lab.statements:
+            if not set(statement.needs) <= self.whole:
+                part.lose(f"{statement.field}: its runs are missing or not proven.")
+                continue
+            if statement.field not in self.answers:
+                continue
+            right, told = statement.judge(self.data, self.answers)
+            if right(self.answers[statement.field]):
+                part.points += statement.points
+            else:
+                part.lose(f"{statement.field}: {told}")
+
+    def _late(self, message: str) -> bool:
+        """Whether a message is about a field after the prediction."""
+        return any(message.startswith(field.what) for field in self.lab.fields)
+
+
+def _check_points(
+    points: np.ndarray, conditions: tuple[str, ...], y: str, data: dict[str, Any]
+) -> None:
+    """Raises Wrong unless every run's value is the height of a point."""
+    values = np.concatenate([data[name][y] for name in conditions])
+    shown = Counter(float(f"{value:.4g}") for value in points[:, 1])
+    lacking = Counter(float(f"{value:.4g}") for value in values) - shown
+    if lacking:
+        raise Wrong(
+            f"every run is a point with its {y} as height, but {sum(lacking.values())} of "
+            f"{len(values)} runs are not there: draw the runs, not their means."
+        )
+
+
+def _shortened(messages: list[str]) -> list[str]:
+    """The first six, and how many there are beyond."""
+    rest = len(messages) - 6
+    return messages[:6] + ([f"... and {rest} more of this kind."] if rest > 0 else [])

@@ -1,0 +1,87 @@
+"""What `botschool lab N start|run|check|report` does."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.grading.run.temporary import temporary_folder
+from botschool.labs.check import Check, Checked
+from botschool.labs.declare import PARTS, WORDS
+from botschool.labs.folder import Place, keep_name, known_name, start
+from botschool.labs.report import write_report
+from botschool.labs.runs import make_runs
+from botschool.labs.sheet import check_specific
+
+COURSE = "botschool"
+QUICK_REPLICATIONS = 3
+
+
+def start_command(number: str, name: str | None, course: str | None) -> None:
+    """Make the folder of a laboratory, for the name that is given, remembered or asked for."""
+    here = Path.cwd()
+    place = Place.of(number, here)
+    told = " ".join((name or known_name(here)).split())
+    if not told and sys.stdin.isatty():
+        told = " ".join(input("Your name (the seeds of your runs follow from it): ").split())
+    if not told:
+        raise BotschoolError(f'Say your name: botschool lab {number} start --name "Ada".')
+    kept = start(place, told, course or COURSE)
+    keep_name(here, told)
+    for path in kept:
+        print(f"left alone, because it is there: {path}")
+    print(f"Laboratory {place.lab.number}. {place.lab.title}")
+    print(f"Read {place.folder / 'sheet.md'} and write your prediction.")
+    print(f"Then: botschool lab {place.lab.number} run")
+
+
+def run_command(number: str, quick: bool, workers: int) -> bool:
+    """Make the runs; return False when the user stopped it."""
+    place = Place.of(number)
+    sheet, lab, folder = place.sheet(), place.lab, place.runs
+    check_specific(sheet, lab)
+    replications = lab.replications
+    if quick:
+        short = tuple(condition.shortened(lab.quick) for condition in lab.conditions)
+        lab, folder = replace(lab, conditions=short), place.folder / "runs-quick"
+        replications = min(QUICK_REPLICATIONS, replications)
+    if not make_runs(lab, sheet, folder, workers, replications):
+        return False
+    if quick:
+        print(f"A look: the runs are in {folder}, and do not count.")
+    else:
+        print(f"All runs are there. Write measure.py, then: botschool lab {lab.number} check")
+    return True
+
+
+def check_command(number: str, as_json: bool) -> bool:
+    """Print the points; return whether all that a machine gives are earned."""
+    checked = Check(Place.of(number)).all()
+    if as_json:
+        print(json.dumps(checked.plain(), indent=1))
+    else:
+        show(checked)
+    return checked.points >= sum(PARTS.values())
+
+
+def show(checked: Checked) -> None:
+    """Print points and messages part by part."""
+    for part in checked.parts:
+        print(f"{part.name:<14}{part.points:5g} of {part.max_points:g}")
+        for message in part.messages:
+            print(f"    {message}")
+    print(f"{'words':<14}    {WORDS} points: your instructor's")
+    print(f"{checked.points:g} of {sum(PARTS.values())} points")
+
+
+def report_command(number: str) -> None:
+    """Check, and write the page."""
+    place = Place.of(number)
+    checked = Check(place).all()
+    with temporary_folder() as folder:
+        path = write_report(place, checked, folder)
+    print(f"{checked.points:g} of {sum(PARTS.values())} points")
+    print(f"report: {path}")

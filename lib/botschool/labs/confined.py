@@ -1,0 +1,93 @@
+"""Run a student's measure.py and figure.py in the sandbox; nothing of them is imported here."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.run.student import Student
+from botschool.grading.run.temporary import temporary_folder
+
+SECONDS = 30
+"""Of processor time, for all calls of one file."""
+
+
+@contextmanager
+def student_file(path: Path) -> Iterator[Student]:
+    """A file alone in a child process. Raises Wrong if it is not there."""
+    if path.is_symlink() or not path.is_file():
+        raise Wrong(f"{path.name} is missing: botschool lab N start makes it again.")
+    with temporary_folder() as folder:
+        copy = folder / "submitted" / path.name
+        copy.parent.mkdir()
+        shutil.copyfile(path, copy)
+        student = Student(copy, seconds=SECONDS)
+        try:
+            yield student
+        finally:
+            student.close()
+
+
+def measured(student: Student, run: dict[str, Any], names: tuple[str, ...]) -> dict[str, float]:
+    """What measure(run) gives: one finite number for each name. Raises Wrong."""
+    answer = student.call("measure", run)
+    if not isinstance(answer, dict):
+        raise Wrong(f"measure(run) must return a dict, but returned {type(answer).__name__}.")
+    values = {}
+    for name in names:
+        try:
+            value = float(np.asarray(answer[name], dtype=float).reshape(()))
+        except KeyError:
+            raise Wrong(f"measure(run) returns no '{name}': add it to the dict.") from None
+        except (TypeError, ValueError):
+            raise Wrong(f"measure(run)['{name}'] is not a number.") from None
+        if not np.isfinite(value):
+            raise Wrong(f"measure(run)['{name}'] is {value}: it must be a finite number.")
+        values[name] = value
+    return values
+
+
+def drawn_figure(student: Student, measurements: dict[str, Any]) -> dict[str, Any]:
+    """What figure(measurements) shows: names of the axes, and the points. Raises Wrong."""
+    found = student.run(_inspect, measurements, said="figure(measurements)")
+    if not isinstance(found, dict) or not {"labels", "points", "png"} <= found.keys():
+        raise Wrong("figure(measurements) must return a matplotlib figure.")
+    points = np.asarray(found["points"], dtype=float).reshape(-1, 2)
+    labels = [(str(x), str(y)) for x, y in found["labels"]]
+    png = np.asarray(found["png"], dtype=np.uint8).tobytes()
+    return {"labels": labels, "points": points, "png": png}
+
+
+def _inspect(student: Any, measurements: dict[str, Any]) -> dict[str, Any]:
+    """In the child: draw, then read the points back from the figure's axes."""
+    import io
+
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import numpy as np
+
+    figure = student.figure(measurements)
+    if not hasattr(figure, "axes") or not hasattr(figure, "savefig"):
+        raise TypeError("figure(measurements) must return a matplotlib figure")
+    labels, points = [], []
+    for axes in figure.axes:
+        labels.append([axes.get_xlabel(), axes.get_ylabel()])
+        for line in axes.lines:
+            marker = line.get_marker()
+            if marker not in ("", " ", "none", "None", None):
+                points.append(np.column_stack([np.asarray(d, float) for d in line.get_data()]))
+        points += [np.asarray(each.get_offsets(), float) for each in axes.collections]
+    picture = io.BytesIO()
+    figure.savefig(picture, format="png", dpi=100)
+    return {
+        "labels": labels,
+        "points": np.concatenate(points) if points else np.zeros((0, 2)),
+        "png": np.frombuffer(picture.getvalue(), np.uint8),
+    }

@@ -1,0 +1,81 @@
+"""The folder of a laboratory: labNN with sheet.md, measure.py, figure.py and runs."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from botschool.errors import BotschoolError
+from botschool.labs.declare import Lab, load_lab
+from botschool.labs.sheet import Sheet
+
+FILES = {"sheet.txt": "sheet.md", "measure.txt": "measure.py", "figure.txt": "figure.py"}
+"""In a declaration's folder -> in the student's."""
+NAME = Path(".botschool") / "name"
+
+
+@dataclass(frozen=True)
+class Place:
+    """A student's folder."""
+
+    lab: Lab
+    folder: Path
+
+    @classmethod
+    def of(cls, number: str | int, here: Path | None = None) -> Place:
+        """labNN in the present folder, or the present folder itself if that is its name."""
+        lab, here = load_lab(number), (here or Path.cwd())
+        itself = here.resolve().name == lab.name and (here / "sheet.md").is_file()
+        return cls(lab, here if itself else here / lab.name)
+
+    @classmethod
+    def find(cls, folder: Path) -> Place:
+        """The laboratory whose folder it is. Raises BotschoolError."""
+        found = re.fullmatch(r"lab(\d\d)", folder.resolve().name)
+        if not found:
+            raise BotschoolError(f"{folder.resolve()} is no folder of a laboratory: go to lab09.")
+        return cls(load_lab(int(found[1])), folder)
+
+    @property
+    def runs(self) -> Path:
+        """The folder of its runs."""
+        return self.folder / "runs"
+
+    def sheet(self) -> Sheet:
+        """Raises BotschoolError if it is not there."""
+        if not (self.folder / "sheet.md").is_file():
+            raise BotschoolError(
+                f"There is no {self.folder / 'sheet.md'}: botschool lab {self.lab.number} start "
+                "makes it."
+            )
+        return Sheet.read(self.folder / "sheet.md")
+
+
+def start(place: Place, name: str, course: str) -> list[Path]:
+    """Make the folder; return the files that were there already and stay as they are."""
+    place.folder.mkdir(parents=True, exist_ok=True)
+    kept = []
+    for source, target in FILES.items():
+        path = place.folder / target
+        if path.exists():
+            kept.append(path)
+            continue
+        text = (place.lab.resources / source).read_text(encoding="utf-8")
+        text = text.replace("{NAME}", name).replace("{COURSE}", course)
+        path.write_text(text, encoding="utf-8")
+    return kept
+
+
+def known_name(here: Path) -> str:
+    """The name that was given to an earlier laboratory; "" if none was."""
+    try:
+        return " ".join((here / NAME).read_text(encoding="utf-8").split())
+    except (OSError, UnicodeDecodeError):
+        return ""
+
+
+def keep_name(here: Path, name: str) -> None:
+    """Remember the name for the next laboratory."""
+    (here / NAME).parent.mkdir(exist_ok=True)
+    (here / NAME).write_text(f"{name}\n", encoding="utf-8")

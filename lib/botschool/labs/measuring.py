@@ -1,0 +1,77 @@
+"""What measure.py and figure.py may use: robots played again, intervals, a permutation test."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+RESAMPLES = 10_000
+
+
+def record(run: dict[str, Any], seed: int = 1) -> dict[str, Any]:
+    """Play an episode of a planar runner's best robot and record it.
+
+    "duration" is the length of a step in seconds; "distance", shape (T + 1,), the metres that are
+    left to a target far ahead, at the start and after each step; "height" and "pitch", shape (T,);
+    "feet", shape (T, feet), is 1 where a foot is on the ground.
+    """
+    from botschool.course.locomotion import Runner
+
+    environment = run["experiment"]["exp"]["environment"]
+    return Runner(environment).record(np.asarray(run["genotype"]), seed)
+
+
+def play_again(run: dict[str, Any], seed: int = 1, episodes: int = 100) -> np.ndarray:
+    """The returns of a run's best robot in new episodes; shape (episodes,)."""
+    from botschool import problems
+    from botschool.config import from_dict
+    from botschool.problems import Episodes
+
+    experiment = from_dict(run["experiment"])
+    problem = problems.of(experiment)
+    policy = problem.policy(experiment.policy)
+    genotype, normalisation = policy.split(np.asarray(run["genotype"]))
+    batch = Episodes.of(np.array([seed], dtype=np.uint64), episodes)
+    steps = experiment.policy.maxsteps
+    return problem.evaluate(policy, genotype[None], normalisation, batch, steps).fitness
+
+
+def interval(
+    values: Sequence[float], statistic: Callable[..., Any] = np.median, seed: int = 1
+) -> tuple[float, float]:
+    """A 95 % bootstrap interval: where the statistic of resampled values lies in 95 of 100 cases.
+
+    statistic takes an array and the keyword axis, as np.median and np.mean do.
+    """
+    values = np.asarray(values, dtype=float)
+    rng = np.random.default_rng(seed)
+    resampled = values[rng.integers(len(values), size=(RESAMPLES, len(values)))]
+    low, high = np.percentile(statistic(resampled, axis=1), [2.5, 97.5])
+    return float(low), float(high)
+
+
+def permutation_test(one: Sequence[float], other: Sequence[float], seed: int = 1) -> float:
+    """The probability of a difference of means at least as large, had the groups been mixed."""
+    one, other = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
+    both = np.concatenate([one, other])
+    seen = abs(one.mean() - other.mean())
+    rng = np.random.default_rng(seed)
+    mixed = rng.permuted(np.tile(both, (RESAMPLES, 1)), axis=1)
+    apart = np.abs(mixed[:, : len(one)].mean(axis=1) - mixed[:, len(one) :].mean(axis=1))
+    return float((1 + (apart >= seen - 1e-9).sum()) / (1 + RESAMPLES))
+
+
+def measure_all(measure: Callable[[dict], dict], folder: str | Path = ".") -> dict:
+    """The student's measure of each of his runs: condition -> measure -> array."""
+    from botschool.labs.folder import Place
+    from botschool.labs.runs import own_runs
+
+    place = Place.find(Path(folder))
+    found: dict[str, dict[str, np.ndarray]] = {}
+    for name, runs in own_runs(place.lab, place.sheet(), place.runs).items():
+        rows = [measure(run.plain()) for run in runs]
+        found[name] = {key: np.array([row[key] for row in rows]) for key in (rows or [{}])[0]}
+    return found

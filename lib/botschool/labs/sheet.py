@@ -1,0 +1,162 @@
+"""Read a sheet: Markdown with marked fields, a table and sections."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from botschool.errors import BotschoolError
+from botschool.labs.declare import Field, Lab
+
+_MARKER = re.compile(r"<!--\s*field:\s*([\w-]+)\s*-->")
+_ANSWER = re.compile(r"answer:[ \t]*(.*)", re.IGNORECASE)
+_BOX = re.compile(r"\[\s*([xX]?)\s*\]\s*([^\[\n]+)")
+_NUMBER = r"[-+\u2212]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+MAX_BYTES = 200_000
+
+
+class Unreadable(ValueError):
+    """A field that is empty or cannot be read; the text is a sentence."""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A sheet that was read."""
+
+    text: str
+    """With line ends of one kind."""
+
+    @classmethod
+    def read(cls, path: Path) -> Sheet:
+        """Raises BotschoolError."""
+        try:
+            content = path.read_bytes()
+        except OSError as error:
+            raise BotschoolError(
+                f"{path} cannot be read ({error.strerror}): botschool lab N start makes it."
+            ) from None
+        if len(content) > MAX_BYTES:
+            raise BotschoolError(f"{path} is larger than {MAX_BYTES // 1000} kB: shorten it.")
+        try:
+            text = content.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            raise BotschoolError(f"{path} is not UTF-8 text: save it as UTF-8.") from None
+        return cls("\n".join(text.splitlines()))
+
+    def section(self, title: str) -> str:
+        """The text under the heading `## title`; "" if there is none."""
+        pattern = rf"^## +{re.escape(title)}[^\n]*\n(.*?)(?=^## |\Z)"
+        found = re.search(pattern, self.text, re.MULTILINE | re.DOTALL | re.IGNORECASE)
+        return found[1] if found else ""
+
+    @property
+    def prediction(self) -> str:
+        """What the prediction says, without what editors change: spaces and line ends."""
+        text = re.sub(r"<!--.*?-->", " ", self.section("Prediction"), flags=re.DOTALL)
+        return " ".join(text.replace("[X]", "[x]").split())
+
+    def raw(self, id: str) -> str:
+        """The lines that belong to a field: to the next one, the next heading or table."""
+        markers = list(_MARKER.finditer(self.text))
+        for marker, after in zip(markers, [*markers[1:], None], strict=False):
+            if marker[1] == id:
+                part = self.text[marker.end() : after.start() if after else None]
+                return re.split(r"^#|^\|", part, maxsplit=1, flags=re.MULTILINE)[0]
+        raise Unreadable(
+            f"The field {id} is not in sheet.md: put its line <!-- field: {id} --> back."
+        )
+
+    def value(self, field: Field) -> Any:
+        """The answer in a field. Raises Unreadable."""
+        raw = self.raw(field.id)
+        if field.kind == "number":
+            found = _ANSWER.search(raw)
+            number = numbers_in(found[1] if found else "", field.what, 1)[0]
+            if not field.low <= number <= field.high:
+                raise Unreadable(
+                    f"{field.what}: {number:g} is out of range, write a number from "
+                    f"{field.low:g} to {field.high:g}."
+                )
+            return number
+        if field.kind == "choice":
+            chosen = [label.strip() for mark, label in _BOX.findall(raw) if mark]
+            if len(chosen) != 1:
+                how = "nothing is" if not chosen else "more than one box is"
+                raise Unreadable(f"{field.what}: {how} marked, put [x] before exactly one.")
+            return chosen[0]
+        lines = [line.strip()[1:] for line in raw.splitlines() if line.strip().startswith(">")]
+        text = " ".join(" ".join(lines).split())
+        if len(re.findall(r"\w+", text)) < max(1, field.words):
+            raise Unreadable(
+                f"{field.what}: write at least {max(1, field.words)} words after the sign >."
+            )
+        return text
+
+    def values(self, fields: tuple[Field, ...]) -> tuple[dict[str, Any], list[str]]:
+        """The answers that can be read, and a sentence about each of the others."""
+        found, missing = {}, []
+        for field in fields:
+            try:
+                found[field.id] = self.value(field)
+            except Unreadable as error:
+                missing.append(str(error))
+        return found, missing
+
+    def row(self, label: str) -> list[str]:
+        """The cells after the first one of the table's row with this label. Raises Unreadable."""
+        for line in self.text.splitlines():
+            cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+            if line.strip().startswith("|") and cells[0] == label:
+                return cells[1:]
+        raise Unreadable(f"The table has no row {label}: put it back.")
+
+    def text_of(self, id: str) -> str:
+        """A line after `answer:`; "" if there is none."""
+        found = _ANSWER.search(self.raw(id))
+        return " ".join(found[1].split()) if found else ""
+
+
+def numbers_in(text: str, what: str, count: int) -> tuple[float, ...]:
+    """The numbers of an answer. Raises Unreadable unless there are `count`."""
+    text = re.sub(r"^answer:", "", text.strip(), flags=re.IGNORECASE).strip()
+    asked = "a number" if count == 1 else f"{count} numbers, as 1.5 to 2.5,"
+    if not text:
+        raise Unreadable(f"{what}: empty, write {asked} after answer:.")
+    if re.search(r"\d,\d", text):
+        raise Unreadable(f"{what}: write a point instead of the comma in '{text[:30]}'.")
+    found = re.findall(rf"(?<![\w.]){_NUMBER}(?![\w.]*\d)", text)
+    if len(found) != count:
+        raise Unreadable(f"{what}: '{text[:30]}' cannot be read, write {asked} after answer:.")
+    return tuple(float(each.replace("\u2212", "-")) for each in found)
+
+
+def base_seed(sheet: Sheet, lab: Lab) -> int:
+    """The seed that all runs of a sheet derive from (docs/specification.md, "Laboratories")."""
+    name, course = sheet.text_of("name").casefold(), sheet.text_of("course").casefold()
+    key = "\0".join([name, lab.name, course, sheet.prediction])
+    return int.from_bytes(hashlib.sha256(key.encode()).digest()[:4], "big") & 0x7FFFFFFF
+
+
+def seeds_of(sheet: Sheet, lab: Lab, replications: int | None = None) -> dict[str, list[int]]:
+    """The seeds of the runs: condition -> consecutive numbers."""
+    first, count = base_seed(sheet, lab), replications or lab.replications
+    return {
+        condition.name: list(range(first + 1000 * i, first + 1000 * i + count))
+        for i, condition in enumerate(lab.conditions)
+    }
+
+
+def check_specific(sheet: Sheet, lab: Lab) -> None:
+    """Raises BotschoolError unless there is a name and a prediction that can turn out wrong."""
+    try:
+        named = sheet.text_of("name")
+    except Unreadable as error:
+        raise BotschoolError(str(error)) from None
+    if not named:
+        raise BotschoolError("Write your name first (sheet.md, after 'Name:').")
+    _, missing = sheet.values(lab.predictions)
+    if missing:
+        raise BotschoolError(f"Write your prediction first (sheet.md, 'Prediction'). {missing[0]}")

@@ -1,0 +1,202 @@
+"""Laboratories: sheets, seeds, refusals, and the pay for standing of planar runners."""
+
+import numpy as np
+import pytest
+
+from botschool import problems
+from botschool.config import PolicyConfig
+from botschool.errors import BotschoolError
+from botschool.grading.packed import pack_module
+from botschool.labs.declare import NUMBERS, PARTS, WORDS, Field, load_lab
+from botschool.labs.folder import Place, start
+from botschool.labs.measuring import interval, permutation_test
+from botschool.labs.report import _inline
+from botschool.labs.runs import make_runs
+from botschool.labs.sheet import Sheet, Unreadable, base_seed, numbers_in, seeds_of
+from botschool.problems import Episodes
+from lab_students import PREDICTIONS, WHY, answer, edit, fill, predicted, small
+from running import call
+
+NUMBER = Field("a", "number", "The number", 0, 5)
+
+
+def sheet(text):
+    return Sheet("\n".join(text.splitlines()))
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_points_add_up_and_sheets_have_every_field(number, tmp_path):
+    lab = load_lab(number)
+    assert sum(PARTS.values()) + WORDS == 100
+    assert sum(statement.points for statement in lab.statements) == PARTS["conclusion"]
+    start(Place(lab, tmp_path), "Ada", "botschool")
+    read = Sheet.read(tmp_path / "sheet.md")
+    found, missing = read.values(lab.predictions + lab.fields)
+    assert not found and len(missing) == len(lab.predictions + lab.fields)
+    for condition in lab.conditions:
+        assert len(read.row(condition.name)) == len(lab.columns)
+    assert {s.field for s in lab.statements} <= {f.id for f in lab.fields}
+
+
+@pytest.mark.parametrize("ends", ["\n", "\r\n"])
+@pytest.mark.parametrize("given", ["answer: 1.5", "answer:1.5 ", "Answer: 1.5"])
+def test_a_number_is_read_however_it_is_typed(given, ends):
+    assert sheet(f"How many? <!-- field: a --> {given}{ends}{ends}more").value(NUMBER) == 1.5
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ("answer:", "empty"),
+        ("answer: 1,5", "point instead of the comma"),
+        ("answer: 7", "out of range"),
+        ("answer: much", "cannot be read"),
+        ("answer: 1 2", "cannot be read"),
+    ],
+)
+def test_what_is_no_number_is_said(given, says):
+    with pytest.raises(Unreadable, match=says):
+        sheet(f"<!-- field: a --> {given}").value(NUMBER)
+    with pytest.raises(Unreadable, match=r"is not in sheet\.md"):
+        sheet(given).value(NUMBER)
+
+
+def test_choices_texts_and_intervals_are_read():
+    choice, text = Field("c", "choice", "The choice"), Field("t", "text", "The text", words=3)
+    read = sheet("<!-- field: c -->\n[ ] left   [X] right\n<!-- field: t -->\n> one two\n> three\n")
+    assert read.value(choice) == "right"
+    assert read.value(text) == "one two three"
+    with pytest.raises(Unreadable, match="more than one box"):
+        sheet("<!-- field: c --> [x] left [x] right").value(choice)
+    with pytest.raises(Unreadable, match="at least 3 words"):
+        sheet("<!-- field: t -->\n> one two").value(text)
+    assert numbers_in("-1.5 to -0.5", "it", 2) == (-1.5, -0.5)
+    assert numbers_in("[2; 3]", "it", 2) == (2, 3)
+
+
+def test_seeds_follow_from_name_course_and_prediction_alone(tmp_path):
+    place = predicted(small(9), tmp_path)
+    seed = base_seed(place.sheet(), place.lab)
+    text = (place.folder / "sheet.md").read_text()
+    crlf = text.replace("[x]", "[X]").replace("\n", "  \r\n")
+    (place.folder / "sheet.md").write_bytes(crlf.encode())
+    assert base_seed(place.sheet(), place.lab) == seed
+    for id, value in (("observed", 1), ("name", "ADA"), ("rule", 3)):
+        assert base_seed(sheet(fill(text, id, value)), place.lab) == seed
+    for id, value in (("name", "Bo"), ("course", "B"), ("tipping", 2), ("why", WHY + " So.")):
+        assert base_seed(sheet(fill(text, id, value)), place.lab) != seed
+    seeds = [each for some in seeds_of(place.sheet(), place.lab).values() for each in some]
+    assert len(set(seeds)) == len(seeds) == 28
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_run_refuses_before_the_prediction_is_specific(number, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    from botschool.labs.commands import run_command
+
+    with pytest.raises(BotschoolError, match=f"lab {number} start makes it"):
+        run_command(str(number), False, 1)
+    place = Place.of(number)
+    start(place, "Ada", "botschool")
+    for id, value in PREDICTIONS[number].items():
+        with pytest.raises(BotschoolError, match="Write your prediction first"):
+            run_command(str(number), False, 1)
+        answer(place, {id: value})
+    edit(place, lambda text: fill(text, "name", ""))
+    with pytest.raises(BotschoolError, match="Write your name first"):
+        run_command(str(number), False, 1)
+    assert not place.runs.exists()
+
+
+def test_runs_of_another_prediction_are_not_mixed_in(tmp_path):
+    place = predicted(small(9), tmp_path)
+    place.runs.mkdir()
+    (place.runs / "runs.json").write_text('{"seed": 5, "prediction": "It tips at 9."}')
+    with pytest.raises(BotschoolError, match=r"has changed .* 'It tips at 9\.'\. To start anew"):
+        make_runs(place.lab, place.sheet(), place.runs, 1, 1)
+
+
+def test_the_command_starts_and_names_what_exists(tmp_path):
+    assert call("lab", "4", "start", cwd=tmp_path)[::2] == (
+        2,
+        "error: There is no laboratory 4 yet: the laboratories that exist are 3 and 9.\n",
+    )
+    code, out, _ = call("lab", "9", "start", "--name", "Ada", cwd=tmp_path)
+    assert code == 0 and "write your prediction" in out
+    assert call("lab", "3", "start", cwd=tmp_path)[0] == 0
+    assert "answer: Ada" in (tmp_path / "lab03" / "sheet.md").read_text()
+    code, out, _ = call("lab", "9", "check", cwd=tmp_path)
+    assert code == 1 and "0 of 90 points" in out
+    assert call("lab", "9", "dance", cwd=tmp_path)[0] == 2
+
+
+def test_one_rule_for_all_robots_is_refused():
+    separate = load_lab(9).separate
+    far, near = {"metres": 20.0, "statue": 0.0}, {"metres": 1.0, "statue": 1.0}
+    assert separate([far, near]) == ""
+    assert "the same" in separate([far | {"statue": 1.0}, near])
+
+
+def test_a_report_shows_answers_boxes_and_code():
+    shown = _inline("`answer: <b>` is *it* [x] left   [ ] tall\nP: answer: 5 < 6")
+    assert "<code>answer: &lt;b&gt;</code> is <em>it</em>" in shown
+    assert "&#9745; left</b>" in shown and "&#9744; tall</span>" in shown
+    assert '<b class="answer">5 &lt; 6</b>' in shown
+
+
+def test_statistics():
+    rng = np.random.default_rng(3)
+    one, other = rng.normal(0, 1, 10), rng.normal(3, 1, 10)
+    assert permutation_test(one, other) < 0.001 < 0.2 < permutation_test(one, one[::-1])
+    low, high = interval(one)
+    assert low < np.median(one) < high
+
+
+def test_a_packed_reference_measures_the_same():
+    space = {"__file__": "reference.py", "__name__": "reference"}
+    source = "def reference(run, answers):\n    return {'metres': 2 * run}\n"
+    packed = pack_module(source)
+    assert "metres" not in packed
+    exec(packed, space)
+    assert space["reference"](4, {}) == {"metres": 8}
+
+
+def returns(options, name="PlanarHopper-v5", genotype=None):
+    problem = problems.make(name, options=options)
+    policy = problem.policy(PolicyConfig(nhiddens=5, maxsteps=60))
+    genotype = policy.initial(3) if genotype is None else genotype
+    batch = Episodes.of(np.array([7], dtype=np.uint64), 3)
+    outcome = problem.evaluate(policy, genotype[None], None, batch, 60)
+    played = [list(problem.play(policy, genotype, None, 7, k, 60)) for k in range(3)]
+    return outcome, played
+
+
+def test_the_pay_for_standing_is_paid_for_each_step_without_a_fall():
+    plain, _ = returns("")
+    paid, played = returns("alive=0.5")
+    standing = plain.steps - (plain.steps < 60)
+    assert (paid.steps == plain.steps).all()
+    assert np.array_equal(paid.fitness, plain.fitness + 0.5 * standing)
+    assert np.allclose([each[-1].total for each in played], paid.fitness)
+
+
+def test_version_0_pays_the_same_beside_the_effort():
+    one, zero = returns("alive=1")[1], returns("", "PlanarHopper-v0")[1]
+    for ours, theirs in zip(one, zero, strict=True):
+        for a, b in zip(ours, theirs, strict=True):
+            effort = 0.001 * (np.clip(a.action, -1, 1) ** 2).sum()
+            assert a.reward == pytest.approx(b.reward + effort, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "says"),
+    [
+        ("CartPole-v1", "alive=1", "CartPole-v1 takes no options"),
+        ("PlanarHopper-v5", "bonus=1", "takes one option"),
+        ("PlanarHopper-v5", "alive='x'", "takes one option"),
+        ("PlanarHopper-v5", "alive=1e9", "out of range"),
+    ],
+)
+def test_other_options_are_refused(name, options, says):
+    with pytest.raises(BotschoolError, match=says):
+        problems.make(name, options=options)
