@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 RESAMPLES = 10_000
 
@@ -40,27 +41,27 @@ def play_again(run: dict[str, Any], seed: int = 1, episodes: int = 100) -> np.nd
 
 
 def interval(
-    values: Sequence[float], statistic: Callable[..., Any] = np.median, seed: int = 1
+    values: ArrayLike, statistic: Callable[..., Any] = np.median, seed: int = 1
 ) -> tuple[float, float]:
-    """A 95 % bootstrap interval: where the statistic of resampled values lies in 95 of 100 cases.
+    """Return a 95 % bootstrap interval: where the statistic of resampled values lies in 95 of 100 cases.
 
     statistic takes an array and the keyword axis, as np.median and np.mean do.
     """
-    values = np.asarray(values, dtype=float)
+    array = np.asarray(values, dtype=float)
     rng = np.random.default_rng(seed)
-    resampled = values[rng.integers(len(values), size=(RESAMPLES, len(values)))]
+    resampled = array[rng.integers(len(array), size=(RESAMPLES, len(array)))]
     low, high = np.percentile(statistic(resampled, axis=1), [2.5, 97.5])
     return float(low), float(high)
 
 
-def permutation_test(one: Sequence[float], other: Sequence[float], seed: int = 1) -> float:
-    """The probability of a difference of means at least as large, had the groups been mixed."""
-    one, other = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
-    both = np.concatenate([one, other])
-    seen = abs(one.mean() - other.mean())
+def permutation_test(one: ArrayLike, other: ArrayLike, seed: int = 1) -> float:
+    """Return the probability of a difference of means at least as large, had the groups been mixed."""
+    first, second = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
+    both = np.concatenate([first, second])
+    seen = abs(first.mean() - second.mean())
     rng = np.random.default_rng(seed)
     mixed = rng.permuted(np.tile(both, (RESAMPLES, 1)), axis=1)
-    apart = np.abs(mixed[:, : len(one)].mean(axis=1) - mixed[:, len(one) :].mean(axis=1))
+    apart = np.abs(mixed[:, : len(first)].mean(axis=1) - mixed[:, len(first) :].mean(axis=1))
     return float((1 + (apart >= seen - 1e-9).sum()) / (1 + RESAMPLES))
 
 
