@@ -43,7 +43,7 @@ def play_again(run: dict[str, Any], seed: int = 1, episodes: int = 100) -> np.nd
 def interval(
     values: ArrayLike, statistic: Callable[..., Any] = np.median, seed: int = 1
 ) -> tuple[float, float]:
-    """Return a 95 % bootstrap interval: where the statistic of resampled values lies in 95 of 100 cases.
+    """Return a 95 % bootstrap interval: the statistic of resampled values lies there in 95 of 100.
 
     statistic takes an array and the keyword axis, as np.median and np.mean do.
     """
@@ -55,7 +55,7 @@ def interval(
 
 
 def permutation_test(one: ArrayLike, other: ArrayLike, seed: int = 1) -> float:
-    """Return the probability of a difference of means at least as large, had the groups been mixed."""
+    """Return how likely so large a difference of means is if the groups are mixed at random."""
     first, second = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
     both = np.concatenate([first, second])
     seen = abs(first.mean() - second.mean())
