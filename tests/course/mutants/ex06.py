@@ -14,7 +14,6 @@
 
 # %% memory_overwritten loses 6.1
 # The new memory is written into the array of the old one.
-# says: Keep a copy each time \(.copy\(\)\)
 _think = think
 
 
