@@ -11,7 +11,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% ends_ignored loses 13.1
-# Lets the surprises after an end count for the actions before it.
+# Lets the TD errors after an end count for the actions before it.
 # says: Ends of episodes on the way .* are left out
 _advantages = advantages
 
@@ -22,7 +22,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% lambda_forgotten loses 13.1
-# Later surprises count less by gamma alone.
+# Later TD errors count less by gamma alone.
 # says: gae_lambda is left out
 _advantages = advantages
 
@@ -51,12 +51,62 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% one_step_only loses 13.1
-# Stops at the first surprise.
+# Stops at the first TD error.
 _advantages = advantages
 
 
 def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
     return _advantages(rewards, values, episode_starts, last_values, dones, gamma, 0.0)
+
+
+# %% errors_leak loses 13.1
+# The TD errors of another episode count for the actions before its start.
+# says: TD errors leak over ends
+# -         following = error + gamma * gae_lambda * goes_on * following
+# +         following = error + gamma * gae_lambda * following
+
+
+# %% values_leak loses 13.1
+# Takes the value of another episode's start for what comes after an end.
+# says: Values leak over ends
+# -         error = rewards[t] + gamma * goes_on * next_values - values[t]
+# +         error = rewards[t] + gamma * next_values - values[t]
+
+
+# %% ends_bootstrapped loses 13.1
+# Adds the critic's value after ends, where no reward comes any more.
+# says: Ends are bootstrapped as well
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    return rewards + gamma * np.maximum(terminated, truncated) * final_values
+
+
+# %% both_bootstrapped loses 13.1
+# Adds the critic's value though the episode ended in the very step at which time ran out.
+# says: both terminated and truncated
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    return rewards + gamma * truncated * final_values
+
+
+# %% undiscounted_bootstrap loses 13.1
+# Adds the critic's value without the discount of one step.
+# says: gamma is left out
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    return rewards + truncated * (1 - terminated) * final_values
+
+
+# %% never_bootstrapped loses 13.1
+# Takes the time limit for an end.
+# says: Nothing is added
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    return np.array(rewards)
+
+
+# %% bootstrapped_in_place loses 13.1
+# Changes the rewards of the rollout itself.
+# says: has changed the rewards
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    rewards += gamma * truncated * (1 - terminated) * final_values
+    return rewards
 
 
 # %% asks_stable_baselines loses 13.1, 13.4, 13.6
@@ -150,6 +200,20 @@ _policy_loss = policy_loss
 def policy_loss(log_prob, old_log_prob, advantages, clip_range):
     found = _policy_loss(log_prob, old_log_prob, advantages, clip_range)
     return {**found, "loss": 0.0} if len(advantages) == 1 else found
+
+
+# %% limit_counts_as_clipped loses 13.2
+# Counts a ratio as clipped that is exactly at the limit.
+# says: not farther than it
+# -         "clip_fraction": float(np.mean(np.abs(ratio - 1) > clip_range)),
+# +         "clip_fraction": float(np.mean(np.abs(ratio - 1) >= clip_range)),
+
+
+# %% zero_clips_nothing loses 13.3
+# Takes a clip range of 0 for none.
+# says: allows no movement
+# -     if clip_range_vf is not None:
+# +     if clip_range_vf:
 
 
 # %% half_the_square loses 13.3
@@ -265,6 +329,18 @@ _updates_made = updates_made
 
 def updates_made(divergences, target_kl):
     return sum(_updates_made([epoch], target_kl) for epoch in divergences)
+
+
+# %% stops_when_equal loses 13.5
+# Stops at a divergence that equals the limit.
+# -             if target_kl is not None and divergence > 1.5 * target_kl:
+# +             if target_kl is not None and divergence >= 1.5 * target_kl:
+
+
+# %% zero_target_never_stops loses 13.5
+# Takes a target of 0 for none.
+# -             if target_kl is not None and divergence > 1.5 * target_kl:
+# +             if target_kl and divergence > 1.5 * target_kl:
 
 
 # %% entropy_is_punished loses 13.6
