@@ -246,10 +246,48 @@ def records_what_was_done(student: Student):
         expect_episode(replay(student, environment, 30 + number, 400, shift), "actions")
 
 
+def rewarded(module, rewards, maxsteps):
+    """The student's record of an episode that brings these rewards."""
+    import gymnasium
+    import numpy
+
+    class Rewarding(gymnasium.Env):
+        observation_space = gymnasium.spaces.Box(-9, 9, (3,))
+        action_space = gymnasium.spaces.Discrete(2)
+        steps = 0
+
+        def reset(self, *, seed=None, options=None):
+            super().reset(seed=seed)
+            self.steps = 0
+            return numpy.zeros(3, dtype=numpy.float32), {}
+
+        def step(self, action):
+            self.steps += 1
+            ended = self.steps == len(rewards)
+            seen = numpy.full(3, self.steps, dtype=numpy.float32)
+            return seen, rewards[self.steps - 1], ended, False, {}
+
+    gymnasium.registry.pop("grader/Rewarding-v0", None)  # of a call before
+    gymnasium.register(id="grader/Rewarding-v0", entry_point=Rewarding)
+    return module.run_episode("grader/Rewarding-v0", lambda observation: 1, 1, maxsteps)
+
+
 @episodes.check(3)
 def adds_up_the_rewards(student: Student):
     for number, (environment, shift) in enumerate(ORDINARY):
         expect_episode(replay(student, environment, 40 + number, 400, shift), "return")
+    for index, steps in ((43, 1), (44, 3), (45, 20)):
+        rewards = generator(index).normal(-2, 3, steps).round(2)
+        said = f"run_episode(an environment that gives the rewards {show(rewards.tolist())}, ...)"
+        answer = student.run(rewarded, rewards, 400, said=said)
+        (total,) = fields(said, answer, "return")
+        mistakes = {
+            "The steps are counted, but their rewards are to be added up.": steps,
+            "The mean of the rewards is not their sum.": rewards.mean(),
+            "Only the last reward counts.": rewards[-1],
+            "Negative rewards are left out.": rewards.clip(min=0).sum(),
+        }
+        expect_close(f"{said}: return", total, rewards.sum(), SINGLE, mistakes)
 
 
 @episodes.check(1)

@@ -29,15 +29,40 @@ import numpy as np
 # ## Task 13.1. Advantages
 #
 # Was an action better than the critic had expected? After one step there is a first answer, the
-# *surprise* $\delta_t$: the reward, plus what the critic says is still to come, minus what it said
-# before. Generalised advantage estimation adds the surprises of the later steps, each one counting
+# *TD error* $\delta_t$: the reward, plus what the critic says is still to come, minus what it said
+# before. Generalised advantage estimation adds the TD errors of the later steps, each one counting
 # less:
 #
 # $$\delta_t = r_t + \gamma\, n_t\, V_{t+1} - V_t, \qquad
 # A_t = \delta_t + \gamma \lambda\, n_t\, A_{t+1}$$
 #
 # $n_t$ is 0 if step $t$ ended its episode and else 1: what comes after an end has nothing to do
-# with the action. After the last step there are no more surprises, so the $A$ behind it is 0.
+# with the action. After the last step there are no more TD errors, so the $A$ behind it is 0.
+#
+# An episode that the time limit cut has not ended: more rewards would have come. The rollout still
+# goes on with another episode, so $n_t$ is 0. What would have come is therefore added to the reward
+# of the last step before the advantages are estimated: $\gamma$ times the critic's value of what
+# was observed after that step. This is called *bootstrapping*. An episode that really ended gets
+# nothing.
+
+
+# %%
+def bootstrapped(
+    rewards: np.ndarray,
+    terminated: np.ndarray,
+    truncated: np.ndarray,
+    final_values: np.ndarray,
+    gamma: float,
+) -> np.ndarray:
+    """The rewards, with what the critic expects after the steps at which time ran out.
+
+    All arrays have the shape (steps, envs), and stay as they are.
+
+    - terminated, truncated: 1.0 or 0.0, as Gymnasium says after each step. If both are 1.0 (the
+      pole falls in the last step that the time limit allows), the episode has ended by itself.
+    - final_values: the critic's value of what was observed after each step, before any reset.
+    """
+    raise NotImplementedError("task 13.1: bootstrap episodes that were cut")
 
 
 # %%
@@ -281,7 +306,15 @@ if __name__ == "__main__":
         print(f"{name:20}{yours:14.8f}{theirs:14.8f}{yours - theirs:12.1e}")
     draw_hidden_layer("hidden_layer.png", stages, names, axes=(2, 3), hidden=hidden_activations)
 
-    own = [advantages, policy_loss, value_loss, entropy_of_choices, approx_kl, updates_made]
+    own = [
+        bootstrapped,
+        advantages,
+        policy_loss,
+        value_loss,
+        entropy_of_choices,
+        approx_kl,
+        updates_made,
+    ]
     functions = {function.__name__: function for function in [*own, total_loss]}
     runs = {seed: train_own(functions, seed) for seed in (1, 2, 3)}
     for seed, run in runs.items():

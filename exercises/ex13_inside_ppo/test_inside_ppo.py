@@ -129,17 +129,21 @@ def compare_advantages(student: Student, index: int, steps: int, envs: int, **sp
 def mistaken(rewards, values, starts, last_values, dones, gamma, gae_lambda) -> dict:
     """What mistakes make of the advantages."""
 
-    def estimated(lambda_=gae_lambda, starts=starts, dones=dones, last=last_values, shift=1):
+    def estimated(
+        lambda_=gae_lambda, starts=starts, dones=dones, last=last_values, shift=1, leaks=""
+    ):
         goes_on = 1 - np.vstack([starts[shift:], dones[None]])[: len(rewards)]
+        says = np.ones_like(goes_on) if leaks == "values" else goes_on
+        adds = np.ones_like(goes_on) if leaks == "errors" else goes_on
         after, found, later = np.vstack([values[1:], last[None]]), np.zeros_like(rewards), 0.0
         for step in reversed(range(len(rewards))):
-            surprise = rewards[step] + gamma * after[step] * goes_on[step] - values[step]
-            later = found[step] = surprise + gamma * lambda_ * goes_on[step] * later
+            error = rewards[step] + gamma * after[step] * says[step] - values[step]
+            later = found[step] = error + gamma * lambda_ * adds[step] * later
         return found
 
     return {
-        "gae_lambda is left out: later surprises count less by gamma alone.": estimated(1.0),
-        "Only the first surprise counts: those of later steps are left out.": estimated(0.0),
+        "gae_lambda is left out: later TD errors count less by gamma alone.": estimated(1.0),
+        "Only the first TD error counts: those of later steps are left out.": estimated(0.0),
         "What comes after the last step (last_values) is left out.": estimated(
             last=0 * last_values
         ),
@@ -148,23 +152,29 @@ def mistaken(rewards, values, starts, last_values, dones, gamma, gae_lambda) -> 
         "A step ends its episode if the next one starts one, not if it does itself.": estimated(
             shift=0
         ),
+        "TD errors leak over ends of episodes: n belongs into the sum of the later ones, too.": (
+            estimated(leaks="errors")
+        ),
+        "Values leak over ends of episodes: n belongs to the next value, too.": estimated(
+            leaks="values"
+        ),
     }
 
 
-@estimating.check(5)
+@estimating.check(4)
 def one_episode_that_goes_on(student: Student):
     references()
     for index, steps in ((1, 1), (2, 3), (3, 40)):
         compare_advantages(student, index, steps, 1)
 
 
-@estimating.check(5)
+@estimating.check(4)
 def episodes_that_end_on_the_way(student: Student):
     for index, steps in ((4, 4), (5, 60)):
         compare_advantages(student, index, steps, 1, ends=0.3)
 
 
-@estimating.check(4)
+@estimating.check(3)
 def an_episode_that_ends_with_the_rollout(student: Student):
     for index, steps in ((6, 1), (7, 5)):
         compare_advantages(student, index, steps, 1, done=1.0)
@@ -177,7 +187,7 @@ def several_environments(student: Student):
     compare_advantages(student, 10, 20, 3, ends=0.2, gae_lambda=1.0, gamma=1.0)
 
 
-@estimating.check(3)
+@estimating.check(2)
 def rollouts_of_stable_baselines(student: Student):
     for environment, rollout in references().rollouts.items():
         answer = student.call(
@@ -186,6 +196,50 @@ def rollouts_of_stable_baselines(student: Student):
         )  # fmt: skip
         said = f"advantages(...) on a rollout in {environment}"
         expect_close(said, answer, rollout.advantages, CLOSE)
+
+
+def with_rewards(module, *arguments):
+    """The student's rewards, and what has become of the array that was passed."""
+    answer = module.bootstrapped(*arguments)
+    return [answer, arguments[0]]
+
+
+def compare_bootstrapped(student: Student, index: int, steps: int, envs: int) -> None:
+    rng = generator(index)
+    rewards, values = rng.normal(size=(2, steps, envs)).round(2)
+    terminated, truncated = (rng.random((2, steps, envs)) < 0.4).astype(float)
+    terminated.flat[:4], truncated.flat[:4] = [1, 0, 1, 0], [1, 1, 0, 0]
+    gamma = round(float(rng.uniform(0.8, 0.98)), 2)
+    arguments = [rewards, terminated, truncated, values, gamma]
+    shown = ", ".join(str(each.tolist()) for each in arguments[:-1])
+    said = f"bootstrapped({shown if steps * envs < 5 else '...'}, gamma={gamma})"
+    answer = student.run(with_rewards, *arguments, said=said)
+    expect(isinstance(answer, list) and len(answer) == 2, f"{said} gave no answer.")
+    cut = (truncated == 1) & (terminated == 0)
+    wanted = np.where(cut, rewards + gamma * values, rewards)
+    ended, limit = terminated + truncated > 0, truncated == 1
+    mistakes = {
+        "Nothing is added where time ran out.": rewards,
+        "Ends are bootstrapped as well, but no reward comes after an end.": rewards
+        + gamma * ended * values,
+        "A step that is both terminated and truncated has ended: nothing comes after it.": rewards
+        + gamma * limit * values,
+        "gamma is left out: what comes after the step counts gamma times.": rewards + cut * values,
+        "The value takes the place of the reward, but is to be added to it.": np.where(
+            cut, gamma * values, rewards
+        ),
+        "Ends are bootstrapped instead of episodes that were cut.": rewards
+        + gamma * terminated * values,
+    }
+    expect_close(said, answer[0], wanted, CLOSE, mistakes)
+    same = np.array_equal(answer[1], rewards)
+    expect(same, f"{said} has changed the rewards that it was given: make a new array.")
+
+
+@estimating.check(4)
+def episodes_that_were_cut(student: Student):
+    for index, steps, envs in ((10, 4, 1), (11, 2, 2), (12, 30, 3)):
+        compare_bootstrapped(student, index, steps, envs)
 
 
 # ------------------------------------------------------------------- 13.2
@@ -287,6 +341,12 @@ def clip_fraction(student: Student):
     answer = judged_policy(student, given, 0.3)
     wanted = surrogate_of(given, 0.3)[1]
     expect_close(f"{student.said}: clip_fraction", answer["clip_fraction"], wanted, CLOSE)
+    given = drawn_batch(27, 8, 0.6)  # a distance that equals the limit is not farther
+    given["log_prob"][:5] = given["old_log_prob"][:5]
+    answer = judged_policy(student, given, 0.0)
+    mistakes = {"A ratio exactly clip_range away from 1 is not farther than it.": 1.0}
+    said = f"{student.said}: clip_fraction of 5 unchanged actions of 8, and clip_range=0"
+    expect_close(said, answer["clip_fraction"], 3 / 8, CLOSE, mistakes)
 
 
 @surrogate.check(2)
@@ -324,6 +384,16 @@ def without_clipping(student: Student):
 @critic.check(7)
 def with_clipping(student: Student):
     compare_critic(student, True)
+    rng = generator(28)
+    values, old_values, returns = rng.normal(size=(3, 12))
+    answer = student.call("value_loss", values, old_values, returns, 0.0)
+    wanted = np.mean((old_values - returns) ** 2)
+    mistakes = {
+        "clip_range_vf=0 allows no movement at all; None means no clipping.": np.mean(
+            (values - returns) ** 2
+        )
+    }
+    expect_close(f"{student.said} with clip_range_vf=0", answer, wanted, CLOSE, mistakes)
 
 
 # ------------------------------------------------------------------- 13.4
@@ -422,6 +492,12 @@ def goes_on_when_near(student: Student):
     between = np.full((2, 3), 0.22)  # a divergence of 1.3 times the target
     compare_updates(student, between, 0.02)
     compare_updates(student, rng.uniform(0.5, 1.0, (2, 4)), None)
+    divergences = [[0.25, 0.375], [0.125, 0.5]]  # 0.375 is 1.5 times 0.25: equal is not greater
+    answer = student.call("updates_made", divergences, 0.25)
+    expect_close(f"updates_made({divergences}, 0.25)", answer, 3)
+    divergences = [[0.0, 0.0, 0.125], [0.125, 0.125, 0.125]]
+    answer = student.call("updates_made", divergences, 0.0)
+    expect_close(f"updates_made({divergences}, 0.0)", answer, 2)
 
 
 # ------------------------------------------------------------------- 13.6

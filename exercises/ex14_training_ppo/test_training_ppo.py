@@ -326,8 +326,9 @@ def measured(student: Student, steps, returns, goal: float, *keys: str) -> list:
 
 @success.check(3)
 def last_and_best(student: Student):
-    for index in (30, 31, 32):
-        steps, returns = drawn_evaluations(index)
+    below = [-1200.0, -300.0, -650.0, -400.0]  # as in Pendulum, where all returns are negative
+    for index, means in ((30, None), (31, None), (32, None), (37, below)):
+        steps, returns = drawn_evaluations(index, means)
         last, best = measured(student, steps, returns, 100.0, "last", "best")
         expect_close(f"{student.said}: last", last, returns[-1].mean(), CLOSE)
         wanted = max(row.mean() for row in returns)
@@ -441,6 +442,8 @@ def deviations_and_gains(student: Student):
     for index, sizes in ((52, {"fast": 4, "default": 5}), (53, {"b": 2, "default": 3, "a": 6})):
         compare_table(student, drawn_runs(index, sizes), "default", "deviation", "gain")
     compare_table(student, drawn_runs(54, {"b": 3, "default": 1}), "default", "deviation", "gain")
+    alike = [{**run, "return": 500.0} for run in drawn_runs(56, {"default": 3})]
+    compare_table(student, alike, "default", "deviation", "gain")
 
 
 @table.check(3)
@@ -583,8 +586,11 @@ def expect_signs(student: Student, index: int, names: tuple[str, ...], missing: 
 @signs.check(1)
 def limits_give_no_sign(student: Student):
     """Means that equal the limit, and entries at the very border of the last third."""
-    rng = generator(79)
-    level = int(rng.integers(-8, 9)) / 4
+    for level in (int(generator(79).integers(-8, 9)) / 4, 0.0):
+        expect_no_sign_at_limits(student, level)
+
+
+def expect_no_sign_at_limits(student: Student, level: float) -> None:
     steps = np.arange(100, 3001, 100)
     flat = {"steps": steps, "values": np.full(30, level)}
     early = {"steps": steps[:20], "values": np.full(20, level)}
@@ -730,6 +736,7 @@ def curve_of_a_training(student: Student):
         n, episodes = int(rng.integers(4, 15)), int(rng.integers(2, 8))
         steps = np.cumsum(rng.integers(100, 900, n))
         returns, lengths = rng.normal(size=(n, episodes)), rng.integers(5, 90, (n, episodes))
+        returns -= 9 * (number == 2)  # all returns may be negative
         place = f"trained/CartPole-v1_{number}"
         content = saved(timesteps=steps, results=returns, ep_lengths=lengths)
         best = [max(row.mean() for row in returns[: i + 1]) for i in range(n)]

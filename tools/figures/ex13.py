@@ -1,4 +1,4 @@
-"""Exercise 13: what is made, clipping, and how far surprises reach back."""
+"""Exercise 13: what is made, clipping, and how far TD errors reach back."""
 
 import numpy as np
 from style import (
@@ -45,7 +45,7 @@ def clipping() -> None:
 
 
 def horizon() -> None:
-    """One surprise at step 30: how much of it each earlier action is credited with."""
+    """One TD error at step 30: how much of it each earlier action is credited with."""
     student = solution(13)
     steps = 40
     rewards, values = np.zeros((steps, 1)), np.zeros((steps, 1))

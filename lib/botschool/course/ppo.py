@@ -36,7 +36,7 @@ def train_own(functions: dict[str, Callable], seed: int, steps: int = 30_000) ->
     world = _World(seed)
     rng = np.random.default_rng(seed)
     for _ in range(steps // (STEPS * ENVS)):
-        rollout = world.collect(policy, critic, rng, functions["advantages"])
+        rollout = world.collect(policy, critic, rng, functions)
         for batch in _batches(rollout, rng):
             loss = _loss(functions, policy, critic, batch)
             if loss is None:  # the policy has moved far enough
@@ -77,7 +77,7 @@ class _World:
         self.ends: list[int] = []
         self.returns: list[float] = []
 
-    def collect(self, policy, critic, rng: np.random.Generator, advantages: Callable) -> dict:
+    def collect(self, policy, critic, rng: np.random.Generator, functions: dict) -> dict:
         """A rollout, flattened to (STEPS * ENVS, ...)."""
         import torch
 
@@ -91,12 +91,14 @@ class _World:
                 row = {"seen": seen.numpy(), "values": values, "actions": actions}
                 row["log_prob"] = logarithms[np.arange(ENVS), actions]
                 row["starts"] = self._starts.copy()
-                row["rewards"] = self._step(actions, critic)
+                row |= self._step(actions, critic)
                 rows.append(row)
             last = critic(torch.as_tensor(self._seen, dtype=torch.float64))[:, 0].numpy()
         rollout = {key: np.array([row[key] for row in rows]) for key in rows[0]}
-        rollout["advantages"] = advantages(
-            rollout["rewards"], rollout["values"], rollout["starts"], last, self._starts.copy(),
+        ends = [rollout.pop(key) for key in ("terminated", "truncated", "final_values")]
+        rewards = functions["bootstrapped"](rollout["rewards"], *ends, GAMMA)
+        rollout["advantages"] = functions["advantages"](
+            rewards, rollout["values"], rollout["starts"], last, self._starts.copy(),
             GAMMA, LAMBDA,
         )  # fmt: skip
         rollout["returns"] = rollout["advantages"] + rollout["values"]
@@ -104,25 +106,26 @@ class _World:
             key: array.reshape(STEPS * ENVS, *array.shape[2:]) for key, array in rollout.items()
         }
 
-    def _step(self, actions: np.ndarray, critic) -> np.ndarray:
-        """Rewards; what a truncated episode would still have brought is the critic's to say."""
+    def _step(self, actions: np.ndarray, critic) -> dict[str, np.ndarray]:
+        """Return rewards, ends, and the critic's values of what was observed before a reset."""
         import torch
 
-        rewards = np.zeros(ENVS)
+        rewards, ended, cut = np.zeros((3, ENVS))
+        final = np.zeros(self._seen.shape)
         for i, env in enumerate(self._envs):
             seen, rewards[i], terminated, truncated, _ = env.step(int(actions[i]))
             self._steps += 1
             self._running[i] += rewards[i]
             self._starts[i] = terminated or truncated
-            if truncated and not terminated:
-                rewards[i] += GAMMA * float(critic(torch.as_tensor(seen, dtype=torch.float64)))
+            ended[i], cut[i], final[i] = terminated, truncated, seen
             if self._starts[i]:
                 self.ends.append(self._steps)
                 self.returns.append(float(self._running[i]))
                 self._running[i] = 0
                 seen, _ = env.reset()
             self._seen[i] = seen
-        return rewards
+        values = critic(torch.as_tensor(final))[:, 0].numpy()
+        return {"rewards": rewards, "terminated": ended, "truncated": cut, "final_values": values}
 
 
 def _batches(rollout: dict, rng: np.random.Generator):

@@ -186,7 +186,9 @@ def draw_trainings(
             panel.hlines(np.mean(returns), place - 0.3, place + 0.3, color=colour, linewidth=3)
         labels = [variant.replace(" ", "\n") for variant in names]
         panel.set_xticks(range(len(names)), labels, fontsize=8)
-        panel.set(title=title, ylabel="return of the last post-evaluation", ylim=(0, None))
+        panel.set(title=title, ylabel="return of the last post-evaluation")
+        if min(run["return"] for run in runs) >= 0:
+            panel.set_ylim(0, None)
         panel.set_xlim(-0.6, len(names) - 0.4)
     for (name, group), colour in zip(curves.items(), VARIANTS, strict=False):
         for curve in group:

@@ -5,6 +5,11 @@
 import torch
 
 
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    rewards, ended, cut, values = map(torch.tensor, (rewards, terminated, truncated, final_values))
+    return torch.where(cut.bool() & ~ended.bool(), rewards + gamma * values, rewards).numpy()
+
+
 def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
     rewards, values, starts, last_values, dones = (
         torch.as_tensor(np.array(each, dtype=float))
@@ -75,6 +80,15 @@ def responses(activations, observations):
 # %% loops
 # Loops over steps and environments, the math module, the direct sum of advantage estimation.
 import math
+
+
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    table = [[float(reward) for reward in row] for row in rewards]
+    for t, row in enumerate(table):
+        for env in range(len(row)):
+            if truncated[t][env] and not terminated[t][env]:
+                row[env] += gamma * final_values[t][env]
+    return table
 
 
 def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):

@@ -50,6 +50,26 @@ def choose(probabilities, rng):
 # +             total += float(reward)
 
 
+# %% counts_steps loses 12.3
+# Counts the steps instead of adding up the rewards.
+# says: The steps are counted
+# -             total += float(reward)
+# +             total += 1
+
+
+# %% negative_rewards_left_out loses 12.3
+# Adds up only the rewards that are positive.
+# says: Negative rewards are left out
+# -             total += float(reward)
+# +             total += max(0.0, float(reward))
+
+
+# %% whole_rewards loses 12.3
+# Rounds each reward towards 0.
+# -             total += float(reward)
+# +             total += int(reward)
+
+
 # %% never_cut loses 12.3
 # Hands actions on without cutting them to the limits.
 def run_episode(environment, act, seed, maxsteps=200):

@@ -1,7 +1,7 @@
 """Wrong solutions of exercise 13; building.py describes how a case is written."""
 
 # %% end_of_the_wrong_step loses 13.1
-# The first step of an episode is taken for the last one.
+# Takes the first step of an episode for its last one.
 _advantages = advantages
 
 
@@ -11,7 +11,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% ends_ignored loses 13.1
-# Ends of episodes are ignored: later surprises count for the actions of the episode before.
+# Lets the TD errors after an end count for the actions before it.
 # says: Ends of episodes on the way .* are left out
 _advantages = advantages
 
@@ -22,7 +22,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% lambda_forgotten loses 13.1
-# gae_lambda is left out: later surprises count less by gamma alone.
+# Later TD errors count less by gamma alone.
 # says: gae_lambda is left out
 _advantages = advantages
 
@@ -32,7 +32,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% last_end_ignored loses 13.1
-# It does not matter whether the last step ended its episode (dones).
+# Does not look whether the last step ended its episode.
 _advantages = advantages
 
 
@@ -41,7 +41,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% last_value_forgotten loses 13.1
-# The value after the last step (last_values) is left out.
+# Takes the rollout for over: nothing comes after its last step.
 # says: \(last_values\) is left out
 _advantages = advantages
 
@@ -51,12 +51,62 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% one_step_only loses 13.1
-# Only the first surprise counts: those of later steps are left out.
+# Stops at the first TD error.
 _advantages = advantages
 
 
 def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
     return _advantages(rewards, values, episode_starts, last_values, dones, gamma, 0.0)
+
+
+# %% errors_leak loses 13.1
+# The TD errors of another episode count for the actions before its start.
+# says: TD errors leak over ends
+# -         following = error + gamma * gae_lambda * goes_on * following
+# +         following = error + gamma * gae_lambda * following
+
+
+# %% values_leak loses 13.1
+# Takes the value of another episode's start for what comes after an end.
+# says: Values leak over ends
+# -         error = rewards[t] + gamma * goes_on * next_values - values[t]
+# +         error = rewards[t] + gamma * next_values - values[t]
+
+
+# %% ends_bootstrapped loses 13.1
+# Adds the critic's value after ends, where no reward comes any more.
+# says: Ends are bootstrapped as well
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    return rewards + gamma * np.maximum(terminated, truncated) * final_values
+
+
+# %% both_bootstrapped loses 13.1
+# Adds the critic's value though the episode ended in the very step at which time ran out.
+# says: both terminated and truncated
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    return rewards + gamma * truncated * final_values
+
+
+# %% undiscounted_bootstrap loses 13.1
+# Adds the critic's value without the discount of one step.
+# says: gamma is left out
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    return rewards + truncated * (1 - terminated) * final_values
+
+
+# %% never_bootstrapped loses 13.1
+# Takes the time limit for an end.
+# says: Nothing is added
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    return np.array(rewards)
+
+
+# %% bootstrapped_in_place loses 13.1
+# Changes the rewards of the rollout itself.
+# says: has changed the rewards
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    rewards += gamma * truncated * (1 - terminated) * final_values
+    return rewards
 
 
 # %% asks_stable_baselines loses 13.1, 13.4, 13.6
@@ -89,7 +139,7 @@ def explained_variance(values, returns):
 
 
 # %% always_clipped loses 13.2
-# The clipped product is always taken, instead of the smaller one of the two.
+# Takes the clipped product always, instead of the smaller one of the two.
 _policy_loss = policy_loss
 
 
@@ -101,7 +151,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% clips_the_logarithm loses 13.2
-# The logarithm of the ratio is compared with clip_range, not the ratio's distance from 1.
+# Counts as clipped what is far from 0 in the logarithm.
 _policy_loss = policy_loss
 
 
@@ -111,7 +161,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% not_normalised loses 13.2
-# The advantages are not normalised.
+# Takes the advantages as they are.
 # says: not normalised
 def policy_loss(log_prob, old_log_prob, advantages, clip_range):
     ratio = np.exp(log_prob - old_log_prob)
@@ -132,7 +182,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% sign_of_the_loss loses 13.2
-# The loss has the wrong sign: the surrogate becomes small instead of large.
+# Makes the surrogate small instead of large.
 # says: Right but for the sign
 _policy_loss = policy_loss
 
@@ -150,6 +200,20 @@ _policy_loss = policy_loss
 def policy_loss(log_prob, old_log_prob, advantages, clip_range):
     found = _policy_loss(log_prob, old_log_prob, advantages, clip_range)
     return {**found, "loss": 0.0} if len(advantages) == 1 else found
+
+
+# %% limit_counts_as_clipped loses 13.2
+# Counts a ratio as clipped that is exactly at the limit.
+# says: not farther than it
+# -         "clip_fraction": float(np.mean(np.abs(ratio - 1) > clip_range)),
+# +         "clip_fraction": float(np.mean(np.abs(ratio - 1) >= clip_range)),
+
+
+# %% zero_clips_nothing loses 13.3
+# Takes a clip range of 0 for none.
+# says: allows no movement
+# -     if clip_range_vf is not None:
+# +     if clip_range_vf:
 
 
 # %% half_the_square loses 13.3
@@ -174,7 +238,7 @@ def value_loss(values, old_values, returns, clip_range_vf=None):
 
 
 # %% value_never_clipped loses 13.3
-# The movement of the value is not clipped.
+# Ignores the clipping.
 # says: is not clipped
 _value_loss = value_loss
 
@@ -267,6 +331,18 @@ def updates_made(divergences, target_kl):
     return sum(_updates_made([epoch], target_kl) for epoch in divergences)
 
 
+# %% stops_when_equal loses 13.5
+# Stops at a divergence that equals the limit.
+# -             if target_kl is not None and divergence > 1.5 * target_kl:
+# +             if target_kl is not None and divergence >= 1.5 * target_kl:
+
+
+# %% zero_target_never_stops loses 13.5
+# Takes a target of 0 for none.
+# -             if target_kl is not None and divergence > 1.5 * target_kl:
+# +             if target_kl and divergence > 1.5 * target_kl:
+
+
 # %% entropy_is_punished loses 13.6
 # Adds the entropy to the loss instead of subtracting it.
 # says: The entropy is added
@@ -304,31 +380,3 @@ def responses(activations, observations):
     h, x = activations - activations.mean(axis=0), observations - observations.mean(axis=0)
     with np.errstate(all="ignore"):
         return (h / np.sqrt((h**2).sum(0))).T @ (x / np.sqrt((x**2).sum(0)))
-
-
-# %% leaks_over_ends loses 13.1
-# The sum of surprises goes on over the end of an episode, although the value stops there.
-# says: this
-def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
-    found, after = np.zeros_like(values), 0.0
-    for t in reversed(range(len(rewards))):
-        last = t == len(rewards) - 1
-        following = last_values if last else values[t + 1]
-        goes_on = 1.0 - (dones if last else episode_starts[t + 1])
-        after = rewards[t] + gamma * following * goes_on - values[t] + gamma * gae_lambda * after
-        found[t] = after
-    return found
-
-
-# %% value_leaks_over_ends loses 13.1
-# The value of the next episode's first step is counted at the end of an episode.
-# says: this
-def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
-    found, after = np.zeros_like(values), 0.0
-    for t in reversed(range(len(rewards))):
-        last = t == len(rewards) - 1
-        following = last_values if last else values[t + 1]
-        goes_on = 1.0 - (dones if last else episode_starts[t + 1])
-        after = rewards[t] + gamma * following - values[t] + gamma * gae_lambda * goes_on * after
-        found[t] = after
-    return found

@@ -90,6 +90,12 @@ def success_of(steps, returns, goal):
     return {**_success_of(steps, returns, goal), "best": float(np.max(returns))}
 
 
+# %% best_is_at_least_zero loses 14.3
+# Looks for the best from 0 on, which negative returns never reach.
+# -         "best": float(means.max()),
+# +         "best": max(0.0, float(means.max())),
+
+
 # %% more_than_the_goal loses 14.3
 # Asks for more than the goal.
 _success_of = success_of
@@ -129,6 +135,15 @@ _table_of = table_of
 def table_of(runs, baseline):
     rows = _table_of(runs, baseline)
     return [{**row, "gain": row["mean"] - rows[-1]["mean"]} for row in rows]
+
+
+# %% no_deviation_is_none loses 14.4
+# Takes a deviation of 0 for none.
+_table_of = table_of
+
+
+def table_of(runs, baseline):
+    return [{**row, "deviation": row["deviation"] or None} for row in _table_of(runs, baseline)]
 
 
 # %% population_deviation loses 14.4
@@ -209,6 +224,12 @@ def warning_signs(indicators, total, signs):
     return found
 
 
+# %% mean_of_zero_is_nothing loses 14.6
+# Takes a mean of 0 for a part in which nothing was logged.
+# -         if late is not None and (late > limit if side == "above" else late < limit):
+# +         if late and (late > limit if side == "above" else late < limit):
+
+
 # %% only_nan_is_nan loses 14.6
 # Gives NaN for a part in which nothing but NaN was logged.
 def phase_means(steps, values, total, parts=3):
@@ -269,6 +290,18 @@ def curve_of(place):
         stat = read_stat(place)
         return {"steps": stat[:, 0], "best": stat[:, 1]}
     return _curve_of(place)
+
+
+# %% best_so_far_from_zero loses 14.8
+# Begins with 0 as the best so far, which negative returns never reach.
+# -         "best": np.maximum.accumulate(found.returns.mean(axis=1)),
+# +         "best": np.maximum.accumulate(found.returns.mean(axis=1).clip(min=0)),
+
+
+# %% before_the_step loses 14.8
+# Takes the last value before a step, also if there is one at the step.
+# -             last = np.searchsorted(curve["steps"], steps, side="right") - 1
+# +             last = np.maximum(np.searchsorted(curve["steps"], steps, side="left") - 1, 0)
 
 
 # %% looks_ahead loses 14.8
