@@ -78,7 +78,7 @@ def test_help_loads_nothing_heavy():
         (
             "algo = SSS",
             "algo = annealing",
-            ["line 3", "annealing", "OpenAI-ES, SSS, "],
+            ["line 3", "annealing", "OpenAI-ES, PGPE, SSS, "],
         ),
         ("algo = SSS", "algo = SSSS", ["line 3", "did you mean SSS?"]),
         ("popsize = 6", "popsize = 7", ["popsize = 7", "popsize = 8"]),

@@ -248,9 +248,14 @@ def test_update_keeps_what_students_and_git_have(course, tmp_path):
     assert (copy / "lib" / "new.py").is_file()
     changed = git(copy, "status", "--porcelain", "--untracked-files=all").split("\n")
     assert sorted(line[3:] for line in changed if line) == [
-        MANIFEST, "docs/guide.md", f"exercises/{FOLDER}/notes.txt", f"exercises/{FOLDER}/{FILE}",
-        "lib/code.py", "lib/new.py",
-    ]  # fmt: skip
+        MANIFEST,
+        "docs/guide.md",
+        f"exercises/{FOLDER}/notes.txt",
+        f"exercises/{FOLDER}/test_{FILE}",
+        f"exercises/{FOLDER}/{FILE}",
+        "lib/code.py",
+        "lib/new.py",
+    ]  # fmt: skip  (the packed grader has the solution in it)
     again = release(course, copy)
     assert (again.written, again.edited) == (0, done.edited)
 

@@ -59,7 +59,7 @@ def setup(tmp_path):
 
 @pytest.mark.parametrize(
     ("exercise", "extras"),
-    [("3", ""), ("5", "box2d"), ("10", "pybullet"), ("13.2", "rl"), ("16", "")],
+    [("3", ""), ("5", "box2d"), ("10", "pybullet rl"), ("13.2", "rl"), ("16", "")],
 )
 def test_extras_of_an_exercise(setup, exercise, extras):
     assert setup("extras", exercise)[:2] == (0, extras and extras + "\n")
