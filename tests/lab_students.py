@@ -3,45 +3,24 @@
 import re
 import shutil
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 
 from botschool.labs.declare import load_lab
 from botschool.labs.folder import Place, start
-from botschool.labs.measuring import interval, permutation_test
 from botschool.labs.runs import make_runs, own_runs
 
-WHY = "Because a reward for standing is earned without any risk of falling over while moving on."
-MEASURE = {
-    9: """
-def measure(run):
-    seen = record(run, seed=1)
-    metres = seen["distance"][0] - seen["distance"][-1]
-    return {"metres": metres, "ground": seen["feet"].mean(), "statue": int(metres < RULE)}
-""",
-    3: """
-def measure(run):
-    post = run["stat"][:, 2]
-    solved = (post >= 475).any()
-    first = (post >= 475).argmax() + 1 if solved else len(post)
-    return {"reported": post[-1], "fresh": play_again(run, seed=1, episodes=100).mean(),
-            "evaluations": first * run["experiment"]["algo"]["popsize"], "solved": int(solved)}
-""",
-}
-DRAWN = {9: ("metres", "bonus (reward per step)", "metres ahead (m)"),
-         3: ("fresh", "individuals", "mean return in new episodes")}  # fmt: skip
-SHOWN = {9: "bonus", 3: "Pendulum"}
-PREDICTIONS = {
-    9: {"tipping": 0.75, "both": "at each bonus", "why": WHY},
-    3: {"best-cartpole": "4", "best-pendulum": "100", "fresh-20": -300, "why": WHY},
-}
+
+def student(number):
+    """The module that says how the laboratory is done."""
+    return import_module(f"lab_answers.lab{number:02}")
 
 
 def small(number, replications=4):
     """The laboratory with small budgets."""
-    lab = load_lab(number)
-    parts = {9: 100, 3: 20}[number]
+    lab, parts = load_lab(number), student(number).PARTS
     return replace(
         lab,
         conditions=tuple(c.shortened(parts) for c in lab.conditions),
@@ -82,13 +61,13 @@ def answer(place, answers):
 
 def skeleton_filled(place, rule=5.0):
     """Write measure.py and figure.py."""
-    number = place.lab.number
+    does = student(place.lab.number)
     path = place.folder / "measure.py"
     head, main = path.read_text().split("def measure(", 1)[0], path.read_text().split("if __name")
     path.write_text(
-        head.replace("RULE = 5.0", f"RULE = {rule}") + MEASURE[number] + "\n\nif __name" + main[1]
+        head.replace("RULE = 5.0", f"RULE = {rule}") + does.MEASURE + "\n\nif __name" + main[1]
     )
-    y, x_name, y_name = DRAWN[number]
+    y, x_name, y_name = does.DRAWN
     path = place.folder / "figure.py"
     main = path.read_text().split("if __name")[1]
     path.write_text(
@@ -98,9 +77,8 @@ def skeleton_filled(place, rule=5.0):
 def figure(measurements):
     picture = Figure(layout="constrained")
     axes = picture.subplots()
-    for name, values in measurements.items():
-        if name.startswith("{SHOWN[number]}"):
-            x = float(name.split()[1])
+    for x, (name, values) in enumerate(measurements.items()):
+        if name.startswith("{does.SHOWN}"):
             axes.plot([x] * len(values["{y}"]), values["{y}"], "o", alpha=0.6)
     axes.set_xlabel("{x_name}")
     axes.set_ylabel("{y_name}")
@@ -126,94 +104,33 @@ def measured(place):
 def table(place, data):
     """Fill in the table."""
     for name, values in data.items():
-        if place.lab.number == 9:
-            low, high = interval(values["metres"])
-            cells = f"{np.median(values['metres']):.2f} | {low:.2f} to {high:.2f} | "
-            cells += f"{values['statue'].sum():.0f}"
-        else:
-            low, high = interval(values["fresh"])
-            cells = f"{values['solved'].sum():.0f} | {np.median(values['evaluations']):g} | "
-            cells += f"{np.median(values['fresh']):.1f} | {low:.1f} to {high:.1f}"
-        edit(
-            place,
-            lambda text, n=name, c=cells: re.sub(
-                rf"^\| {re.escape(n)} \|.*$", f"| {n} | {c} |", text, flags=re.MULTILINE
-            ),
-        )
+        row = f"| {name} | {student(place.lab.number).cells(values)} |"
+        edit(place, lambda text, n=name, r=row: row_of(n).sub(r, text))
 
 
-def which(a, b, labels):
-    p = permutation_test(a, b)
-    return (labels[int(a.mean() < b.mean())] if p < 0.05 else "my runs cannot tell"), f"{p:.4f}"
-
-
-def tipping(data):
-    """The tipping point of each resampled set of runs, and that of the runs themselves."""
-    rng = np.random.default_rng(5)
-    bonuses = [float(name.split()[1]) for name in data]
-    groups = [values["statue"] for values in data.values()]
-
-    def point(shares):
-        found = 3.0
-        for bonus, share in sorted(zip(bonuses, shares, strict=True), reverse=True):
-            if share <= 0.5:
-                break
-            found = bonus
-        return found
-
-    again = [point([rng.choice(g, len(g)).mean() for g in groups]) for _ in range(2000)]
-    return point([g.mean() for g in groups]), np.percentile(again, [2.5, 97.5], method="nearest")
-
-
-def conclusions(place, data):
-    """The answers that follow from the student's own data."""
-    if place.lab.number == 9:
-        found, (low, high) = tipping(data)
-        predicted = place.sheet().values(place.lab.predictions)[0]["tipping"]
-        against = "below" if high < predicted else "above" if low > predicted else ""
-        further, p = which(
-            data["bonus 0"]["metres"], data["bonus 2"]["metres"], ("bonus 0", "bonus 2")
-        )
-        return {
-            "observed": found,
-            "against": against or "my runs cannot tell",
-            "further": further,
-            "p": p,
-            "enough": "yes" if high - low <= 0.5 else "no",
-        }
-    few, many = "4 individuals", "100 individuals"
-    cart, p_cart = which(
-        data["CartPole 4"]["evaluations"], data["CartPole 100"]["evaluations"], (many, few)
-    )
-    pendulum, p_pendulum = which(
-        data["Pendulum 4"]["fresh"], data["Pendulum 100"]["fresh"], (few, many)
-    )
-    luck = [v["reported"] - v["fresh"] for n, v in data.items() if n.startswith("Pendulum")]
-    return {
-        "cartpole": cart,
-        "p-cartpole": p_cart,
-        "pendulum": pendulum,
-        "p-pendulum": p_pendulum,
-        "lost": f"{np.concatenate(luck).mean():.2f}",
-    }
+def row_of(name):
+    return re.compile(rf"^\| {re.escape(name)} \|.*$", re.MULTILINE)
 
 
 def predicted(lab, folder, name="Ada", **predictions):
     """A laboratory that is started, with a prediction."""
-    place = Place(lab, Path(folder) / lab.name)
+    place, does = Place(lab, Path(folder) / lab.name), student(lab.number)
     start(place, name, "botschool")
-    answer(place, PREDICTIONS[lab.number] | predictions)
+    answer(place, does.PREDICTIONS | predictions)
+    if hasattr(does, "prepare"):
+        does.prepare(place)
     return place
 
 
 def conclude(place, rule=5.0):
     """Measure, draw and conclude, all from the runs that are there."""
     skeleton_filled(place, rule)
-    if place.lab.number == 9:
+    if any(field.id == "rule" for field in place.lab.fields):
         answer(place, {"rule": rule})
     data = measured(place)
     table(place, data)
-    answer(place, conclusions(place, data) | {"words": "The spread surprised me."})
+    answer(place, student(place.lab.number).conclusions(place, data))
+    answer(place, {"words": "The spread surprised me."})
     return data
 
 

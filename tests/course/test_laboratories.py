@@ -7,21 +7,13 @@ import numpy as np
 import pytest
 
 from botschool.labs.check import Check
-from botschool.labs.declare import PARTS
+from botschool.labs.declare import NUMBERS, PARTS
 from botschool.labs.runs import make_runs, own_runs
 from botschool.labs.sheet import base_seed
-from lab_students import answer, conclude, copied, edit, honest, predicted, small
+from lab_students import answer, conclude, copied, edit, honest, predicted, small, student
 
 pytestmark = pytest.mark.course
 FULL = {name: float(most) for name, most in PARTS.items()}
-HONEST = {
-    9: [
-        ("Ada", {"rule": 5.0, "tipping": 0}),
-        ("Bo", {"rule": 2.0, "tipping": 3}),
-        ("Cy", {"rule": 0.5, "tipping": 3}),
-    ],
-    3: [("Ada", {}), ("Bo", {"best-cartpole": "100"}), ("Cy", {"fresh-20": -900})],
-}
 
 
 def points(place):
@@ -45,10 +37,10 @@ def spoiled(done, tmp_path):
     return copied(done, tmp_path)
 
 
-@pytest.mark.parametrize("number", HONEST)
+@pytest.mark.parametrize("number", NUMBERS)
 def test_three_honest_sheets_with_different_outcomes_get_all_points(number, tmp_path):
     outcomes = set()
-    for name, predictions in HONEST[number]:
+    for name, predictions in student(number).HONEST:
         lab = small(number, replications=5)
         place = honest(lab, tmp_path / name, name, **predictions)
         checked = Check(place).all()
@@ -59,7 +51,7 @@ def test_three_honest_sheets_with_different_outcomes_get_all_points(number, tmp_
     assert len(outcomes) == 3
 
 
-@pytest.mark.parametrize("number", HONEST)
+@pytest.mark.parametrize("number", NUMBERS)
 def test_an_empty_sheet_gets_nothing(number, tmp_path):
     from botschool.labs.folder import Place, start
 

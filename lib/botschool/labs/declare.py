@@ -16,7 +16,7 @@ from botschool.errors import BotschoolError
 PARTS = {"prediction": 5, "runs": 25, "measurements": 25, "figure": 10, "conclusion": 25}
 """The points that a machine gives, part by part; WORDS are the instructor's."""
 WORDS = 10
-NUMBERS = (3, 9)
+NUMBERS = tuple(sorted(int(path.name[3:]) for path in Path(__file__).parent.glob("lab[0-9][0-9]")))
 """The laboratories that exist: packages labNN beside this file."""
 
 Data = Mapping[str, Mapping[str, np.ndarray]]
@@ -152,8 +152,8 @@ def load_lab(number: str | int) -> Lab:
     """The laboratory of that number. Raises BotschoolError if there is none."""
     text = str(number).removeprefix("lab")
     if not text.isdigit() or int(text) not in NUMBERS:
-        there = " and ".join(map(str, NUMBERS))
+        there = f"{', '.join(map(str, NUMBERS[:-1]))} and {NUMBERS[-1]}"
         raise BotschoolError(
-            f"There is no laboratory {number} yet: the laboratories that exist are {there}."
+            f"There is no laboratory {number}: the laboratories that exist are {there}."
         )
     return import_module(f"botschool.labs.lab{int(text):02}.declaration").LAB
