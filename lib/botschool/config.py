@@ -23,6 +23,7 @@ from botschool.errors import BotschoolError
 from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.algorithms.coevo2 import Coevo2Config
 from botschool.evolution.algorithms.openaies import OpenAIESConfig
+from botschool.evolution.algorithms.own import OwnConfig
 from botschool.evolution.algorithms.sss import SSSConfig
 from botschool.inifile import Entry, nearest, read_sections, refusal, shown
 from botschool.policies.hyperparameters import NO_YES, PolicyConfig, conflicts, hyper
@@ -53,8 +54,9 @@ class Exp:
     )
     algo: str = hyper(
         "OpenAI-ES",
-        "the evolutionary algorithm",
+        "the evolutionary algorithm (or your own, as module:name)",
         choices={name: ALGORITHMS[name].explanation for name in sorted(ALGORITHMS)},
+        own=r"[A-Za-z_][\w.]*:[A-Za-z_]\w*",
     )
     robots: str = hyper(
         "",
@@ -286,6 +288,8 @@ def _text(f: Field, raw: Any, said: str) -> str:
                 f"{said} is not a name: write it without quotes and spaces, as in CartPole-v1"
             )
         return raw
+    if "own" in f.metadata and re.fullmatch(f.metadata["own"], str(raw), re.ASCII):
+        return str(raw)
     if str(raw).lower() not in choices:
         raise ValueError(f"{said} is unknown: {nearest(str(raw), choices.values())}")
     return choices[str(raw).lower()]
@@ -334,6 +338,8 @@ def _unknown(key: str, section: str, cls: type) -> str:
     for other, config in (("EXP", Exp), ("POLICY", PolicyConfig), (ARENA, ArenaConfig)):
         if name in (f.name.lower() for f in fields(config)):
             return f"{key} belongs in section [{other}], not [{section}]: move the line there"
+    if cls is OwnConfig:
+        return f"{key} is an argument of your own strategy: write options = {key}=VALUE"
     owners = [
         algo
         for algo in sorted(ALGORITHMS)

@@ -201,7 +201,18 @@ class Entry:
         yield from getattr(self.make, "conflicts", lambda config: ())(config)
 
 
-ALGORITHMS: dict[str, Entry] = {}
+class Registry(dict[str, Entry]):
+    """Algorithms by name; `module:name` is a strategy of the user's own, and is in no list."""
+
+    own: Callable[[str], Entry]
+
+    def __missing__(self, name: str) -> Entry:
+        if ":" in name:
+            return self.own(name)
+        raise KeyError(name)
+
+
+ALGORITHMS = Registry()
 """By name; filled when botschool.evolution.algorithms is imported."""
 
 Class = TypeVar("Class", bound=type)

@@ -55,7 +55,7 @@ class Run:
 
     checkpointed: tuple[str, ...] = ("algorithm", "evaluator", "record")
     """Attributes that a checkpoint holds."""
-    growing: tuple[str, ...] = ("record.",)
+    growing: tuple[str, ...] = ("record.", "algorithm.told")
     """How names of arrays in a checkpoint begin that get longer with the run."""
     saving = 0.0
     """Seconds that the last save took."""
