@@ -83,8 +83,8 @@ def test_its_experiment_is_read_and_written(folder):
     (folder / "a.ini").write_text(INI.format("mine:Climber", "noise=0.2"))
     read = load(folder / "a.ini")
     assert from_dict(to_dict(read)) == read and read.algo.options == "noise=0.2"
-    (folder / "a.ini").write_text(INI.format("mine:Climber", "noise=0.1") + "noise = 0.2")
-    with pytest.raises(BotschoolError, match=r"write options = noise=VALUE"):
+    (folder / "a.ini").write_text(INI.format("mine:Climber", "noise=0.1") + "length = 0.2")
+    with pytest.raises(BotschoolError, match=r"write options = length=VALUE"):
         load(folder / "a.ini")
 
 
