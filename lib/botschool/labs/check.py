@@ -16,7 +16,8 @@ from botschool.grading.run.confined import MachineFault
 from botschool.labs.confined import drawn_figure, measured, student_file
 from botschool.labs.declare import PARTS, WORDS
 from botschool.labs.folder import Place
-from botschool.labs.runs import SavedRun, changed, drawn, evolved, genuine, own_runs, same
+from botschool.labs.runs import changed, drawn, own_runs
+from botschool.labs.saved import SavedRun
 from botschool.labs.sheet import Sheet, Unreadable, check_specific, numbers_in
 
 COMPLETE, EVIDENCE = 10, 15
@@ -140,8 +141,10 @@ class Check:
         for name, runs in self.runs.items():
             proven = []
             for run in runs:
-                redo = (name, run.seed) in again
-                if genuine(run) and (not redo or same(run, evolved(run.condition, run.seed))):
+                redo, maker = (name, run.seed) in again, run.condition.maker
+                if maker.genuine(run) and (
+                    not redo or run.same(maker.made(run.condition, run.seed))
+                ):
                     proven.append(run)
                 else:
                     false.append(f"{name}, seed {run.seed}")
@@ -159,7 +162,7 @@ class Check:
             with student_file(self.place.folder / "measure.py") as student:
                 found = []
                 for i, condition in enumerate(self.lab.unseen):
-                    run = evolved(condition, seed + i).plain()
+                    run = condition.maker.made(condition, seed + i).plain()
                     found.append(measured(student, run, names))
                     self._compare(found[-1], run)
                 if told := self.lab.separate(found):

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from botschool.config import Experiment, from_dict
+from botschool.config import Experiment, from_dict, to_dict
 from botschool.errors import BotschoolError
 
 PARTS = {"prediction": 5, "runs": 25, "measurements": 25, "figure": 10, "conclusion": 25}
@@ -37,17 +37,32 @@ class Condition:
     """Where a run ends; None: when the steps of the experiment are spent."""
     x: float = 0.0
     """Its place on the figure's horizontal axis."""
+    kind: str = "evolving"
+    """The module of botschool.labs that makes its runs: evolving or training."""
+
+    @property
+    def maker(self) -> Any:
+        """That module: make_all, read, made, genuine."""
+        return import_module(f"botschool.labs.{self.kind}")
 
     def load(self) -> Experiment:
-        """The experiment, checked."""
+        """The experiment of a run that evolves, checked."""
         return from_dict(self.experiment, self.name)
+
+    def told(self) -> dict[str, Any]:
+        """The experiment as measure.py is given it."""
+        return to_dict(self.load()) if self.kind == "evolving" else self.experiment
 
     def shortened(self, parts: int) -> Condition:
         """The same with a budget `parts` times smaller."""
         algo = self.experiment["algo"]
-        algo = algo | {"maxmsteps": algo["maxmsteps"] / parts}
+        if "maxmsteps" in algo:
+            algo = algo | {"maxmsteps": algo["maxmsteps"] / parts}
+        if "ngenerations" in algo:
+            last = max(2, algo["ngenerations"] // parts)
+            algo = algo | {"ngenerations": last, "saveeach": max(1, last // 4)}
         generations = self.generations and max(1, self.generations // parts)
-        return Condition(self.name, self.experiment | {"algo": algo}, generations, self.x)
+        return replace(self, experiment=self.experiment | {"algo": algo}, generations=generations)
 
 
 @dataclass(frozen=True)

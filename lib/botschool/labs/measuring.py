@@ -27,6 +27,10 @@ def record(run: dict[str, Any], seed: int = 1) -> dict[str, Any]:
 
 def play_again(run: dict[str, Any], seed: int = 1, episodes: int = 100) -> np.ndarray:
     """The returns of a run's best robot in new episodes; shape (episodes,)."""
+    if "ppo" in run["experiment"]:
+        from botschool.labs.training import filled, play
+
+        return play(filled(run["experiment"], np.asarray(run["genotype"])), seed, episodes)
     from botschool import problems
     from botschool.config import from_dict
     from botschool.problems import Episodes
@@ -38,6 +42,18 @@ def play_again(run: dict[str, Any], seed: int = 1, episodes: int = 100) -> np.nd
     batch = Episodes.of(np.array([seed], dtype=np.uint64), episodes)
     steps = experiment.policy.maxsteps
     return problem.evaluate(policy, genotype[None], normalisation, batch, steps).fitness
+
+
+def seconds_per_million(number: int, condition: str) -> float:
+    """The processor time that a million steps of a laboratory's condition take on this machine."""
+    from time import process_time
+
+    from botschool.labs.declare import load_lab
+
+    short = load_lab(number).condition(condition).shortened(4)
+    began = process_time()
+    run = short.maker.made(short, 1)
+    return (process_time() - began) / run.stat[-1, 0] * 1e6
 
 
 def interval(

@@ -11,7 +11,7 @@ from botschool import problems
 from botschool.labs.check import Checked
 from botschool.labs.declare import WORDS, Lab
 from botschool.labs.folder import Place
-from botschool.labs.runs import SavedRun
+from botschool.labs.saved import SavedRun
 from botschool.output import save_bytes
 
 _STYLE = """

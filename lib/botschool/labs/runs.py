@@ -2,26 +2,17 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
-import sys
 import time
 from collections.abc import Callable
-from contextlib import nullcontext, redirect_stdout
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from botschool.config import to_dict
 from botschool.errors import BotschoolError
-from botschool.evolution.limit import Limit
-from botschool.evolution.record import STAT, RunFiles
-from botschool.evolution.replicate import replicate
-from botschool.evolution.run import Options, Run
-from botschool.labs.declare import Condition, Lab
+from botschool.labs.declare import Lab
+from botschool.labs.saved import SavedRun
 from botschool.labs.sheet import Sheet, base_seed, seeds_of
 from botschool.output import save_bytes
 
@@ -29,51 +20,11 @@ ABOUT = "runs.json"
 """In the folder of runs: the prediction that their seeds follow from."""
 
 
-@dataclass(frozen=True)
-class SavedRun:
-    """A run as its files tell it."""
-
-    condition: Condition
-    seed: int
-    stat: np.ndarray
-    """(generations, 6), as STAT names the columns."""
-    genotype: np.ndarray
-
-    def plain(self) -> dict[str, Any]:
-        """What measure.py is given."""
-        return {
-            "condition": self.condition.name,
-            "seed": self.seed,
-            "stat": self.stat,
-            "genotype": self.genotype,
-            "experiment": to_dict(self.condition.load()),
-        }
-
-
-def read_run(condition: Condition, folder: Path, seed: int) -> SavedRun | None:
-    """The run of that seed; None if it is not there, is damaged or has not come to its end."""
-    files = RunFiles(folder / condition.name, seed)
-    try:
-        if max(files.stat.stat().st_size, files.bestg.stat().st_size) > 50_000_000:
-            return None
-        stat = np.load(files.stat, allow_pickle=False).reshape(-1, len(STAT))
-        genotype = np.load(files.bestg, allow_pickle=False)
-    except (OSError, ValueError, EOFError):
-        return None
-    if stat.dtype != np.float64 or genotype.dtype != np.float64 or genotype.ndim != 1:
-        return None
-    if not (len(stat) and np.isfinite(stat).all() and np.isfinite(genotype).all()):
-        return None
-    steps = round(condition.experiment["algo"]["maxmsteps"] * 1e6)
-    ended = stat[-1, 0] >= steps or len(stat) >= (condition.generations or np.inf)
-    return SavedRun(condition, seed, stat, genotype) if ended else None
-
-
 def own_runs(lab: Lab, sheet: Sheet, folder: Path) -> dict[str, list[SavedRun]]:
     """The finished runs whose seeds follow from the sheet: condition -> runs."""
     seeds = seeds_of(sheet, lab)
     return {
-        c.name: [run for seed in seeds[c.name] if (run := read_run(c, folder, seed))]
+        c.name: [run for seed in seeds[c.name] if (run := c.maker.read(c, seed, folder / c.name))]
         for c in lab.conditions
     }
 
@@ -83,28 +34,23 @@ def make_runs(lab: Lab, sheet: Sheet, folder: Path, workers: int, replications: 
     seeds = seeds_of(sheet, lab, replications)
     _claim(lab, sheet, folder)
     total = replications * len(lab.conditions)
-    done = {c.name: [s for s in seeds[c.name] if read_run(c, folder, s)] for c in lab.conditions}
+    done = {
+        name: [run.seed for run in runs if run.seed in seeds[name]]
+        for name, runs in own_runs(lab, sheet, folder).items()
+    }
     ready = sum(map(len, done.values()))
     print(f"{total} {lab.robot}, seeds from your name and your prediction; {ready} are there.")
     began, made = time.monotonic(), 0
     for number, condition in enumerate(lab.conditions, 1):
-        todo = len(seeds[condition.name]) - len(done[condition.name])
+        todo = [s for s in seeds[condition.name] if s not in done[condition.name]]
         if not todo:
             continue
-        options = Options(
-            workers=workers,
-            generations=condition.generations,
-            resume=True,
-            terminal=sys.stdout.isatty(),
-        )
-        quiet = nullcontext() if options.terminal else redirect_stdout(io.StringIO())
-        with quiet:
-            place = folder / condition.name
-            finished = replicate(condition.load(), seeds[condition.name], place, options)
+        place = folder / condition.name
+        finished = condition.maker.make_all(condition, seeds[condition.name], place, workers, None)
         if not finished:
             print("Stopped; what is done is saved. The same command goes on.")
             return False
-        made += todo
+        made += len(todo)
         left = (time.monotonic() - began) / made * (total - ready - made)
         bar = "=" * round(20 * (ready + made) / total)
         print(
@@ -143,35 +89,6 @@ def changed(lab: Lab, sheet: Sheet, folder: Path) -> str:
 
 def _time(seconds: float) -> str:
     return f"{seconds // 60:.0f} min {seconds % 60:.0f} s" if seconds >= 60 else f"{seconds:.0f} s"
-
-
-def genuine(run: SavedRun) -> bool:
-    """Whether the saved robot gets the fitness that the run's files tell, to the bit."""
-    made = Run(run.condition.load(), run.seed)
-    try:
-        genotype, normalisation = made.policy.split(run.genotype)
-        return bool(made.evaluator.post_fitness(genotype, normalisation) == run.stat[-1, 2])
-    except BotschoolError:
-        return False
-
-
-def evolved(condition: Condition, seed: int) -> SavedRun:
-    """The run, made here."""
-    run = Run(condition.load(), seed)
-    run.limit = Limit(steps=run.max_steps, generations=condition.generations or np.inf)
-    while not run.limit.reached(run):
-        run.advance(goes_on=True)
-    run.settle()
-    stat = run.record.rows()[:, : len(STAT)]
-    return SavedRun(condition, seed, stat, np.array(run.record.bestg))
-
-
-def same(one: SavedRun, other: SavedRun) -> bool:
-    """Whether two runs are equal, bit by bit."""
-    return (
-        one.stat.tobytes() == other.stat.tobytes()
-        and one.genotype.tobytes() == other.genotype.tobytes()
-    )
 
 
 def drawn(

@@ -1,0 +1,68 @@
+"""A run as its files tell it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from botschool.evolution.record import STAT
+from botschool.labs.declare import Condition
+
+MAX_BYTES = 50_000_000
+
+
+@dataclass(frozen=True)
+class SavedRun:
+    """A run as its files tell it."""
+
+    condition: Condition
+    seed: int
+    stat: np.ndarray
+    """(generations, 6), as STAT names the columns; of a training see labs/training.py."""
+    genotype: np.ndarray
+    populations: dict[int, np.ndarray] = field(default_factory=dict)
+    """Co-evolution: generation -> (2 n, parameters), the predators, then the prey."""
+
+    def plain(self) -> dict[str, Any]:
+        """What measure.py is given."""
+        told = {
+            "condition": self.condition.name,
+            "seed": self.seed,
+            "stat": self.stat,
+            "genotype": self.genotype,
+            "experiment": self.condition.told(),
+        }
+        return told | ({"populations": self.populations} if self.populations else {})
+
+    def same(self, other: SavedRun) -> bool:
+        """Whether two runs are equal, bit by bit."""
+        return (
+            self.stat.tobytes() == other.stat.tobytes()
+            and self.genotype.tobytes() == other.genotype.tobytes()
+            and self.populations.keys() == other.populations.keys()
+            and all(
+                self.populations[g].tobytes() == each.tobytes()
+                for g, each in other.populations.items()
+            )
+        )
+
+
+def numbers(path: Path, dimensions: int) -> np.ndarray | None:
+    """The finite float64 numbers of a file, None if there are none."""
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            return None
+        array = np.load(path, allow_pickle=False)
+    except (OSError, ValueError, EOFError):
+        return None
+    good = array.dtype == np.float64 and array.ndim == dimensions and array.size
+    return array if good and np.isfinite(array).all() else None
+
+
+def stat_of(path: Path) -> np.ndarray | None:
+    """The rows of a stat file; None if it is not there or is damaged."""
+    flat = numbers(path, 1)
+    return None if flat is None or flat.size % len(STAT) else flat.reshape(-1, len(STAT))
