@@ -2,6 +2,7 @@
 
 import re
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -177,3 +178,13 @@ def test_stopped_runs_go_on_and_are_the_same(done, tmp_path):
     assert {file.name: file.read_bytes() for file in folder.glob("*.npy")} == before
     conclude(place)
     assert points(place) == FULL
+
+
+def test_a_strategy_that_changed_after_the_runs_costs_its_runs(tmp_path):
+    place = honest(small(8, replications=2), tmp_path)
+    place = type(place)(replace(place.lab, redone=12), place.folder)
+    assert points(place) == FULL, messages(place)
+    path = place.folder / "strategy.py"
+    path.write_text(path.read_text().replace("default_rng(seed)", "default_rng(seed + 1)"))
+    assert points(place) == FULL | {"runs": 5, "measurements": 17.5, "figure": 0, "conclusion": 5}
+    assert "strategy.py" in messages(place)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Callable
+from contextlib import ExitStack
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -13,9 +14,11 @@ import numpy as np
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.run.confined import MachineFault
+from botschool.grading.run.student import Student
 from botschool.labs.confined import drawn_figure, measured, student_file
-from botschool.labs.declare import PARTS, WORDS
+from botschool.labs.declare import PARTS, STRATEGY, WORDS
 from botschool.labs.folder import Place
+from botschool.labs.own import replayed
 from botschool.labs.runs import changed, drawn, own_runs
 from botschool.labs.saved import SavedRun
 from botschool.labs.sheet import Sheet, Unreadable, check_specific, numbers_in
@@ -78,6 +81,8 @@ class Check:
         self.runs: dict[str, list[SavedRun]] = {}
         self.data: dict[str, dict[str, np.ndarray]] = {}
         self.picture = b""
+        self.strategy: Student | None = None
+        """The student's own, confined, once a run of it is proven."""
 
     def all(self) -> Checked:
         """Check every part. Raises BotschoolError for what is no fault of the sheet."""
@@ -138,18 +143,33 @@ class Check:
         """Leave the runs that are proven; return the names of the others."""
         false = []
         again = {(r.condition.name, r.seed) for r in drawn(self.runs, self.lab.redone, self.draw)}
-        for name, runs in self.runs.items():
-            proven = []
-            for run in runs:
-                redo, maker = (name, run.seed) in again, run.condition.maker
-                if maker.genuine(run) and (
-                    not redo or run.same(maker.made(run.condition, run.seed))
-                ):
-                    proven.append(run)
-                else:
-                    false.append(f"{name}, seed {run.seed}")
-            self.runs[name] = proven
+        with ExitStack() as stack:
+            for name, runs in self.runs.items():
+                proven = []
+                for run in runs:
+                    redo, maker = (name, run.seed) in again, run.condition.maker
+                    told = "" if maker.genuine(run) else "its robot gets another fitness"
+                    if not told and redo and run.condition.own:
+                        told = self._replayed(run, stack)
+                    elif not told and redo and not run.same(maker.made(run.condition, run.seed)):
+                        told = "it comes out differently"
+                    if told:
+                        false.append(f"{name}, seed {run.seed} ({told})")
+                    else:
+                        proven.append(run)
+                self.runs[name] = proven
         return false
+
+    def _replayed(self, run: SavedRun, stack: ExitStack) -> str:
+        """What is wrong with a run of the student's own strategy; "" if nothing is."""
+        if self.strategy is None:
+            try:
+                path = self.place.folder / f"{STRATEGY}.py"
+                self.strategy = stack.enter_context(student_file(path))
+            except Wrong as error:
+                return str(error)
+        rng = np.random.default_rng(int.from_bytes(self.draw(8), "big"))
+        return replayed(run, self.place.runs, self.strategy, rng)
 
     def _measurements(self) -> None:
         """measure.py on unseen runs, and on the student's own."""

@@ -19,6 +19,9 @@ WORDS = 10
 NUMBERS = tuple(sorted(int(path.name[3:]) for path in Path(__file__).parent.glob("lab[0-9][0-9]")))
 """The laboratories that exist: packages labNN beside this file."""
 
+STRATEGY = "strategy"
+"""The module with the student's own strategy, in the laboratory's folder."""
+
 Data = Mapping[str, Mapping[str, np.ndarray]]
 """Measurements: condition -> measure -> one value for each run."""
 Answers = Mapping[str, Any]
@@ -44,6 +47,11 @@ class Condition:
     def maker(self) -> Any:
         """That module: make_all, read, made, genuine."""
         return import_module(f"botschool.labs.{self.kind}")
+
+    @property
+    def own(self) -> bool:
+        """Whether the student's own strategy evolves."""
+        return str(self.experiment["exp"].get("algo")).startswith(f"{STRATEGY}:")
 
     def load(self) -> Experiment:
         """The experiment of a run that evolves, checked."""
@@ -150,6 +158,8 @@ class Lab:
     """How many times smaller the budget of --quick is; it makes three runs of each condition."""
     redone: int = 3
     """Whole runs that a check makes again."""
+    strategy: str = ""
+    """The exercise's file that strategy.py is copied from, as ex08_openai_es/openai_es.py."""
     resources: Path = field(default=Path(), compare=False)
     """The folder of sheet and skeletons."""
 

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import io
+import os
 import sys
-from contextlib import nullcontext, redirect_stdout
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext, redirect_stdout
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from botschool import problems
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithms.sides import everyone, mean
 from botschool.evolution.coevolution import Coevolution
+from botschool.evolution.evaluate import Evaluator
 from botschool.evolution.limit import Limit
 from botschool.evolution.record import STAT, RunFiles
 from botschool.evolution.replicate import replicate
 from botschool.evolution.run import Options, Run
-from botschool.labs.declare import Condition
+from botschool.labs.declare import STRATEGY, Condition
 from botschool.labs.saved import SavedRun, numbers, stat_of
 
 
@@ -29,8 +33,24 @@ def make_all(
     options = Options(
         workers=workers, generations=condition.generations, resume=True, terminal=terminal
     )
-    with nullcontext() if terminal else redirect_stdout(io.StringIO()):
-        return replicate(condition.load(), seeds, folder, options)
+    quiet = nullcontext() if terminal else redirect_stdout(io.StringIO())
+    place = folder.resolve()
+    with quiet, own_strategy(place.parent.parent) if condition.own else nullcontext():
+        return replicate(condition.load(), seeds, place, options)
+
+
+@contextmanager
+def own_strategy(folder: Path) -> Iterator[None]:
+    """Let the student's own strategy be imported from the laboratory's folder."""
+    here = Path.cwd()
+    os.chdir(folder)
+    sys.modules.pop(STRATEGY, None)
+    try:
+        yield
+    finally:
+        if os.getcwd() in sys.path:
+            sys.path.remove(os.getcwd())
+        os.chdir(here)
 
 
 def read(condition: Condition, seed: int, folder: Path) -> SavedRun | None:
@@ -87,12 +107,19 @@ def genuine(run: SavedRun) -> bool:
     """Whether the saved robots get the fitness that the run's files tell, to the bit."""
     if run.populations:
         return _met_alike(run)
-    again = Run(run.condition.load(), run.seed)
+    evaluator = evaluator_of(run.condition, run.seed)
     try:
-        genotype, normalisation = again.policy.split(run.genotype)
-        return bool(again.evaluator.post_fitness(genotype, normalisation) == run.stat[-1, 2])
+        genotype, normalisation = evaluator.policy.split(run.genotype)
+        return bool(evaluator.post_fitness(genotype, normalisation) == run.stat[-1, 2])
     except BotschoolError:
         return False
+
+
+def evaluator_of(condition: Condition, seed: int) -> Evaluator:
+    """What measures the candidates of a run. It imports no strategy."""
+    experiment = condition.load()
+    problem = problems.of(experiment)
+    return Evaluator(problem, problem.policy(experiment.policy), seed)
 
 
 def _met_alike(run: SavedRun) -> bool:

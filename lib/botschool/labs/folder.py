@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.labs.declare import Lab, load_lab
+from botschool.labs.declare import STRATEGY, Lab, load_lab
 from botschool.labs.sheet import Sheet
+from botschool.paths import course_root
 
 FILES = {"sheet.txt": "sheet.md", "measure.txt": "measure.py", "figure.txt": "figure.py"}
 """In a declaration's folder -> in the student's."""
@@ -64,7 +66,21 @@ def start(place: Place, name: str, course: str) -> list[Path]:
         text = (place.lab.resources / source).read_text(encoding="utf-8")
         text = text.replace("{NAME}", name).replace("{COURSE}", course)
         path.write_text(text, encoding="utf-8")
+    if place.lab.strategy:
+        path = place.folder / f"{STRATEGY}.py"
+        if path.exists():
+            kept.append(path)
+        else:
+            path.write_bytes(_of_the_exercise(place.lab.strategy))
     return kept
+
+
+def _of_the_exercise(file: str) -> bytes:
+    """What the student wrote for an exercise, or what to do if it is not here."""
+    with suppress(BotschoolError, OSError):
+        return (course_root() / "exercises" / file).read_bytes()
+    told = f"Copy your finished {Path(file).name} of exercise {int(file[2:4])} into this file."
+    return f'"""{told}"""\n'.encode()
 
 
 def known_name(here: Path) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from botschool.labs.declare import Answers, Data
-from botschool.labs.measuring import permutation_test
+from botschool.labs.measuring import permutation_test, power
 
 Judged = tuple[Callable[[Any], bool], str]
 CANNOT_TELL = "my runs cannot tell"
@@ -44,6 +44,17 @@ def p_value(measure: str, one: str, other: str) -> Callable[[Data, Answers], Jud
         p = permutation_test(data[one][measure], data[other][measure])
         told = f"a permutation test of your runs gives p = {p:.3g}."
         return lambda answer: abs(answer - p) <= 0.01 + 0.2 * p, told
+
+    return judge
+
+
+def powerful(measure: str, one: str, other: str, runs: int) -> Callable[[Data, Answers], Judged]:
+    """Judge in how many of 100 cases so many runs a group would tell two conditions apart."""
+
+    def judge(data: Data, answers: Answers) -> Judged:
+        found = 100 * power(data[one][measure], data[other][measure], runs)
+        told = f"resampling your runs, {runs} of each, gives {found:.0f} of 100."
+        return lambda answer: abs(answer - found) <= 12, told
 
     return judge
 

@@ -81,6 +81,26 @@ def permutation_test(one: ArrayLike, other: ArrayLike, seed: int = 1) -> float:
     return float((1 + (apart >= seen - 1e-9).sum()) / (1 + RESAMPLES))
 
 
+def power(one: ArrayLike, other: ArrayLike, runs: int, seed: int = 1) -> float:
+    """Return how often the permutation test would find the difference with so many runs a group.
+
+    It draws `runs` of each group with repetition, 400 times: the share of cases with p < 0.05.
+    """
+    rng = np.random.default_rng(seed)
+    groups = [
+        each[rng.integers(len(each), size=(400, 1, runs))]
+        for each in (np.asarray(one, dtype=float), np.asarray(other, dtype=float))
+    ]
+    both = np.concatenate(groups, axis=2)
+    mixed = rng.permuted(np.repeat(both, 1000, axis=1), axis=2)
+
+    def apart(values: np.ndarray) -> np.ndarray:
+        return np.abs(values[..., :runs].mean(axis=-1) - values[..., runs:].mean(axis=-1))
+
+    p = (1 + (apart(mixed) >= apart(both) - 1e-9).sum(axis=1)) / 1001
+    return float((p < 0.05).mean())
+
+
 def measure_all(measure: Callable[[dict], dict], folder: str | Path = ".") -> dict:
     """The student's measure of each of his runs: condition -> measure -> array."""
     from botschool.labs.folder import Place

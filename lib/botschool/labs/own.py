@@ -1,0 +1,94 @@
+"""Prove runs of a student's own strategy: nothing of it is imported here.
+
+Its arithmetic may differ in the last bits from machine to machine, so a run need not come out
+equal. The strategy, confined, is told the fitness that the checkpoint holds. It must then give
+candidates that get this fitness, in generations drawn at random.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from botschool.evolution.algorithms.own import POPSIZE
+from botschool.evolution.record import RunFiles
+from botschool.grading.declare.checks import Wrong
+from botschool.grading.run.student import Student
+from botschool.labs.evolving import evaluator_of
+from botschool.labs.saved import SavedRun
+from botschool.wrappers import keywords
+
+GENERATIONS = 5
+"""How many generations of a run are evaluated again, beside that of its best robot."""
+EQUAL = 0.9
+"""The share of candidates that must get the very same fitness."""
+
+
+def told_fitness(run: SavedRun, folder: Path) -> np.ndarray | None:
+    """All fitness that the strategy was told, from the checkpoint; None if there is none."""
+    file = RunFiles(folder / run.condition.name, run.seed).checkpoint
+    try:
+        if file.stat().st_size > 50_000_000:
+            return None
+        with np.load(file, allow_pickle=False) as saved:
+            told = np.asarray(saved["algorithm.told"])
+    except (OSError, ValueError, EOFError, KeyError):
+        return None
+    good = told.dtype == np.float64 and told.ndim == 1 and np.isfinite(told).all()
+    return told if good else None
+
+
+def replayed(run: SavedRun, folder: Path, student: Student, rng: np.random.Generator) -> str:
+    """What is wrong with a run, seen by its strategy in the sandbox; "" if nothing is."""
+    told = told_fitness(run, folder)
+    if told is None:
+        return "its checkpoint is missing or damaged"
+    evaluator = evaluator_of(run.condition, run.seed)
+    best = int((run.stat[:, 2] == run.stat[-1, 2]).argmax())
+    drawn = {best, *rng.permutation(len(run.stat))[:GENERATIONS].tolist()}
+    experiment, at = run.condition.experiment, 0
+    options = experiment["algo"].get("options", "")
+    rows = keywords(options).get("popsize", POPSIZE)
+    initial = np.array([evaluator.policy.initial(run.seed, i) for i in range(rows)])
+    function = experiment["exp"]["algo"].partition(":")[2]
+    given: Any = initial
+    try:
+        for generation, line in enumerate(run.stat):
+            asked = student.run(_ask, function, options, run.seed, generation, given, said=function)
+            candidates = np.asarray(asked["candidates"], dtype=float)
+            given = told[at : at + len(candidates)]
+            at += len(candidates)
+            if len(given) < len(candidates) or given.max() != line[3]:
+                return f"generation {generation} has another best than its stat file tells"
+            if generation == best and not np.allclose(
+                candidates[given.argmax()], run.genotype, rtol=1e-6, atol=1e-9
+            ):
+                return "strategy.py does not come to its robot"
+            if generation in drawn:
+                seeds = np.full(len(candidates), int(asked["seed"]), dtype=np.uint64)
+                again = evaluator.measure(candidates, seeds).fitness
+                if (again == given).mean() < EQUAL:
+                    return f"strategy.py gives other candidates in generation {generation}"
+    except Wrong as error:
+        return str(error)
+    except (KeyError, TypeError, ValueError):
+        return "strategy.py gives no candidates"
+    return "" if at == len(told) else "its checkpoint is of another run"
+
+
+def _ask(
+    student: Any, function: str, options: str, seed: int, generation: int, given: Any
+) -> dict[str, Any]:
+    """In the child: tell the fitness, then ask; before the first generation, begin."""
+    if generation == 0:
+        from botschool.evolution.algorithms.own import Own, OwnConfig
+
+        found = getattr(student, function)
+        config = OwnConfig(options=options)
+        student.evolving = Own(f"strategy:{function}", config, given.__getitem__, seed, found)
+    else:
+        student.evolving.tell(given)
+    candidates, seeds = student.evolving.ask()
+    return {"candidates": candidates, "seed": int(seeds[0])}
