@@ -40,7 +40,7 @@ def conclusions(place, data):
     short, middle = data["hopper 0.01"], data["hopper 0.03"]
     drops, _ = which(short["drop"], data["hopper 0.1"]["drop"], ("0.01", "0.1"))
     hopper, p = which(short["fresh"], middle["fresh"], ("0.01", "0.03"))
-    pendulums = data["Pendulum 0.02"]["fresh"], data["Pendulum 0.1"]["fresh"]
+    pendulums = data["Pendulum 0.1"]["fresh"], data["Pendulum 0.5"]["fresh"]
     rng = np.random.default_rng(8)
     again = [
         permutation_test(rng.choice(short["fresh"], 5), rng.choice(middle["fresh"], 5)) < 0.05
@@ -51,5 +51,5 @@ def conclusions(place, data):
         "hopper": hopper,
         "p-hopper": p,
         "power": f"{100 * np.mean(again):.0f}",
-        "pendulum": which(*pendulums, ("0.02", "0.1"))[0],
+        "pendulum": which(*pendulums, ("0.1", "0.5"))[0],
     }

@@ -111,8 +111,8 @@ LAB = Lab(
         Statement(
             "pendulum",
             5,
-            (PENDULUM[0], PENDULUM[1]),
-            larger("fresh", PENDULUM[0], PENDULUM[1], ("0.02", "0.1")),
+            (PENDULUM[1], PENDULUM[2]),
+            larger("fresh", PENDULUM[1], PENDULUM[2], ("0.1", "0.5")),
         ),
     ),
     figure=Figure("drop", HOPPER, ("drop", "share", "height")),
