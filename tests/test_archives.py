@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.algorithms.halloffame import SAVED
 from botschool.evolution.algorithms.maxsolvestar import dominated
-from tiny_game import SIZE, Individual, average, climb, initial, meeting, play
+from plain_algorithms import SIZE, Individual, average, climb, initial, meeting, play
 
 SETTINGS = {"samplesize": 5, "noiseStdDev": 0.1, "stepsize": 0.03, "ncompetitors": 5}
 ARCHIVE = {"addtoarchiveevery": 2}

@@ -13,7 +13,7 @@ from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
 from botschool.policies.policy import Policy
 from reference_arena import KHEPERA, MARXBOT, World
-from strategies import REPEATABLE
+from reference_network import REPEATABLE
 
 PI = math.pi
 NAMES = ("discrim", "predprey")

@@ -11,7 +11,7 @@ from botschool import arena
 from botschool.arenas import samples
 from botschool.errors import BotschoolError
 from reference_arena import KHEPERA, MARXBOT, off
-from strategies import REPEATABLE
+from reference_network import REPEATABLE
 from test_arena import reference, refused
 
 PI = math.pi

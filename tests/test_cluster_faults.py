@@ -133,7 +133,7 @@ def test_the_probe_of_a_worker_has_an_environment_of_its_own(monkeypatch, tmp_pa
     assert asked and evaluates not in asked
 
 
-long = pytest.mark.long  # what is short is in test_cluster.py and test_cluster_tls.py
+long = pytest.mark.long  # what is short is in test_cluster.py and test_cluster_files.py
 
 
 @long

@@ -11,8 +11,8 @@ from botschool.evolution.algorithms.coevo import Coevo, CoevoConfig
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.run import evolve
 from botschool.problems import Episodes
+from plain_algorithms import SIZE, Individual, average, climb, initial
 from running import contents, same
-from tiny_game import SIZE, Individual, average, climb, initial
 
 SETTINGS = {"popsize": 7, "selsize": 3, "samplesize": 4, "noiseStdDev": 0.1, "stepsize": 0.03}
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from botschool.config import Coevo2Config
 from botschool.evolution.algorithms.coevo2 import Coevo2, differing
 from botschool.evolution.algorithms.sides import means, ranking, seen_by
-from tiny_game import SIZE, Individual, average, climb, initial, meeting, meetings, play
+from plain_algorithms import SIZE, Individual, average, climb, initial, meeting, meetings, play
 
 SETTINGS = {"popsize": 7, "selsize": 3, "samplesize": 4, "noiseStdDev": 0.1, "stepsize": 0.03}
 

@@ -15,9 +15,19 @@ from botschool.policies.policy import Image, Policy
 from botschool.problems import Episodes
 from botschool.problems.spaces import Flattener
 from botschool.rl import environments
-from reference_network import ReferenceNetwork, genotype_length, kernels, parse, planes, read
+from reference_network import (
+    REPEATABLE,
+    ReferenceNetwork,
+    convolutional_specs,
+    genotype_length,
+    kernels,
+    parse,
+    planes,
+    random_genotype,
+    random_normalisation,
+    read,
+)
 from running import TESTS, experiment, run_seeds, same, write_experiment
-from strategies import REPEATABLE, convolutional_specs, random_genotype, random_normalisation
 
 POLICY = {
     "architecture": 4, "afunction": 5, "filters": "4, 6", "kernels": "8, 3", "strides": "4, 2",

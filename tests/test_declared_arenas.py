@@ -19,10 +19,9 @@ from botschool.evolution.run import Run, evolve
 from botschool.policies.policy import Policy
 from botschool.problems.native import NativeProblem
 from botschool.render.scenes import make_scene, scene_of
-from reference_arena import KHEPERA, MARXBOT, World
-from reference_sensors import Declared
+from reference_arena import KHEPERA, MARXBOT, Declared, World
+from reference_network import REPEATABLE
 from running import run_seeds, same, write_experiment
-from strategies import REPEATABLE
 
 NEAR = {"rel": 0, "abs": 1e-9}
 BODIES = {"Khepera": KHEPERA, "marXbot": MARXBOT}

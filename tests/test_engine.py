@@ -14,7 +14,7 @@ from botschool import _core, problems
 from botschool.config import PolicyConfig
 from botschool.policies.policy import Policy
 from botschool.problems import Episodes
-from strategies import REPEATABLE, random_normalisation
+from reference_network import REPEATABLE, random_normalisation
 
 CANDIDATES, EPISODES, LIMIT = 9, 5, 150
 INFOS = {info["name"]: info for info in _core.native_problems()}

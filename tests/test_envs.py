@@ -1,5 +1,6 @@
 """Our native problems as Gymnasium and PettingZoo environments."""
 
+import sys
 import warnings
 
 import gymnasium
@@ -8,11 +9,12 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 import botschool.envs
-from botschool import _core, arena
+from botschool import _core, arena, problems
+from botschool.config import PolicyConfig
 from botschool.envs.simulation import Simulation
 from botschool.errors import BotschoolError
 from botschool.policies.policy import Policy
-from botschool.problems import make
+from botschool.problems import Episodes, make
 
 gymnasium.register_envs(botschool.envs)
 LONGEST = {"Discrim": 500, "DoublePole": 1000, "SwingUp": 1000, "Predator": None, "Prey": None}
@@ -264,3 +266,75 @@ def test_ppo_trains_on_discrim():
 @pytest.mark.long
 def test_ppo_trains_on_discrim_for_10_000_steps():
     trained(10_000, 2048)
+
+
+# --- CartPole with any force: at full force it is Gymnasium's CartPole.
+
+
+gymnasium.register_envs(botschool.envs)
+PUSHED = "botschool/PushedCartPole-v0"
+
+
+def test_passes_the_checker():
+    with gymnasium.make(PUSHED) as env:
+        check_env(env.unwrapped, skip_render_check=True)
+        assert env.spec.max_episode_steps == 500
+
+
+@pytest.mark.parametrize("factor", [1.0, 3.0])
+def test_full_force_is_cartpole(factor):
+    """Beyond its limits the action is cut."""
+    sides = np.random.default_rng(1).integers(0, 2, 30)
+    with gymnasium.make("CartPole-v1") as known, gymnasium.make(PUSHED) as own:
+        observed = [known.reset(seed=4)[0], own.reset(seed=4)[0]]
+        for side in sides:
+            np.testing.assert_array_equal(*observed)
+            push = np.array([factor * (2 * side - 1)], dtype=np.float32)
+            one, other = known.step(int(side)), own.unwrapped.step(push)
+            assert one[1:4] == other[1:4]
+            observed = [one[0], other[0]]
+            if one[2]:
+                break
+
+
+def test_no_force_lets_the_cart_roll():
+    with gymnasium.make(PUSHED) as env:
+        before, _ = env.reset(seed=1)
+        after, reward, *_ = env.step(np.zeros(1, dtype=np.float32))
+        pushed = gymnasium.make(PUSHED)
+        pushed.reset(seed=1)
+        half = pushed.step(np.full(1, 0.5, dtype=np.float32))[0]
+    assert reward == 1.0
+    assert abs(after[1] - before[1]) < 0.02 < half[1] - before[1]
+
+
+# --- The balancing robot, which lives in a package of its own, as a problem.
+
+
+BALANCE = "BalanceBotBulletEnv-v0"
+
+
+def test_is_found_and_evaluated():
+    pytest.importorskip("balance_bot")
+    problem = problems.make(BALANCE)
+    policy = Policy(BALANCE, problem.interface, PolicyConfig(nhiddens=0, bias=1, out_type=3))
+    genotypes = np.array([[0.0, -10.0, -1.0, 0.0], [0.0, 10.0, 1.0, 0.0]])
+    batch = Episodes.of(np.array([1, 1], dtype=np.uint64), 2)
+    outcome = problem.evaluate(policy, genotypes, None, batch, 1000)
+    assert np.all(outcome.steps[:2] == 500)
+    assert np.all(outcome.steps[2:] < 100)
+    again = problem.evaluate(policy, genotypes, None, batch, 1000)
+    np.testing.assert_array_equal(again.fitness, outcome.fitness)
+
+
+def test_missing_package_is_said_in_a_sentence(monkeypatch):
+    monkeypatch.setitem(sys.modules, "balance_bot", None)
+    monkeypatch.delitem(gymnasium.registry, BALANCE, raising=False)
+    with pytest.raises(BotschoolError, match=r"pip install -e envs/balance_bot") as raised:
+        problems.make(BALANCE)
+    assert str(raised.value).count(".") == 1
+
+
+def test_a_name_nearly_right_is_suggested(monkeypatch):
+    with pytest.raises(BotschoolError, match=f"did you mean {BALANCE}"):
+        problems.make("BalanceBotBulletEnv-v1")

@@ -13,7 +13,7 @@ from botschool.config import load
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithm import ALGORITHMS
 from botschool.evolution.algorithms.xnes import exponential
-from plain_gaussian import PlainCMAES, PlainSNES, PlainXNES
+from plain_algorithms import PlainCMAES, PlainSNES, PlainXNES
 from running import experiment, run_seeds, same, write_experiment
 
 SIZE = 6

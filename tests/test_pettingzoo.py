@@ -7,14 +7,14 @@ import pytest
 
 pytest.importorskip("pettingzoo")
 
-import tiny_game
+import plain_algorithms
 from botschool import _core, config, problems
 from botschool.analysis.tournament import Contest, play, summarised
 from botschool.evolution.algorithm import ALGORITHMS as ALGORITHMS_BY_NAME
 from botschool.evolution.coevolution import Coevolution
 from botschool.policies.hyperparameters import PolicyConfig
 from botschool.problems import Episodes
-from duel_runs import ALGORITHMS, FACE, run, write
+from duels import ALGORITHMS, FACE, run, write
 from running import TESTS, contents, same
 
 
@@ -24,7 +24,7 @@ def own_environments(monkeypatch):
 
 
 def duel(options="", **policy):
-    problem = problems.make("tiny_duels:Duel", options=options, competitive=True)
+    problem = problems.make("duels:Duel", options=options, competitive=True)
     return problem, problem.policy(PolicyConfig(nrobots=2, heterogeneous=1, **policy))
 
 
@@ -62,7 +62,7 @@ def test_what_lies_beyond_a_network_means_nothing():
 def test_an_episode_is_what_stepping_the_environment_gives():
     """... with an agent that leaves before the other."""
     from botschool.problems.spaces import fitted
-    from tiny_duels import Duel
+    from duels import Duel
 
     problem, policy = duel(nhiddens=4, bias=1, action_noise=1, action_noise_range=0.3)
     rows = np.array([policy.initial(3, i) for i in range(12)])
@@ -244,14 +244,14 @@ def test_two_returns_that_add_up_to_1_evolve_as_one(algo):
     settings = entry.config(**options | ({"preferential": 1} if algo == "archivestar" else {}))
 
     def scaled(*meeting, scale=1.0):
-        fitness = tiny_game.play(*meeting)
+        fitness = plain_algorithms.play(*meeting)
         return np.stack([scale * fitness, 1 - fitness])
 
-    one = entry.make(settings, tiny_game.initial, 9)
-    two = entry.make(settings, tiny_game.initial, 9, constant_sum=False)
-    four = entry.make(settings, tiny_game.initial, 9, constant_sum=False)
+    one = entry.make(settings, plain_algorithms.initial, 9)
+    two = entry.make(settings, plain_algorithms.initial, 9, constant_sum=False)
+    four = entry.make(settings, plain_algorithms.initial, 9, constant_sum=False)
     for _ in range(4):
-        one.advance(tiny_game.play)
+        one.advance(plain_algorithms.play)
         two.advance(scaled)
         four.advance(partial(scaled, scale=4.0))
         for name in ("parameters",) if algo == "coevo2" else ("centres", "champions"):
@@ -267,7 +267,7 @@ def test_strength_on_any_scale():
     """Minus the fitness of those who met it; unknown ones are as strong as the mean of others."""
     entry = ALGORITHMS_BY_NAME["archivestar"]
     settings = entry.config(popsize=1, samplesize=1, ncompetitors=3, addtoarchiveevery=1)
-    star = entry.make(settings, tiny_game.initial, 9, constant_sum=False)
+    star = entry.make(settings, plain_algorithms.initial, 9, constant_sum=False)
     assert np.isnan(star.strengths[1]).all()
     star.ask()
     star.opponents = np.array([[[0, 2, 0]]])

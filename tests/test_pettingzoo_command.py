@@ -13,7 +13,7 @@ from botschool import problems
 from botschool.errors import BotschoolError
 from botschool.policies.hyperparameters import PolicyConfig
 from botschool.problems import Episodes
-from duel_runs import FACE, run, write
+from duels import FACE, run, write
 from running import TESTS
 
 
@@ -68,29 +68,29 @@ def test_generations_meet(es, command, tmp_path):
 @pytest.mark.parametrize(
     ("environment", "options", "says"),
     [
-        ("tiny_duels:Crowd", "", ["has 3 agents (cat, mouse, dog), but two evolve", "options ="]),
-        ("tiny_duels:Hermit", "", "has 1 agent (cat), but two evolve"),
-        ("tiny_duels:Turns", "", "take turns"),
-        ("tiny_duels:nothing", "", ["no ParallelEnv", "type NoneType"]),
-        ("tiny_duels:board", "", ["type dict", "module:function"]),
-        ("tiny_duels:broken", "", ["tiny_duels:broken cannot be made: no floor"]),
-        ("tiny_duels:packaged", "", ["a_package_that_is_not_there", "pip install"]),
-        ("tiny_duels:Duell", "", "no 'Duell' in tiny_duels; did you mean Duel?"),
-        ("tiny_duels", "", "has no function parallel_env"),
+        ("duels:Crowd", "", ["has 3 agents (cat, mouse, dog), but two evolve", "options ="]),
+        ("duels:Hermit", "", "has 1 agent (cat), but two evolve"),
+        ("duels:Turns", "", "take turns"),
+        ("duels:nothing", "", ["no ParallelEnv", "type NoneType"]),
+        ("duels:board", "", ["type dict", "module:function"]),
+        ("duels:broken", "", ["duels:broken cannot be made: no floor"]),
+        ("duels:packaged", "", ["a_package_that_is_not_there", "pip install"]),
+        ("duels:Duell", "", "no 'Duell' in duels; did you mean Duel?"),
+        ("duels", "", "has no function parallel_env"),
         ("not_there:Duel", "", "no module not_there"),
         ("nothing/duel-v1", "", "no environment 'nothing/duel-v1' in PettingZoo"),
         ("tiny_envs:Tiny-v0", "", ["of one robot", "PettingZoo"]),
-        ("tiny_duels:Duel", "pace=3", ["cannot be made with these options", "pace"]),
-        ("tiny_duels:Duel", "fault", ["line 4: 'fault' cannot be read as options"]),
-        ("tiny_duels:Duel", "fault='words'", ["of cat, observations are a Text space"]),
-        ("tiny_duels:Duel", "fault='sequence'", ["of cat, actions are a Sequence space"]),
-        ("tiny_duels:Duel", "fault='old'", ["reset", "no pair of observations"]),
-        ("tiny_duels:Duel", "fault='nobody'", "no agent takes part"),
-        ("tiny_duels:Duel", "fault='raises'", "step 1 of episode 0 of seed 3 (the floor is wet)"),
-        ("tiny_duels:Duel", "fault='nan'", "a reward of nan at step 1 in episode 0 of seed 3"),
-        ("tiny_duels:Duel", "fault='unpaid'", "a reward of None at step 1"),
-        ("tiny_duels:Duel", "fault='blind'", "no observation of cat"),
-        ("tiny_duels:Seedless", "", ["reset", "unexpected keyword argument 'seed'"]),
+        ("duels:Duel", "pace=3", ["cannot be made with these options", "pace"]),
+        ("duels:Duel", "fault", ["line 4: 'fault' cannot be read as options"]),
+        ("duels:Duel", "fault='words'", ["of cat, observations are a Text space"]),
+        ("duels:Duel", "fault='sequence'", ["of cat, actions are a Sequence space"]),
+        ("duels:Duel", "fault='old'", ["reset", "no pair of observations"]),
+        ("duels:Duel", "fault='nobody'", "no agent takes part"),
+        ("duels:Duel", "fault='raises'", "step 1 of episode 0 of seed 3 (the floor is wet)"),
+        ("duels:Duel", "fault='nan'", "a reward of nan at step 1 in episode 0 of seed 3"),
+        ("duels:Duel", "fault='unpaid'", "a reward of None at step 1"),
+        ("duels:Duel", "fault='blind'", "no observation of cat"),
+        ("duels:Seedless", "", ["reset", "unexpected keyword argument 'seed'"]),
         ("ErPredprey", "max_steps=5", "ErPredprey takes no options"),
     ],
 )
@@ -108,7 +108,7 @@ def test_other_settings_that_do_not_fit(refused, tmp_path):
     refused("es", "-f", path, "-o", tmp_path / "run", says=["wrappers do not fit", "module:func"])
 
 
-@pytest.mark.parametrize("name", ["tiny_duels:Duel", FACE, "classic/rps-v2"])
+@pytest.mark.parametrize("name", ["duels:Duel", FACE, "classic/rps-v2"])
 def test_one_population_does_not_evolve_in_a_game_of_two(name, refused, tmp_path):
     path = write(tmp_path, name, "SSS", policy={"nrobots": 1, "heterogeneous": 0})
     path.write_text(re.sub(r"(?s)\[ALGO\].*", "[ALGO]\npopsize = 2\n", path.read_text()))
@@ -118,7 +118,7 @@ def test_one_population_does_not_evolve_in_a_game_of_two(name, refused, tmp_path
 
 def test_without_pictures(refused, tmp_path):
     film = ("--video", tmp_path / "duel.mp4")
-    refused("es", "-f", write(tmp_path, "tiny_duels:Blind"), "-p", *film, says="draws no pictures")
+    refused("es", "-f", write(tmp_path, "duels:Blind"), "-p", *film, says="draws no pictures")
     own = write(tmp_path, options="fault='words drawn'")
     refused("es", "-f", own, "-p", *film, says="draws no pictures")
 
@@ -139,7 +139,7 @@ def test_without_the_package_it_says_what_to_install(monkeypatch):
             problems.make(name, competitive=True)
     monkeypatch.setitem(sys.modules, "pettingzoo", None)
     with pytest.raises(BotschoolError, match=r"not installed: install.*botschool\[pettingzoo\]"):
-        problems.make("tiny_duels:Duel", competitive=True)
+        problems.make("duels:Duel", competitive=True)
 
 
 def test_games_of_others(tmp_path):

@@ -12,8 +12,8 @@ from botschool import arena, config, problems
 from botschool.arenas.plan import Cylinder, Light, Plan, Robot, Wall, Zone
 from botschool.arenas.section import REWARDS, WORDS, ArenaConfig
 from botschool.errors import BotschoolError
+from reference_network import REPEATABLE
 from running import write_experiment
-from strategies import REPEATABLE
 from test_arena import refused
 
 TEXT = """

@@ -19,7 +19,7 @@ from botschool.analysis.tournament import (
 )
 from botschool.errors import BotschoolError
 from botschool.seeds import POST_EVALUATION_SEED
-from coevolution_runs import (
+from duels import (
     STILL,
     STRAIGHT,
     driver,

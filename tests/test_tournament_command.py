@@ -14,7 +14,7 @@ from botschool.analysis.populations import Populations
 from botschool.analysis.tournament import Contest, master_tournament
 from botschool.errors import BotschoolError
 from browser import Browser, find_browser
-from coevolution_runs import GENERATIONS, STILL, STRAIGHT, experiment, write_run
+from duels import GENERATIONS, STILL, STRAIGHT, experiment, write_run
 from test_analysis import drawn  # noqa: F401
 from test_replay import held
 

@@ -16,8 +16,6 @@ from botschool.grading.declare.mistakes import THIS
 from botschool.grading.judge.judging import TOLD
 from botschool.grading.report.hints import read_hints
 
-pytestmark = pytest.mark.course
-
 MUTANTS = building.cases("mutants")
 NAMED = 8
 """So many mutants of an exercise, at least, get a message that names the mistake."""
@@ -30,6 +28,7 @@ def text_of(number, name):
     return (folder / name).read_text(encoding="utf-8")
 
 
+@pytest.mark.course
 @for_each_exercise
 def test_skeleton_gets_nothing(grade, number, tmp_path):
     file = building.write(tmp_path, number, building.source(number).skeleton)
@@ -39,6 +38,7 @@ def test_skeleton_gets_nothing(grade, number, tmp_path):
         assert task.message.startswith("not done yet"), task
 
 
+@pytest.mark.course
 @for_each_exercise
 def test_solution_gets_everything(grade, number, tmp_path):
     file = building.write(tmp_path, number, building.source(number).solution)
@@ -47,12 +47,14 @@ def test_solution_gets_everything(grade, number, tmp_path):
     assert not any(task.message for task in result.tasks)
 
 
+@pytest.mark.course
 @for_each_exercise
 def test_committed_skeleton_is_the_generators(number):
     one = building.source(number)
     assert text_of(number, one.file) == one.skeleton
 
 
+@pytest.mark.course
 def test_every_skeleton_belongs_to_a_solution():
     made = {path for _, path in pairs(building.ROOT)}
     for folder in (building.ROOT / "exercises").glob("ex[0-9][0-9]_*"):
@@ -60,6 +62,7 @@ def test_every_skeleton_belongs_to_a_solution():
         assert own <= made
 
 
+@pytest.mark.course
 @for_each_exercise
 def test_points_and_tasks(number):
     loaded, one = building.exercise(number), building.source(number)
@@ -72,6 +75,7 @@ def test_points_and_tasks(number):
     assert set(one.functions) == {task.id for task in loaded.tasks}
 
 
+@pytest.mark.course
 @for_each_exercise
 def test_hints_for_every_task(number):
     hints = read_hints(text_of(number, "HINTS.md"))
@@ -81,6 +85,7 @@ def test_hints_for_every_task(number):
         assert all(len(hint) > 20 for hint in found)
 
 
+@pytest.mark.course
 @for_each_exercise
 def test_text_names_tasks_and_times(number):
     text = text_of(number, "README.md")
@@ -95,6 +100,7 @@ def test_text_names_tasks_and_times(number):
     assert (building.ROOT / "solutions" / building.source(number).folder / "README.md").is_file()
 
 
+@pytest.mark.course
 @for_each_exercise
 def test_margins_are_stated(number):
     """Where a threshold decides on something learnt, the grader's docstring gives the margin."""
@@ -105,6 +111,7 @@ def test_margins_are_stated(number):
         assert STOCHASTIC.search(docstring), "state the margin over 20 seeds"
 
 
+@pytest.mark.course
 @for_each_exercise
 def test_there_are_mutants(number):
     own = [case for case in MUTANTS if case.number == number]
@@ -113,6 +120,7 @@ def test_there_are_mutants(number):
     assert sum(case.says is not None for case in own) >= NAMED
 
 
+@pytest.mark.course
 @pytest.mark.parametrize("mutant", MUTANTS, ids=str)
 def test_mutant_loses_what_it_names(grade, mutant, tmp_path):
     """And no other task; a message that is to name the mistake does."""
@@ -130,6 +138,7 @@ def test_mutant_loses_what_it_names(grade, mutant, tmp_path):
         assert re.search(mutant.says, said), said
 
 
+@pytest.mark.course
 def test_graded_apart_alike(grade, tmp_path):
     """Many at a time in processes of their own, and here: the same points and messages."""
     jobs, here = [], {}
@@ -148,6 +157,7 @@ def test_graded_apart_alike(grade, tmp_path):
         assert result["points"] == here[job]["points"]
 
 
+@pytest.mark.course
 def test_release_tells_no_answers(tmp_path):
     release(building.ROOT, tmp_path / "copy")
     files = [path for path in (tmp_path / "copy").rglob("*") if path.is_file()]
@@ -163,6 +173,7 @@ def test_release_tells_no_answers(tmp_path):
         assert place.read_text(encoding="utf-8") == one.skeleton
 
 
+@pytest.mark.course
 def test_leaks_are_found(tmp_path):
     """The whole solution, or a part of it in another file, does not get through."""
     assert released_files(building.ROOT)
@@ -171,3 +182,75 @@ def test_leaks_are_found(tmp_path):
         place = tmp_path / f"{number}.py"
         place.write_text("\n".join("    " + line for line in solution.splitlines()[30:]))
         assert find_leaks(building.ROOT, [place])
+
+
+# --- Prove that right answers in other styles than the solution's get all points.
+#
+# building.py describes the files of alternatives. `-k ex03` runs those of exercise 3.
+
+
+ALTERNATIVES = building.cases("alternatives")
+
+
+def redefined(text):
+    """The functions and classes that a text defines."""
+    kinds = (ast.FunctionDef, ast.ClassDef)
+    return {node.name for node in ast.parse(text).body if isinstance(node, kinds)}
+
+
+@pytest.mark.course
+@pytest.mark.parametrize("number", building.GRADED, ids="ex{:02d}".format)
+def test_three_that_write_everything_anew(number):
+    codes = [case.code for case in ALTERNATIVES if case.number == number]
+    assert len(set(codes)) >= 3
+    anew = set().union(*map(redefined, codes))
+    for task, names in building.source(number).functions.items():
+        assert anew & set(names), f"no alternative writes {' or '.join(names)} of task {task}"
+
+
+@pytest.mark.course
+@pytest.mark.parametrize("alternative", ALTERNATIVES, ids=str)
+def test_alternative_gets_everything(grade, alternative, tmp_path):
+    file = building.write(tmp_path, alternative.number, alternative.submission)
+    result = grade(building.exercise(alternative.number), file)
+    assert result.points == 100, [(task.id, task.message) for task in result.tasks if task.message]
+    assert not any(task.message for task in result.tasks)
+
+
+# --- Exercise 10's solution and the package envs/balance_bot are the same environment.
+
+
+PACKAGE = building.ROOT / "envs" / "balance_bot" / "balance_bot"
+METHODS = ("observe", "reset", "drive", "reward", "fallen", "step", "render", "close", "__init__")
+
+
+def parts_of(source, file):
+    """name -> code of the methods of BalanceBotEnv and the constants, without docstrings."""
+    found = {}
+    for node in ast.parse(source, file).body:
+        if isinstance(node, ast.Assign):
+            found[node.targets[0].id] = ast.unparse(node.value)
+        if isinstance(node, ast.ClassDef) and node.name == "BalanceBotEnv":
+            for method in node.body:
+                if isinstance(method, ast.FunctionDef):
+                    has_docstring = ast.get_docstring(method) is not None
+                    method.body = method.body[has_docstring:]
+                    found[method.name] = ast.unparse(method)
+    return found
+
+
+@pytest.fixture(scope="module")
+def both():
+    solved = parts_of(building.source(10).solution, "the solution")
+    return solved, parts_of((PACKAGE / "env.py").read_text(encoding="utf-8"), "env.py")
+
+
+@pytest.mark.parametrize("name", [*METHODS, "FASTEST", "TIME_STEP", "LOWEST"])
+def test_code_agrees(both, name):
+    solved, packaged = both
+    assert solved[name] == packaged[name]
+
+
+def test_robot_agrees():
+    robot = building.ROOT / "data" / "robots" / "balance_bot.urdf"
+    assert robot.read_bytes() == (PACKAGE / "balance_bot.urdf").read_bytes()

@@ -1,14 +1,16 @@
 """What untrusted code cannot reach: files, processes, network."""
 
+import ctypes
 import errno
 import os
 import platform
+import re
 import sys
 from pathlib import Path
 
 import pytest
 
-from botschool.sandbox import paths, seccomp
+from botschool.sandbox import paths, process, scratch, seccomp, syscalls, usage
 
 
 def test_files_outside_are_out_of_reach(confined):
@@ -90,3 +92,206 @@ def test_filters_of_both_machines():
             if operation in (0x15, 0x35, 0x45):
                 assert at + 1 + max(yes, no) < len(code)
     assert seccomp.program("riscv64", 1) is None
+
+
+# --- The filter of system calls: its numbers, and what it answers to calls that it does not know.
+
+
+TABLES = (syscalls.ALLOWED, syscalls.PRETENDED, syscalls.ABSENT, syscalls.CONDITIONAL)
+HEADERS = [
+    (0, "/usr/include/x86_64-linux-gnu/asm/unistd_64.h", r"#define __NR_(\w+) (\d+)"),
+    (1, "/usr/include/asm-generic/unistd.h", r"#define __NR(?:3264)?_(\w+) (\d+)"),
+]
+ELSEWHERE = {"fstatat": "newfstatat"}  # names of the generic header
+
+
+def answer(code, number, *arguments):
+    """What a filter answers to a system call on its machine: a small BPF machine."""
+    words = {0: number, 4: code[1][3]}
+    for at, value in enumerate(arguments):
+        words[16 + 8 * at], words[20 + 8 * at] = value & 0xFFFFFFFF, value >> 32
+    held, at = 0, 0
+    while True:
+        operation, yes, no, value = code[at]
+        at += 1
+        if operation == 0x06:
+            return value
+        if operation == 0x20:
+            held = words.get(value, 0)
+        elif operation == 0x54:
+            held &= value
+        else:
+            at += yes if {0x15: held == value, 0x35: held >= value}[operation] else no
+
+
+ALLOW, REFUSE, PRETEND, UNKNOWN = 0x7FFF0000, 0x50001, 0x50000, 0x50000 | errno.ENOSYS
+
+
+def test_no_call_stands_in_two_tables():
+    for column in (0, 1):
+        numbers = [each[column] for table in TABLES for each in table.values()]
+        numbers = [number for number in numbers if number is not None]
+        assert len(numbers) == len(set(numbers))
+        assert max(numbers) <= syscalls.NEWEST
+
+
+@pytest.mark.parametrize(("column", "header", "line"), HEADERS, ids=["x86_64", "aarch64"])
+def test_numbers_are_those_of_linux(column, header, line):
+    if not Path(header).exists():
+        pytest.skip(f"{header} is not installed")
+    found = {
+        ELSEWHERE.get(name, name): int(number)
+        for name, number in re.findall(line, Path(header).read_text())
+    }
+    known = 0
+    for table in TABLES:
+        for name, numbers in table.items():
+            if name in found:
+                assert numbers[column] == found[name], name
+                known += 1
+            elif numbers[column] is not None:
+                assert numbers[column] > max(found.values()) or column == 1, name
+    assert known > 100
+
+
+@pytest.mark.parametrize("machine", ["x86_64", "aarch64"])
+def test_all_else_is_refused(machine):
+    code = seccomp.program(machine, 77)
+    column = {"x86_64": 0, "aarch64": 1}[machine]
+    number = {name: each[column] for table in TABLES for name, each in table.items()}
+    listed = set(number.values())
+    for other in range(syscalls.NEWEST + 1):
+        if other not in listed:
+            assert answer(code, other) == REFUSE, other
+    assert answer(code, syscalls.NEWEST + 1) == UNKNOWN
+    assert answer(code, 0x40000001) == REFUSE
+    for name in syscalls.ALLOWED:
+        if number[name] is not None:
+            assert answer(code, number[name], 1, 2, 3) == ALLOW, name
+    for name, arguments, expected in (
+        ("clone", (0x3D0F00,), ALLOW),
+        ("clone", (0x7D0F00,), ALLOW),
+        ("clone", (0x3D0F00 | 0x20000,), REFUSE),
+        ("clone", (0x3D0F00 & ~0x400,), REFUSE),
+        ("clone", (17,), REFUSE),
+        ("clone3", (0,), UNKNOWN),
+        ("kill", (77, 9), ALLOW),
+        ("kill", (0, 9), REFUSE),
+        ("kill", (2**32 - 1, 9), REFUSE),
+        ("tgkill", (78, 78, 9), REFUSE),
+        ("close_range", (3, 9, 4), ALLOW),
+        ("close_range", (3, 9, 2), REFUSE),
+        ("close_range", (3, 9, 6), REFUSE),
+        ("prlimit64", (0, 7, 0, 1), ALLOW),
+        ("prlimit64", (0, 7, 2**32, 1), REFUSE),
+        ("prlimit64", (0, 7, 1, 0), REFUSE),
+        ("prlimit64", (1, 7, 0, 1), REFUSE),
+        ("fcntl", (3, 6, 1), PRETEND),
+        ("fcntl", (3, 8, 1), REFUSE),
+        ("fcntl", (3, 1031, 1), REFUSE),
+        ("flock", (3, 2), PRETEND),
+        ("prctl", (4, 0), REFUSE),
+        ("ioctl", (0, 0x5412), 0x50000 | errno.ENOTTY),  # TIOCSTI
+    ):
+        assert answer(code, number[name], *arguments) == expected, (name, arguments)
+
+
+# --- Limits of a child: output, files, time.
+
+
+def test_output_is_bounded(sandboxed):
+    one = sandboxed("def talk():\n    while True: print('x' * 100_000)\n")
+    assert one.ask("talk") is None  # not a TimeoutError: it did not go on until its time was over
+    assert one.child.ending() == "it printed more than 16 MB"
+    assert len(one.child.printed()) < process.OUTPUT_KEPT + 100
+
+
+def test_written_files_are_bounded(sandboxed, monkeypatch):
+    monkeypatch.setattr(scratch, "MAX_WRITTEN_FILES", 50)
+    many = sandboxed("def write():\n    for n in range(10**6): open(f'{n}', 'w').close()\n")
+    assert many.ask("write") is None
+    assert many.child.ending() == "it wrote more than 50 files"
+    large = sandboxed("def write():\n    open('x', 'wb').write(b'1' * 70 * 2**20)\n")
+    assert large.ask("write")["error"] == "OSError"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="seen in /proc")
+@pytest.mark.parametrize("how", ["open", "mapped"])
+def test_removed_files_count_while_they_fill_the_disk(sandboxed, monkeypatch, how):
+    """Without a name, and mapped without even a descriptor: seen by nothing but /proc."""
+    monkeypatch.setattr(scratch, "MAX_WRITTEN", 40 * 2**20)
+    monkeypatch.setattr(process, "MAX_FILE", 16 * 2**20)
+    one = sandboxed(
+        "import ctypes, os, time\nKEPT = []\n"
+        "libc = ctypes.CDLL(None)\nlibc.mmap.restype = ctypes.c_void_p\n"
+        "def fill(how, count):\n"
+        "    for number in range(count):\n"
+        "        file = open(f'{number}', 'w+b')\n"
+        "        file.write(bytes(8 * 2**20))\n"
+        "        file.flush()\n"
+        "        if how == 'open':\n"
+        "            KEPT.append(file)\n"
+        "        else:\n"
+        "            libc.mmap(None, 4096, 1, 1, file.fileno(), 0)\n"
+        "            file.close()\n"
+        "        os.unlink(f'{number}')\n"
+        "        time.sleep(0.01)\n"
+        "    time.sleep(0.5)\n"
+    )
+    assert one.ask("fill", how, 2) == {"value": None}
+    assert one.ask("fill", how, 20) is None
+    assert one.child.ending() == "it wrote more than 40 MB of files"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="seen in /proc")
+def test_sizes_of_mapped_files_that_may_not_be_seen(monkeypatch, tmp_path):
+    """As for a user who is not root: each counts for the largest size."""
+    path = tmp_path / "file"
+    path.write_bytes(bytes(4096))
+    libc = ctypes.CDLL(None)
+    libc.mmap.restype = ctypes.c_void_p
+    libc.munmap.argtypes = ctypes.c_void_p, ctypes.c_size_t
+    with open(path, "rb") as file:  # Python's own mmap would keep it open
+        address = libc.mmap(None, 4096, 1, 1, file.fileno(), 0)
+    path.unlink()
+    known = os.stat
+
+    def refuse(path, **options):
+        if "map_files" in str(path):
+            raise PermissionError
+        return known(path, **options)
+
+    monkeypatch.setattr(usage.os, "stat", refuse)
+    assert usage.removed(os.getpid(), tmp_path, 1000).size == 1000
+    assert usage.removed(os.getpid(), tmp_path / "other", 1000).size == 0
+    libc.munmap(address, 4096)
+    assert usage.removed(os.getpid(), tmp_path, 1000).size == 0
+
+
+@pytest.mark.parametrize("fault", [ValueError, MemoryError, PermissionError, SystemExit])
+def test_what_cannot_be_watched_does_not_run(sandboxed, monkeypatch, fault):
+    def fail(pid):
+        raise fault
+
+    monkeypatch.setattr(usage, "threads", fail)
+    one = sandboxed("import time\ndef nap(): time.sleep(20)\n")
+    assert one.ask("nap") is None
+    assert one.child.ending() == f"it could not be watched ({fault.__name__})"
+
+
+def test_exit_is_not_mistaken_for_a_limit(sandboxed):
+    one = sandboxed("import os\ndef leave(): os._exit(3)\n")
+    assert one.ask("leave") is None
+    assert one.child.ending() == "it called exit, so nothing came back"
+
+
+def test_a_file_that_does_not_fit_is_the_fault_of_the_code(sandboxed, monkeypatch):
+    """Not of the machine's disk: the caller is told so even where the code has caught nothing."""
+    monkeypatch.setattr(scratch, "MAX_WRITTEN", 20 * 2**20)
+    monkeypatch.setattr(process, "POLL_SECONDS", 60)
+    one = sandboxed("def write():\n    open('x', 'wb').write(bytes(50 * 2**20))\n")
+    if not one.scratch.in_memory:
+        pytest.skip("this system allows no mount namespace")
+    assert one.ask("write") is None
+    assert one.child.ending() == "it wrote more than 20 MB of files"
+    one.child.kill()

@@ -1,6 +1,6 @@
 """PettingZoo environments for the tests: a quick one that works, and one for every way to fail.
 
-`tiny_duels:Duel`, with an option fault=... for faults that show while it is played.
+`duels:Duel`, with an option fault=... for faults that show while it is played.
 """
 
 import os
@@ -9,6 +9,11 @@ from pathlib import Path
 import numpy as np
 from gymnasium import spaces
 from pettingzoo import AECEnv, ParallelEnv
+
+from botschool import config, problems
+from botschool.evolution.coevolution import Coevolution
+from botschool.evolution.run import evolve
+from botschool.policies.policy import Policy
 
 DIE_ONCE = "TINY_DIE_ONCE"
 """Environment variable with the path of a file; the process that removes it dies at once."""
@@ -136,3 +141,92 @@ def packaged():
 
 
 board = {"no": "environment"}
+
+
+# --- For tests of PettingZoo environments: very small experiments, and their runs.
+
+
+FACE = "botschool.envs.predprey"
+ALGORITHMS = {
+    "coevo2": {"ngenerations": 3, "popsize": 4, "selsize": 2, "samplesize": 2, "saveeach": 1},
+    "archive": {"ngenerations": 6, "samplesize": 2, "addtoarchiveevery": 1, "ncompetitors": 3},
+    "archivestar": {"ngenerations": 6, "samplesize": 2, "addtoarchiveevery": 1, "popsize": 2}
+    | {"ncompetitors": 4, "seldifferentiated": 0, "preferential": 2},
+    "maxsolvestar": {"ngenerations": 6, "samplesize": 2, "archivelen": 4, "ncompetitors": 3},
+}
+
+
+def write(folder, environment="duels:Duel", algo="coevo2", options="", policy=None):
+    """Writes FOLDER/own.ini, a very small experiment. Gives its path."""
+    policy = {"nrobots": 2, "heterogeneous": 1, "maxsteps": 20, "nhiddens": 3} | (policy or {})
+    algorithm = {"noiseStdDev": 0.5, "stepsize": 0.3, **ALGORITHMS.get(algo, {})}
+    lines = ["[EXP]", f"environment = {environment}", f"algo = {algo}", f"options = {options}"]
+    lines += ["[POLICY]", *(f"{key} = {value}" for key, value in policy.items())]
+    lines += ["[ALGO]", *(f"{key} = {value}" for key, value in algorithm.items())]
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "own.ini").write_text("\n".join(lines) + "\n")
+    return folder / "own.ini"
+
+
+def run(path, folder, workers=1, resume=False, **limits):
+    folder.mkdir(exist_ok=True)
+    return evolve(Coevolution(config.load(path), 3, workers), folder, resume=resume, **limits)
+
+
+# --- For tests of co-evolved populations: small ones, random or made by hand.
+
+
+EXPERIMENT = """[EXP]
+environment = ErPredprey
+algo = coevo2
+[POLICY]
+nrobots = 2
+heterogeneous = 1
+maxsteps = 60
+nhiddens = {nhiddens}
+bias = 1
+pepisodes = {pepisodes}
+[ALGO]
+popsize = 3
+selsize = 2
+"""
+GENERATIONS = (0, 10, 20, 40)
+
+
+def experiment(folder, nhiddens=0, pepisodes=1):
+    """Writes FOLDER/own.ini: ErPredprey in 60 steps. Gives its path."""
+    folder.mkdir(exist_ok=True)
+    path = folder / "own.ini"
+    path.write_text(EXPERIMENT.format(nhiddens=nhiddens, pepisodes=pepisodes))
+    return path
+
+
+def policy_of(path):
+    """The policy of an experiment file."""
+    problem = problems.make("ErPredprey")
+    return Policy(problem.name, problem.interface, config.load(path).policy)
+
+
+def random_populations(policy, generation, size=3):
+    """As coevo2 saves them: first all predators, then all prey."""
+    pairs = [np.split(policy.initial(generation, i), 2) for i in range(size)]
+    return np.concatenate(list(zip(*pairs, strict=True)))
+
+
+def write_run(folder):
+    """A run of seed 12 in the folder, with its experiment file own.ini; no Fit files."""
+    path = experiment(folder)
+    for generation in GENERATIONS:
+        populations = random_populations(policy_of(path), generation)
+        np.save(path.parent / f"S12G{generation}.npy", populations)
+    return folder
+
+
+def driver(left, right):
+    """A network without hidden neurons whose wheels turn like this, whatever it senses."""
+    network = np.zeros(50)
+    network[:2] = left, right
+    return network
+
+
+STILL, STRAIGHT = driver(0, 0), driver(5, 5)
