@@ -16,7 +16,11 @@ from botschool.grading.classes.similar import Program, similar_pairs, similarity
 from botschool.grading.classes.statistics import by_task, hardest, statistics_page
 from botschool.grading.copies.skeleton import skeleton
 from botschool.grading.declare.trust import trust
-from exports import Handed, canvas, gradescope, moodle, saved, written
+from botschool.labs.classes import secret_choice
+from botschool.labs.declare import load_lab
+from botschool.labs.folder import Place
+from exports import Handed, canvas, gradescope, moodle, saved, written, zipped
+from lab_students import answer, predicted
 from running import call, one_sentence
 from tiny_course import FILE, SOLUTION, make_course
 
@@ -343,3 +347,66 @@ def test_a_copy_with_other_names_is_found_and_the_skeleton_does_not_count():
     page = similarity_page({3: (6, [pair])})
     assert "100%: ada and &lt;bob&gt;" in page and page.count("<mark>") > 20 and "<bob>" not in page
     assert similar_pairs([Program("a", given), Program("b", given)], given) == []
+
+
+# --- laboratories
+def handed_in(tmp_path):
+    """Ada's laboratory without runs, in a folder; Bob's, in a zip file; Carl's sheet is damaged."""
+    place = predicted(load_lab(3), tmp_path / "class" / "Ada" / "work", "Ada")
+    answer(place, {"words": "The spread surprised me."})
+    sheet = (place.folder / "sheet.md").read_bytes()
+    files = {"lab03/sheet.md": sheet, "lab03/runs/CartPole 4/statS5.npy": b"no numbers"}
+    written(tmp_path / "class", {"Bob.zip": zipped(files), "Carl/sheet (1).md": sheet + b"\xff"})
+    return tmp_path / "class"
+
+
+def test_laboratories_are_graded_beside_exercises(course, tmp_path):
+    download = handed_in(tmp_path)
+    written(download, {f"Ada/{FILE}": SOLUTION.encode()})
+    output = tmp_path / "out"
+    assert call("grade-all", str(download), "-o", str(output), cwd=tmp_path)[0] == 0
+    ada, bob, carl = rows_of(output / "grades.csv")
+    assert (ada["student"], ada["exercise 3"], ada["laboratory 3"]) == ("Ada", "100", "0")
+    assert ada["lab3.prediction"] == "0" and "laboratory 9" not in ada
+    assert bob["laboratory 3"] == "0" and "There is no tiny.py" in bob["notes"]
+    assert "Laboratory 3: sheet.md is not UTF-8 text" in carl["notes"]
+    page = (output / "feedback" / "Ada.html").read_text()
+    assert "Laboratory 3. At equal numbers" in page and "There are no runs yet" in page
+    words = rows_of(output / "words.csv")
+    assert [row["text"] for row in words] == ["The spread surprised me."] * 2
+    words[0]["points"] = "8"
+    with open(output / "words.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, words[0].keys())
+        writer.writeheader()
+        writer.writerows(words)
+    (tmp_path / "changes.csv").write_text("student,exercise,points,reason\nBob,lab3,+2,a talk\n")
+    settings(tmp_path, "weights: {3: 1, lab3: 0.5}\nadjustments: [out/words.csv, changes.csv]\n")
+    assert call("grade-all", str(download), "-o", str(output), cwd=tmp_path)[0] == 0
+    ada, bob, _ = rows_of(output / "grades.csv")
+    assert (ada["laboratory 3"], ada["lab3.words"], ada["total"]) == ("8", "8", "104")
+    assert bob["laboratory 3"] == "2" and bob["total"] == "1"
+    assert rows_of(output / "words.csv")[0]["points"] == "8"
+    code, _, _ = call("grade-all", str(download), "-e", "lab09", "-o", "new", cwd=tmp_path)
+    assert code == 0 and rows_of(tmp_path / "new" / "grades.csv")[0]["laboratory 9"] == "0"
+    refused = call("grade-all", str(download), "-e", "lab99", cwd=tmp_path)[::2]
+    one_sentence(*refused, "no laboratory")
+
+
+def test_an_instructor_checks_one_laboratory(course, tmp_path):
+    download = handed_in(tmp_path)
+    code, out, _ = call("lab", "3", "check", "--submission", str(download / "Bob.zip"))
+    assert code == 1 and "0 of 90 points" in out and "The spread surprised me." in out
+    nobodys = call("lab", "9", "check", "--submission", str(download / "Ada"))
+    one_sentence(*nobodys[::2], "no sheet.md of laboratory 9")
+
+
+def test_the_choice_of_runs_follows_from_secret_and_runs(tmp_path):
+    place = Place(load_lab(3), tmp_path)
+    written(tmp_path, {"runs/CartPole 4/statS5.npy": b"1"})
+    first = secret_choice(place, "a")
+    drawn = first(16), first(16)
+    again = secret_choice(place, "a")
+    assert drawn == (again(16), again(16)) and drawn[0] != drawn[1]
+    assert secret_choice(place, "b")(16) != drawn[0]
+    written(tmp_path, {"runs/CartPole 4/statS5.npy": b"2"})
+    assert secret_choice(place, "a")(16) != drawn[0]

@@ -176,7 +176,7 @@ def grade_all(
             "-e",
             "--exercise",
             "--exercises",
-            help="As 3, 1-3,7, 3.2 for a task, or all.",
+            help="As 3, 1-3,7, 3.2 for a task, lab9, or all.",
             metavar="N",
         ),
     ] = "all",
@@ -215,10 +215,10 @@ def grade_all(
     says so, or that somebody on the roster handed in nothing, or is not on it.
     """
     from botschool.grading.commands import grade_all_command
+    from botschool.labs.classes import laboratories
 
-    good = grade_all_command(
-        folder, output, exercise, workers, fresh, roster, gradebook, column, settings
-    )
+    tables = roster, gradebook, column, settings
+    good = grade_all_command(folder, output, exercise, workers, fresh, *tables, laboratories())
     if not good:
         raise typer.Exit(1)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -25,6 +26,10 @@ def lab(
     workers: Annotated[
         int, typer.Option("-w", "--workers", min=1, max=1024, help="run: cores to use.")
     ] = 1,
+    submission: Annotated[
+        Path | None,
+        typer.Option(help="check: somebody else's folder or zip file.", metavar="FOLDER"),
+    ] = None,
     json: Annotated[bool, typer.Option("--json", help="check: print the result as JSON.")] = False,
 ) -> None:
     """Do a laboratory: predict, run, measure, draw, conclude; the evidence earns the points.
@@ -43,7 +48,7 @@ def lab(
         if not commands.run_command(number, quick, workers):
             raise typer.Exit(130)
     elif action == "check":
-        if not commands.check_command(number, json):
+        if not commands.check_command(number, json, submission):
             raise typer.Exit(1)
     elif action == "report":
         commands.report_command(number)

@@ -10,8 +10,9 @@ import tempfile
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
@@ -22,6 +23,7 @@ from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import (
     Exercise,
+    Number,
     course_root,
     exercise_numbers,
     folder_of,
@@ -41,6 +43,7 @@ from botschool.grading.run.temporary import temporary_files_within
 from botschool.terminal import exits_on_signals
 
 if TYPE_CHECKING:
+    from botschool.grading.classes.collect import Laboratory
     from botschool.grading.classes.register import Settings
 
 # PyTorch's threads fight for busy cores, and the course's networks are too small to share out: on a
@@ -202,10 +205,10 @@ def _grade_own(root: Path, workers: int | None, console: Console) -> dict[int, d
         start(len(jobs))
         found = Grades(root).of(jobs, _workers(workers), lambda job, result: step())
     for job, result in found.items():
-        if not result["problem"]:
+        if not result["problem"] and isinstance(job.number, int):
             points = [(t["id"], t["points"], t["max_points"]) for t in result["tasks"]]
             remember(root, job.number, points, jobs[job])
-    return {job.number: result for job, result in found.items()}
+    return {int(job.number): result for job, result in found.items()}
 
 
 def _points(result: Result) -> list[tuple[str, int, int]]:
@@ -378,8 +381,12 @@ def grade_all_command(
     gradebook: Path | None = None,
     column: str = "",
     settings: Path | None = None,
+    laboratories: Mapping[Number, Laboratory] = MappingProxyType({}),
 ) -> bool:
     """Grade a class and say where the results are.
+
+    exercise: as `selected` takes it, beside names of laboratories; "all" stands for all exercises
+    and those laboratories that somebody handed in.
 
     True if all could be graded, and all are on the roster and have handed something in.
     """
@@ -387,14 +394,25 @@ def grade_all_command(
     from botschool.grading.classes.screen import say_class
 
     root = course_root()
-    asked = selected(exercise, root)
+    asked, labs = _asked(exercise, root, laboratories)
     console = Console(highlight=False)
     known = _settings(folder, roster, gradebook, column, settings)
     secret, said = secret_for_others(root)
     close_class(folder, output)
     with counting("Grading", console) as (start, step):
         found = grade_all(
-            folder, output, asked, root, _workers(workers), fresh, secret, start, step, known
+            folder,
+            output,
+            asked,
+            root,
+            _workers(workers),
+            fresh,
+            secret,
+            start,
+            step,
+            known,
+            labs,
+            exercise == "all",
         )
     good = say_class(console, found)
     console.print(f"Table: {output / TABLE}   Feedback: {output / PAGES}", markup=False)
@@ -404,6 +422,28 @@ def grade_all_command(
         console.print(said, markup=False, soft_wrap=True)
     _notice(console, [result for row in found.rows for result in row.results])
     return good
+
+
+def _asked(
+    text: str, root: Path, laboratories: Mapping[Number, Laboratory]
+) -> tuple[dict[Number, tuple[str, ...]], dict[Number, Laboratory]]:
+    """Return what is to be graded, and the laboratories among it. Raises BotschoolError."""
+    if text.strip() == "all":
+        every: dict[Number, tuple[str, ...]] = dict(selected(text, root).items())
+        return every | dict.fromkeys(laboratories, ()), dict(laboratories)
+    parts = [part.strip().lower() for part in text.split(",")]
+    found: dict[Number, Laboratory] = {}
+    for name in [part for part in parts if part.startswith("lab")]:
+        key = f"lab{name[3:].lstrip('0')}"
+        if key not in laboratories:
+            raise BotschoolError(
+                f"'{name[:30]}' names no laboratory: there are {', '.join(map(str, laboratories))}."
+            )
+        found[key] = laboratories[key]
+    exercises = ",".join(part for part in parts if not part.startswith("lab"))
+    asked: dict[Number, tuple[str, ...]] = {}
+    asked |= selected(exercises, root).items() if exercises else {}
+    return asked | dict.fromkeys(found, ()), found
 
 
 def _settings(

@@ -54,6 +54,8 @@ class Checked:
     runs: dict[str, list[SavedRun]]
     picture: bytes = b""
     """The figure, as PNG."""
+    words: str = ""
+    """What the instructor reads."""
 
     @property
     def points(self) -> float:
@@ -92,7 +94,9 @@ class Check:
         self._table()
         self._figure()
         self._conclusion()
-        return Checked(list(self.parts.values()), self.answers, self.data, self.runs, self.picture)
+        parts = list(self.parts.values())
+        words = self.sheet.words
+        return Checked(parts, self.answers, self.data, self.runs, self.picture, words)
 
     @property
     def whole(self) -> set[str]:

@@ -87,13 +87,20 @@ class Sheet:
                 how = "nothing is" if not chosen else "more than one box is"
                 raise Unreadable(f"{field.what}: {how} marked, put [x] before exactly one.")
             return chosen[0]
-        lines = [line.strip()[1:] for line in raw.splitlines() if line.strip().startswith(">")]
-        text = " ".join(" ".join(lines).split())
+        text = _quoted(raw)
         if len(re.findall(r"\w+", text)) < max(1, field.words):
             raise Unreadable(
                 f"{field.what}: write at least {max(1, field.words)} words after the sign >."
             )
         return text
+
+    @property
+    def words(self) -> str:
+        """The text that the instructor reads; "" if there is none."""
+        try:
+            return _quoted(self.raw("words"))
+        except Unreadable:
+            return ""
 
     def values(self, fields: tuple[Field, ...]) -> tuple[dict[str, Any], list[str]]:
         """The answers that can be read, and a sentence about each of the others."""
@@ -117,6 +124,11 @@ class Sheet:
         """A line after `answer:`; "" if there is none."""
         found = _ANSWER.search(self.raw(id))
         return " ".join(found[1].split()) if found else ""
+
+
+def _quoted(raw: str) -> str:
+    lines = [line.strip()[1:] for line in raw.splitlines() if line.strip().startswith(">")]
+    return " ".join(" ".join(lines).split())
 
 
 def numbers_in(text: str, what: str, count: int) -> tuple[float, ...]:

@@ -16,10 +16,11 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from botschool.errors import BotschoolError
@@ -28,6 +29,7 @@ from botschool.grading.declare.exercise import (
     MISTAKES,
     STATE,
     Exercise,
+    Number,
     folder_of,
     load_exercise,
     make_state,
@@ -55,7 +57,7 @@ MACHINE_FAULT = 75
 class Job:
     """A submission's file, of an exercise."""
 
-    number: int
+    number: Number
     file: Path
     tasks: tuple[str, ...] = ()
     """Those to grade; () for all."""
@@ -69,20 +71,30 @@ class Grades:
     if the grader or its machine is to blame for that, so that the 0 points mean nothing.
     """
 
-    def __init__(self, root: Path, fresh: bool = False, secret: str | None = None) -> None:
-        """fresh: grade again what was graded before; secret: else BOTSCHOOL_GRADING_SEED's."""
+    def __init__(
+        self,
+        root: Path,
+        fresh: bool = False,
+        secret: str | None = None,
+        laboratories: Mapping[Number, Exercise] = MappingProxyType({}),
+    ) -> None:
+        """fresh: grade again what was graded before; secret: else BOTSCHOOL_GRADING_SEED's.
+
+        laboratories: graded like exercises, by a program of their own.
+        """
         self._root = root
         self._fresh = fresh
         self._secret = secret or os.environ.get(VARIABLE) or DEFAULT
         self._cache = root / STATE / "grades"
-        self._exercises: dict[int, Exercise] = {}
+        self._exercises: dict[Number, Exercise] = dict(laboratories)
         self._running: set[subprocess.Popen] = set()
         self._temporary: Path | None = None
         self._stopped = threading.Event()
 
-    def exercise(self, number: int) -> Exercise:
+    def exercise(self, number: Number) -> Exercise:
         """The exercise as its grader declares it."""
         if number not in self._exercises:
+            assert isinstance(number, int)
             self._exercises[number] = load_exercise(number, self._root)
         return self._exercises[number]
 
@@ -170,7 +182,7 @@ class Grades:
         }
         try:
             process = subprocess.Popen(
-                interpreter("botschool.grading.classes.batch", *arguments),
+                interpreter(exercise.program, *arguments),
                 env=environment,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
@@ -208,7 +220,7 @@ class Grades:
         return self.nothing(job.number, problem, graded, job.tasks)
 
     def nothing(
-        self, number: int, problem: str, graded: bool = True, tasks: tuple[str, ...] = ()
+        self, number: Number, problem: str, graded: bool = True, tasks: tuple[str, ...] = ()
     ) -> dict[str, Any]:
         """Return a result without points.
 
@@ -262,16 +274,16 @@ def to_record(result: Result) -> dict[str, Any]:
 
 
 @functools.lru_cache(maxsize=64)
-def _versions(root: Path, number: int) -> str:
+def _versions(root: Path, number: Number) -> str:
     """What a result depends on beside the submission."""
     stamps = [sys.version, str(number)]
-    folder = folder_of(number, root)
-    for path in (
-        *sorted((IMPORT_ROOT / "botschool").rglob("*")),
-        *sorted(folder.glob("test_*.py")),
-        *sorted((root / "solutions" / folder.name).glob("*.py")),
-        *root.glob(f"{MISTAKES}/ex{number:02d}.py"),
-    ):
+    own: list[Path] = []
+    if isinstance(number, int):
+        folder = folder_of(number, root)
+        own += sorted(folder.glob("test_*.py"))
+        own += sorted((root / "solutions" / folder.name).glob("*.py"))
+        own += root.glob(f"{MISTAKES}/ex{number:02d}.py")
+    for path in (*sorted((IMPORT_ROOT / "botschool").rglob("*")), *own):
         if path.suffix in (".py", ".so", ".pyd"):
             status = path.stat()
             stamps.append(f"{path} {status.st_size} {status.st_mtime_ns}")
@@ -279,6 +291,17 @@ def _versions(root: Path, number: int) -> str:
 
 
 def main() -> None:
+    """Grade as `serve` says."""
+    serve(_of_exercise)
+
+
+def _of_exercise(number: str, file: Path, tasks: list[str], alone: bool) -> dict[str, Any]:
+    exercise = load_exercise(int(number))
+    found = [exercise.find(task) for task in tasks] or None
+    return to_record(grade(exercise, file, tasks=found, alone=alone))
+
+
+def serve(grade: Callable[[str, Path, list[str], bool], dict[str, Any]]) -> None:
     """Grades a file (argument 2) of an exercise (argument 1); the result goes to stdout as JSON.
 
     Argument 3: a pipe's descriptor; when its other end is closed, the grading is ended.
@@ -286,14 +309,13 @@ def main() -> None:
     commas between; "" for all.
     The exit code is MACHINE_FAULT if the machine was at fault.
     """
-    number, file, lifeline = int(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3])
+    number, file, lifeline = sys.argv[1], Path(sys.argv[2]), int(sys.argv[3])
     threading.Thread(target=_end_with, args=(lifeline,), daemon=True).start()
     out = os.dup(1)
     os.dup2(2, 1)  # whatever a grader prints is no part of the result
     try:
-        exercise = load_exercise(number)
-        tasks = [exercise.find(task) for task in sys.argv[5].split(",")] if sys.argv[5] else None
-        record = to_record(grade(exercise, file, tasks=tasks, alone=sys.argv[4] == "alone"))
+        tasks = list(filter(None, sys.argv[5].split(",")))
+        record = grade(number, file, tasks, sys.argv[4] == "alone")
     except MachineFault as error:
         print(error, file=sys.stderr)
         sys.exit(MACHINE_FAULT)

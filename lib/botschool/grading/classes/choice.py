@@ -19,7 +19,7 @@ from botschool.grading.classes.texts import (
 )
 from botschool.grading.copies.starting import original
 from botschool.grading.declare.checks import plain
-from botschool.grading.declare.exercise import folder_of
+from botschool.grading.declare.exercise import Number, folder_of
 from botschool.sandbox.scratch import MAX_COPIED, MAX_COPIED_FILES
 
 MAX_TEXT = 4 * 2**20
@@ -40,6 +40,11 @@ _OLD = re.compile(r"old|backup|\bbak\b|orig|before|skeleton|template", re.IGNORE
 class Wanted:
     """What an exercise asks for: the name of its file, and the file as it was given out."""
 
+    number: Number
+    file: str
+    folder: str
+    skeleton: str
+
     def __init__(self, number: int, file: str, root: Path) -> None:
         self.number, self.file = number, file
         self.folder = folder_of(number, root).name
@@ -58,6 +63,12 @@ class Wanted:
             for path in folder.glob("ex[0-9][0-9]_*/*.py")
             if path.parent.name != self.folder and not path.name.startswith("test_")
         } - {self.stem}
+
+    def choose(
+        self, handed: Handed, new_folder: Callable[[], Path], newest_first: bool = False
+    ) -> Choice:
+        """Return the file to grade. newest_first: of a platform that numbers attempts."""
+        return choose(handed, self, new_folder, newest_first)
 
 
 def squashed(name: str) -> str:

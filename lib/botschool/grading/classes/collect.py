@@ -7,9 +7,10 @@ import hashlib
 import io
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from botschool.errors import BotschoolError
@@ -20,6 +21,7 @@ from botschool.grading.classes.finding import find_submissions, numbered_folders
 from botschool.grading.classes.outputs import OWN, write_outputs
 from botschool.grading.classes.register import Graded, Register, Settings
 from botschool.grading.classes.tables import safe_cell
+from botschool.grading.declare.exercise import Exercise, Number, called
 from botschool.grading.report.feedback import GENERATOR, page
 from botschool.grading.run.temporary import temporary_folder
 from botschool.output import save_bytes
@@ -27,8 +29,18 @@ from botschool.output import save_bytes
 TABLE, PAGES = "grades.csv", "feedback"
 _FIRST_COLUMNS = ["student", "total"]
 
-Asked = dict[int, tuple[str, ...]]
-"""Exercises, and of each the tasks that are asked for; () for all."""
+Asked = dict[Number, tuple[str, ...]]
+"""Exercises and laboratories, and of each the tasks that are asked for; () for all."""
+
+
+@dataclass(frozen=True)
+class Laboratory:
+    """What is graded like an exercise, but by evidence."""
+
+    exercise: Exercise
+    """Its title and parts."""
+    wanted: Wanted
+    """How it is found among what a person handed in."""
 
 
 @dataclass
@@ -55,21 +67,37 @@ def grade_all(
     start: Callable[[int], None] = lambda count: None,
     report: Callable[[], None] = lambda: None,
     settings: Settings | None = None,
+    laboratories: Mapping[Number, Laboratory] = MappingProxyType({}),
+    only_handed_in: bool = False,
 ) -> Class:
     """Grade every submission and write grades.csv and feedback/STUDENT.html into `output`.
 
     download: a folder or a zip file, as of export.read_export. Raises BotschoolError, before it
     starts, if this machine lacks what an exercise that was handed in needs. secret: of the grading
     seeds, else as of batch.Grades. start(count) is called with the number of files, report()
-    after each of them.
+    after each of them. laboratories: those of `asked`; only_handed_in: without those that nobody
+    handed in.
     """
     settings = settings or Settings()
     with temporary_folder() as temporary:
-        grades = Grades(root, fresh, secret)
+        exercises = {number: each.exercise for number, each in laboratories.items()}
+        grades = Grades(root, fresh, secret, exercises)
         new_folder = numbered_folders(temporary / "files")
-        wanted = [Wanted(number, grades.exercise(number).file, root) for number in asked]
+        wanted: list[Wanted] = [
+            Wanted(number, grades.exercise(number).file, root)
+            for number in asked
+            if isinstance(number, int)
+        ]
+        wanted += [each.wanted for each in laboratories.values()]
         export = read_export(download, wanted, new_folder)
         submissions = find_submissions(export.people, wanted, root, new_folder)
+        if only_handed_in:
+            for number in [
+                n for n in laboratories if not any(n in one.files for one in submissions)
+            ]:
+                asked = {key: tasks for key, tasks in asked.items() if key != number}
+                for one in submissions:
+                    del one.choices[number]
         for number in asked:
             if any(number in one.files for one in submissions):
                 grades.exercise(number).require()
@@ -94,14 +122,14 @@ def _grade(
     shown = [register.name(index) for index in range(len(submissions))]
     names = page_names(shown, [f"{one.person.platform} {one.person.folder}" for one in submissions])
     _check_own(output, names)
-    places: dict[Job, list[tuple[int, int]]] = {}
+    places: dict[Job, list[tuple[int, Number]]] = {}
     for index, one in enumerate(submissions):
         for number, file in one.files.items():
             job = Job(number, file.absolute(), asked[number])
             places.setdefault(job, []).append((index, number))
     start(len(places))
     waiting = {index: set(one.files) for index, one in enumerate(submissions)}
-    done: dict[tuple[int, int], dict] = {}
+    done: dict[tuple[int, Number], dict] = {}
     (output / PAGES).mkdir(parents=True, exist_ok=True)
 
     def all_of(index: int) -> list[dict[str, Any]]:
@@ -162,7 +190,7 @@ def page_names(folders: list[str], keys: list[str] | None = None) -> list[str]:
 def _table(rows: list[Graded], register: Register) -> str:
     columns = []
     for result in rows[0].results:
-        columns += [f"exercise {result['exercise']}", *(task["id"] for task in result["tasks"])]
+        columns += [called(result["exercise"]).lower(), *(task["id"] for task in result["tasks"])]
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     people = ["id", "email", "handed in as"] if register.roster else []
@@ -189,7 +217,7 @@ def notes_of(row: Graded) -> str:
     notes = []
     for result in row.results:
         if said := " ".join(filter(None, [result["problem"], *result["notes"]])):
-            notes.append(f"Exercise {result['exercise']}: {said}")
+            notes.append(f"{called(result['exercise'])}: {said}")
     return " ".join([*notes, *row.submission.notes])
 
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.choice import Choice, Wanted, choose, listed
+from botschool.grading.classes.choice import Choice, Wanted, listed
 from botschool.grading.classes.export import Person, one_person
-from botschool.grading.declare.exercise import Exercise
+from botschool.grading.declare.exercise import Exercise, Number
 
 
 @dataclass
@@ -19,7 +19,7 @@ class Submission:
     """A person's files: that of each exercise, or why there is none."""
 
     person: Person
-    choices: dict[int, Choice] = field(default_factory=dict)
+    choices: dict[Number, Choice] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     """On what belongs to no exercise."""
 
@@ -28,7 +28,7 @@ class Submission:
         return self.person.student
 
     @property
-    def files(self) -> dict[int, Path]:
+    def files(self) -> dict[Number, Path]:
         return {number: each.file for number, each in self.choices.items() if each.file}
 
 
@@ -44,7 +44,7 @@ def find_submissions(
                 one.choices[each.number] = Choice(problem=person.problem)
                 continue
             newest_first = person.platform == "canvas"
-            one.choices[each.number] = choose(person.handed, each, new_folder, newest_first)
+            one.choices[each.number] = each.choose(person.handed, new_folder, newest_first)
         one.notes = [*person.handed.notes, *_left(one, root)]
         found.append(one)
     return found

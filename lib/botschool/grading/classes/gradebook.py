@@ -14,6 +14,7 @@ from botschool.grading.classes.export import Person
 from botschool.grading.classes.policy import tidy
 from botschool.grading.classes.roster import Roster, Student
 from botschool.grading.classes.tables import safe_cell
+from botschool.grading.declare.exercise import called
 
 _EPOCH = (2000, 1, 1, 0, 0, 0)
 """Of files in a zip file, so that equal grades give equal files."""
@@ -107,7 +108,7 @@ def feedback_text(student: str, results: list[dict[str, Any]], notes: Sequence[s
     lines += notes
     for result in results:
         points = result["points"] if result["graded"] else "-"
-        head = f"Exercise {result['exercise']}. {result['title']}"
+        head = f"{called(result['exercise'])}. {result['title']}"
         lines += ["", f"{head}: {points} of {result['max_points']} points"]
         lines += [*result["notes"], *filter(None, [result["problem"], result["banner"]])]
         for task in result["tasks"] if not result["problem"] else ():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from pathlib import Path
 
 from botschool.errors import BotschoolError
@@ -15,7 +17,9 @@ from botschool.grading.classes.gradebook import (
 from botschool.grading.classes.register import Graded, Register
 from botschool.grading.classes.similar import Program, similar_pairs, similarity_page
 from botschool.grading.classes.statistics import by_task, statistics_page
+from botschool.grading.classes.tables import read_table, safe_cell
 from botschool.grading.classes.texts import code_of_notebook
+from botschool.grading.declare.exercise import Number, called
 from botschool.output import save_bytes
 
 OWN = (
@@ -23,14 +27,16 @@ OWN = (
     "canvas-feedback.zip",
 )  # fmt: skip
 """Names of these files."""
+WORDS = "words.csv"
+"""The texts of laboratories, for the instructor's points."""
 
 
 def write_outputs(
     output: Path,
     rows: list[Graded],
     register: Register,
-    asked: dict[int, tuple[str, ...]],
-    skeletons: dict[int, str],
+    asked: dict[Number, tuple[str, ...]],
+    skeletons: dict[Number, str],
 ) -> list[Path]:
     """Write what this class's platform and settings ask for; return the files.
 
@@ -50,6 +56,7 @@ def write_outputs(
             [(p, feedback_text(row.name, row.results, row.submission.notes)) for p, row in texts]
         )
     made |= _gradebook(output, rows, register)
+    made |= _words(output, rows, register)
     for name, content in made.items():
         save_bytes(output / name, content)
     return [output / name for name in made]
@@ -72,9 +79,39 @@ def _gradebook(output: Path, rows: list[Graded], register: Register) -> dict[str
     return {"canvas.csv": canvas_gradebook(book, points, maximum, column)}
 
 
+def _words(output: Path, rows: list[Graded], register: Register) -> dict[str, bytes]:
+    """Return the table of the laboratories' texts, in which the instructor writes points.
+
+    It is not written over one that has points.
+    """
+    found = []
+    for row in rows:
+        for result in row.results:
+            for task in result["tasks"]:
+                if text := task.get("words"):
+                    what = [task["id"], "", "words", text, task["message"]]
+                    found.append([safe_cell(each) for each in (row.name, *what)])
+    place = output / WORDS
+    if not found or place in register.policy.tables or has_points(place):
+        return {}
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["student", "exercise", "points", "reason", "text", "rubric"])
+    writer.writerows(found)
+    return {WORDS: stream.getvalue().encode("utf-8-sig", "replace")}
+
+
+def has_points(place: Path) -> bool:
+    """Whether somebody has written points into a table of words."""
+    if not place.is_file():
+        return False
+    table = read_table(place)
+    return any(table.get(row, "points") for row in table.rows)
+
+
 def _comment(row: Graded) -> str:
     """Return the points of each exercise and the notes, in a line for a gradebook."""
-    parts = [f"Exercise {r['exercise']}: {r['points']} of {r['max_points']}." for r in row.results]
+    parts = [f"{called(r['exercise'])}: {r['points']} of {r['max_points']}." for r in row.results]
     notes = [note for result in row.results for note in (result["problem"], *result["notes"])]
     return " ".join(filter(None, [*parts, *notes, *row.submission.notes]))
 
@@ -95,10 +132,10 @@ def _statistics(rows: list[Graded], register: Register) -> bytes:
 
 
 def _similar(
-    rows: list[Graded], asked: dict[int, tuple[str, ...]], skeletons: dict[int, str]
+    rows: list[Graded], asked: dict[Number, tuple[str, ...]], skeletons: dict[Number, str]
 ) -> bytes:
     found = {}
-    for number in asked:
+    for number in [each for each in asked if isinstance(each, int)]:
         programs, seen = [], set()
         for row in rows:
             file = row.submission.files.get(number)

@@ -16,6 +16,7 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.classes.roster import Student, words
 from botschool.grading.classes.tables import Table, read_table
+from botschool.grading.declare.exercise import Number
 
 _LATE = re.compile(
     r"(?P<off>\d+(?:\.\d+)?)\s*(?:points?\s*)?(?:/|per)\s*(?:started\s*)?(?P<unit>day|hour|week)"
@@ -47,11 +48,13 @@ _NONE = timedelta()
 class Adjustment:
     """A change of somebody's points by hand."""
 
-    exercise: int
+    exercise: Number
     points: float
     sets: bool
     """Whether these are the points, and not a change."""
     reason: str
+    task: str = ""
+    """The task whose points change; "" for the exercise's."""
 
 
 @dataclass
@@ -59,13 +62,15 @@ class Policy:
     """A class's settings; keys of people are those of roster.words or student ids."""
 
     roster: Path | None = None
-    due: dict[int, datetime] = field(default_factory=dict)
+    due: dict[Number, datetime] = field(default_factory=dict)
     late: LateRule | None = None
-    extensions: dict[str, dict[int, datetime]] = field(default_factory=dict)
+    extensions: dict[str, dict[Number, datetime]] = field(default_factory=dict)
     adjustments: dict[str, list[Adjustment]] = field(default_factory=dict)
-    submitted: dict[str, dict[int, datetime]] = field(default_factory=dict)
+    submitted: dict[str, dict[Number, datetime]] = field(default_factory=dict)
     """When, by a table; exercise 0 stands for all."""
-    weights: dict[int, float] = field(default_factory=dict)
+    weights: dict[Number, float] = field(default_factory=dict)
+    tables: list[Path] = field(default_factory=list)
+    """Of adjustments."""
 
     def names(self, student: Student | None, shown: str) -> list[str]:
         """Return the keys under which somebody may be named here."""
@@ -98,6 +103,10 @@ class Policy:
             notes.append("The platform marks it late, but not how late: no points are taken off.")
         for each in (a for name in dict.fromkeys(names) for a in self.adjustments.get(name, ())):
             if each.exercise == number and (result["graded"] or each.sets):
+                if each.task:
+                    result, change = _with_task(result, each)
+                    points += change
+                    continue
                 points = each.points if each.sets else points + each.points
                 result = result | {"graded": True}
                 what = "Set to" if each.sets else "Adjusted by"
@@ -107,8 +116,21 @@ class Policy:
                 )
         return result | {"points": tidy(max(0.0, points)), "notes": [*result["notes"], *notes]}
 
-    def weight(self, number: int) -> float:
+    def weight(self, number: Number) -> float:
         return self.weights.get(number, 1.0)
+
+
+def _with_task(result: dict[str, Any], by: Adjustment) -> tuple[dict[str, Any], float]:
+    """Return the result with a task's points changed, within its limits, and by how much."""
+    tasks, change = [dict(task) for task in result["tasks"]], 0.0
+    for task in tasks:
+        if task["id"] == by.task:
+            wanted = by.points if by.sets else task["points"] + by.points
+            points = tidy(min(float(task["max_points"]), max(0.0, wanted)))
+            change += points - task["points"]
+            task["points"] = points
+            task["message"] = "" if by.reason in ("", "words") else by.reason
+    return result | {"tasks": tasks, "graded": True}, change
 
 
 def tidy(number: float) -> int | float:
@@ -147,6 +169,7 @@ def read_policy(path: Path) -> Policy:
     policy = Policy()
     for key, value in found.items():
         setattr(policy, key, getattr(reader, key)(value))
+    policy.tables = reader.tables
     return policy
 
 
@@ -155,6 +178,7 @@ class _Reader:
 
     def __init__(self, path: Path) -> None:
         self._path = path
+        self.tables: list[Path] = []
 
     def _wrong(self, what: str) -> BotschoolError:
         return BotschoolError(f"{self._path}: {what}")
@@ -167,7 +191,7 @@ class _Reader:
     def roster(self, value: Any) -> Path:
         return self._file(value, "roster")
 
-    def due(self, value: Any) -> dict[int, datetime]:
+    def due(self, value: Any) -> dict[Number, datetime]:
         if not isinstance(value, dict):
             raise self._wrong(
                 "write under 'due' a line for each exercise, as '3: 2026-11-20 23:59'."
@@ -180,12 +204,12 @@ class _Reader:
             raise self._wrong(f"'late: {value}' is no rule: write '10 per day, at most 50'.")
         return LateRule(float(found["off"]), found["unit"].lower(), float(found["most"] or 100))
 
-    def extensions(self, value: Any) -> dict[str, dict[int, datetime]]:
+    def extensions(self, value: Any) -> dict[str, dict[Number, datetime]]:
         if not isinstance(value, dict):
             raise self._wrong("write under 'extensions' a student, and under that '3: 2026-11-25'.")
         return {_key(str(name)): self.due(dues) for name, dues in value.items()}
 
-    def weights(self, value: Any) -> dict[int, float]:
+    def weights(self, value: Any) -> dict[Number, float]:
         try:
             return {self._number(key): float(each) for key, each in dict(value).items()}
         except (TypeError, ValueError):
@@ -194,9 +218,16 @@ class _Reader:
             ) from None
 
     def adjustments(self, value: Any) -> dict[str, list[Adjustment]]:
-        table = read_table(self._file(value, "adjustments"))
         found: dict[str, list[Adjustment]] = {}
+        for each in value if isinstance(value, list) else [value]:
+            self.tables.append(self._file(each, "adjustments"))
+            self._adjust(read_table(self.tables[-1]), found)
+        return found
+
+    def _adjust(self, table: Table, found: dict[str, list[Adjustment]]) -> None:
         for line, row in enumerate(table.rows, 2):
+            if not table.get(row, "points"):
+                continue
             points = table.get(row, "points").lstrip("'").replace(",", ".")
             match = re.fullmatch(r"([=+-]?)(\d+(?:\.\d+)?)", points)
             if not match:
@@ -204,15 +235,16 @@ class _Reader:
                     f"{table.path}, row {line}: '{points}' are no points: write +5, -10 or =80."
                 )
             change = -float(match[2]) if match[1] == "-" else float(match[2])
-            number = self._number(table.get(row, "exercise"))
+            exercise, _, task = table.get(row, "exercise").partition(".")
+            number = self._number(exercise)
+            task = task and f"{number}.{task}"
             reason = table.get(row, "reason").rstrip(".")
-            one = Adjustment(number, change, match[1] == "=", reason)
+            one = Adjustment(number, change, match[1] == "=", reason, task)
             found.setdefault(_named(table, row, line), []).append(one)
-        return found
 
-    def submitted(self, value: Any) -> dict[str, dict[int, datetime]]:
+    def submitted(self, value: Any) -> dict[str, dict[Number, datetime]]:
         table = read_table(self._file(value, "submitted"))
-        found: dict[str, dict[int, datetime]] = {}
+        found: dict[str, dict[Number, datetime]] = {}
         for line, row in enumerate(table.rows, 2):
             if moment := table.get(row, "submitted"):
                 number = table.get(row, "exercise")
@@ -220,9 +252,11 @@ class _Reader:
                 times[self._number(number) if number else 0] = self._moment(moment)
         return found
 
-    def _number(self, value: Any) -> int:
+    def _number(self, value: Any) -> Number:
+        if lab := re.fullmatch(r"lab(?:oratory)?\s*0?([0-9]{1,2})", str(value).strip().lower()):
+            return f"lab{lab[1]}"
         if not re.fullmatch(r"[0-9]{1,3}", str(value).strip()):
-            raise self._wrong(f"'{value}' is no exercise's number.")
+            raise self._wrong(f"'{value}' is no exercise's number, nor a laboratory's as lab9.")
         return int(value)
 
     def _moment(self, value: Any) -> datetime:

@@ -32,6 +32,16 @@ Check = Callable[[Any], None]
 """A function of a Student (run/student.py) that raises Wrong when the check is not passed."""
 
 
+Number = int | str
+"""Of an exercise, or the name of a laboratory as lab9."""
+
+
+def called(number: Number) -> str:
+    """Exercise 3, or Laboratory 9."""
+    text = str(number)
+    return f"Laboratory {text[3:]}" if text.startswith("lab") else f"Exercise {text}"
+
+
 @dataclass
 class Task:
     """A numbered task of an exercise: its checks are run one after another in one child."""
@@ -69,6 +79,9 @@ class Exercise:
     @population.check(10)
     def has_the_right_shape(student): ...
     """
+
+    program = "botschool.grading.classes.batch"
+    """The module that grades a submission in a process of its own."""
 
     def __init__(
         self,

@@ -12,6 +12,8 @@ from html import escape
 from string import Template
 from typing import Any
 
+from botschool.grading.declare.exercise import called
+
 GENERATOR = "botschool grade-all"
 MAX_LINES = 60
 """Of what a task printed."""
@@ -87,7 +89,7 @@ $notes$sections
 """)
 
 _SECTION = Template("""<section>
-<div class="head"><h2>Exercise $number. $title</h2><b>$points <small>of $maximum</small></b></div>
+<div class="head"><h2>$name. $title</h2><b>$points <small>of $maximum</small></b></div>
 <div class="bar"><i style="width: $percent%"></i></div>
 $problem$notes$banner$tasks$pictures
 </section>""")
@@ -124,7 +126,7 @@ def _points(results: list[dict[str, Any]]) -> str:
 def _section(result: dict[str, Any]) -> str:
     problem, banner = result["problem"], result["banner"]
     return _SECTION.substitute(
-        number=int(result["exercise"]),
+        name=called(result["exercise"]),
         title=escape(result["title"]),
         points=_points([result]),
         maximum=int(result["max_points"]),
@@ -138,7 +140,7 @@ def _section(result: dict[str, Any]) -> str:
 
 
 def _task(task: dict[str, Any]) -> str:
-    points, maximum = int(task["points"]), int(task["max_points"])
+    points, maximum = task["points"], int(task["max_points"])
     kind = "good" if points == maximum else "part" if points else "none"
     message = "".join(f"<p>{escape(line)}</p>" for line in task["message"].splitlines())
     return _TASK.substitute(
@@ -146,7 +148,7 @@ def _task(task: dict[str, Any]) -> str:
         mark={"good": "&#10003;", "part": "&#9681;", "none": "&#10007;"}[kind],
         id=escape(task["id"]),
         title=escape(task["title"]),
-        points=points,
+        points=f"{points:g}",
         maximum=maximum,
         message=f'<div class="why">{message}</div>\n' if message else "",
         printed=_printed(task["printed"]),

@@ -1,0 +1,205 @@
+"""Laboratories of a class: found in what students hand in, and graded with a secret choice."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import hmac
+import os
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.batch import serve
+from botschool.grading.classes.choice import Choice, Wanted, listed
+from botschool.grading.classes.collect import Laboratory
+from botschool.grading.classes.export import one_person
+from botschool.grading.classes.files import File, Handed
+from botschool.grading.classes.finding import numbered_folders
+from botschool.grading.declare.exercise import Exercise, Number, Task
+from botschool.grading.declare.secret import DEFAULT, VARIABLE
+from botschool.labs.check import Check, Checked
+from botschool.labs.check import Part as CheckedPart
+from botschool.labs.declare import NUMBERS, PARTS, WORDS, Lab, load_lab
+from botschool.labs.folder import Place
+from botschool.labs.sheet import MAX_BYTES
+
+SECONDS = 60
+"""Of processor time, that the parts of a laboratory may take one by one."""
+MAX_FILE, MAX_ALL = 20 * 2**20, 45 * 2**20
+_TITLE = re.compile(rb"\s*#\s+Laboratory\s+(\d+)\.")
+_NEEDED = re.compile(r"\w+\.py|runs/(?:runs\.json|[^/]+/(?:(?:statS|bestgS)\d+|S\d+G\d+)\.npy)")
+
+
+class Part(Task):
+    """A part of a laboratory, as tables and pages name it."""
+
+    points = 0
+
+    @property
+    def max_points(self) -> int:
+        return self.points
+
+
+class Sheet(Exercise):
+    """A laboratory as grade-all sees it: an exercise whose tasks are its parts."""
+
+    program = "botschool.labs.classes"
+
+    def __init__(self, lab: Lab) -> None:
+        super().__init__(lab.number, lab.title, "sheet.md")
+        for name, points in (PARTS | {"words": WORDS}).items():
+            part = Part(f"{_key(lab)}.{name}", name, SECONDS, 0)
+            part.points = points
+            self.tasks.append(part)
+
+
+class WantedSheet(Wanted):
+    """A laboratory among what a person handed in: its sheet, and the folder beside it."""
+
+    def __init__(self, lab: Lab) -> None:
+        self.number, self.file, self.folder, self.skeleton = _key(lab), "sheet.md", lab.name, ""
+        self._lab = lab
+
+    def choose(
+        self, handed: Handed, new_folder: Callable[[], Path], newest_first: bool = False
+    ) -> Choice:
+        """Copy the sheet with the most runs, with what belongs to it, into a folder labNN."""
+        sheets = [file for file in handed.files if self._is_ours(file)]
+        if not sheets:
+            return Choice(problem=f"There is no sheet.md of laboratory {self._lab.number}.")
+        inside = {sheet: _inside(handed, sheet) for sheet in sheets}
+        sheets.sort(key=lambda each: (-len(inside[each]), each.shown))
+        best, others = sheets[0], sheets[1:]
+        choice = Choice(origin=best, changed=True)
+        for sheet in sheets:
+            choice.used |= {sheet, *inside[sheet].values()}
+        choice.used |= {f for f in handed.files if f.shown.startswith(f"{best.folder}runs/")}
+        choice.used |= {f for f in handed.files if f.shown == f"{best.folder}report.html"}
+        if others:
+            choice.notes.append(f"Not used: {listed([each.shown for each in others])}.")
+        folder = new_folder() / self._lab.name
+        room = MAX_ALL
+        try:
+            for name, file in {"sheet.md": best, **inside[best]}.items():
+                content = file.read(MAX_FILE)
+                room -= len(content)
+                if len(content) > MAX_FILE or room < 0:
+                    choice.problem = "The laboratory holds too much: hand in what `lab run` made."
+                    return choice
+                (folder / name).parent.mkdir(parents=True, exist_ok=True)
+                (folder / name).write_bytes(content)
+        except OSError as error:
+            choice.problem, choice.unread = f"A file cannot be read ({error.strerror}).", True
+            return choice
+        choice.file = folder / "sheet.md"
+        return choice
+
+    def _is_ours(self, file: File) -> bool:
+        if not re.fullmatch(r"(?i)sheet.*\.(md|txt)", file.name):
+            return False
+        try:
+            found = _TITLE.match(file.read(MAX_BYTES).removeprefix(b"\xef\xbb\xbf"))
+        except OSError:
+            return False
+        return bool(found) and int(found[1]) == self._lab.number
+
+
+def _inside(handed: Handed, sheet: File) -> dict[str, File]:
+    """What the check of a sheet reads: path beside it -> file."""
+    found = {}
+    for file in handed.files:
+        inner = file.shown[len(sheet.folder) :]
+        if file.shown.startswith(sheet.folder) and _NEEDED.fullmatch(inner):
+            found[inner] = file
+    return found
+
+
+def _key(lab: Lab) -> Number:
+    return f"lab{lab.number}"
+
+
+def laboratories() -> dict[Number, Laboratory]:
+    """All that exist, as grade-all takes them."""
+    labs = [load_lab(number) for number in NUMBERS]
+    return {_key(lab): Laboratory(Sheet(lab), WantedSheet(lab)) for lab in labs}
+
+
+def secret_choice(place: Place, secret: str) -> Callable[[int], bytes]:
+    """Draw the same for the same runs and secret, so that nobody else knows it before."""
+    digest = hmac.new(secret.encode(), digestmod=hashlib.sha256)
+    for path in sorted(place.runs.rglob("*.npy")):
+        digest.update(hashlib.sha256(path.read_bytes()).digest())
+    key, drawn = digest.digest(), 0
+
+    def draw(count: int) -> bytes:
+        nonlocal drawn
+        drawn += 1
+        return hmac.digest(key, str(drawn).encode(), "sha256")[:count]
+
+    return draw
+
+
+def find_sheet(lab: Lab, submission: Path, folder: Path) -> tuple[Place, list[str]]:
+    """A copy of the laboratory in somebody's folder or zip file, and notes. Raises BotschoolError.
+
+    folder: a temporary one.
+    """
+    if not submission.exists():
+        raise BotschoolError(f"There is no {submission}: name the folder that was handed in.")
+    new_folder = numbered_folders(folder)
+    person = one_person(submission, new_folder)
+    choice = WantedSheet(lab).choose(person.handed, new_folder)
+    if choice.file is None:
+        raise BotschoolError(f"{submission}: {choice.problem}")
+    return Place(lab, choice.file.parent), choice.notes
+
+
+def record(checked: Checked, lab: Lab) -> dict[str, Any]:
+    """The result as grade-all keeps it."""
+    tasks = [
+        {
+            "id": f"{_key(lab)}.{part.name}",
+            "title": part.name,
+            "points": part.points,
+            "max_points": part.max_points,
+            "message": "\n".join(part.messages),
+            "printed": "",
+        }
+        for part in checked.parts
+    ]
+    words = {"id": f"{_key(lab)}.words", "title": "words", "points": 0, "max_points": WORDS}
+    tasks.append(words | {"message": " ".join(lab.rubric), "printed": "", "words": checked.words})
+    picture = base64.b64encode(checked.picture).decode()
+    return {
+        "exercise": _key(lab),
+        "title": lab.title,
+        "points": checked.points,
+        "max_points": sum(PARTS.values()) + WORDS,
+        "tasks": tasks,
+        "pictures": [["figure.png", picture]] if picture else [],
+        "missing": [],
+        "problem": "",
+        "banner": "",
+        "graded": True,
+    }
+
+
+def _grade(number: str, file: Path, tasks: list[str], alone: bool) -> dict[str, Any]:
+    lab = load_lab(number)
+    place = Place(lab, file.parent)
+    try:
+        place.sheet()
+    except BotschoolError as error:
+        nothing = Checked([CheckedPart(name, most) for name, most in PARTS.items()], {}, {}, {})
+        problem = str(error).replace(f"{place.folder}/", "")
+        return record(nothing, lab) | {"problem": problem}
+    draw = secret_choice(place, os.environ.get(VARIABLE) or DEFAULT)
+    return record(Check(place, draw).all(), lab)
+
+
+def main() -> None:
+    """Grade a sheet as `serve` says."""
+    serve(_grade)
