@@ -58,7 +58,7 @@ test-long: .venv/.tests ## the tests that take minutes: whole runs, many seeds
 solution-ex%: .venv/.module $$(call extras,$$*) FORCE ## run the solution of exercise N in results/exNN
 	@$(BIN)/botschool show $* --submission solutions
 
-# As many seconds as there are: SECONDS=3600; some kinds of files: ONLY="ini wire"; one case again: CASE=12.
+# So much processor time, in equal shares: SECONDS=3600; some kinds of files: ONLY="ini wire"; one case again: CASE=12.
 SECONDS ?= 60
 SEED ?= 1
 fuzz: .venv/.tests ## damage files of every kind that the command reads, SECONDS=60, and see what it says

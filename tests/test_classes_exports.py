@@ -2,7 +2,9 @@
 
 import os
 import shutil
+import warnings
 import zipfile
+from pathlib import Path
 
 import pytest
 
@@ -10,6 +12,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.classes.choice import Wanted
 from botschool.grading.classes.export import one_person, read_export
 from botschool.grading.classes.finding import find_submissions, numbered_folders
+from botschool.grading.classes.policy import read_policy
 from botschool.grading.classes.texts import decoded, text_of_page
 from botschool.grading.classes.unpack import Room, Unpackable, unpack
 from botschool.grading.copies.skeleton import skeleton
@@ -18,6 +21,7 @@ from exports import (
     PLATFORMS,
     Handed,
     class_of,
+    gradescope,
     moodle,
     notebook,
     saved,
@@ -244,6 +248,35 @@ def test_zip_files_stay_within_their_folder_and_limits(find, tmp_path):
     found, _ = find(written(tmp_path / "class", {"ada/z.zip": quine, "bob/b.zip": b"PK"}))
     assert "too many zip files" in found["ada"].notes[0]
     assert "b.zip is damaged, or no zip file, so it stays packed." in found["bob"].notes
+
+
+def test_many_files_of_one_name_are_unpacked_in_a_moment(tmp_path, monkeypatch):
+    path = tmp_path / "same.zip"
+    with zipfile.ZipFile(path, "w") as archive, warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for _ in range(500):
+            archive.writestr(zipfile.ZipInfo("a.py"), "x")
+    looks, exists = [], Path.exists
+    monkeypatch.setattr(Path, "exists", lambda self: looks.append(self) or exists(self))
+    assert unpack(path, tmp_path / "target", Room(10**6, 1000)) == []
+    assert len(list((tmp_path / "target").iterdir())) == 500 and len(looks) < 1500
+
+
+BOMB = "a: &a [x, x, x, x, x, x, x, x]\n" + "".join(
+    f"{name}: &{name} [{', '.join(8 * [f'*{before}'])}]\n"
+    for before, name in zip("abcdefghijk", "bcdefghijkl", strict=True)
+)
+
+
+def test_aliases_that_make_billions_of_values_are_refused(find, tmp_path):
+    (tmp_path / "class.yaml").write_text(BOMB + "late: *l\n")
+    with pytest.raises(BotschoolError, match=r"too many values: does an alias"):
+        read_policy(tmp_path / "class.yaml")
+    files = gradescope(class_of(FILE, SOLUTION, SKELETON)[:2])
+    name = "assignment_77_export/submission_metadata.yml"
+    written(tmp_path / "class", files | {name: BOMB.encode()})
+    with pytest.raises(BotschoolError, match=r"submission_metadata\.yml holds too many values"):
+        find(tmp_path / "class")
 
 
 def test_a_download_that_is_none(find, tmp_path):

@@ -47,6 +47,17 @@ def roster(tmp_path, text, name="students.csv"):
 
 
 # --- rosters
+def test_heads_and_points_that_fuzzers_found(tmp_path):
+    with pytest.raises(BotschoolError) as error:
+        read_roster(roster(tmp_path, '"a\nb",c\n1,2\n'))
+    assert "\n" not in str(error.value)
+    for points in ("1e309", "nan", "-5", "1e300"):
+        text = f"Student,ID,Section,Ex (77)\n    Points Possible,,,{points}\nAda,400,A,\n"
+        book = read_roster(roster(tmp_path, text))
+        table = canvas_gradebook(book, {book.students[0]: (80.0, "")}, 100.0, "Ex").decode()
+        assert "Ada,400,A,80" in table
+
+
 @pytest.mark.parametrize(
     "text",
     [

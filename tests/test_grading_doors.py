@@ -23,6 +23,7 @@ from botschool.grading.declare.exercise import load_exercise, secret_for_others
 from botschool.grading.judge.submission import grade
 from botschool.grading.notebook import grade_cell
 from botschool.grading.run import temporary
+from botschool.grading.run.confined import content_digest
 from botschool.grading.run.student import Student
 from botschool.sandbox import SandboxError, Scratch, paths
 from botschool.sandbox.inside import read_inside
@@ -186,9 +187,13 @@ def total(numbers):
 """
 
 
-def recorded(course):
-    """A submission of the answers that the solution gives to a student at home."""
+def recorded(course, secret="", work=""):
+    """A submission of the answers that the solution gives to a student at home.
+
+    secret, work: else those of a submission that is graded under a secret.
+    """
     exercise, table = load_exercise(3, course), {}
+    exercise.secret, exercise.work = secret, work
 
     class Recorder:
         said = ""
@@ -223,6 +228,30 @@ def test_a_table_of_recorded_answers_gets_no_points_from_others(course, tmp_path
     assert secret_for_others(course)[0] == secret
     _, out, _ = call("grade", "3", "--submission", file.parent)
     assert "Grading seeds follow from the secret in" in " ".join(out.split())
+
+
+def test_answers_recorded_from_the_feedback_of_one_serve_no_other(course, tmp_path, monkeypatch):
+    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "the same for all")
+    anna = submit(tmp_path / "class" / "anna", (course / "solutions" / FOLDER / FILE).read_text())
+    work = content_digest(anna).hexdigest()
+    with monkeypatch.context() as patched:  # all that a perfect feedback page would tell
+        patched.setattr("botschool.grading.judge.submission.Submission._digest", lambda self: work)
+        bob = submit(tmp_path / "class" / "bob", recorded(course, "the same for all", work))
+        assert grade(load_exercise(3, course), bob).points == 100
+    assert grade(load_exercise(3, course), bob).points == 0
+    assert grade(load_exercise(3, course), anna).points == 100
+
+
+def test_equal_submissions_have_equal_seeds_and_others_have_others(course, monkeypatch):
+    exercise = load_exercise(3, course)
+    at_home = exercise.seed(1)
+    exercise.work = "a digest"
+    assert exercise.seed(1) == at_home  # the same each time, for a student who looks for a fault
+    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "some secret")
+    one = exercise.seed(1)
+    assert exercise.seed(1) == one != at_home
+    exercise.work = "another digest"
+    assert exercise.seed(1) != one
 
 
 def test_grade_cell_draws_from_the_secret_where_an_instructor_grades(

@@ -2,6 +2,7 @@
 
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -14,7 +15,7 @@ from botschool.errors import BotschoolError
 from botschool.rl.agent import Agent, play
 from botschool.rl.folder import RunFolder
 from botschool.rl.model import choose
-from botschool.rl.native import PPO
+from botschool.rl.native import PPO, training
 from botschool.rl.training import train
 
 COMMAND = [sys.executable, "-m", "botschool"]
@@ -145,12 +146,14 @@ def test_interrupted_is_uninterrupted(engine, tmp_path):
     chance, kills = random.Random(4), 0
     command = [*COMMAND, "rl", "train", *options, "-o", tmp_path / "cut"]
     for _ in range(200):
-        if (folder / "checkpoint.npz").exists():
+        if folder.exists():
             command = [*COMMAND, "rl", "train", "--resume", folder]
         process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         for line in process.stdout:  # killed a moment after it has begun to work
             if line.startswith("seed") or "finished" in line:
                 break
+        while not (folder / "checkpoint.npz").exists() and process.poll() is None:
+            time.sleep(0.01)  # without one there is nothing to go on from
         time.sleep(chance.uniform(0.0, 0.25))
         if process.poll() is None and kills < 6:
             os.kill(process.pid, signal.SIGKILL)
@@ -192,6 +195,41 @@ def test_who_trains_what():
             choose(**({"algo": "ppo", "env": "CartPole-v1", "engine": "native"} | options))
     with pytest.raises(BotschoolError, match="--engine"):
         choose("ppo", "CartPole-v1", engine="fast")
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        {"log_sizes": -np.ones(2, dtype=int)},
+        {"log_returns": np.zeros((2, 2))},
+        {"log_seconds": np.zeros(0)},
+        {"returns": np.zeros((0, 2))},
+        {"returns": np.array(["one"])},
+        {"steps": np.zeros(7, dtype=int)},
+        {"ppo_counts": np.zeros(3, dtype=np.uint64)},
+    ],
+    ids=lambda damage: "".join(damage),
+)
+def test_damaged_checkpoints_that_fuzzers_found(tmp_path, damage):
+    run = train("ppo", "CartPole-v1", tmp_path, steps=600, evaluations=1, episodes=2)
+    with np.load(run.path / "checkpoint.npz") as file:
+        arrays = dict(file)
+    np.savez(run.path / "checkpoint.npz", **(arrays | damage))
+    before = (run.path / "progress.csv").read_bytes()
+    with pytest.raises(BotschoolError, match=r"damaged|no checkpoint of this training"):
+        training.resume(run, lambda steps, found: None)
+    assert (run.path / "progress.csv").read_bytes() == before
+
+
+@pytest.mark.parametrize("line", ["seed: x", "envs: 0", "normalize: 3", "parameters: [1]"])
+def test_settings_of_another_kind_that_fuzzers_found(tmp_path, line):
+    run = train("ppo", "CartPole-v1", tmp_path, steps=600, evaluations=1, episodes=2)
+    name = line.partition(":")[0]
+    text = re.sub(rf"^{name}:.*(\n .*)*", line, run.config.read_text(), flags=re.MULTILINE)
+    assert line in text
+    run.config.write_text(text)
+    with pytest.raises(BotschoolError, match="does not describe a training"):
+        Agent.load(run.best)
 
 
 def test_what_cannot_go_on_is_a_sentence(tmp_path):

@@ -2,8 +2,9 @@
 
     python tests/fuzz SECONDS [--seed 1] [--only 'ini wire'] [--case 12]
 
-Kinds take turns, each in a process of its own with limits of memory and time. What is found is
-printed with the command that repeats it; the exit code is 1 then.
+Each kind gets the same share of SECONDS, which count processor time of damaged files. Kinds take
+turns, each in a process of its own with limits of memory and time; its preparation is not counted.
+What is found is printed with the command that repeats it; the exit code is 1 then.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-SLICE = 20.0
-"""Seconds of a kind's turn."""
+SLICE = 60.0
+"""Seconds of processor time of a kind's turn."""
 HANG = 30.0
 """Seconds of processor time after which a case hangs."""
 WAIT = 300.0
@@ -49,19 +50,19 @@ def main() -> int:
     names = arguments.only.replace(",", " ").split() if arguments.only else list(KINDS)
     if unknown := set(names) - KINDS.keys():
         sys.exit(f"There is no kind {', '.join(unknown)}: choose from {', '.join(KINDS)}.")
-    end = time.monotonic() + arguments.seconds
-    cases, found = dict.fromkeys(names, 0), {}
+    cases, used, found = dict.fromkeys(names, 0), dict.fromkeys(names, 0.0), {}
+    share = arguments.seconds / len(names)
     with tempfile.TemporaryDirectory(prefix="fuzz") as folder:
-        while names and time.monotonic() < end:
-            for name in names:
-                seconds = min(SLICE, arguments.seconds / len(names), end - time.monotonic())
-                if seconds <= 0:
-                    break
-                _turn(name, arguments, Path(folder), max(seconds, 0.5), cases, found)
+        while min(used.values()) < share:
+            name = min(used, key=used.__getitem__)
+            seconds = max(min(SLICE, share - used[name]), 0.5)
+            used[name] += _turn(name, arguments, Path(folder), seconds, cases, found)
             if arguments.case is not None:
                 break
-    print(f"{sum(cases.values())} cases in {arguments.seconds:.0f} s, {len(found)} finds:", end=" ")
-    print(", ".join(f"{name} {count}" for name, count in cases.items()))
+    seconds = sum(used.values())
+    print(f"{sum(cases.values())} cases in {seconds:.0f} s of processor time, {len(found)} finds")
+    for name in names:
+        print(f"    {name}: {cases[name]} cases in {used[name]:.0f} s")
     return 1 if found else 0
 
 
@@ -77,28 +78,37 @@ def _arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def _turn(name, arguments, folder, seconds, cases, found) -> None:
-    """Let a kind's process work for so long; start it again after each case that ends it."""
-    end = time.monotonic() + seconds
-    while True:
+def _turn(name, arguments, folder, seconds, cases, found) -> float:
+    """Let a kind's process work, and start it again after each case that ends it.
+
+    Return the processor time of the cases, which is at least `seconds`, except where the
+    process cannot be repeated.
+    """
+    used = 0.0
+    while used < seconds:
         first = cases[name] if arguments.case is None else arguments.case
         own = folder / name
         own.mkdir(exist_ok=True)
-        command = [
-            sys.executable,
-            str(Path(__file__).parent),
-            str(max(0.5, end - time.monotonic())),
-        ]
+        command = [sys.executable, str(Path(__file__).parent), str(seconds - used)]
         command += ["--child", name, "--seed", str(arguments.seed), "--first", str(first)]
         command += ["--folder", str(own)]
         command += ["--case", str(first)] if arguments.case is not None else []
-        ended = _watched(name, command, cases, found, arguments)
-        if ended or arguments.case is not None or time.monotonic() >= end:
-            return
+        before = _processor_time()
+        prepared = _watched(name, command, cases, found, arguments)
+        used += max(_processor_time() - before - prepared, 0.5)
+        if arguments.case is not None:
+            break
+    return used
 
 
-def _watched(name, command, cases, found, arguments) -> bool:
-    """Whether the process ended by itself; what it reports is printed."""
+def _processor_time() -> float:
+    """Return the seconds of all processes that have ended."""
+    times = os.times()
+    return times.children_user + times.children_system
+
+
+def _watched(name, command, cases, found, arguments) -> float:
+    """Print what the process reports; return the processor time of its preparation."""
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     lines: queue.SimpleQueue[str | None] = queue.SimpleQueue()
 
@@ -108,12 +118,13 @@ def _watched(name, command, cases, found, arguments) -> bool:
         lines.put(None)
 
     threading.Thread(target=listen, daemon=True).start()
-    number, limit, tail, how = None, START, [], ""
+    number, limit, tail, how, prepared = None, START, [], "", 0.0
     while True:
         try:
             line = lines.get(timeout=limit)
         except queue.Empty:
             process.kill()
+            process.wait()
             how = f"waits for more than {WAIT:.0f} s"
             break
         if line is None:
@@ -127,6 +138,8 @@ def _watched(name, command, cases, found, arguments) -> bool:
         if word == "CASE":
             number, limit, tail = int(rest), WAIT, []
             cases[name] = number + 1
+        elif word == "PREPARED":
+            prepared = float(rest)
         elif word == "FIND":
             _tell(name, number, rest.strip(), found, arguments)
         else:
@@ -135,9 +148,9 @@ def _watched(name, command, cases, found, arguments) -> bool:
                 print(line, end="")
     if how:
         if number is None:
-            sys.exit(f"The fuzzer of {name} does not start: {' '.join(tail[-5:])}")
+            how, cases[name] = f"does not start: {' '.join(tail[-5:])}", cases[name] + 1
         _tell(name, number, how, found, arguments)
-    return not how
+    return prepared
 
 
 def _tell(name, number, what, found, arguments) -> None:
@@ -165,8 +178,9 @@ def _child(arguments: argparse.Namespace) -> None:
         path = kind.path()
         path.write_bytes(valid[0])
         kind.read(path)  # else each refusal would be for nothing
-    number, end = arguments.first, time.monotonic() + arguments.seconds
-    while time.monotonic() < end:
+    report.write(f"PREPARED {time.process_time()}\n")
+    number, end = arguments.first, time.process_time() + arguments.seconds
+    while time.process_time() < end:
         report.write(f"CASE {number}\n")
         if hasattr(signal, "setitimer"):
             signal.setitimer(signal.ITIMER_PROF, HANG)  # ends the process

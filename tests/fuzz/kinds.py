@@ -7,17 +7,16 @@ return or raise BotschoolError for any file. `folder` is empty at first and the 
 from __future__ import annotations
 
 import contextlib
-import io
 import json
 import random
-import re
-import zipfile
 from pathlib import Path
 
 import numpy as np
 
 from botschool import config, problems
 from botschool.errors import BotschoolError
+from fuzz import classes, trainings
+from fuzz.kind import Kind
 from fuzz.mutate import damaged
 
 ROOT = Path(__file__).parents[2]
@@ -51,48 +50,6 @@ samplesize = 2
 ngenerations = 2
 saveeach = 1
 """
-
-
-class Kind:
-    """A kind of files."""
-
-    suffix = ""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-
-    def path(self) -> Path:
-        """Where the damaged file lies."""
-        return self.folder / f"damaged{self.suffix}"
-
-    def valid(self) -> list[bytes]:
-        raise NotImplementedError
-
-    def read(self, path: Path) -> None:
-        raise NotImplementedError
-
-    def damage(self, valid: list[bytes], chance: random.Random) -> bytes:
-        """Return a damaged file; half of those that are archives have a damaged member instead."""
-        data = chance.choice(valid)
-        if not zipfile.is_zipfile(io.BytesIO(data)) or chance.random() < 0.3:
-            return damaged(valid, chance)
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            members = {name: archive.read(name) for name in archive.namelist()}
-        name = chance.choice(list(members))
-        others = [members[name], *(m for n, m in members.items() if n.endswith(name[-4:]))]
-        members[name] = damaged(others, chance)
-        if chance.random() < 0.1:
-            del members[chance.choice(list(members))]
-        return archive_of(members)
-
-
-def archive_of(members: dict[str, bytes]) -> bytes:
-    """Return a zip archive, the same for the same members."""
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w") as archive:
-        for name, content in members.items():
-            archive.writestr(zipfile.ZipInfo(name), content)
-    return out.getvalue()
 
 
 class Ini(Kind):
@@ -286,124 +243,6 @@ class Urdf(Kind):
         Model(str(path)).close()
 
 
-class Training(Kind):
-    """Files in the folder of a training (rl list, plotstat, rl enjoy)."""
-
-    name = ""
-    enjoy = False
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder)
-        self.run = next((folder / "rl").glob("ppo/*"), None) or self._trained()
-        self.whole = (self.run / self.name).read_bytes()
-
-    def _trained(self) -> Path:
-        from botschool.rl.training import train
-
-        options = {"params": {"n_steps": 32, "batch_size": 32, "n_epochs": 1, "normalize": True}}
-        return train(
-            *("ppo", "CartPole-v1", self.folder / "rl"),
-            steps=64,
-            evaluations=2,
-            episodes=1,
-            **options,
-        ).path
-
-    def path(self) -> Path:
-        return self.run / self.name
-
-    def valid(self) -> list[bytes]:
-        return [self.whole]
-
-    def rezipped(self, data: bytes) -> bytes:
-        """Return an archive without its times, so that a case is the same again."""
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            members = {name: archive.read(name) for name in archive.namelist()}
-        started = re.compile(rb'"start_time": \d+')
-        return archive_of({name: started.sub(b'"start_time": 0', m) for name, m in members.items()})
-
-    def read(self, path: Path) -> None:
-        from botschool.analysis.plots import plot_stat
-        from botschool.rl.watch import list_command
-
-        list_command(self.folder / "rl")
-        plot_stat([self.run], self.folder / "curve.png")
-
-
-class Config(Training):
-    """config.yaml."""
-
-    name = "config.yaml"
-
-    def read(self, path: Path) -> None:
-        from botschool.rl.agent import Agent
-        from botschool.rl.watch import list_command
-
-        list_command(self.folder / "rl")
-        Agent.load(self.run / "best_model.zip")
-
-
-class Evaluations(Training):
-    """evaluations.npz."""
-
-    name = "evaluations.npz"
-
-
-class Progress(Training):
-    """progress.csv."""
-
-    name = "progress.csv"
-
-    def valid(self) -> list[bytes]:
-        table = "rollout/ep_rew_mean,time/fps,time/total_timesteps\n20.5,,32\n,700,64\n31,650,64\n"
-        return [table.encode()]
-
-    def read(self, path: Path) -> None:
-        from botschool.rl.folder import RunFolder
-
-        RunFolder(self.run).log()
-        super().read(path)
-
-
-class Model(Training):
-    """Models of Stable-Baselines3."""
-
-    name = "best_model.zip"
-
-    def valid(self) -> list[bytes]:
-        return [self.rezipped(self.whole)]
-
-    def read(self, path: Path) -> None:
-        from botschool.rl.agent import Agent, play
-
-        agent = Agent.load(path)
-        play(agent, [agent_env(self.run)], [1])
-
-
-class Weights(Model):
-    """Weights alone."""
-
-    name = "weights.npz"
-
-    def __init__(self, folder: Path) -> None:
-        from botschool.rl.agent import save_weights
-
-        run = next((folder / "rl").glob("ppo/*"), None) or self._trained_in(folder)
-        save_weights(run / "best_model.zip", run / self.name)
-        super().__init__(folder)
-
-    def _trained_in(self, folder: Path) -> Path:
-        self.folder = folder
-        return self._trained()
-
-
-def agent_env(run: Path):
-    """Return the environment of a training."""
-    from botschool.rl.folder import RunFolder
-
-    return RunFolder(run).make_env()
-
-
 class Notebook(Kind):
     """Submitted notebooks."""
 
@@ -504,14 +343,21 @@ KINDS = {
     "populations": Populations,
     "sample": Sample,
     "urdf": Urdf,
-    "config": Config,
-    "evaluations": Evaluations,
-    "progress": Progress,
-    "model": Model,
-    "weights": Weights,
+    "config": trainings.Config,
+    "evaluations": trainings.Evaluations,
+    "progress": trainings.Progress,
+    "model": trainings.Model,
+    "weights": trainings.Weights,
+    "native-config": trainings.NativeConfig,
+    "native-model": trainings.NativeModel,
+    "native-checkpoint": trainings.NativeCheckpoint,
     "notebook": Notebook,
     "submission": Submission,
     "wire": Wire,
+    "class": classes.ClassSettings,
+    "roster": classes.ClassList,
+    "export": classes.Download,
+    "sheet": classes.LabSheet,
 }
 
 __all__ = ["KINDS", "BotschoolError", "Kind"]

@@ -27,6 +27,10 @@ LATER = {"wrappers", "vec_env", "training_wrappers", "engine"}
 """Settings that trainings of older versions did not have."""
 
 
+COUNTS = {"seed": 0, "steps": 0, "envs": 1, "evaluations": 0, "episodes": 1}
+"""Settings that are whole numbers, and the smallest."""
+
+
 @dataclass
 class Settings:
     """A training; config.yaml holds the same."""
@@ -92,17 +96,24 @@ class Settings:
                 f"{path} cannot be read: {' '.join(str(error).split())}."
             ) from None
         needed, known = {f.name for f in fields(cls)} - LATER, {f.name for f in fields(cls)}
-        words = ("algo", "env", "policy", "wrappers", "training_wrappers", "engine")
         if (
             not isinstance(found, dict)
             or not needed <= found.keys() <= known
-            or not all(isinstance(found.get(name, ""), str) for name in words)
+            or not all(_is_right(name, found[name]) for name in found)
         ):
             raise BotschoolError(
                 f"{path} does not describe a training: restore it, or train again with "
                 "`botschool rl train`."
             )
         return cls(**found)
+
+
+def _is_right(name: str, value: object) -> bool:
+    """Return whether a training has such a setting."""
+    if name in COUNTS:
+        return type(value) is int and COUNTS[name] <= value < 2**63
+    kinds = {"normalize": bool, "parameters": dict, "given": dict, "versions": dict}
+    return isinstance(value, kinds.get(name, str))
 
 
 class _PlainLoader(yaml.SafeLoader):

@@ -9,7 +9,6 @@ from __future__ import annotations
 import base64
 import contextlib
 import functools
-import hashlib
 import json
 import os
 import subprocess
@@ -36,7 +35,7 @@ from botschool.grading.declare.exercise import (
 )
 from botschool.grading.declare.secret import DEFAULT, VARIABLE
 from botschool.grading.judge.submission import Result, grade
-from botschool.grading.run.confined import MachineFault, Unread, machine_fault, submission_files
+from botschool.grading.run.confined import MachineFault, Unread, content_digest, machine_fault
 from botschool.grading.run.temporary import temporary_folder
 from botschool.output import save_bytes
 from botschool.sandbox.paths import IMPORT_ROOT
@@ -242,12 +241,9 @@ class Grades:
         }  # fmt: skip
 
     def _key(self, job: Job) -> str:
-        digest = hashlib.sha256(f"{self._secret}\n{_versions(self._root, job.number)}".encode())
+        digest = content_digest(job.file)
+        digest.update(f"{self._secret}\n{_versions(self._root, job.number)}\n".encode())
         digest.update(f"{job.file.name} {job.tasks}".encode(errors="surrogateescape"))
-        for path in submission_files(job.file):
-            name = str(path.relative_to(job.file.parent)).encode(errors="surrogateescape")
-            digest.update(hashlib.sha256(name).digest())
-            digest.update(hashlib.sha256(path.read_bytes()).digest())
         return digest.hexdigest()
 
 

@@ -17,10 +17,11 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.classes.choice import Wanted
 from botschool.grading.classes.files import Collector, Handed, is_junk
+from botschool.grading.classes.texts import is_larger
 from botschool.grading.classes.unpack import Unpackable, room_of_download, unpack
 from botschool.grading.declare.checks import plain
 
-MAX_METADATA = 20 * 2**20
+MAX_METADATA, MAX_VALUES = 20 * 2**20, 5_000_000
 _MOODLE = re.compile(
     r"(?P<name>.+?)_(?P<id>\d+)_assignsubmission_(?P<kind>[a-z]+)(?:_(?P<rest>.*))?", re.DOTALL
 )
@@ -299,6 +300,8 @@ def _read_metadata(folder: Path) -> dict[str, dict[str, Any]]:
             found = yaml.load(path.read_text(encoding="utf-8-sig", errors="replace"), Loader)
         except (yaml.YAMLError, OSError, RecursionError, ValueError):
             raise BotschoolError(f"{path} is damaged: download it again.") from None
+        if is_larger(found, MAX_VALUES):
+            raise BotschoolError(f"{path} holds too many values: download it again.")
         plain_keys = _plain_keys(found, 0)
         return {k: v for k, v in plain_keys.items() if isinstance(v, dict)} if found else {}
     return {}

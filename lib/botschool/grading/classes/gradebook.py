@@ -14,8 +14,10 @@ from botschool.grading.classes.export import Person
 from botschool.grading.classes.policy import tidy
 from botschool.grading.classes.roster import Roster, Student
 from botschool.grading.classes.tables import safe_cell
+from botschool.grading.declare.checks import plain
 from botschool.grading.declare.exercise import called
 
+MOST_POINTS = 1e6
 _EPOCH = (2000, 1, 1, 0, 0, 0)
 """Of files in a zip file, so that equal grades give equal files."""
 
@@ -56,7 +58,7 @@ def canvas_gradebook(
     numbered = [i for i, head in enumerate(table.head) if re.search(r"\(\d+\)\s*$", head)]
     fitting = [i for i in numbered if column.casefold() in table.head[i].casefold()]
     if len(fitting) != 1:
-        names = ", ".join(table.head[i] for i in numbered[:10]) or "none"
+        names = plain(" ".join(", ".join(table.head[i] for i in numbered[:10]).split())) or "none"
         raise BotschoolError(
             f"{table.path}: name one assignment's column with --column; there are: {names}."
         )
@@ -80,11 +82,12 @@ _CANVAS_FIXED = ("Student", "ID", "SIS User ID", "SIS Login ID", "Integration ID
 
 
 def table_number(text: str) -> float | None:
-    """Return the number in a cell; None if it holds none."""
+    """Return the number in a cell; None if it holds none, or one that nobody gives as points."""
     try:
-        return float(text.strip().replace(",", "."))
+        number = float(text.strip().replace(",", "."))
     except ValueError:
         return None
+    return number if 0 <= number <= MOST_POINTS else None
 
 
 def moodle_feedback(pages: Sequence[tuple[Person, bytes]]) -> bytes:

@@ -16,6 +16,7 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.classes.roster import Student, words
 from botschool.grading.classes.tables import Table, read_table
+from botschool.grading.classes.texts import is_larger
 from botschool.grading.declare.exercise import Number
 
 _LATE = re.compile(
@@ -24,6 +25,7 @@ _LATE = re.compile(
     re.IGNORECASE,
 )
 FILE = "class.yaml"
+MOST_VALUES = 100_000
 _UNITS = {"hour": timedelta(hours=1), "day": timedelta(days=1), "week": timedelta(weeks=1)}
 _KEYS = ("roster", "due", "late", "extensions", "adjustments", "submitted", "weights")
 
@@ -159,6 +161,8 @@ def read_policy(path: Path) -> Policy:
         mark = getattr(error, "problem_mark", None)
         where = f", line {mark.line + 1}" if mark else ""
         raise BotschoolError(f"{path}{where} is no YAML: mend it.") from None
+    if is_larger(found, MOST_VALUES):
+        raise BotschoolError(f"{path} holds too many values: does an alias (*) repeat them?")
     found = found or {}
     if not isinstance(found, dict):
         raise BotschoolError(f"{path} holds no settings: write lines as 'late: 10 per day'.")

@@ -10,6 +10,7 @@ from pathlib import Path
 from botschool.errors import BotschoolError
 from botschool.grading.classes.export import Person
 from botschool.grading.classes.tables import Table, read_table
+from botschool.grading.declare.checks import plain
 
 
 @dataclass(frozen=True)
@@ -142,7 +143,7 @@ def read_roster(path: Path) -> Roster:
         if student.name:
             students.append(student)
     if not students:
-        heads = ", ".join(table.head)[:80]
+        heads = plain(" ".join(", ".join(table.head).split())[:80])
         raise BotschoolError(
             f"{path} names no students: a column 'name' (or 'first_name' and 'last_name'), 'id' or "
             f"'email' is needed; there are {heads}."

@@ -6,6 +6,7 @@ import codecs
 import html.parser
 import json
 import re
+from typing import Any
 
 MARKS = (
     (codecs.BOM_UTF8, "utf-8-sig", "UTF-8 with a mark"),
@@ -42,6 +43,24 @@ def decoded(content: bytes) -> tuple[str, str]:
         return content.decode("utf-8"), ""
     except UnicodeDecodeError:
         return content.decode("latin-1"), "Latin-1 (it does not say so)"
+
+
+def is_larger(value: Any, most: int) -> bool:
+    """Return whether plain data holds more than `most` values, each alias counted as often as used.
+
+    A few lines of YAML with aliases make billions of values, which take no memory until they are
+    copied or shown.
+    """
+    waiting, count = [value], 0
+    while waiting:
+        each = waiting.pop()
+        inner = [*each, *each.values()] if isinstance(each, dict) else each
+        if isinstance(inner, list):
+            count += len(inner)
+            if count > most:
+                return True
+            waiting += inner
+    return False
 
 
 def without_cookie(text: str) -> str:

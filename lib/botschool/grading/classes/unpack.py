@@ -50,7 +50,8 @@ def unpack(archive: Path | bytes, target: Path, room: Room) -> list[str]:
     files with one name the second gets another. Raises Unpackable, after which `target` may hold
     a part.
     """
-    left_out = []
+    left_out: list[str] = []
+    numbers: dict[Path, int] = {}
     try:
         with zipfile.ZipFile(io.BytesIO(archive) if isinstance(archive, bytes) else archive) as zip:
             entries = zip.infolist()
@@ -60,7 +61,7 @@ def unpack(archive: Path | bytes, target: Path, room: Room) -> list[str]:
                 name = _readable(entry)
                 if name.endswith("/"):
                     continue
-                place = _inside(target, name)
+                place = _inside(target, name, numbers)
                 link = stat.S_ISLNK(entry.external_attr >> 16)
                 if place is None or link or not _write(zip, entry, place, room):
                     left_out.append(name)
@@ -80,8 +81,11 @@ def _readable(entry: zipfile.ZipInfo) -> str:
     return name.replace("\\", "/")
 
 
-def _inside(target: Path, name: str) -> Path | None:
-    """Return a new place for a file below a folder; None if the name leads out of it."""
+def _inside(target: Path, name: str, numbers: dict[Path, int]) -> Path | None:
+    """Return a new place for a file below a folder; None if the name leads out of it.
+
+    numbers: of each name that was there twice, the last number it got.
+    """
     parts = PurePosixPath(name).parts
     if not parts or len(parts) > MAX_PARTS or name.startswith("/") or ":" in parts[0]:
         return None
@@ -92,9 +96,9 @@ def _inside(target: Path, name: str) -> Path | None:
             return None
         if part == ".." or too_long or any(ord(letter) < 32 for letter in part):
             return None
-    place, number = target.joinpath(*parts), 1
+    wanted = place = target.joinpath(*parts)
     while place.exists():
-        number += 1
+        number = numbers[wanted] = numbers.get(wanted, 1) + 1
         place = place.with_name(f"{PurePosixPath(name).stem} ({number}){place.suffix}")
     return place
 

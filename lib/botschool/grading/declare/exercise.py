@@ -106,6 +106,8 @@ class Exercise:
         self.tasks: list[Task] = []
         self.secret = ""
         """What the grading seeds follow from; "" for BOTSCHOOL_GRADING_SEED, or else DEFAULT."""
+        self.work = ""
+        """A digest of what is graded: under a secret, seeds follow from it, too."""
         self.references = ""
         """Our own functions of the tasks that others need, as a Python file (references.py)."""
         self.known = Known(number)
@@ -156,9 +158,16 @@ class Exercise:
             )
 
     def seed(self, index: int) -> int:
-        """A grading seed; they follow from the instructor's secret (secret.py)."""
+        """A grading seed; they follow from the instructor's secret (secret.py) and the submission.
+
+        So what feedback tells of the inputs of one submission helps no other one, nor the same
+        one after a change. A student's own work has the same seeds each time.
+        """
         secret = self.secret or os.environ.get(VARIABLE) or DEFAULT
-        digest = hashlib.sha256(f"{secret}:{self.number}:{index}".encode()).digest()
+        key = f"{secret}:{self.number}:{index}"
+        if secret != DEFAULT:
+            key += f":{self.work}"
+        digest = hashlib.sha256(key.encode()).digest()
         return int.from_bytes(digest[:4], "little") % 2**31
 
     def find(self, task: str) -> Task:

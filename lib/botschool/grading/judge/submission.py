@@ -15,10 +15,7 @@ from botschool.grading.declare.exercise import Exercise, Task
 from botschool.grading.declare.references import functions_of, pruned
 from botschool.grading.judge.judging import TaskResult, grade_task, tried_twice
 from botschool.grading.run.cells import Script, Unreadable, scripts
-from botschool.grading.run.confined import (
-    fork_server,
-    submission_files,
-)
+from botschool.grading.run.confined import content_digest, fork_server, submission_files
 from botschool.grading.run.failures import Origin
 from botschool.grading.run.notebooks import code_cells
 from botschool.grading.run.student import Student
@@ -139,6 +136,8 @@ class Submission:
         """Why the file, or a part of it, cannot be loaded; in some lines."""
 
     def __enter__(self) -> Submission:
+        if self._exercise is not None:
+            self._exercise.work = self._digest()
         try:
             self._prepare()
         except (Wrong, Unreadable) as error:
@@ -197,6 +196,14 @@ class Submission:
         result.points = again.points
         result.message = "\n".join(filter(None, [note, again.message]))
         return result
+
+    def _digest(self) -> str:
+        """Return what tells this submission from others; "" for one that cannot be copied."""
+        try:
+            files = content_digest(self._given, self._sources)
+        except (Wrong, OSError):
+            return ""
+        return files.hexdigest()
 
     def _prepare(self) -> None:
         if self._sources is not None:

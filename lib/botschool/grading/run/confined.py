@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import hashlib
 import json
 import os
 import tempfile
@@ -16,7 +17,8 @@ from botschool.grading.declare.checks import Wrong
 from botschool.grading.run.temporary import PREFIX
 from botschool.sandbox import Child, ForkServer, Limits, Refused, SandboxError, Scratch, paths
 from botschool.sandbox.errors import CannotRead
-from botschool.sandbox.scratch import regular_files
+from botschool.sandbox.inside import read_inside
+from botschool.sandbox.scratch import MAX_COPIED, regular_files
 
 IMPORTS = ("gymnasium.envs.classic_control", "numpy.random", "botschool.evolution.run")
 """Modules that every submission finds imported."""
@@ -99,6 +101,24 @@ def submission_files(file: Path) -> list[Path]:
     """
     with translated():
         return regular_files(file, _is_grader)
+
+
+def content_digest(file: Path, sources: Iterable[str] | None = None) -> hashlib._Hash:
+    """Return a hash of names and contents of a submission's files, which may go on.
+
+    sources: of a notebook, the texts of its cells, which stand for its file. Raises Wrong as
+    submission_files does, and OSError.
+    """
+    digest = hashlib.sha256()
+    for path in submission_files(file):
+        name = path.relative_to(file.parent)
+        digest.update(hashlib.sha256(os.fsencode(name)).digest())
+        if sources is not None and path == file:
+            content = json.dumps([*sources]).encode()
+        else:
+            content = read_inside(file.parent, name, MAX_COPIED)
+        digest.update(hashlib.sha256(content).digest())
+    return digest
 
 
 def _is_grader(name: str, depth: int) -> bool:

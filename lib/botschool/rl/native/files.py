@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 
@@ -66,12 +65,11 @@ def load_checkpoint(folder: Path) -> dict[str, np.ndarray]:
     """The reverse. Raises BotschoolError."""
     path = folder / CHECKPOINT
     try:
-        with np.load(path, allow_pickle=False) as arrays:
-            return {name: arrays[name] for name in arrays.files}
+        return numbers(path)
     except FileNotFoundError:
         raise BotschoolError(
             f"{folder} has no {CHECKPOINT}, so that this training cannot go on: name the folder of "
             "a training of the native engine."
         ) from None
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+    except Exception:  # a damaged file can fail in any way
         raise BotschoolError(f"{path} is damaged: train again.") from None

@@ -103,13 +103,17 @@ class Log:
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
         """Cuts off what came after the checkpoint."""
-        for file, size in zip([self._csv, *self._events], state["log_sizes"], strict=False):
+        returns, lengths = state["log_returns"], state["log_lengths"]
+        sizes = [int(size) for size in state["log_sizes"]]
+        if returns.ndim != 1 or returns.shape != lengths.shape or min(sizes, default=0) < 0:
+            raise ValueError("these are no indicators")
+        self._before = float(state["log_seconds"][0])
+        self.returns.extend(returns.tolist())
+        self.lengths.extend(lengths.tolist())
+        for file, size in zip([self._csv, *self._events], sizes, strict=False):
             if file.exists() and file.stat().st_size > size:
                 with open(file, "r+b") as cut:
-                    cut.truncate(int(size))
-        self.returns.extend(state["log_returns"].tolist())
-        self.lengths.extend(state["log_lengths"].tolist())
-        self._before = float(state["log_seconds"][0])
+                    cut.truncate(size)
 
     def _event_file(self, folder: Path, resumed: bool) -> Path:
         found = sorted(folder.glob("events.out.tfevents.*")) if resumed else []

@@ -58,7 +58,7 @@ def resume(
     watched = _Watched(run, settings, files.make(settings, threads), report, stopping, None, True)
     try:
         watched.restore(arrays)
-    except (ValueError, KeyError) as error:
+    except (ValueError, KeyError, IndexError, TypeError) as error:
         raise BotschoolError(
             f"{run.path / files.CHECKPOINT} is no checkpoint of this training: train again."
         ) from error
@@ -89,9 +89,15 @@ class _Watched:
         return self.found
 
     def restore(self, arrays: dict[str, np.ndarray]) -> None:
-        self.found = Evaluations(arrays["steps"], arrays["returns"], arrays["lengths"])
-        self.log.restore(arrays)
+        """Raises ValueError, KeyError, IndexError or TypeError, and has changed no file then."""
+        steps, returns, lengths = (arrays[name] for name in ("steps", "returns", "lengths"))
+        if returns.ndim != 2 or not returns.size or returns.shape != lengths.shape:
+            raise ValueError("these are no post-evaluations")
+        if steps.shape != returns.shape[:1]:
+            raise ValueError("these are no post-evaluations")
+        self.found = Evaluations(steps, returns, lengths)
         self.ppo.restore({n[4:]: each for n, each in arrays.items() if n.startswith("ppo_")})
+        self.log.restore(arrays)
 
     def _advance(self) -> None:
         ppo = self.ppo
