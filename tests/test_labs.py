@@ -1,17 +1,21 @@
 """Laboratories: sheets, seeds, refusals, and the pay for standing of planar runners."""
 
+import os
+
 import numpy as np
 import pytest
 
 from botschool import problems
 from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
+from botschool.evolution.record import RunFiles
 from botschool.grading.packed import pack_module
 from botschool.labs.declare import NUMBERS, PARTS, WORDS, Field, load_lab
 from botschool.labs.folder import Place, start
 from botschool.labs.measuring import interval, permutation_test
 from botschool.labs.report import _inline
-from botschool.labs.runs import make_runs
+from botschool.labs.runs import changed, make_runs
+from botschool.labs.saved import stat_of
 from botschool.labs.sheet import Sheet, Unreadable, base_seed, numbers_in, seeds_of
 from botschool.problems import Episodes
 from lab_answers import WHY
@@ -115,6 +119,24 @@ def test_runs_of_another_prediction_are_not_mixed_in(tmp_path):
     (place.runs / "runs.json").write_text('{"seed": 5, "prediction": "It tips at 9."}')
     with pytest.raises(BotschoolError, match=r"has changed .* 'It tips at 9\.'\. To start anew"):
         make_runs(place.lab, place.sheet(), place.runs, 1, 1)
+
+
+def test_nothing_is_read_through_links_and_pipes(tmp_path):
+    lab, precious = load_lab(9), tmp_path / "precious"
+    precious.write_text("of somebody else")
+    for make in (lambda path: path.symlink_to(precious), os.mkfifo):
+        folder = tmp_path / make.__name__ / lab.name
+        folder.mkdir(parents=True)
+        make(folder / "sheet.md")
+        with pytest.raises(BotschoolError, match=r"no link|There is no"):
+            Place(lab, folder).sheet()
+        first = lab.conditions[0]
+        files = RunFiles(folder / "runs" / first.name, 7)
+        files.stat.parent.mkdir(parents=True)
+        make(files.stat)
+        make(folder / "runs" / "runs.json")
+        assert stat_of(files.stat) is None
+        assert changed(lab, sheet("## Prediction"), folder / "runs") == ""
 
 
 def test_the_command_starts_and_names_what_exists(tmp_path):

@@ -202,6 +202,62 @@ def go():
                (135, 92), (126, 91)]
     return [each for each in numbers if call(*each, 0, 0, 0, 0) != [-1, errno.EPERM]]
 """,
+    # io_uring_setup, userfaultfd, ptrace, process_vm_readv and writev, memfd_secret,
+    # open_by_handle_at, pidfd_open, pidfd_getfd, kcmp, bpf, perf_event_open, unshare, setns, mount,
+    # keyctl, shmget, mknodat, socket, execveat, landlock_create_ruleset, chroot, pivot_root
+    "more_calls": """
+def go():
+    numbers = [(425, 425), (323, 282), (101, 117), (310, 270), (311, 271), (447, 447), (304, 265),
+               (434, 434), (438, 438), (312, 272), (321, 280), (298, 241), (272, 97), (308, 268),
+               (165, 40), (250, 219), (29, 194), (259, 33), (41, 198), (322, 281), (444, 444),
+               (161, 51), (155, 41)]
+    return [each for each in numbers if call(*each, 0, 0, 0, 0) != [-1, errno.EPERM]]
+""",
+    # what the fork server holds, and what this process is to others
+    "memory_of_the_server": """
+def go():
+    found = []
+    for pid in (os.getppid(), os.getpid(), 1):
+        for name in ("mem", "environ", "maps", "cmdline", "auxv", "stack", "root/etc/shadow"):
+            for mode in ("rb", "r+b"):
+                try:
+                    open(f"/proc/{pid}/{name}", mode)
+                except OSError:
+                    continue
+                found.append((pid, name, mode))
+        for name in ("fd", "task", "map_files") + ("cwd",) * (pid != os.getpid()):
+            try:
+                os.listdir(f"/proc/{pid}/{name}")
+            except OSError:
+                continue
+            found.append((pid, name))
+    return found
+""",
+    # files that claim terabytes, and a name that is no line
+    "sparse_files": """
+def go():
+    refused = []
+    file = os.open("a\\nb.png", os.O_RDWR | os.O_CREAT)
+    for size in (2**31, 2**40, 2**62):
+        try:
+            os.ftruncate(file, size)
+        except OSError as error:
+            refused.append(error.errno == errno.EFBIG)
+    return refused
+""",
+    # links of the scratch folder to files of others, by name and by inode
+    "hard_links": """
+def go():
+    made = []
+    for name in ("/etc/passwd", sys.executable, "/proc/self/fd/0"):
+        for options in ({}, {"follow_symlinks": True}):
+            try:
+                os.link(name, "linked", **options)
+            except OSError:
+                continue
+            made.append(name)
+    return made
+""",
     "larger_limits": """
 def go():
     import resource

@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import signal
+import sys
 import tempfile
 import time
 import traceback
@@ -20,7 +21,7 @@ from rich.markup import escape
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.batch import Grades, Job
-from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.checks import Wrong, plain
 from botschool.grading.declare.exercise import (
     Exercise,
     Number,
@@ -74,6 +75,8 @@ def _grade_one(
     file, shown, notes, kept = _file_of(exercise, submission)
     graded = digest(file)
     if debug:
+        if submission is not None:
+            _warn_of_unconfined(shown)
         return debug_task(exercise, tasks[0], file), {}
     screen = Screen()
     report: Callable[[Any], None] = screen.task
@@ -126,6 +129,17 @@ def _prepare_for_others(exercise: Exercise, file: Path) -> str:
         student = student.parent if student.name == name else student
     close_class(student, student.parent)
     return kept
+
+
+def _warn_of_unconfined(file: Path) -> None:
+    """Say that somebody's file runs with the user's rights, unless it belongs to the course."""
+    if not file.resolve().is_relative_to(course_root().resolve()):
+        print(
+            f"{plain(str(file))} runs without the sandbox, with all your rights (files, network): "
+            "stop now with Ctrl-C if you have not read it; 'botschool grade' confines it.",
+            file=sys.stderr,
+            flush=True,
+        )
 
 
 def debug_task(exercise: Exercise, id: str, file: Path) -> bool:
@@ -297,6 +311,8 @@ def show_command(what: str, submission: str | None, opens: bool) -> None:
     from botschool.grading.report.showing import make_page, open_page, show
 
     number = _named(what)[0]
+    if submission is not None:
+        _warn_of_unconfined(submission_file(number, submission))
     made = show(number, submission)
     folder = course_root().resolve() / "results" / f"ex{number:02d}"
     tops = Counter(path.relative_to(folder).parts[0] for path in made)

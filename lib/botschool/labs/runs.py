@@ -12,9 +12,10 @@ import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.labs.declare import Lab
-from botschool.labs.saved import SavedRun
+from botschool.labs.saved import MAX_BYTES, SavedRun
 from botschool.labs.sheet import Sheet, base_seed, seeds_of
 from botschool.output import save_bytes
+from botschool.sandbox.inside import read_inside
 
 ABOUT = "runs.json"
 """In the folder of runs: the prediction that their seeds follow from."""
@@ -74,7 +75,7 @@ def _claim(lab: Lab, sheet: Sheet, folder: Path) -> None:
 def changed(lab: Lab, sheet: Sheet, folder: Path) -> str:
     """A sentence when the runs belong to another prediction, name or course; else ""."""
     try:
-        about = json.loads((folder / ABOUT).read_text(encoding="utf-8"))
+        about = json.loads(read_inside(folder, ABOUT, MAX_BYTES))
         seed, prediction = int(about["seed"]), str(about["prediction"])
     except (OSError, ValueError, KeyError, TypeError):
         return ""

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import io
 from dataclasses import dataclass, field
 from pathlib import Path
+from tokenize import TokenError
 from typing import Any
 
 import numpy as np
 
 from botschool.evolution.record import STAT
 from botschool.labs.declare import Condition
+from botschool.sandbox.inside import read_inside
 
 MAX_BYTES = 50_000_000
 
@@ -51,14 +54,18 @@ class SavedRun:
 
 
 def numbers(path: Path, dimensions: int) -> np.ndarray | None:
-    """The finite float64 numbers of a file, None if there are none."""
+    """The finite float64 numbers of a regular file, None if there are none."""
     try:
-        if path.stat().st_size > MAX_BYTES:
-            return None
-        array = np.load(path, allow_pickle=False)
-    except (OSError, ValueError, EOFError):
+        content = read_inside(path.parent, path.name, MAX_BYTES)
+        array = np.asarray(np.load(io.BytesIO(content), allow_pickle=False))
+    except (OSError, ValueError, EOFError, MemoryError, TokenError):
         return None
-    good = array.dtype == np.float64 and array.ndim == dimensions and array.size
+    good = (
+        len(content) <= MAX_BYTES
+        and array.dtype == np.float64
+        and array.ndim == dimensions
+        and array.size
+    )
     return array if good and np.isfinite(array).all() else None
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.labs.declare import Field, Lab
+from botschool.sandbox.inside import read_inside
 
 _MARKER = re.compile(r"<!--\s*field:\s*([\w-]+)\s*-->")
 _ANSWER = re.compile(r"answer:[ \t]*(.*)", re.IGNORECASE)
@@ -33,10 +34,13 @@ class Sheet:
     def read(cls, path: Path) -> Sheet:
         """Raises BotschoolError."""
         try:
-            content = path.read_bytes()
+            content = read_inside(path.parent, path.name, MAX_BYTES)
+        except FileNotFoundError:
+            raise BotschoolError(f"There is no {path}: botschool lab N start makes it.") from None
         except OSError as error:
             raise BotschoolError(
-                f"{path} cannot be read ({error.strerror}): botschool lab N start makes it."
+                f"{path} cannot be read ({error.strerror or 'no regular file'}): it must be a "
+                "file of its own, and no link."
             ) from None
         if len(content) > MAX_BYTES:
             raise BotschoolError(f"{path} is larger than {MAX_BYTES // 1000} kB: shorten it.")
