@@ -57,15 +57,12 @@ def numbers(path: Path, dimensions: int) -> np.ndarray | None:
     """The finite float64 numbers of a regular file, None if there are none."""
     try:
         content = read_inside(path.parent, path.name, MAX_BYTES)
+        if len(content) > MAX_BYTES:
+            return None
         array = np.asarray(np.load(io.BytesIO(content), allow_pickle=False))
     except (OSError, ValueError, EOFError, MemoryError, TokenError):
         return None
-    good = (
-        len(content) <= MAX_BYTES
-        and array.dtype == np.float64
-        and array.ndim == dimensions
-        and array.size
-    )
+    good = array.dtype == np.float64 and array.ndim == dimensions and array.size
     return array if good and np.isfinite(array).all() else None
 
 
