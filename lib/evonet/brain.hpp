@@ -211,9 +211,10 @@ class Brain {
   /// weights in the first network begin; moves on to those of the next layer.
   void net_inputs(const Layer& layer, T* out, const T*& networks) const {
     int r = Rows<T, L>::of(layer);
-    if (r > 0)
-      Rows<T, L>(layer, m_.activations, m_.previous, m_.scratch)
-          .sums(*m_.groups, networks, m_.network_size, out);
+    if constexpr (L > 1)
+      if (r > 0)
+        Rows<T, L>(layer, m_.activations, m_.previous, m_.scratch)
+            .sums(*m_.groups, networks, m_.network_size, out);
     networks += Rows<T, L>::size(layer);
     for (; r + kGroups * kGroup <= layer.neurons; r += kGroups * kGroup)
       sum<kGroups, kGroup>(layer, r, out + r * L);

@@ -81,9 +81,10 @@ class Rows {
   /// What a core's first cache holds besides all else, about, in bytes.
   static constexpr std::size_t kNear = 64 * 1024;
   /// Registers of rows, and lanes, whose sums run side by side: a weight is loaded once for several
-  /// lanes and an activation for several rows, as far as there are registers.
-  static constexpr int kPanel = kRegister == 64 ? 6 : 4;
-  static constexpr int kTogether = kRegister == 64 ? 4 : 2;
+  /// lanes and an activation for several rows, as far as there are registers. Fewer lanes than 16 only
+  /// end what 16 began: less code is compiled for them.
+  static constexpr int kPanel = L < 16 ? 2 : kRegister == 64 ? 6 : 4;
+  static constexpr int kTogether = L < 16 ? 2 : kRegister == 64 ? 4 : 2;
   /// Senders looked at before any is added.
   static constexpr int kChunk = 64;
 

@@ -39,17 +39,9 @@ BOTSCHOOL_INLINE void unrolled([[maybe_unused]] F f, std::index_sequence<I...>) 
   (f(std::integral_constant<int, int(I)>()), ...);
 }
 
-/// f(0), f(1), ..., f(N - 1), each with its number as a constant.
-template <int N, class F>
-BOTSCHOOL_INLINE void upwards(F f) {
-  unrolled(f, std::make_index_sequence<N>());
-}
-
-/// f(N - 1), ..., f(0).
-template <int N, class F>
-BOTSCHOOL_INLINE void downwards(F f) {
-  upwards<N>(BOTSCHOOL_EACH(i) { f(std::integral_constant<int, N - 1 - i>()); });
-}
+/// A number that the compiler knows.
+template <int I>
+using Constant = std::integral_constant<int, I>;
 
 /// A vector in the plane, in lanes.
 template <class V>
@@ -91,15 +83,64 @@ struct Dynamics {
   V change[n];       ///< of the segments' angular speeds in the last substep, halved; 0 if unknown
   V load[contacts];  ///< sum over substeps of each contact point's force across the ground, N
 
+  // Numbers of segments, contact points and coordinates are constants where lanes race: all loops are
+  // unrolled. Where one body is looked at they are ints, and loops stay loops, which compile fast.
+  static constexpr bool unrolls = W > 1;
+
+  /// f(0), f(1), ..., f(N - 1).
+  template <int N, class F>
+  static BOTSCHOOL_INLINE void upwards(F f) {
+    if constexpr (unrolls)
+      unrolled(f, std::make_index_sequence<N>());
+    else
+      for (int i = 0; i < N; ++i) f(i);
+  }
+
+  /// f(N - 1), ..., f(0).
+  template <int N, class F>
+  static BOTSCHOOL_INLINE void downwards(F f) {
+    if constexpr (unrolls)
+      unrolled(BOTSCHOOL_EACH(i) { f(Constant<N - 1 - i>()); }, std::make_index_sequence<N>());
+    else
+      for (int i = N - 1; i >= 0; --i) f(i);
+  }
+
   /// The parent of a coordinate in the tree z -> x, root -> z, segment -> its parent.
   static constexpr int up(int k) { return k <= 2 ? k - 1 : Body::segments[k - 2].parent + 2; }
 
-  /// f(i) for all ancestors i of coordinate K.
-  template <int K, class F>
-  static BOTSCHOOL_INLINE void ancestors(F f) {
-    if constexpr (up(K) >= 0) {
-      f(std::integral_constant<int, up(K)>());
-      ancestors<up(K)>(f);
+  static constexpr int parent(int i) { return Body::segments[i].parent; }
+  template <int I>
+  static constexpr Constant<Body::segments[I].parent> parent(Constant<I>) {
+    return {};
+  }
+
+  /// The segment of a contact point.
+  static constexpr int segment(int c) { return Body::contacts[c].segment; }
+  template <int C>
+  static constexpr Constant<Body::contacts[C].segment> segment(Constant<C>) {
+    return {};
+  }
+
+  /// f(i) for all ancestors i of coordinate k.
+  template <class K, class F>
+  static BOTSCHOOL_INLINE void ancestors(K k, F f) {
+    if constexpr (!unrolls) {
+      for (int i = up(k); i >= 0; i = up(i)) f(i);
+    } else if constexpr (up(K::value) >= 0) {
+      constexpr Constant<up(K::value)> i{};
+      f(i);
+      ancestors(i, f);
+    }
+  }
+
+  /// f(c) for segment j and all its ancestors but the root.
+  template <class J, class F>
+  static BOTSCHOOL_INLINE void descend(J j, F f) {
+    if constexpr (!unrolls) {
+      for (int c = j; c > 0; c = parent(c)) f(c);
+    } else if constexpr (J::value > 0) {
+      f(j);
+      descend(parent(j), f);
     }
   }
 
@@ -114,22 +155,21 @@ struct Dynamics {
   Vec origin[n];
   V sine[n], cosine[n];
 
-  template <int I>
-  BOTSCHOOL_INLINE Vec turned(double x, double z) const {
-    return {number(x) * cosine[I] - number(z) * sine[I],
-            number(x) * sine[I] + number(z) * cosine[I]};
+  /// (x, z) of segment i's frame in the world's.
+  BOTSCHOOL_INLINE Vec turned(int i, double x, double z) const {
+    return {number(x) * cosine[i] - number(z) * sine[i],
+            number(x) * sine[i] + number(z) * cosine[i]};
   }
 
   /// Where the segments are, for given positions.
   BOTSCHOOL_PHASE void place() {
+    origin[0] = {position[0], position[1]};
     upwards<n>(BOTSCHOOL_EACH(i) {
-      constexpr Segment s = Body::segments[i];
       sine_cosine(position[2 + i], sine[i], cosine[i]);
-      moment[i] = turned<i>(numbers.first_x[i], numbers.first_z[i]);
-      if constexpr (i == 0) {
-        origin[0] = {position[0], position[1]};
-      } else {
-        along[i] = turned<s.parent>(s.x, s.z);
+      moment[i] = turned(i, numbers.first_x[i], numbers.first_z[i]);
+      if (i > 0) {
+        const Segment& s = Body::segments[i];
+        along[i] = turned(s.parent, s.x, s.z);
         origin[i] = origin[s.parent] + along[i];
       }
     });
@@ -140,16 +180,17 @@ struct Dynamics {
     mass[0][0] = mass[1][1] = number(numbers.all[0]);
     mass[1][0] = V(T(0));
     upwards<n>(BOTSCHOOL_EACH(j) {
-      constexpr int k = j + 2;
+      const int k = j + 2;
       const Vec effect = turn(moment[j]);
       mass[k][0] = effect.x;
       mass[k][1] = effect.z;
       mass[k][k] = number(numbers.second[j]);
-      descend<j>(BOTSCHOOL_EACH(c) {  // c: j and its ancestors but the root
-        constexpr int i = Body::segments[c].parent;
-        mass[k][i + 2] = dot(along[c], moment[j]);
-        lever[j][i] = dot(turn(along[c]), moment[j]);
-      });
+      descend(
+          j, BOTSCHOOL_EACH(c) {  // c: j and its ancestors but the root
+            const int i = parent(c);
+            mass[k][i + 2] = dot(along[c], moment[j]);
+            lever[j][i] = dot(turn(along[c]), moment[j]);
+          });
     });
   }
 
@@ -165,30 +206,21 @@ struct Dynamics {
     upwards<n>(BOTSCHOOL_EACH(j) {
       force[0] += square[j] * moment[j].x;
       force[1] += square[j] * moment[j].z;
-      descend<j>(BOTSCHOOL_EACH(c) {
-        constexpr int i = Body::segments[c].parent;
-        force[2 + i] += lever[j][i] * square[j];
-        force[2 + j] -= lever[j][i] * square[i];
-      });
+      descend(
+          j, BOTSCHOOL_EACH(c) {
+            const int i = parent(c);
+            force[2 + i] += lever[j][i] * square[j];
+            force[2 + j] -= lever[j][i] * square[i];
+          });
     });
   }
 
-  /// f(c) for segment J and all its ancestors but the root.
-  template <int J, class F>
-  static BOTSCHOOL_INLINE void descend(F f) {
-    if constexpr (J > 0) {
-      f(std::integral_constant<int, J>());
-      descend<Body::segments[J].parent>(f);
-    }
-  }
-
-  /// A force at the origin of segment J, on all coordinates that move it but its own angle.
-  template <int J>
-  BOTSCHOOL_INLINE void apply(Vec push) {
+  /// A force at the origin of segment j, on all coordinates that move it but its own angle.
+  template <class J>
+  BOTSCHOOL_INLINE void apply(J j, Vec push) {
     force[0] += push.x;
     force[1] += push.z;
-    descend<J>(
-        BOTSCHOOL_EACH(c) { force[Body::segments[c].parent + 2] += dot(turn(along[c]), push); });
+    descend(j, BOTSCHOOL_EACH(c) { force[parent(c) + 2] += dot(turn(along[c]), push); });
   }
 
   /// Torques of the hinges. With a substep h, dampers answer to the mean of the speeds before and
@@ -196,8 +228,8 @@ struct Dynamics {
   /// to the speeds as they are.
   BOTSCHOOL_PHASE void hinges(const V* action, T h) {
     upwards<n - 1>(BOTSCHOOL_EACH(index) {
-      constexpr int i = index + 1, k = i + 2, p = up(k);
-      constexpr Hinge hinge = Body::segments[i].hinge;
+      const int i = index + 1, k = i + 2, p = up(k);
+      const Hinge& hinge = Body::segments[i].hinge;
       const V angle = position[k] - position[p], rate = speed[k] - speed[p];
       const V above = angle - number(hinge.high), below = angle - number(hinge.low);
       const V beyond = larger(above, V(T(0))) + smaller(below, V(T(0)));
@@ -223,18 +255,15 @@ struct Dynamics {
   template <class Ground>
   BOTSCHOOL_PHASE void touch(const Ground& ground, T h) {
     Vec velocity[n];
-    upwards<n>(BOTSCHOOL_EACH(i) {
-      if constexpr (i == 0) {
-        velocity[0] = {speed[0], speed[1]};
-      } else {
-        constexpr int p = Body::segments[i].parent;
-        velocity[i] = velocity[p] + speed[2 + p] * turn(along[i]);
-      }
+    velocity[0] = {speed[0], speed[1]};
+    upwards<n - 1>(BOTSCHOOL_EACH(index) {
+      const int i = index + 1, p = parent(i);
+      velocity[i] = velocity[p] + speed[2 + p] * turn(along[i]);
     });
     upwards<contacts>(BOTSCHOOL_EACH(c) {
-      constexpr Contact point = Body::contacts[c];
-      constexpr int s = point.segment;
-      Vec arm = turned<s>(point.x, point.z);
+      const Contact& point = Body::contacts[c];
+      const auto s = segment(c);
+      Vec arm = turned(s, point.x, point.z);
       Vec normal{V(T(0)), V(T(1))};
       if constexpr (!Ground::flat) {
         const V slope = ground.slope(origin[s].x + arm.x);
@@ -256,14 +285,14 @@ struct Dynamics {
       load[c] += push;
       const Vec pushed = push * normal - (drag * sliding) * tangent;
       force[2 + s] += dot(turn(arm), pushed);
-      apply<s>(pushed);
-      resist<s>(arm, V(h * T(0.5)) * damping, V(h) * drag, normal, Ground::flat);
+      apply(s, pushed);
+      resist(s, arm, V(h * T(0.5)) * damping, V(h) * drag, normal, Ground::flat);
     });
   }
 
   /// Adds to the mass matrix what resists a point's motion across and along the ground.
-  template <int S>
-  BOTSCHOOL_INLINE void resist(Vec arm, V across, V along_it, Vec normal, bool flat) {
+  template <class S>
+  BOTSCHOOL_INLINE void resist(S s, Vec arm, V across, V along_it, Vec normal, bool flat) {
     Resistance<V> r{along_it, V(T(0)), across};
     if (!flat) {
       const V difference = across - along_it;
@@ -278,22 +307,19 @@ struct Dynamics {
     mass[0][0] += r.xx;
     if (!flat) mass[1][0] += r.xz;
     mass[1][1] += r.zz;
-    add_resistance<S>(turn(arm), resisted);
-    descend<S>(
-        BOTSCHOOL_EACH(c) { add_resistance<Body::segments[c].parent>(turn(along[c]), resisted); });
+    add_resistance(s, turn(arm), resisted);
+    descend(s, BOTSCHOOL_EACH(c) { add_resistance(parent(c), turn(along[c]), resisted); });
   }
 
-  /// Of coordinate J, whose growth moves the point by `effect`, with itself and its ancestors.
-  template <int J, class F>
-  BOTSCHOOL_INLINE void add_resistance(Vec effect, const F& resisted) {
-    constexpr int k = J + 2;
+  /// Of segment j, whose growing angle moves the point by `effect`, with itself and its ancestors.
+  template <class J, class F>
+  BOTSCHOOL_INLINE void add_resistance(J j, Vec effect, const F& resisted) {
+    const int k = j + 2;
     const Vec answer = resisted(effect);
     mass[k][0] += answer.x;
     mass[k][1] += answer.z;
     mass[k][k] += dot(effect, answer);
-    descend<J>(BOTSCHOOL_EACH(c) {
-      mass[k][Body::segments[c].parent + 2] += dot(turn(along[c]), answer);
-    });
+    descend(j, BOTSCHOOL_EACH(c) { mass[k][parent(c) + 2] += dot(turn(along[c]), answer); });
   }
 
   /// mass = L^T D L from the leaves to the root, which keeps the zeros of a tree (Featherstone
@@ -303,12 +329,13 @@ struct Dynamics {
       upwards<n>(BOTSCHOOL_EACH(i) { mass[2 + i][0] = mass[2 + i][1] = V(T(0)); });
     downwards<size>(BOTSCHOOL_EACH(k) {
       inverse[k] = V(T(1)) / mass[k][k];
-      ancestors<k>(BOTSCHOOL_EACH(i) {
-        const V share = mass[k][i] * inverse[k];
-        mass[i][i] -= share * mass[k][i];
-        ancestors<i>(BOTSCHOOL_EACH(j) { mass[i][j] -= share * mass[k][j]; });
-        mass[k][i] = share;
-      });
+      ancestors(
+          k, BOTSCHOOL_EACH(i) {
+            const V share = mass[k][i] * inverse[k];
+            mass[i][i] -= share * mass[k][i];
+            ancestors(i, BOTSCHOOL_EACH(j) { mass[i][j] -= share * mass[k][j]; });
+            mass[k][i] = share;
+          });
     });
   }
 
@@ -316,11 +343,11 @@ struct Dynamics {
   BOTSCHOOL_PHASE void substitute() {
     if constexpr (Body::pinned) force[0] = force[1] = V(T(0));
     downwards<size>(BOTSCHOOL_EACH(k) {
-      ancestors<k>(BOTSCHOOL_EACH(i) { force[i] -= mass[k][i] * force[k]; });
+      ancestors(k, BOTSCHOOL_EACH(i) { force[i] -= mass[k][i] * force[k]; });
     });
     upwards<size>(BOTSCHOOL_EACH(k) {
       V value = force[k] * inverse[k];
-      ancestors<k>(BOTSCHOOL_EACH(i) { value -= mass[k][i] * force[i]; });
+      ancestors(k, BOTSCHOOL_EACH(i) { value -= mass[k][i] * force[i]; });
       force[k] = value;
     });
   }
@@ -366,7 +393,20 @@ struct Dynamics {
 
   /// `steps` substeps on even ground. Out of line, so that the problems of a body share it.
   BOTSCHOOL_OUTLINE void run(const V* action, int steps, T h) {
-    for (int s = 0; s < steps; ++s) step(action, Flat{}, h);
+    Dynamics own;
+    copy_state(*this, own);
+    for (int s = 0; s < steps; ++s) own.step(action, Flat{}, h);
+    copy_state(own, *this);
+  }
+
+ private:
+  static BOTSCHOOL_INLINE void copy_state(const Dynamics& from, Dynamics& to) {
+    upwards<size>(BOTSCHOOL_EACH(k) {
+      to.position[k] = from.position[k];
+      to.speed[k] = from.speed[k];
+    });
+    upwards<n>(BOTSCHOOL_EACH(i) { to.change[i] = from.change[i]; });
+    upwards<contacts>(BOTSCHOOL_EACH(c) { to.load[c] = from.load[c]; });
   }
 };
 
