@@ -209,13 +209,24 @@ make_venv() {
     mkdir -p build && rm -rf build/old-venv
     [ -e .venv ] && mv .venv build/old-venv
     rm -rf build/old-venv
-    mkdir .venv && touch .venv/.ours && quietly "$candidate" -m venv .venv
+    mkdir .venv && touch .venv/.ours && quietly make_python
     identity "$python" >.venv/.made
+}
+
+# An environment with uv and pip. The pip of its interpreter, where there is one, brings uv, and uv brings
+# pip: that takes a fraction of what Python's own way takes (ensurepip), which does all the rest.
+make_python() {
+    "$candidate" -m venv --without-pip .venv || return
+    base_pip="$candidate -m pip --python $python --disable-pip-version-check"
+    if $base_pip install --no-input --only-binary :all: uv && settings=$($base_pip config list) &&
+        (eval "$(say "$settings" | as_uv_has_it)"; .venv/bin/uv pip install --python "$python" pip)
+    then return; fi
+    "$python" -m ensurepip --upgrade --default-pip
 }
 
 install_tools() {
     say "Installing the build tools (a few seconds)"
-    have uv || run_pip --only-binary :all: uv >"$log" 2>&1  # where it has no wheel, pip installs all
+    [ -x .venv/bin/uv ] || have uv || run_pip --only-binary :all: uv >"$log" 2>&1  # where it has no wheel, pip installs all
     install scikit-build-core nanobind
     # cmake and ninja, where the system has none that is new enough
     missing=$("$python" -c 'from scikit_build_core.build import get_requires_for_build_editable as requires
