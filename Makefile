@@ -11,7 +11,7 @@ unexport PYTHONPATH PYTHONHOME
 # Without compiled modules on the disk, each of the many processes would compile the library anew.
 unexport PYTHONDONTWRITEBYTECODE
 .NOTPARALLEL:
-.PHONY: help demo build clean FORCE
+.PHONY: help demo build web clean FORCE
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z%-]+:.*## / { sub("%", "N", $$1); printf "make %-14s %s\n", $$1, $$2 }' Makefile
@@ -29,6 +29,11 @@ demo: .venv/.module ## evolve an Acrobot and a hopping robot, draw their curves 
 	@echo "Curves: $(DEMO)/acrobot.png $(DEMO)/hopper.png   Films: $(DEMO)/acrobot.mp4 $(DEMO)/hopper.mp4"
 
 build: .venv/.module ## the Python environment and the C++ module
+
+web: lib/botschool/page/planar.wasm ## the core of pages, for `botschool page`
+
+lib/botschool/page/planar.wasm: $(CPP_INPUTS) | .venv/.module
+	@tools/setup.sh web
 
 # What an exercise trains and simulates with can be large: its grader names the extras it needs.
 .SECONDEXPANSION:
@@ -48,12 +53,15 @@ notebook-ex%: .venv/.module $$(call extras,$$*) .venv/.extra-notebook FORCE ## o
 WORKERS ?= auto
 PYTEST := $(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal
 
-.PHONY: test test-long fuzz check-course nbgrader figures skeletons bench results lint format sanitize
+.PHONY: book test test-long fuzz check-course nbgrader figures skeletons bench results lint format sanitize
 test: .venv/.tests ## the tests that take seconds
 	@$(PYTEST)
 
-test-long: .venv/.tests ## the tests that take minutes: whole runs, many seeds
+test-long: .venv/.tests lib/botschool/page/planar.wasm ## the tests that take minutes: whole runs, many seeds
 	@$(PYTEST) -m long
+
+book: .venv/.tests .venv/.extra-book ## a website of the texts and documents in results/book, for a folder or any host
+	@tools/setup.sh book
 
 solution-ex%: .venv/.module $$(call extras,$$*) FORCE ## run the solution of exercise N in results/exNN
 	@$(BIN)/botschool show $* --submission solutions

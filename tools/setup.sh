@@ -1,6 +1,6 @@
 #!/bin/sh
 # One step of what the Makefile sets up:
-# tools/setup.sh venv|tools|sources|module|extra NAME|pytest|tests|bench|sanitize
+# tools/setup.sh venv|tools|sources|module|extra NAME|pytest|tests|bench|book|web|sanitize
 # or a question: tools/setup.sh extras EXERCISE
 # Says in a line what it does, and on a terminal how far it is; a tool's own output appears only when it fails.
 set -u
@@ -298,6 +298,7 @@ package_of() {
         rl) say torch ;;
         notebook) say jupyterlab ;;
         atari) say ale-py ;;
+        book) say sphinx ;;
         *) say "$1" ;;
     esac
 }
@@ -308,6 +309,7 @@ title() {
         rl) say "PyTorch and Stable-Baselines3" ;;
         notebook) say "JupyterLab and jupytext" ;;
         atari) say "Atari's games and OpenCV" ;;
+        book) say "Sphinx, which makes the book" ;;
         *) say "$1" ;;
     esac
 }
@@ -394,6 +396,29 @@ build_sanitized() {
     quietly cmake --build build/sanitize --parallel "$(getconf _NPROCESSORS_ONLN)" --target core_tests
 }
 
+# The core of pages, as WebAssembly: the ziglang wheel is compiler, linker and C++ library in one.
+build_web() {
+    install 'botschool[web]'
+    say "Compiling the core for pages (two minutes, the first time)"
+    printf '#!/bin/sh\nexec "%s" -m ziglang c++ "$@"\n' "$PWD/$python" >.venv/web-compiler
+    chmod +x .venv/web-compiler
+    PATH="$PWD/.venv/bin:$PATH"
+    for part in others planar; do
+        quietly cmake -G Ninja -S lib -B build/web/$part -DBOTSCHOOL_WEB=$part -DCMAKE_SYSTEM_NAME=Generic \
+            -DCMAKE_SYSTEM_PROCESSOR=wasm32 -DCMAKE_CXX_COMPILER="$PWD/.venv/web-compiler" \
+            -DCMAKE_CXX_COMPILER_WORKS=ON -DCMAKE_CXX_FLAGS="-target wasm32-wasi -msimd128 -w"
+        quietly cmake --build build/web/$part
+        mv -f build/web/$part/$part.wasm lib/botschool/page/
+    done
+}
+
+build_book() {
+    say "Building the book (a minute)"
+    quietly .venv/bin/sphinx-build -W --keep-going -q -b html -c docs/book -d build/book . results/book
+    say '<meta http-equiv="refresh" content="0; url=docs/book/index.html">' >results/book/index.html
+    say "Open results/book/index.html in a browser."
+}
+
 case ${TORCH:-cpu} in
     cpu) ;;
     *) fail "TORCH=$TORCH is not known: TORCH=cpu installs PyTorch without its CUDA packages" ;;
@@ -408,5 +433,7 @@ case $1 in
     pytest) install_pytest && touch .venv/.pytest ;;
     tests) install_tests && touch .venv/.tests ;;
     bench) install_bench && touch .venv/.bench ;;
+    book) build_book ;;
+    web) build_web ;;
     sanitize) build_sanitized ;;
 esac

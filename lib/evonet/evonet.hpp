@@ -49,6 +49,9 @@ class Evonet {
   void initialise(double* parameters) const;
   /// Start of an episode; the action noise goes on.
   void reset();
+  /// What the networks remember from one step to the next, for putting it back.
+  const std::vector<double>& memory() const { return buffer_; }
+  void set_memory(const std::vector<double>& memory) { buffer_ = memory; }
   /// One update of every network: reads `parameters` and `inputs`, writes `actions` and
   /// `activations`, which begin with the features where there are convolutional layers.
   void step(const double* parameters, const double* inputs, double* actions, double* activations);

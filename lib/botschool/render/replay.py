@@ -73,8 +73,8 @@ def write_replay(
         "title": title,
         "about": about,
         "fps": float(fps),
-        "palette": {name: [_hex(colour) for colour in pair] for name, pair in PALETTE.items()},
-        "scene": None if scene is None else _description(scene),
+        "palette": palette(),
+        "scene": None if scene is None else scene_description(scene),
         "groups": [[label, size] for label, size in groups],
         "episodes": played,
     }
@@ -91,7 +91,13 @@ def _page(data: dict) -> str:
     return page.replace("/*DATA*/", text)
 
 
-def _description(scene: Scene) -> dict:
+def palette() -> dict[str, list[str]]:
+    """Return each colour's name and what it is on a light and on a dark page, "#rrggbb"."""
+    return {name: [_hex(colour) for colour in pair] for name, pair in PALETTE.items()}
+
+
+def scene_description(scene: Scene) -> dict:
+    """Return what replay_draw.js draws, ready for JSON: what is seen, shapes and close-ups."""
     return {
         "view": scene.view,
         "shapes": [shape.as_dict() for shape in scene.shapes],

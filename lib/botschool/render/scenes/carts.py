@@ -40,7 +40,7 @@ class CartScene(Scene):
         self, poles: list[Pole], state_size: int, track_y: int, fps: float, discrete: bool = False
     ) -> None:
         super().__init__()
-        self.poles, self.state_size, self.fps, self._discrete = poles, state_size, fps, discrete
+        self.poles, self.state_size, self.fps, self.discrete = poles, state_size, fps, discrete
         half = self.WIDTH / 2 / self.scale
         bottom, top = (track_y - self.HEIGHT) / self.scale, track_y / self.scale
         self.view = (-half, bottom, half, top)
@@ -73,7 +73,7 @@ class CartScene(Scene):
             angle = float(state[pole.angle])
             numbers += [x, self.CART[1] / 4, -angle if pole.clockwise else angle]
         force = float(np.clip(action[0], -1.0, 1.0)) if len(action) else 0.0
-        if self._discrete and len(action):
+        if self.discrete and len(action):
             force = 1.0 if action[0] >= 0.5 else -1.0
         return [*numbers, max(force, 0.0), max(-force, 0.0)]
 

@@ -42,6 +42,16 @@ class PlanarScene(Scene):
         self._feet = [i for i, s in enumerate(self._segments) if s["name"].endswith("foot")]
         self.charted = (("feet", tuple(self.value() for _ in self._feet)),)
 
+    def body(self) -> dict:
+        """What `_numbers` knows of the body, ready for JSON, for the twin in scenes.js."""
+        return {
+            "segments": [[s["parent"], s["x"], s["z"]] for s in self._segments],
+            "contacts": [list(contact) for contact in self._contacts],
+            "weight": self._weight,
+            "feet": self._feet,
+            "firstLoad": self._first_load,
+        }
+
     def _add_ground(self, far: int) -> None:
         left, _, right, _ = self.view
         self.add("polygon", rectangle(left, -3.0, right, 0.0), "ground")

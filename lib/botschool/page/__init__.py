@@ -1,0 +1,226 @@
+"""An experiment as one self-contained page: it evolves in the browser, with the command's bits, and
+its robot can be taken apart (docs/page.md).
+
+The core is lib/web, compiled to WebAssembly by `make web`. The page's scripts lie beside this file.
+"""
+
+from __future__ import annotations
+
+import gzip
+import json
+from base64 import b64encode
+from dataclasses import fields
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from botschool import problems
+from botschool.config import Experiment, to_dict
+from botschool.errors import BotschoolError
+from botschool.output import check_output, save_bytes
+from botschool.page.twins import twin
+from botschool.policies.hyperparameters import NETWORK
+from botschool.problems.native import NativeProblem
+from botschool.render.panel import neuron_groups
+from botschool.render.replay import palette, scene_description
+from botschool.render.scenes import make_scene
+from botschool.seeds import POST_EVALUATION_SEED
+
+SCRIPTS = ("scenes.js", "core.js", "files.js", "hands.js", "page.js")
+ALGORITHMS = ("OpenAI-ES", "SSS")
+"""Those that a page can evolve with."""
+
+
+def write_page(
+    path: Path | str,
+    experiment: Experiment,
+    seed: int = 1,
+    saved: np.ndarray | None = None,
+    name: str = "",
+) -> None:
+    """Write the page of an experiment on a native problem.
+
+    saved: the robot that it begins with, as run files hold it, called `name`; the random one that
+    the seed's run starts from if it is None. Raises BotschoolError.
+    """
+    path = check_output(path, (".html",))
+    problem = _checked(experiment)
+    policy = problem.policy(experiment.policy)
+    if saved is None:
+        normalisation = np.repeat([0.0, 1.0], policy.spec.inputs) if policy.spec.normalize else None
+        saved = policy.join(policy.initial(seed), normalisation)
+    genotype, normalisation = policy.split(np.asarray(saved, dtype=np.float64))
+    data = _data(experiment, problem, policy, policy.join(genotype, normalisation))
+    data["who"] = name or "a random robot, with which evolution starts"
+    first = next(
+        problem.play(policy, genotype, normalisation, seed + POST_EVALUATION_SEED, 0, 1), None
+    )
+    if first is not None:
+        data["first"] = problem_scene(problem).numbers(first.state).tolist()
+    save_bytes(path, _page(data, seed).encode())
+
+
+def core(problem: str) -> bytes:
+    """Return the compiled core that has a problem. Raises BotschoolError if it was not built."""
+    name = "planar.wasm" if problem.startswith("Planar") else "others.wasm"
+    place = files("botschool.page") / name
+    if not place.is_file():
+        raise BotschoolError(
+            "The core for pages is not built here: type `make web` in the checkout (a minute or "
+            "two, once), or install a wheel of botschool that has it."
+        )
+    return place.read_bytes()
+
+
+def problem_scene(problem: NativeProblem) -> Any:
+    """Return the picture of a native problem. Raises BotschoolError where a page has none."""
+    return make_scene(problem.dynamics, problem.robots, problem.plan)
+
+
+def _checked(experiment: Experiment) -> NativeProblem:
+    problem = problems.of(experiment)
+    if not isinstance(problem, NativeProblem) or problem.plan or experiment.exp.robots:
+        raise BotschoolError(
+            f"{experiment.exp.environment} cannot go into a page: pages have the native problems "
+            "with robots and arenas of their own, such as Acrobot-v1, ErDiscrim or PlanarHopper-v5."
+        )
+    if not experiment.competitive and experiment.exp.algo not in ALGORITHMS:
+        raise BotschoolError(
+            f"{experiment.exp.algo} cannot evolve in a page: set algo = {' or '.join(ALGORITHMS)}."
+        )
+    return problem
+
+
+def _data(experiment: Experiment, problem: NativeProblem, policy: Any, saved: np.ndarray) -> dict:
+    scene, spec, p = problem_scene(problem), policy.spec, experiment.policy
+    inputs, outputs = policy.neurons
+    neurons = len(policy.network.activations)
+    robots = problem.interface.robots
+    groups = neuron_groups(robots * neurons, inputs, outputs, scene.robots)
+    limit = problem.steps(p.maxsteps)
+    return {
+        "title": problem.name,
+        "about": "evolves in this page, with the bits of the command; nothing leaves your computer",
+        "name": experiment.path.stem if experiment.path else "experiment",
+        "palette": palette(),
+        "scene": scene_description(scene) | twin(problem, scene),
+        "fps": scene.fps,
+        "groups": [[label, size] for label, size in groups],
+        "networks": policy.networks,
+        "neurons": neurons,
+        "inputs": inputs,
+        "normalized": bool(spec.normalize),
+        "remembers": p.architecture in (1, 2, 3),
+        "drag": "the cylinder or the robot" if problem.name == "ErDiscrim" else "what moves",
+        "robot": [float(value) for value in saved],
+        "first": scene.numbers(np.zeros(scene.state_size)).tolist(),
+        "experiment": {
+            "problem": problem.dynamics,
+            "spec": [getattr(p, key) for key in NETWORK],
+            "evaluation": [
+                p.episodes,
+                p.pepisodes,
+                limit,
+                problem.steps(p.post_steps),
+                p.heterogeneous,
+                problem.alive,
+            ],
+            "algorithm": None if experiment.competitive else _algorithm(experiment),
+            "steps": max(1, round(getattr(experiment.algo, "maxmsteps", 1) * 1e6)),
+            "limit": limit,
+            "heterogeneous": p.heterogeneous,
+        },
+        "fields": [] if experiment.competitive else _fields(experiment, problem),
+        "ini": {name.upper(): values for name, values in _written(experiment).items()},
+    }
+
+
+def _algorithm(experiment: Experiment) -> list[float]:
+    """What core.cpp's `run` reads: steady state?, size, stepsize, deviation, wdecay, symseed."""
+    a = experiment.algo
+    if experiment.exp.algo == "SSS":
+        return [1, a.popsize, 0, a.mutrate, 0, 0]
+    return [0, a.samplesize, a.stepsize, a.noiseStdDev, a.wdecay, a.symseed]
+
+
+def _written(experiment: Experiment) -> dict[str, dict[str, Any]]:
+    """The experiment without texts that are empty."""
+    parts = to_dict(experiment)
+    return {
+        part: {key: value for key, value in values.items() if value != ""}
+        for part, values in parts.items()
+    }
+
+
+def _fields(experiment: Experiment, problem: NativeProblem) -> list[dict]:
+    """What may be changed in the page, and where it goes: [array, index, factor, most]."""
+    most = problem.limit
+    post = [] if experiment.policy.pmaxsteps else [["evaluation", 3, 1, most]]
+    places: dict[str, list] = {
+        "episodes": [["evaluation", 0, 1, None]],
+        "pepisodes": [["evaluation", 1, 1, None]],
+        "maxsteps": [["evaluation", 2, 1, most], *post],
+        "maxmsteps": [["steps", 0, 1e6, None]],
+    }
+    places |= {name: [["spec", i, 1, None]] for i, name in enumerate(NETWORK)}
+    if experiment.exp.algo == "SSS":
+        places |= {"popsize": [["algorithm", 1, 1, None]], "mutrate": [["algorithm", 3, 1, None]]}
+    else:
+        names = ("samplesize", "stepsize", "noiseStdDev", "wdecay", "symseed")
+        places |= {name: [["algorithm", i + 1, 1, None]] for i, name in enumerate(names)}
+    found = []
+    for section, config in (("POLICY", experiment.policy), ("ALGO", experiment.algo)):
+        for f in fields(config):
+            if f.name not in places:
+                continue
+            limits, value = f.metadata, getattr(config, f.name)
+            allowed = list(limits["choices"]) if "choices" in limits else None
+            low, high = limits.get("low", -1e300), limits.get("high", 1e300)
+            found.append(
+                {
+                    "section": section,
+                    "key": f.name,
+                    "value": value,
+                    "help": limits["help"],
+                    "whole": isinstance(value, int),
+                    "low": low,
+                    "high": high,
+                    "above": limits.get("above"),
+                    "allowed": allowed,
+                    "needs": _needs(limits, isinstance(value, int)),
+                    "into": places[f.name],
+                }
+            )
+    return found
+
+
+def _needs(limits: Any, whole: bool) -> str:
+    if "choices" in limits:
+        return "one of " + ", ".join(f"{v} ({text})" for v, text in limits["choices"].items())
+    kind = "a whole number" if whole else "a number"
+    low = f"above {limits['above']:g}" if "above" in limits else f"from {limits['low']:g} on"
+    return f"{kind} {low}, at most {limits['high']:g}"
+
+
+def _page(data: dict, seed: int) -> str:
+    folder, drawing = files("botschool.page"), files("botschool.render") / "replay_draw.js"
+    read = {name: (folder / name).read_text(encoding="utf-8") for name in (*SCRIPTS, "worker.js")}
+    scripts = "\n".join([*(read[name] for name in SCRIPTS), drawing.read_text(encoding="utf-8")])
+    # "<" never appears in the JSON, so nothing in it can end its element.
+    text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+    page = (folder / "page.html").read_text(encoding="utf-8")
+    page = page.replace('step="1" value="1"', f'step="1" value="{seed}"')
+    for place, content in (
+        ("/*TITLE*/", data["title"]),
+        ("/*WORKER*/", read["core.js"] + read["worker.js"]),
+        ("/*SCRIPTS*/", scripts),
+        (
+            "/*CORE*/",
+            b64encode(gzip.compress(core(data["experiment"]["problem"]), 9, mtime=0)).decode(),
+        ),
+        ("/*DATA*/", text),
+    ):
+        page = page.replace(place, content)
+    return page

@@ -1,0 +1,135 @@
+// lib/web/core.cpp on JavaScript's arrays; works in a page, a worker and node.
+
+class Core {
+  static async load(bytes) {
+    const core = new Core();
+    const refuse = (name) => () => {
+      if (name === "proc_exit") throw new Error("the core has stopped");
+      return 52; // there is no such function here
+    };
+    const system = new Proxy({}, { get: (_, name) => refuse(name) });
+    const { instance } = await WebAssembly.instantiate(bytes, { wasi_snapshot_preview1: system });
+    core.c = instance.exports;
+    core.c._initialize?.();
+    return core;
+  }
+
+  // What is in the core's memory: a view of it, good until the core takes more memory.
+  view(Type, place, count) {
+    return new Type(this.c.memory.buffer, place, count);
+  }
+
+  // Calls action with the places of copies of these arrays (0 for null).
+  lend(arrays, action) {
+    const places = arrays.map((array) => {
+      if (!array) return 0;
+      const place = this.c.allocate(Math.max(array.byteLength, 8));
+      const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+      this.view(Uint8Array, place, array.byteLength).set(bytes);
+      return place;
+    });
+    try {
+      return action(...places);
+    } finally {
+      places.filter(Boolean).forEach((place) => this.c.release(place));
+    }
+  }
+
+  // A problem with a network; spec: the values of the network's hyperparameters, in order.
+  task(problem, spec) {
+    const name = new TextEncoder().encode(`${problem}\0`);
+    const task = this.lend([name, Float64Array.from(spec)], (...places) => this.c.task(...places));
+    if (!task) throw new Error(`there is no problem ${problem}`);
+    return task;
+  }
+
+  // 1 for each parameter of a network that a neuron has, 0 for others.
+  mark(task, neuron, parameters) {
+    const mask = new Float64Array(parameters);
+    return this.lend([mask], (place) => {
+      this.c.mark(task, neuron, place);
+      return this.view(Float64Array, place, parameters).slice();
+    });
+  }
+
+  // The return of each episode; jobs: {candidate: a row for each robot, seeds, episodes}.
+  evaluate(task, genotypes, size, normalisation, jobs, heterogeneous, limit) {
+    const count = jobs.seeds.length;
+    const given = [
+      genotypes, normalisation, Int32Array.from(jobs.candidate), Float64Array.from(jobs.seeds),
+      Uint32Array.from(jobs.episodes), new Float64Array(count), new Int32Array(count),
+    ];
+    return this.lend(given, (g, n, c, s, e, fitness, steps) => {
+      this.c.evaluate(task, g, size, n, count, c, heterogeneous ? 1 : 0, s, e, limit, fitness, steps);
+      return {
+        fitness: this.view(Float64Array, fitness, count).slice(),
+        steps: this.view(Int32Array, steps, count).slice(),
+      };
+    });
+  }
+
+  run(task, experiment, seed) {
+    return new Run(this, task, experiment, seed);
+  }
+
+  bench(task, heterogeneous, limit) {
+    return new Bench(this, this.c.bench(task, heterogeneous ? 1 : 0, limit));
+  }
+}
+
+// An evolutionary run; each advance() is a generation.
+class Run {
+  constructor(core, task, { evaluation, algorithm }, seed) {
+    this.core = core;
+    const given = [Float64Array.from(evaluation), Float64Array.from(algorithm)];
+    this.place = core.lend(given, (e, a) => core.c.run(task, e, a, seed));
+  }
+
+  // Returns the steps so far.
+  advance() {
+    return this.core.c.advance(this.place);
+  }
+
+  values(which) {
+    const { c } = this.core;
+    return this.core.view(Float64Array, c.run_values(this.place, which), c.run_count(this.place, which)).slice();
+  }
+
+  // Six numbers a generation, as in the stat file.
+  get rows() { return this.values(0); }
+  get best() { return this.values(1); }
+  get bestg() { return this.values(2); }
+}
+
+// A robot step by step, to take it apart.
+class Bench {
+  constructor(core, place) {
+    [this.core, this.place] = [core, place];
+  }
+
+  // Arrays in the core's memory: what is written there counts.
+  values(which) {
+    const { c } = this.core;
+    return this.core.view(Float64Array, c.bench_values(this.place, which), c.bench_count(this.place, which));
+  }
+  get genotype() { return this.values(0); }
+  get blind() { return this.values(1); }
+  get state() { return this.values(2); }
+  get observation() { return this.values(3); }
+  get action() { return this.values(4); }
+  get activation() { return this.values(5); }
+  get normalisation() { return this.values(6); }
+  get reward() { return this.core.c.bench_reward(this.place); }
+
+  start(seed, episode) { this.core.c.bench_start(this.place, seed, episode); }
+  step() { return this.core.c.bench_step(this.place) !== 0; }
+  freeze(frozen) { this.core.c.bench_freeze(this.place, frozen ? 1 : 0); }
+  // Takes a changed `state` into the simulation.
+  move() { this.core.c.bench_move(this.place); }
+}
+
+async function unzipped(text) {
+  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}

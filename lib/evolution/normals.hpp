@@ -1,0 +1,84 @@
+// Normal numbers as numpy's Generator(Philox(key)) gives them: Philox4x64-10 (Salmon et al. 2011) and
+// the ziggurat method with 256 layers (Marsaglia and Tsang 2000). docs/specification.md, "In a page".
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "ziggurat.hpp"
+
+namespace botschool {
+
+/// The numbers of one generation of a run, one after another.
+class Normals {
+ public:
+  Normals(std::uint64_t seed, std::uint64_t generation) : key_{seed, generation} {}
+
+  double next() {
+    for (;;) {
+      const std::uint64_t word = bits(), size = word >> 9 & 0x000fffffffffffffull;
+      const int layer = static_cast<int>(word & 0xff);
+      const bool negative = word >> 8 & 1;
+      const double x = static_cast<double>(size) * ziggurat::width[layer];
+      if (size < ziggurat::inside[layer]) return negative ? -x : x;
+      if (layer == 0) return tail(size >> 8 & 1);
+      const double below = ziggurat::height[layer], above = ziggurat::height[layer - 1];
+      if ((above - below) * uniform() + below < std::exp(-0.5 * x * x)) return negative ? -x : x;
+    }
+  }
+
+ private:
+  /// Beyond the last layer (Marsaglia 1964).
+  double tail(bool negative) {
+    for (;;) {
+      const double beyond = -ziggurat::inverse_tail * std::log1p(-uniform());
+      const double height = -std::log1p(-uniform());
+      if (height + height > beyond * beyond) {
+        const double x = ziggurat::tail + beyond;
+        return negative ? -x : x;
+      }
+    }
+  }
+
+  /// In [0, 1), 53 bits.
+  double uniform() { return static_cast<double>(bits() >> 11) * (1.0 / 9007199254740992.0); }
+
+  std::uint64_t bits() {
+    if (used_ == 4) fill();
+    return block_[used_++];
+  }
+
+  void fill() {
+    for (int i = 0; i < 4 && ++counter_[i] == 0; ++i) {
+    }
+    std::uint64_t c[4] = {counter_[0], counter_[1], counter_[2], counter_[3]};
+    std::uint64_t key[2] = {key_[0], key_[1]};
+    for (int round = 0; round < 10; ++round) {
+      std::uint64_t low0, low1;
+      const std::uint64_t high0 = multiply(0xD2E7470EE14C6C93ull, c[0], low0);
+      const std::uint64_t high1 = multiply(0xCA5A826395121157ull, c[2], low1);
+      c[0] = high1 ^ c[1] ^ key[0];
+      c[1] = low1;
+      c[2] = high0 ^ c[3] ^ key[1];
+      c[3] = low0;
+      key[0] += 0x9E3779B97F4A7C15ull;
+      key[1] += 0xBB67AE8584CAA73Bull;
+    }
+    for (int i = 0; i < 4; ++i) block_[i] = c[i];
+    used_ = 0;
+  }
+
+  /// The high 64 bits of a * b.
+  static std::uint64_t multiply(std::uint64_t a, std::uint64_t b, std::uint64_t& low) {
+    const std::uint64_t a0 = a & 0xffffffff, a1 = a >> 32, b0 = b & 0xffffffff, b1 = b >> 32;
+    const std::uint64_t middle = a1 * b0 + (a0 * b0 >> 32);
+    const std::uint64_t other = a0 * b1 + (middle & 0xffffffff);
+    low = a * b;
+    return a1 * b1 + (middle >> 32) + (other >> 32);
+  }
+
+  std::uint64_t key_[2], counter_[4] = {}, block_[4] = {};
+  int used_ = 4;
+};
+
+}  // namespace botschool

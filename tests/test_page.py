@@ -1,0 +1,383 @@
+"""Pages that evolve: the twins in C++ and JavaScript against the command, in Node and in a browser.
+
+They need the core for pages; `make test-long` builds it.
+"""
+
+import hashlib
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from botschool import config, page
+from botschool.config import from_dict, to_dict
+from botschool.errors import BotschoolError
+from botschool.evolution.run import Run, evolve
+from botschool.problems.native import NativeProblem
+from botschool.render.scenes import make_scene
+from browser import Browser, find_browser
+
+ROOT = Path(__file__).parents[1]
+SCRIPTS = ROOT / "lib/botschool/page"
+BUILT = (SCRIPTS / "planar.wasm").exists()
+built = pytest.mark.skipif(not BUILT, reason="the core for pages is not built: make web")
+PROBLEMS = (
+    "CartPole-v1",
+    "Acrobot-v1",
+    "Pendulum-v1",
+    "ErDpole",
+    "ErDiscrim",
+    "MountainCarContinuous-v0",
+    "envSwingupCustom",
+    "PlanarHopper-v5",
+)
+
+
+def experiment_of(problem, algo, **policy):
+    given = {"episodes": 2, "pepisodes": 3, "maxsteps": 100, "nhiddens": 7, "bias": 1} | policy
+    evolving = {"popsize": 6} if algo == "SSS" else {"samplesize": 4, "wdecay": len(problem) % 3}
+    return from_dict(
+        {
+            "exp": {"environment": problem, "algo": algo},
+            "policy": given,
+            "algo": {"maxmsteps": 0.02} | evolving,
+        }
+    )
+
+
+def written(experiment, tmp_path, seed=3, **more):
+    """The page of an experiment, its data and its path."""
+    path = tmp_path / "page.html"
+    page.write_page(path, experiment, seed, **more)
+    text = path.read_text()
+    data = text.partition('<script id="data" type="application/json">')[2].partition("</script>")[0]
+    return path, json.loads(data)
+
+
+def core_of(experiment):
+    planar = experiment.exp.environment.startswith("Planar")
+    return str(SCRIPTS / ("planar.wasm" if planar else "others.wasm"))
+
+
+def node(tmp_path, script, *scripts):
+    """What a program in JavaScript prints, as JSON."""
+    if shutil.which("node") is None:
+        pytest.skip("no Node found: install nodejs to test pages without a browser")
+    parts = [(SCRIPTS / name).read_text() for name in (*scripts, "core.js", "files.js")]
+    program = tmp_path / "program.mjs"
+    program.write_text("\n".join(['import { readFileSync } from "fs";', *parts, script]))
+    done = subprocess.run(
+        ["node", "--no-warnings", program], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+EVOLVE = """
+import { createHash } from "crypto";
+const { core: place, experiment, seed } = JSON.parse(readFileSync(0));
+const core = await Core.load(readFileSync(place));
+const run = core.run(core.task(experiment.problem, experiment.spec), experiment, seed);
+let [generation, steps] = [0, 0];
+while (steps < experiment.steps) {
+  steps = run.advance();
+  generation += 1;
+}
+const { rows, best, bestg } = run;
+const files = runFiles(seed, { rows, best, bestg, generation, steps });
+const digest = (bytes) => createHash("sha256").update(bytes).digest("hex");
+console.log(JSON.stringify(Object.fromEntries(
+  Object.entries(files).map(([name, bytes]) => [name, digest(bytes)]))));
+"""
+
+
+def digests_of_the_command(experiment, seed, folder):
+    folder.mkdir()
+    evolve(Run(experiment, seed), folder)
+    names = (f"statS{seed}.npy", f"bestS{seed}.npy", f"bestgS{seed}.npy", f"S{seed}.fit")
+    return {name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in names}
+
+
+def evolved_by_node(experiment, seed, tmp_path):
+    _, data = written(experiment, tmp_path, seed)
+    given = {"core": core_of(experiment), "experiment": data["experiment"], "seed": seed}
+    (tmp_path / "given.json").write_text(json.dumps(given))
+    script = EVOLVE.replace("readFileSync(0)", f'readFileSync("{tmp_path}/given.json")')
+    return node(tmp_path, script)
+
+
+@built
+@pytest.mark.parametrize("algo", ["OpenAI-ES", "SSS"])
+@pytest.mark.parametrize("problem", PROBLEMS)
+def test_run_files_are_the_command_s(problem, algo, tmp_path):
+    kinds = {
+        "ErDiscrim": {"architecture": 3},
+        "ErDpole": {"architecture": 1, "pmaxsteps": 150},
+        "Acrobot-v1": {"out_type": 3, "winit": 1},
+        "PlanarHopper-v5": {"action_noise": 1, "normalize": 1, "clip": 1, "winit": 1},
+        "Pendulum-v1": {"nlayers": 2, "normalize": 1, "episodes": 1},
+        "envSwingupCustom": {"architecture": 2, "out_type": 2},
+    }
+    experiment = experiment_of(problem, algo, **kinds.get(problem, {}))
+    expected = digests_of_the_command(experiment, 3, tmp_path / "run")
+    assert evolved_by_node(experiment, 3, tmp_path) == expected
+
+
+@built
+@pytest.mark.long
+@pytest.mark.parametrize(("name", "seed"), [("acrobot", 1), ("discrim", 3), ("cartpole", 7)])
+def test_whole_runs_are_the_command_s(name, seed, tmp_path):
+    experiment = config.load(ROOT / f"data/experiments/{name}.ini")
+    expected = digests_of_the_command(experiment, seed, tmp_path / "run")
+    assert evolved_by_node(experiment, seed, tmp_path) == expected
+
+
+@pytest.mark.parametrize("problem", [*PROBLEMS, "PlanarWalker2D-v0", "ErPredprey"])
+def test_pictures_move_as_python_says(problem, tmp_path):
+    native = NativeProblem(problem)
+    scene = make_scene(native.dynamics, native.robots)
+    kind = page.twin(native, scene)
+    draws = np.random.default_rng(1)
+    cases = []
+    face = native.interface
+    for i in range(20):
+        state = draws.normal(size=scene.state_size)
+        if "side" in kind:
+            state = draws.uniform(0, kind["side"], scene.state_size)
+        action = draws.integers(0, 2, 1) if face.discrete else draws.normal(size=face.outputs)
+        action = np.tile(action, face.robots if not face.discrete else 1)
+        seen = draws.uniform(-0.2, 1.2, face.observations * face.robots)
+        reward = float(i % 2)
+        cases.append([state.tolist(), action.tolist(), seen.tolist(), reward])
+    expected = [scene.numbers(*case) for case in cases]
+    if shutil.which("node") is None:
+        pytest.skip("no Node found: install nodejs to test pages without a browser")
+    (tmp_path / "cases.json").write_text(json.dumps({"scene": kind, "cases": cases}))
+    script = (
+        f'const {{ scene, cases }} = JSON.parse(readFileSync("{tmp_path}/cases.json"));'
+        "console.log(JSON.stringify(cases.map((one) => numbersOf(scene, ...one))));"
+    )
+    np.testing.assert_allclose(node(tmp_path, script, "scenes.js"), expected, rtol=1e-12, atol=1e-9)
+
+
+def test_the_tables_are_numpy_s():
+    """The header is what the generator gives with this numpy."""
+    folder = ROOT / "lib/evolution"
+    made = subprocess.run([sys.executable, folder / "ziggurat.py"], capture_output=True, check=True)
+    assert made.stdout == (folder / "ziggurat.hpp").read_bytes()
+
+
+# Taking a robot apart
+
+BENCH = """
+const { core: place, experiment, genotype, seed, changes } = JSON.parse(readFileSync(GIVEN));
+const core = await Core.load(readFileSync(place));
+const task = core.task(experiment.problem, experiment.spec);
+const bench = core.bench(task, experiment.heterogeneous, experiment.limit);
+bench.genotype.set(genotype);
+bench.start(seed, 0);
+const rows = [];
+for (let step = 0; step < 40; step++) {
+  for (const [when, what, which, value] of changes) {
+    if (when !== step) continue;
+    if (what === "blind") bench.blind[which] = 1;
+    const own = what === "cut" ? core.mark(task, which, genotype.length) : [];
+    own.forEach((cut, i) => { if (cut) bench.genotype[i] = 0; });
+    if (what === "freeze") bench.freeze(true);
+    if (what === "move") { bench.state[which] = value; bench.move(); }
+  }
+  const ended = bench.step();
+  rows.push([bench.reward, ...bench.state, ...bench.activation]);
+  if (ended) break;
+}
+console.log(JSON.stringify(rows));
+"""
+
+
+def benched(experiment, genotype, changes, tmp_path):
+    _, data = written(experiment, tmp_path)
+    given = {"core": core_of(experiment), "experiment": data["experiment"]}
+    given |= {"genotype": genotype.tolist(), "seed": 5, "changes": changes}
+    (tmp_path / "given.json").write_text(json.dumps(given))
+    script = BENCH.replace("GIVEN", f'"{tmp_path}/given.json"')
+    return np.array(node(tmp_path, script))
+
+
+def by_python(experiment, genotype, changes):
+    """The same steps with the module's stepper and network, and the changes made by hand."""
+    from botschool import _core
+
+    native = NativeProblem(experiment.exp.environment)
+    policy = native.policy(experiment.policy)
+    network, stepper = policy.network, _core.make_stepper(native.dynamics)
+    genotype = genotype.copy()
+    stepper.set(native.steps(experiment.policy.maxsteps))
+    stepper.start(5, 0)
+    policy.load(genotype, None)
+    policy.reset(5, 0)
+    blind, rows = [], []
+    for step in range(40):
+        for when, what, which, value in changes:
+            if when != step:
+                continue
+            if what == "blind":
+                blind.append(which)
+            elif what == "cut":
+                inputs, hidden = policy.spec.inputs, policy.spec.nhiddens
+                assert policy.spec.architecture == 0 and policy.spec.nlayers == 1
+                outputs = policy.spec.outputs
+                own = which - inputs
+                # biases of hidden neurons and outputs, rows of weights into them
+                genotype[own] = 0
+                first = hidden + outputs
+                genotype[first + own * inputs : first + (own + 1) * inputs] = 0
+                second = first + hidden * inputs
+                genotype[second + own : second + outputs * hidden : hidden] = 0
+                policy.load(genotype, None)
+            elif what == "move":
+                state = stepper.state
+                state[which] = value
+                stepper.state = state
+        seen = stepper.observation
+        seen[blind] = 0
+        action = np.atleast_1d(policy.act(seen)).astype(np.float64)
+        reward, ended = stepper.step(action)
+        rows.append([reward, *stepper.state, *network.activations])
+        if ended:
+            break
+    return np.array(rows)
+
+
+@built
+@pytest.mark.parametrize(
+    ("problem", "changes"),
+    [
+        ("ErDiscrim", []),
+        ("ErDiscrim", [[5, "blind", 2, 0], [9, "cut", 10, 0], [12, "move", 3, 120.0]]),
+        ("ErDpole", [[3, "move", 2, 0.1], [4, "blind", 0, 0]]),
+        ("CartPole-v1", [[2, "cut", 5, 0], [3, "move", 3, 0.4]]),
+        ("PlanarHopper-v5", [[4, "cut", 14, 0], [6, "move", 6, 1.0]]),
+    ],
+)
+def test_a_page_s_hands_do_what_they_say(problem, changes, tmp_path):
+    experiment = experiment_of(problem, "OpenAI-ES")
+    policy = NativeProblem(problem).policy(experiment.policy)
+    genotype = 3 * policy.initial(4)
+    expected = by_python(experiment, genotype, changes)
+    np.testing.assert_array_equal(benched(experiment, genotype, changes, tmp_path), expected)
+
+
+@built
+def test_frozen_memory_stays(tmp_path):
+    experiment = experiment_of("ErDiscrim", "OpenAI-ES", architecture=3)
+    genotype = 3 * NativeProblem("ErDiscrim").policy(experiment.policy).initial(4)
+    free = benched(experiment, genotype, [], tmp_path)
+    late = benched(experiment, genotype, [[30, "freeze", 0, 0]], tmp_path)
+    np.testing.assert_array_equal(late[:31], free[:31])
+    assert (late[31:, 1:3] != free[31:, 1:3]).any()
+
+
+# The page
+
+
+@built
+def test_a_page_is_small_and_whole(tmp_path):
+    for name in ("acrobot", "planarhopper", "discrim"):
+        experiment = config.load(ROOT / f"data/experiments/{name}.ini")
+        path, data = written(experiment, tmp_path, seed=11)
+        text = path.read_text()
+        assert path.stat().st_size < 250_000, name
+        assert "http" not in text.replace("http-equiv", "")
+        assert "/*" not in text.partition("<script>")[0].partition("</style>")[2]
+        assert len(data["first"]) > 0
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"environment": "LunarLander-v3"}, "native problems"),
+        ({"algo": "CMA-ES"}, "OpenAI-ES or SSS"),
+    ],
+)
+def test_what_cannot_be_a_page_is_refused(change, sentence, tmp_path):
+    parts = to_dict(experiment_of("Acrobot-v1", "OpenAI-ES"))
+    parts["exp"] |= change
+    parts["algo"] = {}
+    with pytest.raises(BotschoolError, match=sentence):
+        page.write_page(tmp_path / "a.html", from_dict(parts))
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    if find_browser() is None:
+        pytest.skip("no browser found: install chromium to test pages")
+    browser = Browser(tmp_path_factory.mktemp("browser"))
+    yield browser
+    browser.close()
+
+
+HASH = """(async () => {
+  const found = {};
+  for (const [name, bytes] of Object.entries(runFiles(result.seed, result))) {
+    const digest = new Uint8Array(await crypto.subtle.digest("SHA-256", bytes));
+    found[name] = [...digest].map((x) => x.toString(16).padStart(2, "0")).join("");
+  }
+  return found;
+})()"""
+DRAG = """(() => {
+  const canvas = byId("scene");
+  const [left, bottom, right, top] = data.scene.view;
+  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+  const scale = Math.min(width / (right - left), height / (top - bottom));
+  const send = (kind, x, y) => {
+    const event = new PointerEvent(kind, { bubbles: true });
+    const offsetX = width / 2 + scale * (x - (left + right) / 2);
+    const offsetY = height / 2 - scale * (y - (bottom + top) / 2);
+    Object.defineProperties(event, { offsetX: { value: offsetX }, offsetY: { value: offsetY } });
+    canvas.dispatchEvent(event);
+  };
+  canvas.setPointerCapture = () => {};
+  send("pointerdown", bench.state[3], bench.state[4]);
+  send("pointermove", 200, 150);
+  send("pointerup", 200, 150);
+})()"""
+
+
+@built
+def test_in_a_browser(browser, tmp_path):
+    experiment = experiment_of("ErDiscrim", "OpenAI-ES", maxsteps=200)
+    expected = digests_of_the_command(experiment, 3, tmp_path / "run")
+    path, _ = written(experiment, tmp_path)
+    browser.errors.clear()
+    browser.requests.clear()
+    browser.resize(1280, 900)
+    browser.open(path)
+    browser.wait("bench && game.step > 2")
+
+    # evolve to the end: the files are the command's
+    browser.run("byId('evolve').click()")
+    browser.wait("!byId('downloads').hidden")
+    hashed = browser.run(HASH)
+    assert hashed == expected
+    assert browser.run("document.querySelectorAll('#downloads a').length") == 5
+
+    # drag the cylinder
+    browser.run("setPlaying(false)")
+    before = browser.run("[...bench.state.slice(3, 5)]")
+    browser.run(DRAG)
+    after = browser.run("[...bench.state.slice(3, 5)]")
+    assert after == pytest.approx([200, 150], abs=1) and after != before
+
+    # blind a sensor by keyboard, heal
+    browser.run("chips[2].made.focus(); chips[2].made.click()")
+    assert browser.run("[...bench.blind]") == [0, 0, 1, 0, 0, 0, 0, 0]
+    browser.run("chips[9].made.click()")
+    assert browser.run("cuts.size") == 1
+    browser.run("byId('heal').click()")
+    assert browser.run("cuts.size + bench.blind.reduce((a, b) => a + b)") == 0
+    assert browser.errors == []
+    assert {url.partition(":")[0] for url in browser.requests} <= {"file", "data", "about", "blob"}
