@@ -1,10 +1,10 @@
 """How fast the native PPO learns: processor seconds to a goal, by the settings of defaults.yaml.
 
-    python tests/bench/policy_gradients.py [PROBLEM ...]    a table; seeds 401 to 405
+    python tests/bench/policy_gradients.py [PROBLEM ...]    a table; seeds 411 to 415
     python tests/bench/policy_gradients.py threads          two threads beside one
 
 A training counts until 20 new episodes, played every 1 % of its steps, reach the goal; without a
-goal, or for Pendulum, until its end. 100 further episodes are played then.
+goal, or for Pendulum and Acrobot, until its end. 100 further episodes are played then.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 from botschool.rl.model import choose
 from botschool.rl.native import PPO
 
-SEEDS = range(401, 406)
+SEEDS = range(411, 416)
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Goal:
 GOALS = {
     "CartPole-v1": Goal(500, 0.5),
     "Pendulum-v1": Goal(-200, 3, whole=True),
-    "Acrobot-v1": Goal(-85, 1),
+    "Acrobot-v1": Goal(-85, 1, whole=True),
     "botschool/PlanarHopper-v5": Goal(2000, 15),
     "botschool/PlanarHalfCheetah-v5": Goal(None, None, whole=True),
     "botschool/PlanarWalker2D-v5": Goal(None, None, whole=True),
@@ -91,6 +91,7 @@ def main(names: list[str]) -> None:
         return
     print("| problem | goal | steps | seconds of one core | reached | 100 new episodes |")
     print("|---|---|---|---|---|---|")
+    made("CartPole-v1", 1)  # what is loaded once does not count
     for env in names or GOALS:
         goal, found = GOALS[env], [measured(env, seed) for seed in SEEDS]
         columns = list(zip(*found, strict=True))
