@@ -73,6 +73,21 @@ TEST(a_minibatch_of_chosen_rows_has_a_gradient) {
   CHECK(training.learner.step(training.learner.gradient(), 1e-3));
 }
 
+TEST(advantages_stop_where_episodes_end) {
+  Rollout r;
+  r.n_steps = 3;
+  r.n_envs = 2;
+  std::vector<float> values{1, 2, 3, 4, 5, 6}, rewards(6, 1.0f), ended{0, 0, 1, 0, 0, 2},
+      last{10, 20}, advantages(6), returns(6);
+  r.values = values.data(), r.rewards = rewards.data(), r.ended = ended.data();
+  r.last_values = last.data();
+  advantages_of(r, 0.5, 0.5, advantages.data(), returns.data());
+  // by hand: delta = r + gamma V' - V, A = delta + gamma lambda A'
+  const std::vector<float> expected{1.5f - 0.25f * 2, 1 - 0.25f * 1.25f, -2, 0 - 0.25f * 5, 1, -5};
+  CHECK(advantages == expected);
+  CHECK(returns[0] == advantages[0] + 1);
+}
+
 TEST(trainings_that_cannot_be_are_refused) {
   Hyperparameters many = odd(), nothing = odd();
   many.n_envs = 70000, nothing.batch_size = 0;
