@@ -227,7 +227,7 @@ def test_a_busy_machine_costs_no_time(sandboxed, server):
         stack.callback(os.sched_setaffinity, server._process.pid, before)
         one = sandboxed(BUSY)
         loop = f"import os\nos.sched_setaffinity(0, {{{processor}}})\nprint(flush=True)\n"
-        loop += "while True: pass"
+        loop += "import time\nend = time.monotonic() + 120\nwhile time.monotonic() < end: pass"
         # sessions of their own: where processors are shared by session, each counts as one, too
         others = [
             subprocess.Popen(
