@@ -19,7 +19,7 @@ from running import call, environment_of_command, finish, same, start, write_exp
 pytest.importorskip("distributed")
 
 from botschool.cluster import Open, chunks, connection, wire, worker
-from botschool.cluster.shelf import Shelf
+from botschool.cluster.members import Shelf
 
 EVERYTHING = {"DASK_BOTSCHOOL__SHORTEST": "0"}
 """Even the shortest batches go to the workers."""

@@ -17,6 +17,7 @@ import pytest
 from botschool.errors import BotschoolError
 from botschool.grading import commands
 from botschool.grading.classes import batch
+from botschool.grading.classes.commands import grade_all_command
 from botschool.grading.declare import exercise as extras
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import load_exercise, secret_for_others
@@ -438,7 +439,7 @@ def test_a_missing_package_is_said_before_a_class_is_graded(course, tmp_path, mo
     monkeypatch.setattr(extras, "_installed", lambda name: name != "torch")
     submit(tmp_path / "class" / "anna", SOLUTION)
     for command in (
-        lambda: commands.grade_all_command(tmp_path / "class", tmp_path / "o", "3", 1, False),
+        lambda: grade_all_command(tmp_path / "class", tmp_path / "o", "3", 1, False),
         lambda: commands.grade_command("3", str(tmp_path / "class" / "anna"), False, False),
     ):
         with pytest.raises(BotschoolError, match=r"needs torch: .*test-ex3.*botschool\[rl\]"):
@@ -474,7 +475,7 @@ def test_what_could_not_be_graded_is_an_empty_cell_and_no_part_of_an_average(
         return [sys.executable, "-c", FAULTY.format(error=error), *arguments]
 
     monkeypatch.setattr(batch, "interpreter", interpreter)
-    assert not commands.grade_all_command(tmp_path / "class", tmp_path / "o", "3", 2, False)
+    assert not grade_all_command(tmp_path / "class", tmp_path / "o", "3", 2, False)
     anna, bert, carl = rows(tmp_path / "o")
     assert [anna[key] for key in ("total", "exercise 3", "3.1", "3.2")] == [""] * 4
     assert anna["notes"] and (bert["total"], carl["total"]) == ("100", "0")
@@ -483,7 +484,7 @@ def test_what_could_not_be_graded_is_an_empty_cell_and_no_part_of_an_average(
     page = (tmp_path / "o" / "feedback" / "anna.html").read_text()
     assert "&ndash; <small>of 100" in page and ">0 <small>" not in page
     monkeypatch.setattr(batch, "interpreter", real)
-    assert commands.grade_all_command(tmp_path / "class", tmp_path / "o", "3", 2, False)
+    assert grade_all_command(tmp_path / "class", tmp_path / "o", "3", 2, False)
     assert [row["total"] for row in rows(tmp_path / "o")] == ["100", "100", "0"]
 
 

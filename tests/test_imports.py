@@ -22,7 +22,7 @@ LAYERS = (
     {"cluster"},
     {"evolution"},
     {"render"},
-    {"envs"},
+    {"envs", "page"},
     {"rl"},
     {"analysis"},
     {"course", "grading.packed", "grading.declare"},

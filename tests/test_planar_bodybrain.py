@@ -18,7 +18,7 @@ from botschool.policies.policy import Policy
 from botschool.problems import Episodes
 from botschool.render.replay import write_replay
 from botschool.render.scenes import make_scene
-from botschool.render.scenes.planarbodybrain import PIECE, START, ChainState
+from botschool.render.scenes.planar import PIECE, START, ChainState
 from test_planar_chain import BODIES, LIMITS, RODS, STRAIGHT, start_angles, turned
 from test_replay import held, unpacked
 

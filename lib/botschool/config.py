@@ -130,12 +130,12 @@ def load(path: str | PathLike[str]) -> Experiment:
 
 
 def to_dict(experiment: Experiment) -> dict[str, dict[str, Any]]:
-    """The experiment as plain numbers and strings, ready for JSON, without its path."""
+    """Return the experiment as plain numbers and strings, ready for JSON, without its path."""
     return {part: asdict(getattr(experiment, part)) for part in experiment.parts}
 
 
 def from_dict(data: dict[str, dict[str, Any]], source: str = "experiment") -> Experiment:
-    """The experiment that `to_dict` gave; keys that are missing get their default.
+    """Return the experiment that `to_dict` gave; keys that are missing get their default.
 
     Raises BotschoolError, whose sentence starts with `source`, where `load` would.
     """
@@ -149,7 +149,7 @@ def from_dict(data: dict[str, dict[str, Any]], source: str = "experiment") -> Ex
 
 
 def defaults(experiment: Experiment) -> dict[str, dict[str, Any]]:
-    """The defaults of all its hyperparameters that have one, as in to_dict."""
+    """Return the defaults of all its hyperparameters that have one, as in to_dict."""
     return {
         part: {f.name: f.default for f in fields(getattr(experiment, part))}
         for part in experiment.parts
@@ -162,7 +162,7 @@ def free(experiment: Experiment) -> set[tuple[str, str]]:
 
 
 def describe() -> list[tuple[str, str, Any, str]]:
-    """Rows (section, name, default, help) of all hyperparameters of all algorithms.
+    """Return rows (section, name, default, help) of all hyperparameters of all algorithms.
 
     Sections are `EXP`, `POLICY`, `ARENA` and `ALGO NAME` of each algorithm. The default is
     None where a value must be given; of robot1, robot2 and the like the first stands for all. The
@@ -202,7 +202,7 @@ def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]
 
 
 def _arena(exp: Exp, entries: dict[str, Entry] | None, path: str | PathLike[str]) -> Any:
-    """The section [ARENA], whose plan can be; None if there is none."""
+    """Return the section [ARENA], whose plan can be; None if there is none."""
     declared = exp.environment == PROBLEM
     if entries is None and not declared:
         return None
@@ -223,7 +223,7 @@ def _arena(exp: Exp, entries: dict[str, Entry] | None, path: str | PathLike[str]
 
 
 def _build(cls: type, section: str, entries: dict[str, Entry], path: str | PathLike[str]) -> Any:
-    """An instance of `cls` from the entries of its section."""
+    """Return an instance of `cls` from the entries of its section."""
     known = {f.name.lower(): f for f in fields(cls)}
     values = {}
     for key, entry in entries.items():
@@ -242,7 +242,9 @@ def _build(cls: type, section: str, entries: dict[str, Entry], path: str | PathL
 
 
 def _value(f: Field, entry: Entry) -> Any:
-    """The entry's value, in the type and the limits that `f` declares; ValueError otherwise."""
+    """Return the entry's value, in the type and the limits that `f` declares; ValueError
+    otherwise.
+    """
     raw, limits = entry.value, f.metadata
     said = f"{entry.key} = {shown(raw)}"
     if raw == "" and f.default == "":
@@ -275,7 +277,7 @@ def _value(f: Field, entry: Entry) -> Any:
 
 
 def _text(f: Field, raw: Any, said: str) -> str:
-    """The value of a hyperparameter that is a text: one of its choices, or a name."""
+    """Return the value of a hyperparameter that is a text: one of its choices, or a name."""
     if "check" in f.metadata:
         f.metadata["check"](str(raw))
         return str(raw)
@@ -296,7 +298,9 @@ def _text(f: Field, raw: Any, said: str) -> str:
 
 
 def _number(raw: Any) -> float | int | None:
-    """The number that a text or a value is, nan and the infinities included; None if it is none."""
+    """Return the number that a text or a value is, nan and the infinities included; None if it is
+    none.
+    """
     if isinstance(raw, str):
         pattern = r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?|[+-]?(nan|inf|infinity)"
         return float(raw) if re.fullmatch(pattern, raw, re.ASCII | re.IGNORECASE) else None
@@ -306,7 +310,7 @@ def _number(raw: Any) -> float | int | None:
 
 
 def _allowed(f: Field) -> str:
-    """What a value may be, as the end of a sentence."""
+    """Return what a value may be, as the end of a sentence."""
     limits = f.metadata
     if "choices" in limits:
         *most, last = [f"{value} ({meaning})" for value, meaning in limits["choices"].items()]
@@ -324,12 +328,12 @@ def _allowed(f: Field) -> str:
 
 
 def _also(f: Field) -> str:
-    """The other name of a key, in brackets."""
+    """Return the other name of a key, in brackets."""
     return f" (the key {f.metadata['alias']} is the same)" if "alias" in f.metadata else ""
 
 
 def _unknown(key: str, section: str, cls: type) -> str:
-    """The sentence for a key that its section does not have."""
+    """Return the sentence for a key that its section does not have."""
     name = key.lower()
     if section == ARENA and (kind := re.fullmatch(r"(\D+?)s?(\d*)", name)) and kind[1] in KINDS:
         if kind[2]:

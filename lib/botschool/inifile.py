@@ -33,7 +33,8 @@ class Entry(NamedTuple):
 def read_sections(
     path: str | PathLike[str], names: tuple[str, ...], aliases: dict[str, str]
 ) -> dict[str, dict[str, Entry]]:
-    """The entries of every section of the file, under the section's name and the lower-case key.
+    """Return the entries of every section of the file, under the section's name and the lower-case
+    key.
 
     `names` are the allowed sections; `aliases` gives the key that a second name stands for. Raises
     BotschoolError for a file that cannot be read and for a line that is no part of an .ini file.
@@ -72,20 +73,20 @@ def read_sections(
 
 
 def refusal(path: str | PathLike[str], line: int, sentence: str) -> BotschoolError:
-    """The error whose sentence starts with the file and, unless it is 0, the line."""
+    """Return the error whose sentence starts with the file and, unless it is 0, the line."""
     place = f"{os.fspath(path)}, line {line}" if line else f"{os.fspath(path)}"
     return BotschoolError(f"{place}: {sentence}{'' if sentence.endswith('?') else '.'}")
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """A remedy for an unknown word: the most similar known one, or all of them."""
+    """Return a remedy for an unknown word: the most similar known one, or all of them."""
     names = {name.lower(): name for name in known}
     close = difflib.get_close_matches(word.lower()[:80], names, n=1)
     return f"did you mean {names[close[0]]}?" if close else f"known are {', '.join(names.values())}"
 
 
 def shown(value: Any) -> str:
-    """A value as it can be quoted in a sentence: short, on one line."""
+    """Return a value as it can be quoted in a sentence: short, on one line."""
     text = str(value) if str(value).isprintable() and str(value) else ascii(value)
     return text if len(text) <= 40 else f"{text[:37]}..."
 
@@ -121,7 +122,7 @@ def _twice(key: str, first: Entry) -> str:
 
 
 def _read(path: str | PathLike[str]) -> str:
-    """The text of the file. Latin-1 is tolerated, for comments: no key or value needs it."""
+    """Return the text of the file. Latin-1 is tolerated, for comments: no key or value needs it."""
     try:
         with open(path, "rb") as file:
             data = file.read(LONGEST_FILE + 1)
@@ -143,7 +144,7 @@ def _read(path: str | PathLike[str]) -> str:
 
 
 def _instead(path: Path) -> str:
-    """What to give instead of a missing file: the .ini files of its folder."""
+    """Return what to give instead of a missing file: the .ini files of its folder."""
     folder = "this folder" if path.parent == Path() else f"the folder {path.parent}"
     try:
         found = sorted(file.name for file in path.parent.iterdir() if file.suffix.lower() == ".ini")

@@ -40,5 +40,5 @@ def log(values: ArrayLike) -> np.ndarray:
 
 
 def weighted(weights: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """The sum of the rows, each times its weight, in the order of the rows."""
+    """Return the sum of the rows, each times its weight, in the order of the rows."""
     return np.add.reduce(weights[:, None] * rows, axis=0)

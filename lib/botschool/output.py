@@ -15,7 +15,7 @@ from botschool.errors import BotschoolError
 
 
 def check_output(path: Path | str, suffixes: Sequence[str]) -> Path:
-    """The path, if a file of one of these kinds (lower-case, as ".png") can lie there.
+    """Return the path, if a file of one of these kinds (lower-case, as ".png") can lie there.
 
     Raises BotschoolError otherwise.
     """
@@ -36,7 +36,7 @@ def check_output(path: Path | str, suffixes: Sequence[str]) -> Path:
 
 
 def cannot_write(path: Path | str, reason: str) -> BotschoolError:
-    """The exception that says so."""
+    """Return the error for a path that cannot be written."""
     return BotschoolError(
         f"{path} cannot be written ({reason}): free some space or choose another folder."
     )
@@ -44,7 +44,7 @@ def cannot_write(path: Path | str, reason: str) -> BotschoolError:
 
 @contextmanager
 def written_whole(path: Path | str) -> Iterator[Path]:
-    """Gives a temporary path beside `path`; what is written there takes its name at the end.
+    """Return a temporary path beside `path`; what is written there takes its name at the end.
 
     When the block fails nothing is left behind, an earlier `path` stays as it was, and the
     block's exception goes on. Raises BotschoolError if the file cannot be completed.
@@ -65,7 +65,7 @@ def written_whole(path: Path | str) -> Iterator[Path]:
 
 
 def remove_leftovers(path: Path) -> None:
-    """Removes what killed processes left of unfinished versions of `path`."""
+    """Remove what killed processes left of unfinished versions of `path`."""
     for temporary in path.parent.glob(_temporary(path, "*").name):
         with suppress(OSError):
             temporary.unlink()

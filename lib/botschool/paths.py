@@ -15,7 +15,7 @@ from botschool.errors import BotschoolError, said
 
 
 def course_root() -> Path:
-    """The folder that holds exercises/; looked for from the present folder upwards."""
+    """Return the folder that holds exercises/; looked for from the present folder upwards."""
     given = os.environ.get("BOTSCHOOL_COURSE")
     here = Path(given) if given else Path.cwd()
     for folder in (here, *here.resolve().parents):
@@ -28,14 +28,14 @@ def course_root() -> Path:
 
 
 def look_here(module: str) -> None:
-    """Lets a module be imported from the present folder, and says so if it is there."""
+    """Let a module be imported from the present folder, and say so if it is there."""
     if os.getcwd() not in sys.path:
         sys.path.insert(0, os.getcwd())
     _say_if_here(module)
 
 
 def import_here(module: str, purpose: str) -> ModuleType:
-    """The module, installed or in the present folder.
+    """Return the module, installed or in the present folder.
 
     purpose: what is wanted of it, as "take the wrapper Doubled from". Raises BotschoolError.
     """

@@ -24,6 +24,6 @@ class _Key(ISeedSequence):
 
 
 def generator(seed: int, generation: int) -> Generator:
-    """Numbers of one generation: Philox4x64-10 (Salmon et al. 2011) keyed by both."""
+    """Return numbers of one generation: Philox4x64-10 (Salmon et al. 2011) keyed by both."""
     key: Any = _Key(seed, generation)
     return Generator(Philox(key))

@@ -21,7 +21,7 @@ SIGNALS = [
 
 @contextmanager
 def stoppable() -> Iterator[Callable[[], bool]]:
-    """Gives a function that tells whether the user has asked to stop.
+    """Return a function that tells whether the user has asked to stop.
 
     Ctrl-C, SIGTERM and a closed terminal ask; a second time ends the process at once.
 
@@ -90,7 +90,7 @@ def unheard(signals: list[int] = SIGNALS) -> Iterator[None]:
 
 @contextmanager
 def progress_bar(seed: int) -> Iterator[Callable[[float, int, int, str], None]]:
-    """Gives a function to call with the share done, the steps so far, decimals of their millions,
+    """Return a function to call with the share done, the steps so far, decimals of their millions,
     and a text."""
     with progress_bars() as bars:
         yield partial(bars.show, seed)
@@ -113,7 +113,7 @@ class Bars:
         self._progress.update(self._tasks[seed], completed=min(share, 1.0), **fields)
 
     def finish(self, seed: int, text: str) -> None:
-        """Puts a text in the place of a seed's bar."""
+        """Put a text in the place of a seed's bar."""
         if seed in self._tasks:
             self._progress.remove_task(self._tasks.pop(seed))
         self._progress.print(text, markup=False, highlight=False, soft_wrap=True)
@@ -121,7 +121,7 @@ class Bars:
 
 @contextmanager
 def progress_bars() -> Iterator[Bars]:
-    """Several progress bars, one below the other."""
+    """Return several progress bars, one below the other."""
     from rich.progress import (
         BarColumn,
         Progress,
@@ -143,7 +143,7 @@ def progress_bars() -> Iterator[Bars]:
 
 
 def readable(value: float) -> str:
-    """A fitness, with the digits that its size asks for: 2261.4, -66.31, 0.6500, 0.0001234.
+    """Return a fitness, with the digits that its size asks for: 2261.4, -66.31, 0.6500, 0.0001234.
 
     Four digits that count and at least one decimal; powers of ten past 10^7 and below 10^-6.
     """
@@ -156,7 +156,7 @@ def readable(value: float) -> str:
 
 
 def has_display() -> bool:
-    """Whether a window can be expected to open."""
+    """Return whether a window can be expected to open."""
     if os.environ.get("SDL_VIDEODRIVER") in ("dummy", "offscreen"):
         return False
     if sys.platform in ("win32", "darwin"):

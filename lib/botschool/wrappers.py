@@ -38,7 +38,7 @@ class Wrapper:
     named: dict[str, Any] = field(default_factory=dict)
 
     def around(self, env: gymnasium.Env, wrapped: str) -> gymnasium.Env:
-        """The environment called `wrapped` inside the wrapper. Raises BotschoolError."""
+        """Return the environment called `wrapped` inside the wrapper. Raises BotschoolError."""
         import gymnasium
 
         found = self._find()
@@ -94,12 +94,14 @@ class Wrapper:
 
 
 def parse(text: str) -> tuple[Wrapper, ...]:
-    """The wrappers that a text names, separated by commas. Raises BotschoolError."""
+    """Return the wrappers that a text names, separated by commas. Raises BotschoolError."""
     return tuple(_wrapper(part.strip()) for part in _split(text)) if text.strip() else ()
 
 
 def keywords(text: str) -> dict[str, Any]:
-    """The options of an environment, as `num_good=1, speeds=(2, 3)`. Raises BotschoolError."""
+    """Return the options of an environment, as `num_good=1, speeds=(2, 3)`. Raises
+    BotschoolError.
+    """
     try:
         call: Any = ast.parse(f"f({text})", mode="eval").body
         found = {each.arg: ast.literal_eval(each.value) for each in call.keywords}

@@ -25,7 +25,7 @@ from botschool.analysis.populations import (
     seeds_of,
 )
 from botschool.analysis.tournament import Contest, Table, master_tournament, play, summarised
-from botschool.analysis.tournament_plot import check_files, draw, save_csv
+from botschool.analysis.tournament_report import check_files, draw, save_csv
 from botschool.cluster import Open
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
@@ -41,7 +41,8 @@ _STRING = re.compile(r"(?P<kind>[PpmM])-(?P<generation>\d{1,9})-(?P<number>\d{1,
 
 
 def names_file(text: str) -> bool:
-    """Whether -g means a file of one predator and one prey, rather than one of the strings above.
+    """Return whether -g means a file of one predator and one prey, rather than one of the strings
+    above.
 
     Raises BotschoolError for a file of populations.
     """
@@ -64,7 +65,7 @@ class Request:
 
 
 def parse(text: str, folder: Path) -> Request:
-    """What the string means.
+    """Return what the string means.
 
     Raises BotschoolError for what is none of the five, with what the folder holds.
     """
@@ -80,7 +81,7 @@ def parse(text: str, folder: Path) -> Request:
 
 
 def split_files(text: str, folder: Path) -> tuple[Path, Path]:
-    """The two files of c-FILE1-FILE2; their names may hold "-" too.
+    """Return the two files of c-FILE1-FILE2; their names may hold "-" too.
 
     Of all ways to split the string the one counts in which both files exist, from here or in the
     run's folder. Raises BotschoolError if there is none, or more than one.
@@ -110,7 +111,7 @@ def _existing(name: str, folder: Path) -> Path | None:
 
 
 def _there(folder: Path) -> str:
-    """Which generations of which seeds the folder holds."""
+    """Return the generations of each seed that the folder holds."""
     found = seeds_of(folder)
     if not found:
         return f"{folder} holds no populations"
@@ -196,7 +197,9 @@ def tournament(
 
 
 def only_seed(folder: Path) -> int:
-    """The seed of the folder's populations; raises BotschoolError if there is not just one."""
+    """Return the seed of the folder's populations; raises BotschoolError if there is not just
+    one.
+    """
     seeds = list(seeds_of(folder))
     if len(seeds) != 1:
         there = f"several seeds ({', '.join(map(str, seeds))})" if seeds else "no populations"
@@ -205,7 +208,9 @@ def only_seed(folder: Path) -> int:
 
 
 def generations_in(text: str | None, every: int | None) -> list[int] | None:
-    """The generations in a text such as 0,100,200, sorted; None for None. Raises BotschoolError."""
+    """Return the generations in a text such as 0,100,200, sorted; None for None. Raises
+    BotschoolError.
+    """
     if text is None:
         return None
     if every is not None:
@@ -219,7 +224,8 @@ def generations_in(text: str | None, every: int | None) -> list[int] | None:
 
 
 def thinned(populations: Populations, every: int | None) -> list[int]:
-    """The saved generations that `every` divides; without it, GENERATIONS at most, spaced evenly.
+    """Return the saved generations that `every` divides; without it, GENERATIONS at most, spaced
+    evenly.
 
     Raises BotschoolError if fewer than two are left.
     """
@@ -253,7 +259,8 @@ def _tournament(contest: Contest, chosen: list[Population]) -> tuple[Table, Tabl
 
 
 def earlier(populations: Populations, generation: int, every: int) -> list[int]:
-    """Generations g, g - i, g - 2 i, ...; of one that is not saved, the nearest that is; sorted.
+    """Return generations g, g - i, g - 2 i, ...; of one that is not saved, the nearest that is;
+    sorted.
 
     Prints which are not saved.
     """
@@ -276,7 +283,9 @@ def earlier(populations: Populations, generation: int, every: int) -> list[int]:
 def select(
     populations: Populations, generations: list[int], best: int | None = None
 ) -> list[Population]:
-    """The best individuals of these generations: as many of each, BEST of them if there are."""
+    """Return the best individuals of these generations: as many of each, BEST of them if
+    there are.
+    """
     loaded = [populations.load(generation) for generation in generations]
     return equal_parts(loaded, best)
 
@@ -305,7 +314,7 @@ def _pairs(contest: Contest, population: Population) -> None:
 
 
 def _row(contest: Contest, populations: list[Population]) -> tuple[Table, Table]:
-    """The last generation's predators, and its prey, against those of all."""
+    """Return the last generation's predators, and its prey, against those of all."""
     last = populations[-1]
     hunting = play(contest, [last.predators], [population.prey for population in populations])
     hunted = play(contest, [population.predators for population in populations], [last.prey])

@@ -59,7 +59,7 @@ Curves = dict[int, np.ndarray]
 def plot_stat(
     targets: Sequence[Path | str], output: Path | str | None = None, warn: Warn = warn
 ) -> None:
-    """Draws fitness against steps for stat files, and for all runs and trainings of folders.
+    """Draw fitness against steps for stat files, and for all runs and trainings of folders.
 
     One run gives three curves. The runs of one folder give the mean and a band of one standard
     deviation, with the single runs as thin lines; several folders are told apart by colour, and so
@@ -106,7 +106,7 @@ class _Words:
 
     @classmethod
     def of(cls, evolved: bool, trained: bool) -> _Words:
-        """Words for runs of evolution, for trainings, or for both side by side."""
+        """Return words for runs of evolution, for trainings, or for both side by side."""
         best = "best post-evaluated so far"
         if not trained:
             labels = {
@@ -128,7 +128,7 @@ class _Words:
 def plot_ave(
     targets: Sequence[Path | str], output: Path | str | None = None, warn: Warn = warn
 ) -> None:
-    """Prints and draws mean, standard deviation (n - 1) and n of the best post-evaluated fitness.
+    """Print and draw mean, standard deviation (n - 1) and n of the best post-evaluated fitness.
 
     One row and one bar for each folder of runs, with a dot for each run. The table is printed
     before the picture is tried; without a display to draw on, it is all there is, and a note says
@@ -203,7 +203,7 @@ def _layout(height: float, width: float) -> dict[str, Any]:
 def new_figure(
     output: Path | str | None, height: float = 5.0, width: float = 8.0
 ) -> Iterator[Figure]:
-    """A figure of `width` by `height` inches, shown or written when the block ends."""
+    """Return a figure of `width` by `height` inches, shown or written when the block ends."""
     if output is None:
         with _shown_figure(height, width) as figure:
             yield figure
@@ -285,7 +285,8 @@ def _draw_mean(axes: Axes, curves: Curves, column: int, colour: str, label: str)
 def replication_mean(
     stats: Sequence[np.ndarray], column: int, points: int = 500
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean and standard deviation (n - 1) of one column over replications, on common steps.
+    """Return the mean and standard deviation (n - 1) of one column over replications, on common
+    steps.
 
     Each run, (generations, 6), is interpolated linearly between its generations, and counts only
     from its first to its last one. Returns steps, mean and sd, each (points,), NaN where fewer

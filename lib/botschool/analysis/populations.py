@@ -33,7 +33,7 @@ class Population:
     prey: np.ndarray
 
     def best(self, individuals: int) -> Population:
-        """The n best of both. Raises BotschoolError if there are not as many."""
+        """Return the n best of both. Raises BotschoolError if there are not as many."""
         if individuals > len(self.prey):
             raise BotschoolError(
                 f"{self.name} has {len(self.prey)} predators and as many prey, so it cannot give "
@@ -64,18 +64,18 @@ class Populations:
         """Sorted."""
 
     def check(self, generation: int) -> None:
-        """Raises BotschoolError if there is no such generation."""
+        """Raise BotschoolError if there is no such generation."""
         if generation not in self.generations:
             raise BotschoolError(f"There is no generation {generation}: {self.there()}.")
 
     def load(self, generation: int) -> Population:
-        """All individuals of a generation. Raises BotschoolError."""
+        """Return all individuals of a generation. Raises BotschoolError."""
         self.check(generation)
         path = self.folder / f"S{self.seed}G{generation}.npy"
         return read_population(path, self.policy, f"generation {generation}", self.single)
 
     def there(self) -> str:
-        """What is there, as the end of a sentence."""
+        """Return what the folder holds, as the end of a sentence."""
         return f"{self.folder} holds {counted(self.generations)} of seed {self.seed}"
 
 
@@ -94,7 +94,7 @@ def seeds_of(folder: Path) -> dict[int, list[int]]:
 
 
 def counted(generations: list[int]) -> str:
-    """The generations as a piece of a sentence; many are shortened."""
+    """Return the generations as a piece of a sentence; many are shortened."""
     if len(generations) == 1:
         return f"generation {generations[0]} alone"
     numbers = [str(generation) for generation in generations]
@@ -105,7 +105,7 @@ def counted(generations: list[int]) -> str:
 
 
 def read_population(path: Path, policy: Policy, name: str, single: bool = False) -> Population:
-    """The populations in a file, by the mean of the Fit file beside it, or as they stand.
+    """Return the populations in a file, by the mean of the Fit file beside it, or as they stand.
 
     Raises BotschoolError if a file is damaged or its networks are not the policy's.
     """
@@ -129,7 +129,9 @@ def read_population(path: Path, policy: Policy, name: str, single: bool = False)
 
 
 def _order(path: Path, count: int, sides: int) -> np.ndarray:
-    """Rows of each side, one side after the other, the best first; equal ones as they stand."""
+    """Return rows of each side, one side after the other, the best first; equal ones as they
+    stand.
+    """
     beside = path.with_name(re.sub(r"(S\d+)(G\d+\.npy)", r"\1Fit\2", path.name))
     if beside == path or not beside.exists():
         return np.arange(count)
@@ -145,7 +147,7 @@ def _order(path: Path, count: int, sides: int) -> np.ndarray:
 
 
 def _numbers(path: Path, what: str) -> np.ndarray:
-    """A table of finite numbers, float64."""
+    """Return a table of finite numbers, float64."""
     try:
         with open(path, "rb") as stream:
             table = np.lib.format.read_array(stream, allow_pickle=False)

@@ -43,12 +43,12 @@ EPISODES = 2
 
 
 def has_begun(folder: Path, seed: int) -> bool:
-    """Whether the run has saved a generation."""
+    """Return whether the run has saved a generation."""
     return np.load(folder / f"statS{seed}.npy", allow_pickle=False).size > 0
 
 
 def write_page(experiment: Experiment, seed: int, folder: Path, robot: bool = True) -> Path:
-    """Writes pageSS.html from what the run has saved so far, and returns its path.
+    """Write pageSS.html from what the run has saved so far, and return its path.
 
     robot: whether it plays the best robot. Raises BotschoolError if the folder holds no such run,
     if no generation is saved yet, or if the page cannot be written.
@@ -79,7 +79,7 @@ def write_page(experiment: Experiment, seed: int, folder: Path, robot: bool = Tr
 
 
 def curve(rows: np.ndarray) -> str:
-    """Fitness against steps as SVG; rows: of a stat file."""
+    """Return fitness against steps as SVG; rows: of a stat file."""
     rows = rows[np.unique(np.linspace(0, len(rows) - 1, POINTS).round().astype(int))]
     values = rows[:, [column for column, _, _ in LINES]]
     low, high = np.nanmin(values), np.nanmax(values)
@@ -111,7 +111,7 @@ def curve(rows: np.ndarray) -> str:
 
 
 def _replay(experiment: Experiment, seed: int, folder: Path) -> str:
-    """The best robot's replay, a page within the page; or why there is none."""
+    """Return the best robot's replay, a page within the page; or why there is none."""
     from botschool.render.watch import PostEvaluation, read_genotype
 
     best = RunFiles(folder, seed).bestg
@@ -129,7 +129,7 @@ def _replay(experiment: Experiment, seed: int, folder: Path) -> str:
 
 
 def _settings(part: str, config) -> str:
-    """A section's keys and values; those that are not the default stand out."""
+    """Return a section's keys and values; those that are not the default stand out."""
     rows = []
     for f in fields(config):
         value = getattr(config, f.name)

@@ -23,7 +23,7 @@ Warn = Callable[[str], None]
 
 
 def warn(sentence: str) -> None:
-    """Prints a notice on stderr."""
+    """Print a notice on stderr."""
     print(sentence, file=sys.stderr)
 
 
@@ -42,7 +42,8 @@ class Run:
     """What the .fit file says; empty without one."""
 
     def best_post_evaluated(self) -> float:
-        """Best post-evaluated fitness: the .fit file's `bestgfit`, else the stat file's last one.
+        """Return the best post-evaluated fitness: the .fit file's `bestgfit`, else the stat file's
+        last one.
 
         Raises BotschoolError if neither file tells it.
         """
@@ -60,7 +61,7 @@ class Run:
 
 
 def read_stat(path: Path | str) -> np.ndarray:
-    """The learning curve of one run.
+    """Return the learning curve of one run.
 
     Returns float64 of shape (generations, 6); the columns are those that STEPS to
     PARAMETER_SIZE number. Raises BotschoolError if the file is missing or is no stat file;
@@ -106,7 +107,7 @@ def read_stat(path: Path | str) -> np.ndarray:
 
 
 def read_fit(path: Path | str) -> dict[str, float | str]:
-    """The `key value` pairs of a run's .fit file, numbers as float, `bestgfit` among them.
+    """Return the `key value` pairs of a run's .fit file, numbers as float, `bestgfit` among them.
 
     A part in brackets, as `(42.0%)`, is left out. Raises BotschoolError if the file is missing
     or is no .fit file.
@@ -137,7 +138,7 @@ def _number(word: str) -> float | str:
 
 
 def find_runs(folder: Path | str, warn: Warn = warn) -> list[Run]:
-    """The runs whose files lie in a folder, by seed.
+    """Return the runs whose files lie in a folder, by seed.
 
     The seed is that of the file names: `statS11.npy` (or `stat11.npy`) belongs to seed 11. A .fit
     file that cannot be read is left out after `warn` was called with a sentence. Raises
@@ -172,7 +173,7 @@ def find_runs(folder: Path | str, warn: Warn = warn) -> list[Run]:
 
 
 def read_curves(folder: Path | str, warn: Warn = warn) -> dict[int, np.ndarray]:
-    """The learning curves of all runs in a folder: seed -> (generations, 6), as `read_stat`.
+    """Return the learning curves of all runs in a folder: seed -> (generations, 6), as `read_stat`.
 
     A stat file that cannot be read is left out after `warn` was called with a sentence. Raises
     BotschoolError if none is left.
@@ -193,7 +194,7 @@ def read_curves(folder: Path | str, warn: Warn = warn) -> dict[int, np.ndarray]:
 
 
 def read_fitness(folder: Path | str, warn: Warn = warn) -> dict[int, float]:
-    """Best post-evaluated fitness of each run in a folder: seed -> fitness.
+    """Return the best post-evaluated fitness of each run in a folder: seed -> fitness.
 
     A run that does not tell it is left out after `warn` was called with a sentence. Raises
     BotschoolError if none is left.
@@ -214,6 +215,6 @@ def read_fitness(folder: Path | str, warn: Warn = warn) -> dict[int, float]:
 
 
 def seed_of(stat: Path | str) -> int | None:
-    """The seed in a stat file's name, or None if the name has none."""
+    """Return the seed in a stat file's name, or None if the name has none."""
     match = _RUN_FILE.fullmatch(Path(stat).name)
     return int(match["seed"]) if match and match["kind"] == "stat" else None

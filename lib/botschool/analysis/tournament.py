@@ -70,7 +70,7 @@ class Contest:
         self.problem.close()
 
     def meet(self, predators: np.ndarray, prey: np.ndarray) -> np.ndarray:
-        """The predators' fitness, shape (predators, prey); both given as (n, nparameters).
+        """Return the predators' fitness, shape (predators, prey); both given as (n, nparameters).
 
         Where a prey's is not 1 minus it (`problem.constant_sum`), that of both: (2, ...).
         """
@@ -137,7 +137,7 @@ class Table:
 
 
 def summarised(fitness: np.ndarray, seed: int) -> tuple[Table, Table]:
-    """The predators' and the prey's table from what `play` returns.
+    """Return the predators' and the prey's table from what `play` returns.
 
     Intervals are by the bootstrap over individuals: in each resample every generation of both
     sides is drawn anew from its own individuals, with replacement, and all cells of the table use
@@ -173,7 +173,8 @@ def interval(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def historical_progress(fitness: np.ndarray) -> np.ndarray:
-    """How much better a later generation does against ancient competitors than an earlier one.
+    """Return how much better a later generation does against ancient competitors than an earlier
+    one.
 
     With f(g, k) the mean fitness of generation g against the competitors of generation k:
 
@@ -191,7 +192,7 @@ def historical_progress(fitness: np.ndarray) -> np.ndarray:
 
 
 def global_progress(fitness: np.ndarray) -> np.ndarray:
-    """How much better a later generation does against everybody than an earlier one.
+    """Return how much better a later generation does against everybody than an earlier one.
 
         mean over all pairs i < j of   mean over all k of   f(j, k) - f(i, k)
 
@@ -216,13 +217,13 @@ class Estimate:
 
     @classmethod
     def of(cls, value: Any, samples: np.ndarray) -> Estimate:
-        """The number and the interval of its resamples, shape (RESAMPLES,)."""
+        """Return the number and the interval of its resamples, shape (RESAMPLES,)."""
         low, high = interval(samples)
         return cls(float(value), float(low), float(high))
 
 
 def progress(table: Table) -> dict[str, Estimate]:
-    """Both indices of a side, by name."""
+    """Return both indices of a side, by name."""
     return {
         name: Estimate.of(index(table.mean), index(table.samples))
         for name, index in PROGRESS.items()
@@ -230,7 +231,8 @@ def progress(table: Table) -> dict[str, Estimate]:
 
 
 def verdict(table: Table, names: Sequence[str]) -> str:
-    """Whether later generations of a side beat ancient competitors more than earlier ones did.
+    """Return whether later generations of a side beat ancient competitors more than earlier ones
+    did.
 
     A sentence with numbers; it is certain if 0 is outside the interval of the historical progress.
     names: those of the generations.
@@ -253,7 +255,7 @@ def verdict(table: Table, names: Sequence[str]) -> str:
 
 
 def in_words(estimate: Estimate, sign: str = "") -> str:
-    """The number with its interval, as "0.31 (95 % interval 0.25 to 0.36)".
+    """Return the number with its interval, as "0.31 (95 % interval 0.25 to 0.36)".
 
     A difference, whose sign matters ("+"), gets a decimal more.
     """
@@ -268,7 +270,7 @@ def master_tournament(
     populations: Sequence[Population],
     report: Callable[[int], None] = lambda done: None,
 ) -> tuple[Table, Table]:
-    """All against all: the predators' and the prey's table over these populations."""
+    """Let all meet all: return the predators' and the prey's table over these populations."""
     fitness = play(
         contest,
         [population.predators for population in populations],

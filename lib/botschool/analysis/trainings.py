@@ -21,14 +21,15 @@ POST_EVALUATED, TRAINING_EPISODES = GENERATION_BEST, GENERATION_AVERAGE
 
 
 def has_trainings(folder: Path) -> bool:
-    """Whether a folder is a training or holds some; runs of evolution in it come first."""
+    """Return whether a folder is a training or holds some; runs of evolution in it come first."""
     return folder.is_dir() and not any(folder.glob("stat*.npy")) and bool(find_runs(folder))
 
 
 def read_trainings(
     folder: Path, count_evaluations: bool, warn: Warn
 ) -> dict[Path, dict[int, np.ndarray]]:
-    """The curves of all trainings in a folder or below: group -> number of the run -> (n, 6).
+    """Return the curves of all trainings in a folder or below: group -> number of the run -> (n,
+    6).
 
     A group is a path that exists in name only, `FOLDER/ppo Acrobot-v1`, with what was changed by
     --params. Columns as in `read_curve`. A damaged training is left out after `warn` was called;
@@ -58,7 +59,7 @@ def _group(run: RunFolder) -> Path:
 
 
 def read_curve(run: RunFolder, count_evaluations: bool = False) -> np.ndarray:
-    """The learning curve of a training in the shape of a stat file, (evaluations, 6).
+    """Return the learning curve of a training in the shape of a stat file, (evaluations, 6).
 
     Steps of training (with `count_evaluations` those of the post-evaluations too, as evolution
     counts them); the best post-evaluation so far; POST_EVALUATED, the mean return of this one;

@@ -156,14 +156,14 @@ class Arena:
         return state
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
-        """What a user can move: where it begins in the state, and its places."""
+        """Return what a user can move: where it begins in the state, and its places."""
         parts = [(0, self._robots), (self._first["cylinder"], self._objects[: self.cylinders, :2])]
         if self.plan:
             parts += [(self._first["light"], self._lights), (self._first["zone"], self._zones)]
         return parts
 
     def reset(self, seed: int | None = None, episode: int = 0) -> np.ndarray:
-        """Starts an episode and returns the observation.
+        """Start an episode and return the observation.
 
         Seed and episode decide on everything that is random in it, as they do in evolution.
         Without a seed the next episode of the seed before starts.
@@ -182,13 +182,13 @@ class Arena:
         return self.sense()
 
     def sense(self) -> np.ndarray:
-        """Renews and returns the observation, from the poses as they stand; nothing moves."""
+        """Renew and return the observation, from the poses as they stand; nothing moves."""
         self._place()
         self._observation[:] = self._stepper.observation
         return self._observation
 
     def step(self) -> float:
-        """Moves the robots by `action` from the poses as they stand, and returns the reward.
+        """Move the robots by `action` from the poses as they stand, and return the reward.
 
         In "predprey" it is the predator's, in others that of all robots. The random noise
         of the sensors depends on seed, episode and step.
@@ -210,7 +210,7 @@ class Arena:
         self.steps = int(state[-1])
 
     def _place(self) -> None:
-        """Puts robots and objects where the arrays say, if that can be."""
+        """Put robots and objects where the arrays say, if that can be."""
         _finite("robots", self._robots)
         _finite("lights", self._lights)
         _finite("zones", self._zones)
@@ -253,7 +253,7 @@ def make(
     round_table: str | os.PathLike[str] | None = None,
     models: Sequence[str] = (),
 ) -> Arena:
-    """The arena of a task, at the start of episode 0 of seed 0.
+    """Return the arena of a task, at the start of episode 0 of seed 0.
 
     "discrim": a Khepera, a cylinder. "predprey": two marXbots, the predator first. "staybehind":
     two marXbots, the follower first. A Plan (botschool.arenas.plan): the arena that it declares;
@@ -299,7 +299,7 @@ def _noise(value) -> float | None:
 
 
 def _matching(what: str, values, array: np.ndarray) -> np.ndarray:
-    """The values as numbers of the array's shape."""
+    """Return the values as numbers of the array's shape."""
     try:
         given = np.asarray(values)
     except ValueError:

@@ -92,7 +92,7 @@ class Plan:
 
     @classmethod
     def of(cls, config: ArenaConfig) -> Plan:
-        """The plan that a section [ARENA] describes. Raises PlanError."""
+        """Return the plan that a section [ARENA] describes. Raises PlanError."""
         values = {f.name: getattr(config, f.name) for f in fields(Scalars)}
         for kind in KINDS:
             given = [getattr(config, f"{kind}{n}") for n in range(1, WORDS[f"{kind}s"] + 1)]
@@ -310,7 +310,7 @@ class Plan:
         return found | {"visited": first}
 
     def spots(self, state: np.ndarray) -> dict[str, np.ndarray]:
-        """Where things are in a state of the arena: kind -> x, y of each."""
+        """Return where things are in a state of the arena: kind -> x, y of each."""
         found = {}
         for kind, first in self.firsts.items():
             if kind in _ROWS:

@@ -36,7 +36,7 @@ MODELS = {
 
 
 def find(name: str) -> RobotModel:
-    """The model of that name, in capitals or not. Raises BotschoolError."""
+    """Return the model of that name, in capitals or not. Raises BotschoolError."""
     for known, model in MODELS.items():
         if known.lower() == name.lower():
             return model
@@ -45,7 +45,7 @@ def find(name: str) -> RobotModel:
 
 
 def cast(problem: str, plan: dict, names: Sequence[str] = ()) -> tuple[RobotModel, ...]:
-    """The robots of a task: its own, or others by their names (one for all, or one each).
+    """Return the robots of a task: its own, or others by their names (one for all, or one each).
 
     plan: as in `_core.native_problems()`. A task may drive its own robots at another speed than
     the model's. Raises BotschoolError.

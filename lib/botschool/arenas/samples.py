@@ -43,12 +43,12 @@ class Samples:
     """Shape (distances, angles, 8), 0 to 1."""
 
     def core(self) -> _core.Table:
-        """The C++ counterpart."""
+        """Return the C++ counterpart."""
         return _core.Table(self.first, self.step, self.readings)
 
 
 def load(path: str | os.PathLike[str]) -> Samples:
-    """Reads a `.sample` file. Raises BotschoolError with the line that is wrong."""
+    """Read a `.sample` file. Raises BotschoolError with the line that is wrong."""
     lines = _Lines(path, _read(path))
     angles, distances, first, step = _header(lines)
     readings = np.empty((distances, angles, SENSORS))
@@ -76,18 +76,18 @@ class _Lines:
         self._next = 0
 
     def left(self) -> int:
-        """How many lines are yet to come."""
+        """Return how many lines are yet to come."""
         return len(self._lines) - self._next
 
     def next(self, wanted: str) -> list[str]:
-        """The next line's words; `wanted` says what is missing where the file ends."""
+        """Return the next line's words; `wanted` says what is missing where the file ends."""
         if not self.left():
             raise refusal(self._path, 0, f"the file ends where {wanted} should come")
         self._next += 1
         return self._lines[self._next - 1][1]
 
     def refuse(self, sentence: str) -> None:
-        """Raises the error for the line that was given last."""
+        """Raise the error for the line that was given last."""
         raise refusal(self._path, self._lines[self._next - 1][0], sentence)
 
 

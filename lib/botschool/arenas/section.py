@@ -30,7 +30,7 @@ REWARDS = {
 
 
 def sensors_of(text: str) -> tuple[str, ...]:
-    """The sensors that a text names. Raises ValueError."""
+    """Return the sensors that a text names. Raises ValueError."""
     names = tuple(name.strip().lower() for name in str(text).split(","))
     for name in names:
         if name not in WORDS["sensors"]:
@@ -75,7 +75,7 @@ class Scalars:
 
 
 def reader(key: str, cls: type[Thing]) -> Callable[[str], Thing]:
-    """Reads the text of that key; what is wrong with it begins with the key."""
+    """Read the text of that key; what is wrong with it begins with the key."""
 
     def read(text: str) -> Thing:
         try:
@@ -87,7 +87,7 @@ def reader(key: str, cls: type[Thing]) -> Callable[[str], Thing]:
 
 
 def _lines() -> list[tuple[str, type, Any]]:
-    """The keys robot1, robot2 ... of a file."""
+    """Return the keys robot1, robot2 ... of a file."""
     made: list[tuple[str, type, Any]] = []
     for kind, cls in KINDS.items():
         form = ", ".join(("KIND" if f.name == "kind" else f"{f.name} NUMBER") for f in fields(cls))

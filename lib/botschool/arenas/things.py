@@ -29,7 +29,9 @@ class Thing:
 
     @classmethod
     def read(cls, text: str) -> Any:
-        """A thing from its text, as `x 100 to 300, y 50`. Raises ValueError or BotschoolError."""
+        """Return a thing from its text, as `x 100 to 300, y 50`. Raises ValueError or
+        BotschoolError.
+        """
         known = {f.name: f for f in fields(cls)}
         values: dict[str, Any] = {}
         for place, part in enumerate(str(text).split(",")):
@@ -52,7 +54,7 @@ class Thing:
         return cls(**values)
 
     def text(self) -> str:
-        """The text of which `read` makes it."""
+        """Return the text of which `read` makes it."""
         parts = []
         for f in fields(self):
             value = getattr(self, f.name)
@@ -74,7 +76,7 @@ class Thing:
 
 
 def _checked(f: Field, value: Any) -> Range:
-    """The value of a thing's field, as a float or a range of two. Raises BotschoolError."""
+    """Return the value of a thing's field, as a float or a range of two. Raises BotschoolError."""
     ranged = "Range" in f.type and isinstance(value, (tuple, list)) and len(value) == 2
     numbers = tuple(value) if ranged else (value,)
     if not all(is_number(number) for number in numbers):
@@ -164,6 +166,6 @@ def _range(name: str, text: str, kind: str) -> Any:
 
 
 def is_number(value: Any, most: float = LONGEST) -> bool:
-    """Whether it is a finite number, and not a larger one."""
+    """Return whether it is a finite number, and not a larger one."""
     numeric = isinstance(value, (int, float, np.integer, np.floating))
     return numeric and not isinstance(value, bool) and abs(value) <= most

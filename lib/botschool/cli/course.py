@@ -214,7 +214,7 @@ def grade_all(
     What cannot be graded by a fault of this machine gets an empty cell in the table. Exit code 1
     says so, or that somebody on the roster handed in nothing, or is not on it.
     """
-    from botschool.grading.commands import grade_all_command
+    from botschool.grading.classes.commands import grade_all_command
     from botschool.labs.classes import laboratories
 
     tables = roster, gradebook, column, settings
@@ -240,7 +240,7 @@ def export(
     ] = None,
 ) -> None:
     """For instructors: write what a platform needs to grade by itself."""
-    from botschool.grading.commands import export_command
+    from botschool.grading.classes.commands import export_command
 
     export_command(platform, exercises, output, wheel)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import Any
 
 from botschool import __version__
@@ -14,7 +13,7 @@ from botschool.cluster.bottleneck import Bottleneck
 from botschool.cluster.chunks import Batch, Pace, size
 from botschool.cluster.connection import Connection
 from botschool.cluster.files import Manifest
-from botschool.cluster.shelf import Shelf
+from botschool.cluster.members import Task, Worker
 from botschool.errors import BotschoolError
 from botschool.problems import Interrupted
 
@@ -26,8 +25,6 @@ LATE = 3.0
 """A chunk is late after so many times the time that it should take ..."""
 SOONEST = 1.0
 """... and this many seconds; then another worker without work does it too."""
-UNKNOWN = 30.0
-"""The time that a chunk should take where nothing is known."""
 FAILURES = 5
 """Failures of a worker in a row after which it is left out."""
 UNREADABLE = "its answer cannot be read"
@@ -36,61 +33,6 @@ OUTCOME = ("sentence", "failure", "lacks", "fitness")
 """Kinds of answers to a greeting, and to a chunk."""
 LOSSES = 10
 """Times that a chunk may be lost with its worker; then evaluation stops."""
-
-
-@dataclass
-class Task:
-    """A chunk that a worker has been given."""
-
-    batch: Batch
-    chunk: slice
-    worker: Worker
-    since: float
-    """When it began, or will begin, as far as is known."""
-    expected: float
-    """Seconds that it should take."""
-    message: tuple[dict, dict[bytes, bytes]]
-    copies: int = 0
-    """How often it was given to others too."""
-
-    def left(self, now: float) -> float:
-        """Episodes that are yet to be evaluated, as far as is known."""
-        part = (self.since + self.expected - now) / self.expected
-        return (self.chunk.stop - self.chunk.start) * min(1.0, max(0.0, part))
-
-
-@dataclass
-class Worker:
-    """A worker as it is seen from here."""
-
-    address: str
-    pace: Pace
-    ready: bool = False
-    """Whether it computes the same bits as we do."""
-    left_out: str = ""
-    """Why it gets nothing to do, if so."""
-    tasks: dict[int, Task] = field(default_factory=dict)
-    holds: Shelf = field(default_factory=lambda: Shelf(remote.SPACE // 2))
-    """Tables that it has, probably."""
-    failures: int = 0
-    greeting: int | None = None
-    """Number of the task that asks it who it is."""
-
-    @property
-    def behind(self) -> bool:
-        """Whether it has yet to answer what others have done in its place."""
-        return any(task.batch.done(task.chunk) for task in self.tasks.values())
-
-    def task(self, batch: Batch, chunk: slice, message, now: float) -> Task:
-        """A chunk for it, after those that it has."""
-        count = chunk.stop - chunk.start
-        expected = count / self.pace.episodes if self.pace.episodes else UNKNOWN
-        free = [task.since + task.expected for task in self.tasks.values()]
-        return Task(batch, chunk, self, max([now, *free]), expected, message)
-
-    def ahead(self, now: float) -> float:
-        """Episodes that it has yet to evaluate."""
-        return sum(task.left(now) for task in self.tasks.values())
 
 
 class Crew:

@@ -17,7 +17,7 @@ import numpy as np
 
 from botschool import __version__, config, problems
 from botschool.cluster import files, wire
-from botschool.cluster.shelf import Shelf
+from botschool.cluster.members import SPACE, Shelf
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution.algorithms.ascent import Ascent
@@ -26,8 +26,6 @@ from botschool.policies.policy import Policy
 from botschool.problems import Episodes, Problem
 from botschool.seeds import generator
 
-SPACE = 256_000_000
-"""Bytes of tables that a worker keeps."""
 PROBE = 987_654_321
 PROBED = 20
 """Steps of each episode of a probe."""

@@ -259,7 +259,7 @@ def _draw_chase(axes, chase: dict) -> None:
 
 def _touching(places: np.ndarray, apart: float) -> np.ndarray:
     """Places in mm, (T + 1, 2, 2), with the predator led up to the prey that it has caught."""
-    from botschool.render.scenes.predprey import touching
+    from botschool.render.scenes.arenas import touching
 
     led = places.copy()
     predator, prey = places[-1]

@@ -8,8 +8,18 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
-from botschool.envs.morphology import JOINTS, MORPHOLOGY_SIZE, SEGMENTS, Morphology, decode
-from botschool.envs.terrain import START_X, TERRAIN_END, TERRAIN_HEIGHT, TERRAIN_STEP, terrain
+from botschool.envs.morphology import (
+    JOINTS,
+    MORPHOLOGY_SIZE,
+    SEGMENTS,
+    START_X,
+    TERRAIN_END,
+    TERRAIN_HEIGHT,
+    TERRAIN_STEP,
+    Morphology,
+    decode,
+    terrain,
+)
 
 try:
     from Box2D import (

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from gymnasium.error import DependencyNotInstalled
 
-from botschool.envs.terrain import START_X, TERRAIN_STEP
+from botschool.envs.morphology import START_X, TERRAIN_STEP
 
 try:
     import pygame
@@ -55,7 +55,7 @@ class View:
         self._clock: Any = None
 
     def draw(self, env) -> np.ndarray | None:
-        """The picture as (400, 600, 3) uint8, or None when it went to the window."""
+        """Return the picture as (400, 600, 3) uint8, or None when it went to the window."""
         if self._mode == "human":
             self._open()
         if not env.exploded:
@@ -72,7 +72,7 @@ class View:
         return np.ascontiguousarray(pygame.surfarray.array3d(self._surface).swapaxes(0, 1))
 
     def _look_at(self, env) -> None:
-        """Puts the robot in the middle, and the ground that is in sight at the usual height."""
+        """Put the robot in the middle, and the ground that is in sight at the usual height."""
         x = float(np.mean([segment.position.x for segment in env.segments]))
         self._left = x - WIDTH / SCALE / 2
         seen = np.interp(np.linspace(x - 10, x + 10, 21), *_ground(env.heights))
@@ -151,7 +151,7 @@ class View:
         pygame.display.flip()
 
     def close(self) -> None:
-        """Closes the window, if there is one."""
+        """Close the window, if there is one."""
         if self._window is not None:
             pygame.display.quit()
             self._window = None

@@ -28,7 +28,7 @@ _one_at_a_time = threading.RLock()
 
 @contextmanager
 def hushed() -> Iterator[None]:
-    """Nothing that C code writes to standard output or error meanwhile is shown."""
+    """Show nothing that C code writes to standard output or error meanwhile."""
     with _one_at_a_time:
         _flush()
         kept = {}
@@ -70,7 +70,7 @@ def import_pybullet() -> ModuleType:
 
 
 def data_folder() -> Path:
-    """Where PyBullet keeps its models."""
+    """Return where PyBullet keeps its models."""
     import_pybullet()
     import pybullet_data
 
@@ -78,7 +78,9 @@ def data_folder() -> Path:
 
 
 def connect(window: bool = False) -> int:
-    """A new physics world; returns its client. Raises BotschoolError where no window can open."""
+    """Return a new physics world; returns its client. Raises BotschoolError where no window can
+    open.
+    """
     bullet = import_pybullet()
     if window and sys.platform == "linux" and not os.environ.get("DISPLAY"):
         raise BotschoolError(
@@ -106,7 +108,7 @@ def disconnect(client: int) -> None:
 
 
 def load_model(client: int, path: Path, flags: tuple[str, ...] = (), **options) -> int:
-    """Loads a robot from a .urdf file, or from a MuJoCo .xml one; returns its body.
+    """Load a robot from a .urdf file, or from a MuJoCo .xml one; return its body.
 
     flags: names of PyBullet's URDF_ flags; options go to loadURDF. Where an .xml file holds several
     bodies, the robot is the one with most joints. Raises BotschoolError if the file is missing or
@@ -133,7 +135,7 @@ def load_model(client: int, path: Path, flags: tuple[str, ...] = (), **options) 
 
 
 def load_floor(client: int, path: Path) -> int:
-    """Loads the endless plane of pybullet_envs_gymnasium, with its friction; returns its body."""
+    """Load the endless plane of pybullet_envs_gymnasium, with its friction; return its body."""
     bullet = import_pybullet()
     try:
         with hushed():
@@ -154,7 +156,7 @@ def picture(
     pitch: float = -20.0,
     size: tuple[int, int] = (400, 300),
 ) -> np.ndarray:
-    """What a camera sees, (height, width, 3) uint8, drawn without a display.
+    """Return what a camera sees, (height, width, 3) uint8, drawn without a display.
 
     It looks at `target` from `distance` metres; yaw and pitch are in degrees; size is width and
     height.
@@ -180,7 +182,7 @@ def picture(
 def fitting_camera(
     points: np.ndarray, yaw: float, pitch: float, aspect: float = 1.25
 ) -> tuple[tuple[float, float, float], float]:
-    """Where a camera of `picture` looks, and from how far, to see all points, shape (n, 3).
+    """Return where a camera of `picture` looks, and from how far, to see all points, shape (n, 3).
 
     aspect: width of the picture / height.
     """

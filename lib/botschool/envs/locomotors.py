@@ -90,7 +90,7 @@ class Locomotor(gymnasium.Env):
         self._picture: np.ndarray | None = None
 
     def _build(self) -> None:
-        """Makes the world anew, as every episode finds it."""
+        """Make the world anew, as every episode finds it."""
         world = {"physicsClientId": self._client}
         self._bullet.resetSimulation(**world)
         self._bullet.setGravity(0, 0, -9.8, **world)
@@ -144,7 +144,7 @@ class Locomotor(gymnasium.Env):
         self._speeds = slice(9, 9 + 2 * len(free), 2)
 
     def reset(self, *, seed: int | None = None, options: dict | None = None):
-        """Starts an episode, with the joints a little off their rest position."""
+        """Start an episode, with the joints a little off their rest position."""
         super().reset(seed=seed)
         world = {"physicsClientId": self._client}
         if self._exploded:
@@ -202,7 +202,7 @@ class Locomotor(gymnasium.Env):
         return observed, reward, alive < 0 and self._ends, False, info
 
     def _observe(self) -> np.ndarray:
-        """The observation before it is clipped; notices an explosion."""
+        """Return the observation before it is clipped; notices an explosion."""
         query, world, robot = self._bullet, self._client, self._robot
         torso = self._torso
         links = query.getLinkStates(
@@ -259,7 +259,7 @@ class Locomotor(gymnasium.Env):
         )
 
     def _standard(self, step: Measured) -> dict[str, float]:
-        """The reward of version 0."""
+        """Return the reward of version 0."""
         return {
             "progress": step.progress,
             "alive": step.alive,
@@ -268,7 +268,8 @@ class Locomotor(gymnasium.Env):
         }
 
     def measured(self) -> dict[str, float]:
-        """What the last step led to: metres to the target, height (m), pitch and heading (rad).
+        """Return what the last step led to: metres to the target, height (m), pitch and heading
+        (rad).
 
         "touching" is 1.0 if a part of a HalfCheetah other than its feet was on the floor after the
         step before the last one, which is when its alive bonus looks.
@@ -291,7 +292,7 @@ class Locomotor(gymnasium.Env):
         return self._picture
 
     def _show(self) -> None:
-        """Keeps the window's camera on the robot, and its time that of the world."""
+        """Keep the window's camera on the robot, and its time that of the world."""
         if self.render_mode != "human":
             return
         self._bullet.resetDebugVisualizerCamera(

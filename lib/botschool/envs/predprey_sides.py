@@ -28,7 +28,7 @@ POLICY = PolicyConfig(nhiddens=25, bias=1, architecture=3)
 
 
 def observation_space() -> spaces.Box:
-    """What one of the two senses: infrared, camera, ground, elapsed time, the constant 1."""
+    """Return what one of the two senses: infrared, camera, ground, elapsed time, the constant 1."""
     return spaces.Box(0.0, 1.0, (_SEES,), np.float32)
 
 
@@ -38,7 +38,7 @@ def action_space() -> spaces.Box:
 
 
 def wheels(robot: str, action) -> np.ndarray:
-    """A robot's action. Raises BotschoolError unless it has two numbers."""
+    """Return a robot's action. Raises BotschoolError unless it has two numbers."""
     given = np.asarray(action)
     if given.shape != (_WHEELS,) or given.dtype.kind not in "fiub":
         raise BotschoolError(
@@ -54,11 +54,11 @@ class PredpreySimulation(Simulation):
         super().__init__(PROBLEM, render_mode, max_steps)
 
     def views(self) -> list[np.ndarray]:
-        """The predator's and the prey's observation, float32."""
+        """Return the predator's and the prey's observation, float32."""
         return np.split(self.observation.astype(np.float32), 2)
 
     def act(self, predator: np.ndarray, prey: np.ndarray) -> tuple[tuple[float, float], bool]:
-        """Both act; (the predator's and the prey's reward, whether the episode is over).
+        """Let both act; return (the predator's and the prey's reward, whether the episode is over).
 
         The predator gets 1 - step / max_steps when it catches the prey, else 0; the prey gets the
         rest of 1, in the last step. Running out of time is an end like being caught, and no
@@ -118,7 +118,7 @@ class OneSide(gymnasium.Env):
 
 
 def _policy(experiment: str | os.PathLike[str] | None) -> Policy:
-    """The opponent's, as that of a single robot."""
+    """Return the opponent's, as that of a single robot."""
     chosen = POLICY if experiment is None else config.load(experiment).policy
     alone = replace(chosen, nrobots=1, heterogeneous=0)
     return Policy(PROBLEM, Interface(_SEES, _WHEELS, discrete=False), alone)

@@ -59,7 +59,7 @@ class Joint:
     slides: bool
 
     def written(self, position: float) -> str:
-        """A position as a learner reads it."""
+        """Return a position as a learner reads it."""
         return f"{position:.2f} m" if self.slides else f"{math.degrees(position):.0f} degrees"
 
 
@@ -133,7 +133,7 @@ class Model:
         return boxes[:, which, np.arange(3)].reshape(-1, 3)
 
     def pose(self, moved: Joint | None = None, position: float = 0.0) -> None:
-        """Puts one joint where it is told, and all others at 0 or the nearest they can."""
+        """Put one joint where it is told, and all others at 0 or the nearest they can."""
         for joint in self.joints:
             rest = min(max(0.0, joint.low), joint.high)
             self.bullet.resetJointState(
@@ -148,7 +148,7 @@ class Model:
         return bullet.picture(self.client, self.centre, self.distance, YAW, PITCH, size)
 
     def paint(self, moved: Joint) -> None:
-        """Gives the limb that a joint moves one colour, and all else another."""
+        """Give the limb that a joint moves one colour, and all else another."""
         world, moving = {"physicsClientId": self.client}, {moved.index}
         for i in range(-1, self.bullet.getNumJoints(self.robot, **world)):
             if i >= 0 and self.bullet.getJointInfo(self.robot, i, **world)[16] in moving:
@@ -162,7 +162,7 @@ class Model:
 
 
 def find_model(name: str) -> tuple[Path, tuple[str, ...]]:
-    """The file of a robot, and the flags to load it with.
+    """Return the file of a robot, and the flags to load it with.
 
     name: one of the locomotors, balancebot, a model that comes with PyBullet (PYBULLETS, or the
     name of its file), or the path of a .urdf or MuJoCo .xml file. Raises BotschoolError.
@@ -193,7 +193,7 @@ def find_model(name: str) -> tuple[Path, tuple[str, ...]]:
 
 
 def _of_pybullet(word: str) -> Path | None:
-    """A model of pybullet_data, by its name or the name of its file."""
+    """Return a model of pybullet_data, by its name or the name of its file."""
     folder = bullet.data_folder()
     if word in PYBULLETS:
         return folder / PYBULLETS[word]
@@ -206,7 +206,7 @@ def _of_pybullet(word: str) -> Path | None:
 
 
 def show_robot(name: str, video: Path | None, sheet: Path | None) -> None:
-    """Writes a film or a sheet if asked to, otherwise opens PyBullet's window with sliders."""
+    """Write a film or a sheet if asked to, otherwise open PyBullet's window with sliders."""
     if sheet is not None:
         sheet = check_output(sheet, SHEET_SUFFIXES)
     model = Model(name, window=video is None and sheet is None)
@@ -250,7 +250,7 @@ def _sheet(model: Model, file: Path) -> None:
 
 
 def _sweeps(model: Model) -> Iterator[np.ndarray]:
-    """Frames in which one joint after the other moves through its range."""
+    """Yield frames in which one joint after the other moves through its range."""
     import pygame
 
     from botschool.render.canvas import draw_offscreen, to_frame, write_text

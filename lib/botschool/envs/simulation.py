@@ -77,7 +77,7 @@ class Simulation:
         self._stepper.set_body(np.ascontiguousarray(parameters, dtype=np.float64))
 
     def start(self, random: np.random.Generator) -> int:
-        """Starts an episode with a seed that it draws and returns."""
+        """Start an episode with a seed that it draws and returns."""
         seed = int(random.integers(2**63))
         self._stepper.start(seed, 0)
         self.steps = 0
@@ -85,7 +85,7 @@ class Simulation:
         return seed
 
     def step(self, action: np.ndarray) -> tuple[float, bool]:
-        """All robots act; (reward, whether the episode has ended before its limit)."""
+        """Let all robots act; return (reward, whether the episode has ended before its limit)."""
         action = np.ascontiguousarray(action, dtype=np.float64)
         if not np.isfinite(action).all():
             raise BotschoolError(f"An action holds finite numbers, not {action.tolist()}.")
@@ -96,12 +96,12 @@ class Simulation:
         return reward, ended
 
     def show(self) -> None:
-        """Shows the step in the window, if that is how it is watched."""
+        """Show the step in the window, if that is how it is watched."""
         if self._mode == "human":
             self.render()
 
     def render(self) -> np.ndarray | None:
-        """The picture, (height, width, 3) uint8, or None where it goes to the window."""
+        """Return the picture, (height, width, 3) uint8, or None where it goes to the window."""
         if self._mode is None:
             gymnasium.logger.warn('make the environment with render_mode="rgb_array" to see it.')
             return None
@@ -126,7 +126,7 @@ class Simulation:
         return shown.frame
 
     def close(self) -> None:
-        """Closes the window, if there is one."""
+        """Close the window, if there is one."""
         if self._window is not None:
             self._window.close()
             self._window = None
@@ -146,12 +146,12 @@ class Window:
         self._clock, self._fps = self._pygame.time.Clock(), fps
 
     def show(self, frame: np.ndarray) -> None:
-        """Shows a frame, then waits until the next one is due."""
+        """Show a frame, then wait until the next one is due."""
         self._pygame.surfarray.blit_array(self._surface, frame.swapaxes(0, 1))
         self._pygame.event.pump()
         self._pygame.display.flip()
         self._clock.tick(self._fps)
 
     def close(self) -> None:
-        """Closes it."""
+        """Close it."""
         self._pygame.display.quit()

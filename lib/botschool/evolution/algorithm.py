@@ -35,7 +35,8 @@ class Algorithm(Protocol):
     def __init__(self, config: Any, initial: Initial, seed: int) -> None: ...
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Candidates, float64 (n, parameters), and the seed of each one's evaluation, uint64 (n,).
+        """Return candidates, float64 (n, parameters), and the seed of each one's evaluation, uint64
+        (n,).
 
         Asked twice before `tell`, it gives the same.
         """
@@ -44,10 +45,10 @@ class Algorithm(Protocol):
         """Ends the generation; fitness: float64 (n,), of the candidates in the order of `ask`."""
 
     def average_parameter(self) -> float:
-        """Average absolute parameter, for the stat file."""
+        """Return the average absolute parameter, for the stat file."""
 
     def state(self) -> dict[str, np.ndarray]:
-        """All that a checkpoint needs besides the hyperparameters and the seed, as arrays.
+        """Return all that a checkpoint needs besides the hyperparameters and the seed, as arrays.
 
         `tell` replaces these arrays and leaves them as they are: an earlier state can be restored.
         """
@@ -99,15 +100,21 @@ class Competition(Protocol):
         """
 
     def best(self) -> tuple[np.ndarray, float]:
-        """The best predator and the best prey, one after the other, and the predator's fitness."""
+        """Return the best predator and the best prey, one after the other, and the predator's
+        fitness.
+        """
 
     def summary(self) -> dict[str, float]:
-        """What is reported of a generation; under the names in `sides` the mean fitness of each."""
+        """Return what to report of a generation; under the names in `sides` the mean fitness of
+        each.
+        """
 
     def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray] | None:
-        """Who is kept in files: networks, float64 (2, n, parameters), predators, then prey; and the
-        fitness of predators (rows) against prey (columns), (n, n) or (2, n, n) as `Play` says. Of a
-        single population networks (n, parameters) and fitness (n, n). None if there is nobody yet.
+        """Return the individuals to keep in files: networks, float64 (2, n, parameters), predators,
+        then prey;
+        and the fitness of predators (rows) against prey (columns), (n, n) or (2, n, n) as `Play`
+        says. Of a single population networks (n, parameters) and fitness (n, n). None if there is
+        nobody yet.
 
         Playing for this changes nothing, and its steps do not count.
         """
@@ -120,7 +127,7 @@ class Competition(Protocol):
         """
 
     def average_parameter(self) -> float:
-        """Average absolute parameter, for the stat file."""
+        """Return the average absolute parameter, for the stat file."""
 
     def state(self) -> dict[str, np.ndarray]:
         """As Algorithm.state; arrays whose name begins with "archive_" may get longer."""
@@ -197,7 +204,9 @@ class Entry:
     """Whether two sides meet (botschool.evolution.coevolution runs it)."""
 
     def conflicts(self, config: Any) -> Iterator[tuple[tuple[str, ...], str]]:
-        """Hyperparameters that cannot go together: their names and a sentence with the remedy."""
+        """Yield hyperparameters that cannot go together: their names and a sentence with the
+        remedy.
+        """
         yield from getattr(self.make, "conflicts", lambda config: ())(config)
 
 

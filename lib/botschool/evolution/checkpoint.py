@@ -22,20 +22,20 @@ class Resumable(Protocol):
     seed: int
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """Raises KeyError, ValueError, IndexError or TypeError for the state of another run."""
+        """Raise KeyError, ValueError, IndexError or TypeError for the state of another run."""
 
     def reproduces(self) -> bool:
-        """Whether robots still get the fitness that is on record."""
+        """Return whether robots still get the fitness that is on record."""
 
 
 def save(path: Path, experiment: Experiment, seed: int, state: dict[str, np.ndarray]) -> None:
-    """Writes a checkpoint atomically; state is arrays only."""
+    """Write a checkpoint atomically; state is arrays only."""
     header = {"format": FORMAT, "seed": seed, "experiment": to_dict(experiment)}
     save_npz(path, {"botschool": np.array(json.dumps(header)), **state})
 
 
 def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]:
-    """The state of a checkpoint of this experiment and seed.
+    """Return the state of a checkpoint of this experiment and seed.
 
     Raises BotschoolError when the file is damaged or belongs to another experiment or seed.
     """
@@ -76,7 +76,7 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
 
 
 def resume(path: Path, run: Resumable) -> None:
-    """Brings a run to where it was when the checkpoint was written.
+    """Bring a run to where it was when the checkpoint was written.
 
     Raises BotschoolError as `load` does, when the state is not that of such a run, and when this
     version of botschool gives its robots another fitness than the one that wrote it.

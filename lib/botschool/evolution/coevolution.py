@@ -66,7 +66,7 @@ class Coevolution(Run):
     growing = ("record.", "algorithm.archive_")
 
     def begin(self) -> None:
-        """Makes both sides, the record and the budget."""
+        """Make both sides, the record and the budget."""
         config = self.experiment.algo
         self.algorithm = ALGORITHMS[self.experiment.exp.algo].make(
             config,
@@ -81,7 +81,7 @@ class Coevolution(Run):
         self._started: tuple[float, int, float] | None = None
 
     def check(self) -> None:
-        """Raises BotschoolError for experiments that have no two sides."""
+        """Raise BotschoolError for experiments that have no two sides."""
         config, problem, name = self.experiment.policy, self.problem, self.experiment.exp.algo
         if problem.interface.robots != 2:
             raise BotschoolError(
@@ -120,7 +120,7 @@ class Coevolution(Run):
         self.report(self)
 
     def _play(self, *meetings) -> np.ndarray:
-        """Fitness in each meeting: the algorithm's `Play`."""
+        """Return the fitness in each meeting: the algorithm's `Play`."""
         fitness, steps = self._meet(self.stopping, *meetings)
         self._steps += steps
         if self.record.steps and self.algorithm.plays > 1:
@@ -153,7 +153,7 @@ class Coevolution(Run):
         return met, int(outcome.steps.sum())
 
     def reproduces(self) -> bool:
-        """Whether meetings that the algorithm remembers still end as they did, to the bit.
+        """Return whether meetings that the algorithm remembers still end as they did, to the bit.
 
         As in `Run`, problems in Python are not asked.
         """
@@ -170,11 +170,11 @@ class Coevolution(Run):
         return self.record.generation % self.experiment.algo.saveeach == 0
 
     def due(self, seconds: float) -> bool:
-        """Whether to save, so many seconds after the last time."""
+        """Return whether to save, so many seconds after the last time."""
         return self._milestone or seconds >= max(CHECKPOINT_SECONDS, self.saving / SAVING_SHARE)
 
     def write(self, files: RunFiles, ended: bool) -> None:
-        """Writes the run files; individuals only if they are to be kept, or at the end.
+        """Write the run files; individuals only if they are to be kept, or at the end.
 
         SSGg.npy: float64, (2 n, parameters), n predators, then n prey after generation g.
         SSFitGg.npy: float64, (2 n, n), their own fitness against each competitor, in that order.
@@ -199,14 +199,16 @@ class Coevolution(Run):
         return self.algorithm.sides[self.algorithm.side - 1]
 
     def numbers(self) -> str:
-        """What it has reached, in short: local progress if known, then the mean of each side."""
+        """Return what it has reached, in short: local progress if known, then the mean of each
+        side.
+        """
         last = self.record.last
         progress = f" {last['local progress']:+.2f}" if "local progress" in last else ""
         reached = " : ".join(_shown(last[side], ".2f") for side in self.algorithm.sides)
         return f"gen. {self.record.generation}  {self._who}{progress}  mean {reached}"
 
     def line(self) -> str:
-        """A line about the last generation."""
+        """Return a line about the last generation."""
         last = self.record.last
         summary = "  ".join(
             f"{name} {_shown(last[name], '+.3f' if name == 'local progress' else '.3f')}"
@@ -220,8 +222,8 @@ class Coevolution(Run):
         )
 
     def _left(self) -> str:
-        """The time left, at the pace of this process; both sides must have had a turn, as one
-        may take a hundred times as long as the other.
+        """Return the time left, at the pace of this process; both sides must have had a turn, as
+        one may take a hundred times as long as the other.
         """
         if self._started is None or self.record.generation < self._started[1] + 2:
             return ""
@@ -231,7 +233,7 @@ class Coevolution(Run):
         return f"  time left {timedelta(seconds=round(left))}"
 
     def result(self, files: RunFiles) -> str:
-        """A sentence about the whole run."""
+        """Return a sentence about the whole run."""
         last, sides = self.record.last, self.algorithm.sides
         reached = ", ".join(f"{side} {_shown(last[side], '.3f')}" for side in sides)
         roles = self.problem.roles if len(sides) == 2 else ", then ".join(self.problem.sides)
@@ -243,5 +245,5 @@ class Coevolution(Run):
 
 
 def _shown(value: float, form: str) -> str:
-    """The number, or - if it is not known yet."""
+    """Return the number, or - if it is not known yet."""
     return "-" if math.isnan(value) else f"{value:{form}}"

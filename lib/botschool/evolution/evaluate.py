@@ -26,12 +26,12 @@ class Measured:
 
 
 def mean(values: np.ndarray) -> float:
-    """Mean by an exact sum: the same bits on every machine and Python, in any order."""
+    """Return the mean by an exact sum: the same bits on every machine and Python, in any order."""
     return math.fsum(values.tolist()) / len(values)
 
 
 def means(returns: np.ndarray, episodes: int) -> np.ndarray:
-    """The mean of every `episodes` values in a row, each as `mean` gives it."""
+    """Return the mean of every `episodes` values in a row, each as `mean` gives it."""
     if episodes == 1:
         return returns + 0.0  # a sum of one is exact; 0.0 makes a 0 positive, as fsum does
     rows = returns.reshape(-1, episodes).tolist()
@@ -71,7 +71,7 @@ class Evaluator:
         self._collected: list[tuple[float, np.ndarray, np.ndarray]] = []
 
     def measure(self, candidates: np.ndarray, seeds: np.ndarray) -> Measured:
-        """Starts a generation: mean return of every candidate over `episodes` episodes."""
+        """Start a generation: mean return of every candidate over `episodes` episodes."""
         return self._measured(self._run(candidates, self._of(seeds)))
 
     def measure_both(
@@ -96,7 +96,9 @@ class Evaluator:
         )
 
     def _of(self, seeds: np.ndarray) -> Episodes:
-        """Episodes.of(seeds, episodes), of which only the seeds are new in each generation."""
+        """Return Episodes.of(seeds, episodes), of which only the seeds are new in each
+        generation.
+        """
         episodes = self.policy.config.episodes
         if len(seeds) not in self._alone:
             made = Episodes.of(seeds, episodes)
@@ -183,7 +185,7 @@ class Evaluator:
         )
 
     def state(self) -> dict[str, np.ndarray]:
-        """What a checkpoint needs."""
+        """Return what a checkpoint needs."""
         if self._moments is None:
             return {}
         return {

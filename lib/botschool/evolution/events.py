@@ -59,7 +59,7 @@ class Events:
 def event(
     now: float, step: int = 0, values: Sequence[tuple[str, float]] = (), version: str = ""
 ) -> bytes:
-    """An Event message: values of tags at a step, or the version that begins a file."""
+    """Return an Event message: values of tags at a step, or the version that begins a file."""
     message = b"\x09" + struct.pack("<d", now)  # 1: wall_time
     if step:
         message += b"\x10" + _varint(step)  # 2: step
@@ -94,13 +94,13 @@ def _varint(number: int) -> bytes:
 
 
 def record(content: bytes) -> bytes:
-    """A TFRecord: length, its checksum, content, its checksum."""
+    """Return a TFRecord: length, its checksum, content, its checksum."""
     length = struct.pack("<Q", len(content))
     return b"".join([length, _checksum(length), content, _checksum(content)])
 
 
 def _checksum(content: bytes) -> bytes:
-    """The masked CRC-32C."""
+    """Return the masked CRC-32C."""
     crc = 0xFFFFFFFF
     for byte in content:
         crc = CRC[(crc ^ byte) & 0xFF] ^ crc >> 8

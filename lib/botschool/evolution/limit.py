@@ -25,18 +25,18 @@ class Limit:
     generations: float = math.inf
 
     def and_also(self, steps: int | None, generations: int | None) -> Limit:
-        """The same, or earlier; None does not limit."""
+        """Return the same, or earlier; None does not limit."""
         return Limit(
             min(self.steps, math.inf if steps is None else steps),
             min(self.generations, math.inf if generations is None else generations),
         )
 
     def reached(self, run: Advancing) -> bool:
-        """Whether the run is at its end."""
+        """Return whether the run is at its end."""
         record = run.record
         return record.steps >= self.steps or record.generation >= self.generations
 
     def share(self, run: Advancing) -> float:
-        """How much is done, from 0 to 1."""
+        """Return how much is done, from 0 to 1."""
         generations = run.record.generation + run.progress
         return min(1.0, max(run.record.steps / self.steps, generations / self.generations))

@@ -19,7 +19,7 @@ Bar = tuple[float, int, int, str]
 
 @contextmanager
 def reporting(seed: int, terminal: bool) -> Iterator[Callable[[Run], None]]:
-    """Gives a function to call with the run after each generation, and at will during one."""
+    """Return a function to call with the run after each generation, and at will during one."""
     if terminal:
         with progress_bar(seed) as show, messages(True, lambda bar: show(*bar)) as report:
             yield report
@@ -29,7 +29,7 @@ def reporting(seed: int, terminal: bool) -> Iterator[Callable[[Run], None]]:
 
 
 def print_lines(lines: list[str]) -> None:
-    """Prints them at once."""
+    """Print them at once."""
     print("\n".join(lines), flush=True)
 
 
@@ -68,7 +68,7 @@ def messages(terminal: bool, send: Callable[[Any], None]) -> Iterator[Callable[[
 
 
 def bar(run: Run) -> Bar:
-    """What a progress bar is to show of a run."""
+    """Return what a progress bar is to show of a run."""
     share, record = run.limit.share(run), run.record
     numbers = run.numbers() if record.generation else ""
     return share, record.steps, 2, "  ".join(filter(None, (numbers, run.problem.status())))

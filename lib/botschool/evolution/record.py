@@ -75,7 +75,9 @@ class RunFiles:
         return self.folder / f"S{self.seed}FitG{generation}.npy"
 
     def all(self) -> list[Path]:
-        """Every one of them; those that have a generation in their name, with a star for it."""
+        """Return every one of them; those that have a generation in their name, with a star for
+        it.
+        """
         named = [self.stat, self.best, self.bestg, self.fit, self.checkpoint, self.events]
         return [*named, self.kept("*"), self.populations("*"), self.fitness("*")]
 
@@ -163,11 +165,11 @@ class Record(Stateful):
         return dict(zip(self.columns, self._rows[-1], strict=True))
 
     def rows(self, first: int = 0) -> np.ndarray:
-        """Rows from generation `first`, shape (generations, columns)."""
+        """Return rows from generation `first`, shape (generations, columns)."""
         return np.array(self._rows[first:], dtype=np.float64).reshape(-1, len(self.columns))
 
     def write(self, files: RunFiles) -> None:
-        """Writes all run files but the checkpoint, each atomically."""
+        """Write all run files but the checkpoint, each atomically."""
         save_npy(files.stat, self.rows()[:, : len(STAT)].ravel())
         for path, genotype in ((files.best, self.best), (files.bestg, self.bestg)):
             if genotype.size:
@@ -183,7 +185,7 @@ class Record(Stateful):
         save_bytes(files.fit, f"{line}\n".encode())
 
     def state(self) -> dict[str, np.ndarray]:
-        """What a checkpoint needs."""
+        """Return what a checkpoint needs."""
         return super().state() | {"stat": self.rows()}
 
     def restore(self, state: dict[str, np.ndarray]) -> None:

@@ -1,18 +1,204 @@
-"""Several runs of one experiment, with consecutive seeds."""
+"""Several runs of one experiment, with consecutive seeds: one after another or side by side."""
 
 from __future__ import annotations
 
-from contextlib import ExitStack
-from dataclasses import replace
+import multiprocessing
+import os
+import queue
+import threading
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass, replace
+from multiprocessing import resource_tracker
+from multiprocessing.connection import Connection, wait
 from pathlib import Path
+from typing import Any
 
 from botschool.config import Experiment
 from botschool.errors import BotschoolError
 from botschool.evolution.coevolution import Coevolution
-from botschool.evolution.progress import print_lines, reporting
+from botschool.evolution.progress import messages, print_lines, reporting
 from botschool.evolution.record import RunFiles, claimed
 from botschool.evolution.run import Options, Run
-from botschool.terminal import stoppable
+from botschool.terminal import progress_bars, stoppable, unheard
+
+# --- Runs of one experiment side by side, each in a process of its own.
+#
+# A run of a native problem on two workers waits for both in every generation, and for numpy; two
+# runs on one worker each do not. The files are the same.
+
+
+STOP = "stop"
+
+
+@dataclass(frozen=True)
+class Task:
+    """What all runs have in common."""
+
+    kind: type[Run]
+    experiment: Experiment
+    folder: Path
+    options: Options
+    """Of each run."""
+
+    def run(self, seed: int, stopping: Callable[[], bool], report: Callable[[Run], None]):
+        """Evolve; return whether it is finished and a sentence about it, "" if it has not begun."""
+        run = self.kind(self.experiment, seed, self.options.workers, stopping)
+        done = self.options.evolve(run, self.folder, report)
+        return done, run.ending(RunFiles(self.folder, seed), done)
+
+
+def evolve_all(task: Task, seeds: list[int], processes: int, stopping: Callable[[], bool]) -> bool:
+    """Run every seed, in so many processes; return whether all were finished.
+
+    When the user stops it or one fails, all stop and save; then the failure is raised.
+    """
+    with ExitStack() as stack:
+        bars = stack.enter_context(progress_bars()) if task.options.terminal else None
+        crew = Crew([stack.enter_context(Process(task)) for _ in range(processes)], seeds)
+        try:
+            while crew.running:
+                for seed, message in crew.messages():
+                    if isinstance(message, Ended):
+                        if message.text:
+                            bars.finish(seed, message.text) if bars else print_lines([message.text])
+                    else:
+                        bars.show(seed, *message) if bars else print_lines(message)
+                if stopping():
+                    crew.stop()
+        except BaseException:  # standard output is gone, perhaps
+            crew.stop()
+            while crew.running:
+                list(crew.messages())
+            raise
+    if crew.failure:
+        raise crew.failure
+    return crew.finished == len(seeds)
+
+
+class Crew:
+    """Processes that evolve, and which seeds they are given."""
+
+    def __init__(self, processes: list[Connection], seeds: list[int]) -> None:
+        self._todo = list(seeds)
+        self._stopped = False
+        self.running: dict[Connection, int] = {}
+        """The processes that evolve, and their seeds."""
+        self.finished = 0
+        self.failure: Exception | None = None
+        """Of the first run that has failed; it stops all others."""
+        for connection in processes:
+            self._give(connection)
+
+    def _give(self, connection: Connection) -> None:
+        """Give a process its next seed, if there is one."""
+        self.running.pop(connection, None)
+        if self._todo and not self._stopped:
+            self.running[connection] = self._todo.pop(0)
+            _tell(connection, self.running[connection])
+
+    def stop(self) -> None:
+        """Ask all to save and to stop."""
+        if not self._stopped:
+            self._stopped = True
+            for connection in self.running:
+                _tell(connection, STOP)
+
+    def messages(self) -> Iterator[tuple[int, Any]]:
+        """Yield what comes within 0.2 seconds: seeds, and what `messages` or an end says of
+        them.
+        """
+        ready: list[Any] = wait(list(self.running), timeout=0.2)
+        for connection in ready:
+            seed = self.running[connection]
+            message = _received(connection, seed)
+            if isinstance(message, Exception):
+                self.failure = self.failure or message
+                self.stop()
+                self._give(connection)
+                continue
+            if isinstance(message, Ended):
+                self.finished += message.finished
+                self._give(connection)
+            yield seed, message
+
+
+@dataclass(frozen=True)
+class Ended:
+    """The end of a run."""
+
+    finished: bool
+    text: str
+
+
+def _received(connection: Connection, seed: int) -> Any:
+    """Return the next message about a run; an exception if it has failed."""
+    try:
+        return connection.recv()
+    except (EOFError, OSError):
+        return BotschoolError(
+            f"The process of seed {seed} ended unexpectedly: if memory is short use fewer workers "
+            "(-w), and add --resume to go on."
+        )
+
+
+def _tell(connection: Connection, message: Any) -> None:
+    with suppress(OSError):  # when it has ended, `_received` says so
+        connection.send(message)
+
+
+class Process:
+    """Context of a process that evolves the seeds that its connection gets."""
+
+    def __init__(self, task: Task) -> None:
+        context = multiprocessing.get_context("spawn")
+        self._connection, other = context.Pipe()
+        self._process = context.Process(target=_work, args=(task, other), daemon=True)
+        if os.name == "posix":
+            resource_tracker.ensure_running()  # lets through again what is held back
+        with unheard():  # to stop is this process's affair
+            self._process.start()
+        other.close()
+
+    def __enter__(self) -> Connection:
+        return self._connection
+
+    def __exit__(self, *error: object) -> None:
+        self._connection.close()  # ends it
+        self._process.join()
+
+
+def _work(task: Task, connection: Connection) -> None:
+    """Evolve seeds until the connection is closed."""
+    seeds: queue.SimpleQueue[int] = queue.SimpleQueue()
+    stop = threading.Event()
+
+    def listen() -> None:
+        try:
+            while (message := connection.recv()) != STOP:
+                seeds.put(message)
+            stop.set()
+            connection.recv()
+        except (EOFError, OSError):
+            os._exit(0)
+
+    threading.Thread(target=listen, daemon=True).start()
+    while True:
+        seed = seeds.get()
+        try:
+            with messages(task.options.terminal, connection.send) as report:
+                ended = Ended(*task.run(seed, stop.is_set, report))
+        except (BotschoolError, MemoryError, OSError) as error:
+            connection.send(error)
+        except Exception:
+            traceback.print_exc()
+            os._exit(1)
+        else:
+            connection.send(ended)
+
+
+# --- Several runs of one experiment, with consecutive seeds.
 
 
 def replicate(experiment: Experiment, seeds: list[int], folder: Path, options: Options) -> bool:
@@ -36,8 +222,6 @@ def replicate(experiment: Experiment, seeds: list[int], folder: Path, options: O
         stack.enter_context(claimed(folder, seeds, options.resume, options.force))
         processes = min(options.workers, len(seeds))
         if processes > 1 and runs[0].problem.native and not problem:
-            from botschool.evolution.side_by_side import Task, evolve_all
-
             share = replace(options, workers=options.workers // processes)
             return evolve_all(Task(kind, experiment, folder, share), seeds, processes, stopping)
         finished = True

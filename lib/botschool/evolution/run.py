@@ -94,14 +94,14 @@ class Run:
         self.begin()
 
     def initial(self) -> np.ndarray:
-        """The random genotype that evolution starts from, as it would be saved."""
+        """Return the random genotype that evolution starts from, as it would be saved."""
         return self.policy.join(self.policy.initial(self.seed), self.evaluator.normalisation)
 
     def check(self) -> None:
-        """Raises BotschoolError for a problem or a policy that the algorithm cannot evolve."""
+        """Raise BotschoolError for a problem or a policy that the algorithm cannot evolve."""
 
     def begin(self) -> None:
-        """Makes the algorithm, who evaluates for it, the record and the budget."""
+        """Make the algorithm, who evaluates for it, the record and the budget."""
         self.algorithm = ALGORITHMS[self.experiment.exp.algo].make(
             self.experiment.algo, partial(self.policy.initial, self.seed), self.seed
         )
@@ -117,15 +117,15 @@ class Run:
         return max(1, round(self.experiment.algo.maxmsteps * 1e6))
 
     def due(self, seconds: float) -> bool:
-        """Whether to save, so many seconds after the last time."""
+        """Return whether to save, so many seconds after the last time."""
         return seconds >= 60 * self.experiment.algo.saveeach
 
     def write(self, files: RunFiles, ended: bool) -> None:
-        """Writes the run files; ended: the run ends here, at least for now."""
+        """Write the run files; ended: the run ends here, at least for now."""
         self.record.write(files)
 
     def numbers(self) -> str:
-        """What it has reached, in short."""
+        """Return what it has reached, in short."""
         last = self.record.last
         return (
             f"best {readable(last['best fitness'])}  "
@@ -134,7 +134,7 @@ class Run:
         )
 
     def line(self) -> str:
-        """A line about the last generation."""
+        """Return a line about the last generation."""
         record, last = self.record, self.record.last
         return (
             f"seed {self.seed}  generation {record.generation}  steps {record.steps} "
@@ -144,7 +144,7 @@ class Run:
         )
 
     def result(self, files: RunFiles) -> str:
-        """A sentence about the whole run."""
+        """Return a sentence about the whole run."""
         record = self.record
         return (
             f"seed {self.seed}: best {readable(record.best_fitness)}, best post-evaluated "
@@ -153,7 +153,7 @@ class Run:
         )
 
     def ending(self, files: RunFiles, finished: bool) -> str:
-        """What to say at its end; "" if there is nothing."""
+        """Return what to say at its end; "" if there is nothing."""
         if not finished:
             return (
                 f"seed {self.seed}: stopped after {self.record.generation} generations; all is "
@@ -197,9 +197,9 @@ class Run:
             self._close(post)
 
     def _may_wait(self, steps: int) -> bool:
-        """Whether the post-evaluation of a generation that took so many steps may be evaluated
-        together with the next one's candidates: it has no part in what they are, and surely they
-        will be evaluated."""
+        """Return whether the post-evaluation of a generation that took so many steps may be
+        evaluated together with the next one's candidates: it has no part in what they are, and
+        surely they will be evaluated."""
         most = self.evaluator.post_steps
         return (
             self.together
@@ -231,7 +231,7 @@ class Run:
         return generation.saved[: self.policy.genotype_size]
 
     def _close(self, post: Measured) -> None:
-        """Enters the open generation into the record; post: its best one's post-evaluation."""
+        """Enter the open generation into the record; post: its best one's post-evaluation."""
         done, self._open = self._open, None
         self.record.steps += done.steps + post.steps
         self.record.offer(done.saved, done.best, mean(post.fitness))
@@ -239,7 +239,7 @@ class Run:
         self.report(self)
 
     def state(self) -> dict:
-        """All that a checkpoint holds, as arrays."""
+        """Return all that a checkpoint holds, as arrays."""
         return {
             f"{owner}.{name}": value
             for owner in self.checkpointed
@@ -265,7 +265,7 @@ class Run:
             getattr(self, owner).restore(values)
 
     def reproduces(self) -> bool:
-        """Whether the best robot on record still gets its fitness, to the bit.
+        """Return whether the best robot on record still gets its fitness, to the bit.
 
         If not, this version evaluates robots differently from the one that wrote the record. Other
         problems than native ones are not asked: they may be slow, or never the same twice.
@@ -289,7 +289,7 @@ def evolve(
     generations: int | None = None,
     keep_every: int | None = None,
 ) -> bool:
-    """Runs until the budget, or `steps` or `generations`, is spent; saves when due and at the end.
+    """Run until the budget, or `steps` or `generations`, is spent; save when due and at the end.
 
     Returns whether it got there; False when it was asked to stop (all is saved then). Errors that
     break a run off save what was finished first. `report` is called after each generation, and
@@ -375,7 +375,8 @@ class Options:
 
 
 def keeping(files: RunFiles, every: int, report: Callable[[Run], None]) -> Callable[[Run], None]:
-    """A `report` that also saves the best post-evaluated genotype so far every `every` generations.
+    """Return a `report` that also saves the best post-evaluated genotype so far every `every`
+    generations.
 
     It is saved before any checkpoint knows of its generation, so a run that is resumed lacks none;
     generation 0 has the random genotype that evolution starts from.

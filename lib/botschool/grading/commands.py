@@ -11,10 +11,9 @@ import tempfile
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
@@ -24,7 +23,6 @@ from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.declare.checks import Wrong, plain
 from botschool.grading.declare.exercise import (
     Exercise,
-    Number,
     course_root,
     exercise_numbers,
     folder_of,
@@ -37,19 +35,11 @@ from botschool.grading.declare.exercise import (
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import Result, grade
 from botschool.grading.report.progress import digest, remember
-from botschool.grading.report.screen import Screen, counting, notice
+from botschool.grading.report.screen import Screen, counting, say_missing
 from botschool.grading.run.confined import close_class
 from botschool.grading.run.debug import DirectStudent
 from botschool.grading.run.temporary import temporary_files_within
 from botschool.terminal import exits_on_signals
-
-if TYPE_CHECKING:
-    from botschool.grading.classes.collect import Laboratory
-    from botschool.grading.classes.register import Settings
-
-# PyTorch's threads fight for busy cores, and the course's networks are too small to share out: on a
-# busy machine, 4,096 steps of PPO take 18.4 s with all threads and 0.9 s with one
-os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 
 @exits_on_signals()
@@ -205,7 +195,7 @@ def progress_command(again: bool, workers: int | None) -> None:
             results[number]["problem"] = result["problem"]
     console.print(table(results))
     console.print(summary(results), soft_wrap=True)
-    _notice(console, list(graded.values()))
+    say_missing(console, list(graded.values()))
 
 
 def _grade_own(root: Path, workers: int | None, console: Console) -> dict[int, dict]:
@@ -217,7 +207,7 @@ def _grade_own(root: Path, workers: int | None, console: Console) -> dict[int, d
             jobs[Job(number, file)] = digest(file)
     with counting("Grading", console) as (start, step):
         start(len(jobs))
-        found = Grades(root).of(jobs, _workers(workers), lambda job, result: step())
+        found = Grades(root).of(jobs, workers or os.cpu_count() or 1, lambda job, result: step())
     for job, result in found.items():
         if not result["problem"] and isinstance(job.number, int):
             points = [(t["id"], t["points"], t["max_points"]) for t in result["tasks"]]
@@ -364,130 +354,6 @@ def release_command(folder: Path, exercises: str, answers: bool) -> None:
     print(f"{folder}: {done.files} files for students, {done.written} of them new or changed.")
 
 
-def export_command(platform: str, exercises: str, output: Path, wheel: Path | None) -> None:
-    """Write what a platform takes to grade by itself, and say what to do with it."""
-    from botschool.grading.classes.exporting import export
-
-    root = course_root()
-    asked = selected(exercises, root)
-    if any(asked.values()):
-        raise BotschoolError(f"'{exercises[:30]}' names a task: an exercise is exported whole.")
-    for path in export(platform, list(asked), exercises, output, root, wheel):
-        print(f"made: {path}")
-    print(
-        {
-            "gradescope": "Upload each zip file as the autograder of its assignment. It holds your "
-            "secret: give it to nobody else.",
-            "actions": "Put the folder .github into the repository that students start from, "
-            "which is a copy made by botschool release.",
-            "classroom50": "Put the folder autograders into the classroom's folder of your "
-            "classroom50 repository. Give runtime.json to 'gh teacher assignment add --runtime'.",
-        }[platform]
-    )
-
-
-@exits_on_signals()
-def grade_all_command(
-    folder: Path,
-    output: Path,
-    exercise: str,
-    workers: int | None,
-    fresh: bool,
-    roster: Path | None = None,
-    gradebook: Path | None = None,
-    column: str = "",
-    settings: Path | None = None,
-    laboratories: Mapping[Number, Laboratory] = MappingProxyType({}),
-) -> bool:
-    """Grade a class and say where the results are.
-
-    exercise: as `selected` takes it, beside names of laboratories; "all" stands for all exercises
-    and those laboratories that somebody handed in.
-
-    True if all could be graded, and all are on the roster and have handed something in.
-    """
-    from botschool.grading.classes.collect import PAGES, TABLE, grade_all
-    from botschool.grading.classes.screen import say_class
-
-    root = course_root()
-    asked, labs = _asked(exercise, root, laboratories)
-    console = Console(highlight=False)
-    known = _settings(folder, roster, gradebook, column, settings)
-    secret, said = secret_for_others(root)
-    close_class(folder, output)
-    with counting("Grading", console) as (start, step):
-        found = grade_all(
-            folder,
-            output,
-            asked,
-            root,
-            _workers(workers),
-            fresh,
-            secret,
-            start,
-            step,
-            known,
-            labs,
-            exercise == "all",
-        )
-    good = say_class(console, found)
-    console.print(f"Table: {output / TABLE}   Feedback: {output / PAGES}", markup=False)
-    shown = "   ".join(str(path) for path in found.written)
-    console.print(f"Also: {shown}", markup=False, soft_wrap=True)
-    if said:
-        console.print(said, markup=False, soft_wrap=True)
-    _notice(console, [result for row in found.rows for result in row.results])
-    return good
-
-
-def _asked(
-    text: str, root: Path, laboratories: Mapping[Number, Laboratory]
-) -> tuple[dict[Number, tuple[str, ...]], dict[Number, Laboratory]]:
-    """Return what is to be graded, and the laboratories among it. Raises BotschoolError."""
-    if text.strip() == "all":
-        every: dict[Number, tuple[str, ...]] = dict(selected(text, root).items())
-        return every | dict.fromkeys(laboratories, ()), dict(laboratories)
-    parts = [part.strip().lower() for part in text.split(",")]
-    found: dict[Number, Laboratory] = {}
-    for name in [part for part in parts if part.startswith("lab")]:
-        key = f"lab{name[3:].lstrip('0')}"
-        if key not in laboratories:
-            raise BotschoolError(
-                f"'{name[:30]}' names no laboratory: there are {', '.join(map(str, laboratories))}."
-            )
-        found[key] = laboratories[key]
-    exercises = ",".join(part for part in parts if not part.startswith("lab"))
-    asked: dict[Number, tuple[str, ...]] = {}
-    asked |= selected(exercises, root).items() if exercises else {}
-    return asked | dict.fromkeys(found, ()), found
-
-
-def _settings(
-    download: Path,
-    roster: Path | None,
-    gradebook: Path | None,
-    column: str,
-    settings: Path | None,
-) -> Settings:
-    """Return what is known of the class; class.yaml beside the download is found by itself."""
-    from botschool.grading.classes.policy import FILE, Policy, read_policy
-    from botschool.grading.classes.register import Settings
-    from botschool.grading.classes.roster import read_roster
-
-    beside = download.absolute().parent / FILE
-    if settings is None and beside.is_file() and not beside.is_symlink():
-        settings = beside
-    policy = read_policy(settings) if settings else Policy()
-    roster = roster or policy.roster
-    book = read_roster(gradebook) if gradebook else None
-    if book and book.kind == "plain":
-        raise BotschoolError(
-            f"{gradebook} is neither Moodle's grading worksheet nor Canvas's gradebook: name it "
-            "with --roster."
-        )
-    return Settings(policy, read_roster(roster) if roster else None, book, column)
-
-
 def _named(what: str) -> tuple[int, str]:
     """ "3.2" -> (3, "2"); "3" -> (3, ""). Raises BotschoolError."""
     number, dot, task = what.partition(".")
@@ -497,13 +363,3 @@ def _named(what: str) -> tuple[int, str]:
             f"'{what[:30]}' names no exercise: give its number, as 3, or a task, as 3.2."
         )
     return int(number), task
-
-
-def _workers(given: int | None) -> int:
-    return given or os.cpu_count() or 1
-
-
-def _notice(console: Console, results: list[dict]) -> None:
-    missing = list(dict.fromkeys(each for result in results for each in result["missing"]))
-    if missing:
-        console.print(f"[yellow]{notice(missing)}[/]")

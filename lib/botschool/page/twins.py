@@ -7,14 +7,9 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.problems.native import NativeProblem
 from botschool.render.scene import Scene
-from botschool.render.scenes.acrobot import AcrobotScene
-from botschool.render.scenes.arenas import CAMERA_SECTORS, ArenaScene
-from botschool.render.scenes.carts import CartScene
-from botschool.render.scenes.discrim import DiscrimScene
-from botschool.render.scenes.mountaincar import MountainCarScene
-from botschool.render.scenes.pendulum import PendulumScene
+from botschool.render.scenes.arenas import CAMERA_SECTORS, ArenaScene, DiscrimScene, PredpreyScene
+from botschool.render.scenes.classic import AcrobotScene, CartScene, MountainCarScene, PendulumScene
 from botschool.render.scenes.planar import PlanarScene
-from botschool.render.scenes.predprey import PredpreyScene
 
 
 def twin(problem: NativeProblem, scene: Scene) -> dict[str, Any]:

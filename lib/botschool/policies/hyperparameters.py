@@ -22,7 +22,7 @@ WEIGHT_DECAY = {0: "none", 1: "by 0.005 x centre", 2: "by 0.005 x sign(centre)"}
 
 
 def hyper(default: Any, help: str, **limits: Any) -> Any:
-    """A hyperparameter: a dataclass field with an explanation and limits.
+    """Return a hyperparameter: a dataclass field with an explanation and limits.
 
     Further arguments: `alias`, another name of the key; `free`, whether it may change when a run
     is resumed. Limits are `low` and `high` (both allowed), `above` (itself not allowed), `choices`,
@@ -35,7 +35,7 @@ def hyper(default: Any, help: str, **limits: Any) -> Any:
 
 
 def numbers(text: str) -> tuple[int, ...]:
-    """The whole numbers above 0 that a text lists. Raises ValueError."""
+    """Return the whole numbers above 0 that a text lists. Raises ValueError."""
     listed = [part.strip() for part in text.split(",")]
     if not all(re.fullmatch(r"0*([1-9][0-9]{0,2}|1000)", part, re.ASCII) for part in listed):
         raise ValueError(
@@ -46,7 +46,7 @@ def numbers(text: str) -> tuple[int, ...]:
 
 
 def _of_networks() -> list[tuple[str, type, Any]]:
-    """Name, type and declaration of each hyperparameter of a policy network."""
+    """Return the name, type and declaration of each hyperparameter of a policy network."""
     declared = []
     for name, default, low, high, explanation, choices in _core.hyperparameters():
         limits: dict[str, Any] = {"low": low, "high": high}
@@ -58,7 +58,7 @@ def _of_networks() -> list[tuple[str, type, Any]]:
 
 
 def _of_convolutions() -> list[tuple[str, type, Any]]:
-    """The same of those that have a number for each convolutional layer."""
+    """Return the same of those that have a number for each convolutional layer."""
     form = "whole numbers from 1 to 1000 separated by commas, one for each convolutional layer"
     return [
         (name, str, hyper(default, f"{help} (architecture = 4)", check=numbers, form=form))
@@ -112,8 +112,8 @@ else:
 
 
 def conflicts(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
-    """Hyperparameters of the policy that cannot go together: their names and a sentence with the
-    remedy."""
+    """Yield hyperparameters of the policy that cannot go together: their names and a sentence with
+    the remedy."""
     if p.nhiddens2 and p.nlayers != 2:
         yield (
             ("nhiddens2",),

@@ -28,7 +28,7 @@ class _Spec:
         self.evonet()
 
     def core(self) -> _core.Spec:
-        """The C++ counterpart of all but convolutional layers."""
+        """Return the C++ counterpart of all but convolutional layers."""
         spec = _core.Spec()
         for field in fields(self):
             if field.type is not tuple:
@@ -151,13 +151,13 @@ class Network:
         self._core.set_normalisation(_normalisation(values, self.spec.inputs))
 
     def seed(self, seed: int, episode: int = 0) -> None:
-        """Sets what drives initial weights and action noise, which starts anew."""
+        """Set what drives initial weights and action noise, which starts anew."""
         if not isinstance(episode, Integral) or not 0 <= episode < 2**32:
             raise ValueError(f"An episode is a whole number from 0 to 2^32 - 1, not {episode!r}.")
         self._core.seed(_seed(seed), int(episode))
 
     def initialise(self, seed: int | None = None) -> np.ndarray:
-        """Draws initial weights (`winit`) into `parameters` and returns them."""
+        """Draw initial weights (`winit`) into `parameters` and return them."""
         if seed is not None:
             self.seed(seed)
         self._core.initialise(self._parameters)
@@ -170,7 +170,7 @@ class Network:
         self._action[:] = 0
 
     def step(self) -> np.ndarray:
-        """Updates all neurons once; returns `action`."""
+        """Update all neurons once; return `action`."""
         self._core.step(self._parameters, self._observation, self._action, self._activations)
         return self._action
 
@@ -243,27 +243,27 @@ class PyEvonet:
         self._arrays: dict[str, np.ndarray] = {}
 
     def computeParameters(self) -> int:
-        """Length of the genotype."""
+        """Return the length of the genotype."""
         return self._core.nparameters
 
     def copyGenotype(self, parameters: np.ndarray) -> None:
-        """Hands over the parameters, float64, shape (computeParameters(),)."""
+        """Hand over the parameters, float64, shape (computeParameters(),)."""
         self._keep("parameters", parameters, np.float64, self._core.nparameters)
 
     def copyInput(self, inputs: np.ndarray) -> None:
-        """Hands over the observation, float32, shape (nnetworks * ninputs,)."""
+        """Hand over the observation, float32, shape (nnetworks * ninputs,)."""
         self._keep("input", inputs, np.float32, self._core.ninputs, written=False)
 
     def copyOutput(self, outputs: np.ndarray) -> None:
-        """Hands over where actions go, float32, shape (nnetworks * noutputs,)."""
+        """Hand over where actions go, float32, shape (nnetworks * noutputs,)."""
         self._keep("output", outputs, np.float32, self._core.nactions)
 
     def copyNeuronact(self, activations: np.ndarray) -> None:
-        """Hands over where activations go, float64, shape (nnetworks * neurons,)."""
+        """Hand over where activations go, float64, shape (nnetworks * neurons,)."""
         self._keep("neuron activation", activations, np.float64, self._core.nneurons)
 
     def copyNormalization(self, vectors: np.ndarray) -> None:
-        """Hands over the normalisation vector, float64: all means, then all deviations."""
+        """Hand over the normalisation vector, float64: all means, then all deviations."""
         self._keep("normalization", vectors, np.float64, 2 * self.spec.inputs)
 
     def seed(self, seed: int) -> None:
@@ -271,17 +271,17 @@ class PyEvonet:
         self._core.seed(_seed(seed), 0)
 
     def initWeights(self) -> None:
-        """Draws initial weights into the parameters handed over."""
+        """Draw initial weights into the parameters handed over."""
         self._core.initialise(self._array("parameters", "copyGenotype"))
 
     def resetNet(self) -> None:
-        """Sets all activations and memory to 0."""
+        """Set all activations and memory to 0."""
         self._core.reset()
         if "neuron activation" in self._arrays:
             self._arrays["neuron activation"][:] = 0
 
     def updateNet(self) -> None:
-        """Updates all neurons once, from the input to the output and activation arrays."""
+        """Update all neurons once, from the input to the output and activation arrays."""
         self._core.step_single(
             self._array("parameters", "copyGenotype"),
             self._array("input", "copyInput"),
@@ -296,20 +296,20 @@ class PyEvonet:
         self._core.collecting = bool(phase)
 
     def updateNormalizationVectors(self) -> None:
-        """Takes means and deviations of the statistics collected so far into use."""
+        """Take means and deviations of the statistics collected so far into use."""
         self._core.set_normalisation(self._core.moments.vectors())
 
     def setNormalizationVectors(self) -> None:
-        """Takes the vector passed to `copyNormalization` into use."""
+        """Take the vector passed to `copyNormalization` into use."""
         vectors = self._array("normalization", "copyNormalization")
         self._core.set_normalisation(_normalisation(vectors, self.spec.inputs))
 
     def getNormalizationVectors(self) -> None:
-        """Writes the vectors in use into the vector passed to `copyNormalization`."""
+        """Write the vectors in use into the vector passed to `copyNormalization`."""
         self._array("normalization", "copyNormalization")[:] = self._core.get_normalisation()
 
     def resetNormalizationVectors(self) -> None:
-        """Forgets the statistics: means 0 and deviations 1 are in use again."""
+        """Forget the statistics: means 0 and deviations 1 are in use again."""
         self._core.moments.reset()
         n = self.spec.inputs
         self._core.set_normalisation(np.repeat([0.0, 1.0], n))

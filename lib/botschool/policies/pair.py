@@ -50,14 +50,14 @@ class Pair:
         return list(inputs), list(outputs)
 
     def initial(self, seed: int, index: int = 0) -> np.ndarray:
-        """A random genotype, shape (genotype_size,); each (seed, index) gives another."""
+        """Return a random genotype, shape (genotype_size,); each (seed, index) gives another."""
         rows = np.zeros((2, self.nparameters))
         for k, (row, side) in enumerate(zip(rows, self.sides, strict=True)):
             row[: self.sizes[k]] = side.initial(seed, 2 * index + k)
         return rows.ravel()
 
     def split(self, saved: np.ndarray) -> tuple[np.ndarray, None]:
-        """A saved genotype -> (genotype, no normalisation vectors).
+        """Split a saved genotype into (genotype, no normalisation vectors).
 
         Raises BotschoolError when its length is not what this policy needs.
         """
@@ -73,7 +73,7 @@ class Pair:
         return saved.astype(np.float64), None
 
     def load(self, genotype: np.ndarray, normalisation: None = None) -> None:
-        """Puts a genotype into the networks; its rows may also be given as (2, nparameters)."""
+        """Put a genotype into the networks; its rows may also be given as (2, nparameters)."""
         for side, row in zip(self.sides, genotype.reshape(2, -1), strict=True):
             side.load(row[: side.genotype_size], None)
 

@@ -45,7 +45,7 @@ class Image:
         return int(np.prod(channels)), height, width
 
     def write(self, observation: np.ndarray, planes: np.ndarray) -> None:
-        """Writes an observation (flat) to `planes` (flat): channel by channel, 0 to 1."""
+        """Write an observation (flat) to `planes` (flat): channel by channel, 0 to 1."""
         turned = observation.reshape(self.shape).transpose(self.axes)
         np.divide(turned, self.white, out=planes.reshape(turned.shape))
 
@@ -148,7 +148,7 @@ class Policy:
         return self.networks * self.nparameters + self.interface.morphology
 
     def initial(self, seed: int, index: int = 0) -> np.ndarray:
-        """A random genotype, shape (genotype_size,); each (seed, index) gives another."""
+        """Return a random genotype, shape (genotype_size,); each (seed, index) gives another."""
         parts = []
         for network in range(self.networks):
             self.network.seed(seed, index * self.networks + network)
@@ -156,7 +156,7 @@ class Policy:
         return np.concatenate([*parts, np.zeros(self.interface.morphology)])
 
     def split(self, saved: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-        """A saved genotype -> (genotype, normalisation vectors or None).
+        """Split a saved genotype into (genotype, normalisation vectors or None).
 
         Raises BotschoolError when its length is not what this policy needs.
         """
@@ -179,11 +179,11 @@ class Policy:
         return saved[: self.genotype_size], saved[self.genotype_size :]
 
     def join(self, genotype: np.ndarray, normalisation: np.ndarray | None) -> np.ndarray:
-        """What is saved: the reverse of `split`."""
+        """Return what is saved: the reverse of `split`."""
         return genotype.copy() if normalisation is None else np.append(genotype, normalisation)
 
     def load(self, genotype: np.ndarray, normalisation: np.ndarray | None) -> None:
-        """Puts a genotype (and normalisation vectors) into the network."""
+        """Put a genotype (and normalisation vectors) into the network."""
         self.network.parameters[:] = genotype[: self.nparameters]
         self.morphology = genotype[self.genotype_size - self.interface.morphology :]
         if normalisation is not None:
@@ -195,7 +195,7 @@ class Policy:
         self.network.reset()
 
     def act(self, observation: np.ndarray) -> np.ndarray | int:
-        """The action: an index for a discrete problem (int64 of shape (groups,) where it has
+        """Return the action: an index for a discrete problem (int64 of shape (groups,) where it has
         several), else float32 of shape (outputs,)."""
         if self._image is None:
             self.network.observation[:] = observation

@@ -27,7 +27,7 @@ def make(
     competitive: bool = False,
     plan: Plan | None = None,
 ) -> Problem:
-    """The problem of that name; robots: kinds of its wheeled robots, () for its own; plan: a
+    """Return the problem of that name; robots: kinds of its wheeled robots, () for its own; plan: a
     declared arena, for ErArena.
 
     wrappers: those around its environment (botschool.wrappers); a native problem is then played as
@@ -74,7 +74,7 @@ def make(
 
 
 def of(experiment) -> Problem:
-    """The problem of a botschool.config.Experiment. Raises BotschoolError."""
+    """Return the problem of a botschool.config.Experiment. Raises BotschoolError."""
     exp = experiment.exp
     robots = [name.strip() for name in exp.robots.split(",") if name.strip()]
     chosen = {"options": exp.options, "competitive": experiment.competitive}
@@ -82,5 +82,5 @@ def of(experiment) -> Problem:
 
 
 def names() -> list[str]:
-    """The names of the native problems."""
+    """Return the names of the native problems."""
     return list(NATIVE)

@@ -43,7 +43,7 @@ class Episodes:
         )
 
     def select(self, chosen: slice) -> Episodes:
-        """Some of the episodes."""
+        """Return some of the episodes."""
         collect = None if self.collect is None else self.collect[chosen]
         return Episodes(
             self.candidate[..., chosen], self.seed[chosen], self.episode[chosen], collect
@@ -93,7 +93,7 @@ class Problem(ABC):
         return f"predators are {self.sides[0]}, prey are {self.sides[1]}"
 
     def policy(self, config: PolicyConfig) -> Any:
-        """The policy that a [POLICY] section describes. Raises BotschoolError."""
+        """Return the policy that a [POLICY] section describes. Raises BotschoolError."""
         return Policy(self.name, self.interface, config)
 
     @abstractmethod
@@ -107,7 +107,7 @@ class Problem(ABC):
         workers: int = 1,
         stopping: Callable[[], bool] = lambda: False,
     ) -> Outcome:
-        """Runs the episodes. The outcome is a pure function of the first five arguments.
+        """Run the episodes. The outcome is a pure function of the first five arguments.
 
         genotypes: float64, shape (candidates, genotype_size). Raises `Interrupted` soon after
         `stopping()` is true, and BotschoolError when the environment breaks down.
@@ -124,26 +124,30 @@ class Problem(ABC):
         maxsteps: int,
         render: bool = False,
     ) -> Iterator[Transition]:
-        """Runs one episode, the same that `evaluate` runs, and yields every step.
+        """Run one episode, the same that `evaluate` runs, and yield every step.
 
         With `render`, an environment in Python adds its pictures; those of native problems are
         drawn from the state (botschool.render.scene).
         """
 
     def sided(self, returns: np.ndarray) -> np.ndarray:
-        """What `evaluate` gave, (n,), as the returns of both sides, (2, n), if they share one."""
+        """Return what `evaluate` gave, (n,), as the returns of both sides, (2, n), if they share
+        one.
+        """
         return np.stack([returns, returns]) if self.common else returns
 
     def rows(self, *parts: np.ndarray) -> np.ndarray:
-        """Genotypes for `evaluate`, one part after another."""
+        """Return genotypes for `evaluate`, one part after another."""
         return np.concatenate(parts)
 
     def modules(self) -> set[str]:
-        """Return the names of the modules that its environment is made of; of a native one none."""
+        """Return the names of the modules that its environment is made of; of a native one
+        none.
+        """
         return set()
 
     def status(self) -> str:
-        """What a progress bar is to say of those who evaluate; often nothing."""
+        """Return what a progress bar is to say of those who evaluate; often nothing."""
         return ""
 
     def steps(self, maxsteps: int) -> int:
@@ -151,7 +155,7 @@ class Problem(ABC):
         return maxsteps if self.limit is None else min(maxsteps, self.limit)
 
     def broken(self, what: str, seed: int, episode: int) -> BotschoolError:
-        """The error for an environment that gives something that cannot be used."""
+        """Return the error for an environment that gives something that cannot be used."""
         return BotschoolError(
             f"{self.name} gave {what} in episode {episode} of seed {seed}, so fitness cannot be "
             "measured: mend the environment, or lower stepsize, noiseStdDev or mutrate if the "

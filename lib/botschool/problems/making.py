@@ -37,7 +37,7 @@ DRAWING = (("egl", "libEGL.so.1"), ("osmesa", "libOSMesa.so"), ("osmesa", "libOS
 
 
 def make_env(name: str, wrappers: Sequence[Wrapper] = (), **options) -> gymnasium.Env:
-    """The environment of that id, inside the wrappers, the first one innermost.
+    """Return the environment of that id, inside the wrappers, the first one innermost.
 
     A `module:` before the id may lie in the present folder. Options go to gymnasium.make. Raises
     BotschoolError.
@@ -82,7 +82,7 @@ def _make(name: str, **options) -> gymnasium.Env:
 
 
 def _registered(name: str) -> str:
-    """The id under which Gymnasium knows it; others may have taken our plain one."""
+    """Return the id under which Gymnasium knows it; others may have taken our plain one."""
     if f"botschool/{name}" in gymnasium.registry:
         return f"botschool/{name}"
     if name in NATIVE and name not in gymnasium.registry:
@@ -92,7 +92,7 @@ def _registered(name: str) -> str:
 
 
 def _choose_drawing(name: str) -> None:
-    """Tells MuJoCo to draw in memory where there is no display, unless the user has told it how.
+    """Tell MuJoCo to draw in memory where there is no display, unless the user has told it how.
 
     Raises BotschoolError for an environment of MuJoCo's where it cannot.
     """
@@ -112,7 +112,7 @@ def _choose_drawing(name: str) -> None:
 
 
 def _import_package(name: str) -> None:
-    """Imports the package that registers this id, if it is a known one."""
+    """Import the package that registers this id, if it is a known one."""
     if name in PACKAGES:
         package = PACKAGES[name]
         remedy = (

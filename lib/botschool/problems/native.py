@@ -83,12 +83,12 @@ class NativeProblem(Problem):
         )
 
     def options(self, noise: float | None = None) -> _core.ArenaOptions:
-        """What C++ is told about its arena; noise: of its sensors, None for its own."""
+        """Return what C++ is told about its arena; noise: of its sensors, None for its own."""
         core = self.plan.core if self.plan else None
         return _core.ArenaOptions([model.name for model in self.robots], noise, declaration=core)
 
     def engine(self, policy: Policy) -> _core.Engine:
-        """The C++ engine for this problem and the policy's network."""
+        """Return the C++ engine for this problem and the policy's network."""
         if self._engine is None or self._engine[0] is not policy:
             engine = _core.Engine(
                 self.dynamics, policy.spec.core(), self._instruction_set, self._options
@@ -175,7 +175,9 @@ class NativeProblem(Problem):
 
 
 def alive_of(name: str, options: str) -> float:
-    """The pay for standing that the options of a native problem name. Raises BotschoolError."""
+    """Return the pay for standing that the options of a native problem name. Raises
+    BotschoolError.
+    """
     if name not in RUNNERS:
         raise BotschoolError(f"{name} takes no options: remove the line options = {options}.")
     given = keywords(options)

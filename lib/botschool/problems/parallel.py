@@ -68,7 +68,7 @@ class ParallelProblem(PythonProblem):
         return agents
 
     def _add(self, agent: Any) -> None:
-        """Finds out what this agent sees and does."""
+        """Find out what this agent sees and does."""
         seen = self._call(self._env.observation_space, f"observation_space({agent!r})", agent)
         acted = self._call(self._env.action_space, f"action_space({agent!r})", agent)
         try:
@@ -80,7 +80,7 @@ class ParallelProblem(PythonProblem):
         self._spaces[agent] = acted
 
     def _try_seeds(self) -> None:
-        """Says so if the same seed does not give the same start."""
+        """Say so if the same seed does not give the same start."""
         starts = []
         for _ in range(2):
             raw, here = self._call(_start, "reset", self._env, self.agents, 0)
@@ -138,7 +138,7 @@ class ParallelProblem(PythonProblem):
 
 
 def _start(env, agents: list, seed: int) -> tuple[dict, list]:
-    """Starts an episode: what agents see, and who of them takes part."""
+    """Start an episode: what agents see, and who of them takes part."""
     given = env.reset(seed=seed)
     if not isinstance(given, tuple) or len(given) != 2:
         raise TypeError("it gives no pair of observations and infos")
@@ -149,7 +149,7 @@ def _start(env, agents: list, seed: int) -> tuple[dict, list]:
 
 
 def _step(env, actions: dict) -> tuple[dict, dict, list]:
-    """All act: what agents see, what they are paid, and whose end has come."""
+    """Let all act: return what agents see, what they are paid, and whose end has come."""
     given = env.step(actions)
     if not isinstance(given, tuple) or len(given) != 5:
         raise TypeError("it gives no five dicts, from observations to infos")

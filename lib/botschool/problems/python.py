@@ -88,7 +88,9 @@ class PythonProblem(Problem):
                 env.close()
 
     def modules(self) -> set[str]:
-        """Return the modules that the experiment names, and those of the environment's classes."""
+        """Return the modules that the experiment names, and those of the environment's
+        classes.
+        """
         named = {self.name.partition(":")[0]} if ":" in self.name else set()
         named |= {w.module for w in wrappers.parse(self.made.get("wrappers", "")) if w.module}
         env = self._env
@@ -105,7 +107,7 @@ class PythonProblem(Problem):
 
     @abstractmethod
     def _drawing(self) -> Any:
-        """An environment like the own one that draws."""
+        """Return an environment like the own one that draws."""
 
     def _call(self, method, where: str, *arguments, **options):
         try:

@@ -62,7 +62,7 @@ class Flattener:
 
 
 def _leaves(space: spaces.Space, path: tuple) -> Iterator[tuple[tuple, spaces.Space]]:
-    """The spaces that hold no others, each with the keys that lead there."""
+    """Yield the spaces that hold no others, each with the keys that lead there."""
     if isinstance(space, (spaces.Dict, spaces.Tuple)):
         named = space.items() if isinstance(space, spaces.Dict) else enumerate(space)
         for key, part in named:
@@ -121,7 +121,9 @@ def _say_left_out(name: str, part: str, kind: str) -> None:
 def interface(
     size: int, acted: spaces.Space, morphology: int, image: Image | None = None
 ) -> Interface:
-    """What a policy needs for observations of that size and these actions. Raises Unsupported."""
+    """Return what a policy needs for observations of that size and these actions. Raises
+    Unsupported.
+    """
     seen: dict[str, Any] = {"morphology": morphology, "image": image}
     if isinstance(acted, spaces.Discrete):
         return Interface(size, int(acted.n), discrete=True, **seen)
@@ -145,7 +147,7 @@ def interface(
 
 
 def fitted(action: Any, space: spaces.Space) -> Any:
-    """An action that the space contains: choices begin where it does, others are clipped."""
+    """Return an action that the space contains: choices begin where it does, others are clipped."""
     if isinstance(space, spaces.Discrete):
         return space.start + action
     if isinstance(space, (spaces.MultiDiscrete, spaces.MultiBinary)):

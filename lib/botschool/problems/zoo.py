@@ -30,7 +30,7 @@ NAMES = (
 
 
 def make_parallel(name: str, **options: Any) -> Any:
-    """The pettingzoo.ParallelEnv of that name; options go to its constructor.
+    """Return the pettingzoo.ParallelEnv of that name; options go to its constructor.
 
     An environment whose agents act one after the other (AECEnv) is made parallel if it says that it
     can be. Raises BotschoolError.
@@ -73,7 +73,7 @@ def make_parallel(name: str, **options: Any) -> Any:
 
 
 def is_parallel(name: str) -> bool:
-    """Whether an environment of this name can be made."""
+    """Return whether an environment of this name can be made."""
     if not re.search(r"[.:/]", name):
         return False
     with suppress(BotschoolError):
@@ -105,7 +105,7 @@ def _maker(name: str) -> Callable[..., Any]:
 
 
 def _callable(found: Any, name: str) -> Callable[..., Any]:
-    """What makes the environment, of a module or of what a name after a colon means."""
+    """Return what makes the environment, of a module or of what a name after a colon means."""
     if isinstance(found, ModuleType):
         for kind in ("parallel_env", "env"):
             if callable(getattr(found, kind, None)):
@@ -120,7 +120,7 @@ def _callable(found: Any, name: str) -> Callable[..., Any]:
 
 
 def _registered(name: str) -> Callable[..., Any]:
-    """What makes the environment with this id in PettingZoo's registry."""
+    """Return what makes the environment with this id in PettingZoo's registry."""
     import pettingzoo
 
     if name in gymnasium.registry:
@@ -152,7 +152,7 @@ def _import(module: str, name: str) -> ModuleType:
 
 
 def _without(name: str, error: ModuleNotFoundError) -> BotschoolError:
-    """The error for a module that is not there, or that another one needs."""
+    """Return the error for a module that is not there, or that another one needs."""
     missing, module = error.name or "", name.partition(":")[0]
     if missing == "mpe2":
         return BotschoolError(

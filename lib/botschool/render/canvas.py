@@ -66,7 +66,7 @@ def _environment(**variables: str) -> Iterator[None]:
 
 
 def blank(width: int, height: int) -> pygame.Surface:
-    """A white surface."""
+    """Return a white surface."""
     pygame = import_pygame()
     surface = pygame.Surface((width, height), depth=24)
     surface.fill(WHITE)
@@ -74,7 +74,7 @@ def blank(width: int, height: int) -> pygame.Surface:
 
 
 def to_frame(surface: pygame.Surface) -> np.ndarray:
-    """A copy of the surface, (height, width, 3) uint8."""
+    """Return a copy of the surface, (height, width, 3) uint8."""
     pygame = import_pygame()
     return np.ascontiguousarray(pygame.surfarray.array3d(surface).swapaxes(0, 1))
 
@@ -82,7 +82,7 @@ def to_frame(surface: pygame.Surface) -> np.ndarray:
 def write_text(
     surface: pygame.Surface, text: str, left_top: tuple[float, float], size: int = 20
 ) -> None:
-    """Writes one black line in pygame's own font, which comes with it."""
+    """Write one black line in pygame's own font, which comes with it."""
     surface.blit(_text(text, size, BLACK), left_top)
 
 
@@ -113,7 +113,7 @@ class Painter:
         self._paint(self._still, still, [np.zeros(0)])
 
     def frame(self, past: Sequence[np.ndarray]) -> np.ndarray:
-        """A frame, (height, width, 3) uint8.
+        """Return a frame, (height, width, 3) uint8.
 
         past: the numbers of the steps so far, oldest first; the last are those of this frame.
         """
@@ -148,7 +148,7 @@ def _to_pixels(points: np.ndarray, origin: tuple[float, float], pixels: float) -
 
 
 def _within(surface: pygame.Surface, points: np.ndarray, margin: float) -> bool:
-    """Whether any of a shape can lie between the left and the right edge."""
+    """Return whether any of a shape can lie between the left and the right edge."""
     return points[:, 0].max() >= -margin and points[:, 0].min() <= surface.get_width() + margin
 
 

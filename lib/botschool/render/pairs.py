@@ -29,13 +29,13 @@ class PairEpisodes(PostEvaluation):
         return len(self._predators) * len(self._prey) * self._repeats
 
     def cast(self, episode: int) -> tuple[np.ndarray, np.ndarray | None, int]:
-        """The pair's networks as rows, and the number of the pair's episode."""
+        """Return the pair's networks as rows, and the number of the pair's episode."""
         predator, prey, number = self._pair(episode)
         networks = np.stack([self._predators[predator], self._prey[prey]])
         return networks, None, number
 
     def label(self, episode: int) -> str:
-        """Who meets whom."""
+        """Return which individuals meet."""
         predator, prey, _ = self._pair(episode)
         numbers = zip(self.problem.sides, (predator, prey), strict=True)
         return ", ".join(f"{side} {number + 1}" for side, number in numbers)

@@ -36,7 +36,7 @@ def with_activations(
     noutputs: int | Sequence[int],
     robots: Sequence[str] = ("",),
 ) -> np.ndarray:
-    """The frame with a panel at its right: one coloured cell for each neuron.
+    """Return the frame with a panel at its right: one coloured cell for each neuron.
 
     `frame` is (height, width, 3) uint8, `activations` (neurons,): inputs, hidden, outputs of each
     of the robots. White is 0, orange +1 and beyond, blue -1 and beyond; a black border marks what
@@ -84,7 +84,7 @@ def neuron_groups(
 
 
 def with_caption(frame: np.ndarray, episode: int, transition: Transition) -> np.ndarray:
-    """The frame with a line below: episode, step, reward and return.
+    """Return the frame with a line below: episode, step, reward and return.
 
     `frame` is (height, width, 3) uint8. Returns a new frame; its sides are even. Of a frame too
     narrow for the caption, as Atari's, each pixel becomes a square of pixels.
@@ -102,7 +102,7 @@ def with_caption(frame: np.ndarray, episode: int, transition: Transition) -> np.
 
 
 def caption(episode: int, transition: Transition) -> tuple[str, str, str, str]:
-    """What `with_caption` writes."""
+    """Return what `with_caption` writes."""
     returns = f"return {transition.total:.1f}"
     if transition.totals:
         returns = "returns " + " : ".join(f"{total:.1f}" for total in transition.totals)
@@ -119,7 +119,7 @@ def _even(length: int) -> int:
 
 
 def _padded(frame: np.ndarray, height: int) -> np.ndarray:
-    """The frame on a white ground of this height and of even width."""
+    """Return the frame on a white ground of this height and of even width."""
     padding = height - len(frame), frame.shape[1] % 2
     return np.pad(frame, [(0, padding[0]), (0, padding[1]), (0, 0)], constant_values=255)
 
@@ -143,7 +143,7 @@ def _columns(cell: int) -> int:
 
 
 def _cell_size(counts: list[int], room: int) -> int:
-    """The largest side of a cell, in pixels, with which all groups and their labels fit."""
+    """Return the largest side of a cell, in pixels, with which all groups and their labels fit."""
     for cell in range(_LARGEST_CELL, 1, -1):
         rows = sum(-(-count // _columns(cell)) for count in counts)
         if len(counts) * _LABEL + rows * cell <= room:

@@ -43,7 +43,7 @@ def write_replay(
     labels: Iterable[str] = repeat(""),
     robots: Sequence[str] = ("",),
 ) -> None:
-    """Writes the page.
+    """Write the page.
 
     title: the problem's name; about: a line on the robot and the experiment. fps: steps a second.
     neurons: inputs and outputs of one robot's network, or of each robot's. Without a scene the
@@ -113,7 +113,9 @@ class _Step(NamedTuple):
 
     @classmethod
     def of(cls, transition: Transition, scene: Scene | None, frames: Frames, episode: int) -> _Step:
-        """What is kept of a transition; its picture goes to `frames` where there is no scene."""
+        """Return what is kept of a transition; its picture goes to `frames` where there is no
+        scene.
+        """
         numbers, activations = np.zeros(0), np.array(transition.activations)
         if scene is None:
             frames.add(episode, transition.step - 1, transition.frame)
@@ -136,7 +138,7 @@ def _episode(steps: list[_Step]) -> dict:
 
 
 def packed(table: np.ndarray) -> dict:
-    """A table, (rows, columns), as JSON: each column in 65,536 levels from its least value.
+    """Return a table, (rows, columns), as JSON: each column in 65,536 levels from its least value.
 
     Levels are stored as differences from the row before, modulo 65,536: all low bytes, then all
     high bytes, column by column, compressed by zlib, in base 64. What is not finite becomes 0.
@@ -164,7 +166,7 @@ class Frames:
         self._bytes = 0
 
     def add(self, episode: int, step: int, frame: np.ndarray) -> None:
-        """Adds the picture of a step, (height, width, 3) uint8; steps count from 0."""
+        """Add the picture of a step, (height, width, 3) uint8; step count from 0."""
         if step % self._every:
             return
         content = _webp(frame)
@@ -178,7 +180,7 @@ class Frames:
             self._bytes = sum(len(content) for _, _, content in self._frames)
 
     def of(self, episode: int) -> dict:
-        """The steps of an episode's pictures, and the pictures in base 64."""
+        """Return the steps of an episode's pictures, and the pictures in base 64."""
         own = [(step, content) for number, step, content in self._frames if number == episode]
         return {
             "steps": [step for step, _ in own],

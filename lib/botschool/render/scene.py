@@ -41,7 +41,7 @@ class Scene(ABC):
         self._painter: Painter | None = None
 
     def add(self, kind: str, points, colour: str, **options) -> None:
-        """Adds a shape in front of those before; see Shape."""
+        """Add a shape in front of those before; see Shape."""
         self.shapes.append(Shape(kind, tuple(points), colour, **options))
 
     def pose(self) -> int:
@@ -61,7 +61,7 @@ class Scene(ABC):
         observation: np.ndarray | None = None,
         reward: float = 0.0,
     ) -> np.ndarray:
-        """What moves the shapes, float64 (count,).
+        """Return what moves the shapes, float64 (count,).
 
         `state` is the native problem's, (state_size,); `action` the one that led to it,
         `observation` what it answered to and `reward` what it earned, where they can be seen.
@@ -97,7 +97,7 @@ class Scene(ABC):
         observation: np.ndarray | None = None,
         reward: float = 0.0,
     ) -> np.ndarray:
-        """The frame of a step, (height, width, 3) uint8; arguments and errors as `numbers`.
+        """Return the frame of a step, (height, width, 3) uint8; arguments and errors as `numbers`.
 
         Where there are trails, they show what was drawn before in the same episode.
         """
@@ -112,13 +112,13 @@ class Scene(ABC):
         return self._painter.frame(self._past)
 
     def draw_transition(self, transition: Transition) -> np.ndarray:
-        """The frame of a step that `Problem.play` yielded; see draw."""
+        """Return the frame of a step that `Problem.play` yielded; see draw."""
         return self.draw(
             transition.state, transition.action, transition.observation, transition.reward
         )
 
     def _follows(self, state: np.ndarray) -> bool:
-        """Whether the state comes after those drawn before, in the same episode."""
+        """Return whether the state comes after those drawn before, in the same episode."""
         return False
 
 

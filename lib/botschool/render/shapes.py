@@ -77,7 +77,7 @@ class Shape:
         return (self.pose, self.size, self.level) != (None, None, None)
 
     def placed(self, numbers: np.ndarray) -> np.ndarray:
-        """The points in the world, (points, 2)."""
+        """Return the points in the world, (points, 2)."""
         size = 1.0 if self.size is None else numbers[self.size]
         height = abs(size) if self.height is None else numbers[self.height]
         points = np.array(self.points) * (size, height) + self.at
@@ -88,7 +88,7 @@ class Shape:
         return points @ turned + (x, y)
 
     def visible(self, numbers: np.ndarray) -> float:
-        """The opacity, 0 to 1."""
+        """Return the opacity, 0 to 1."""
         level = 1.0 if self.level is None else float(np.clip(numbers[self.level], 0.0, 1.0))
         return self.opacity * level
 
@@ -106,7 +106,7 @@ def rectangle(left: float, bottom: float, right: float, top: float) -> tuple[Poi
 
 
 def arc(start: float, end: float, radius: float, parts: int = 8) -> tuple[Point, ...]:
-    """Points on a circle around the origin, from one angle to another."""
+    """Return points on a circle around the origin, from one angle to another."""
     return tuple((radius * cos(a), radius * sin(a)) for a in np.linspace(start, end, parts + 1))
 
 

@@ -32,7 +32,7 @@ MAX_GIF_FPS = 50.0
 
 
 def write_video(path: Path | str, frames: Iterable[np.ndarray], fps: float) -> None:
-    """Writes frames, each (height, width, 3) uint8 and of one size, to a .mp4, .webm or .gif file.
+    """Write frames, each (height, width, 3) uint8 and of one size, to a .mp4, .webm or .gif file.
 
     Holds one frame at a time. An odd width or height is padded where the format asks for even
     ones. An existing file is replaced once the new one is complete, and stays as it is if
@@ -89,7 +89,7 @@ def _start_encoder(
 
 
 def _send(first: np.ndarray, others: Iterator[np.ndarray], pipe: IO[bytes], path: Path) -> bool:
-    """Sends all frames; False if the encoder stopped listening before the end."""
+    """Send all frames; False if the encoder stopped listening before the end."""
     frame = first
     while frame is not None:
         if frame.shape != first.shape or frame.dtype != np.uint8 or frame.shape[2:] != (3,):
@@ -110,7 +110,7 @@ def _send(first: np.ndarray, others: Iterator[np.ndarray], pipe: IO[bytes], path
 
 
 def _reason(complaints: IO[bytes]) -> str:
-    """Why the encoder failed, as far as it said so."""
+    """Return why the encoder failed, as far as it said so."""
     complaints.seek(0)
     said = complaints.read().decode(errors="replace").strip()
     for reason in ("No space left on device", "Permission denied", "Read-only file system"):

@@ -22,7 +22,7 @@ REPLAY_EPISODES = 5
 
 
 def read_genotype(path: Path) -> np.ndarray:
-    """A saved genotype; raises BotschoolError."""
+    """Return a saved genotype; raises BotschoolError."""
     if not path.exists():
         raise BotschoolError(
             f"There is no genotype file {path}: a run with seed 11 saves bestgS11.npy, so give "
@@ -70,11 +70,11 @@ class PostEvaluation:
         return self.policy.config.pepisodes
 
     def cast(self, episode: int) -> tuple[np.ndarray, np.ndarray | None, int]:
-        """Genotype, normalisation and number of an episode."""
+        """Return genotype, normalisation and number of an episode."""
         return *self._robot, episode
 
     def label(self, episode: int) -> str:
-        """What tells this episode from the others, beside its number."""
+        """Return what tells this episode from the others, beside its number."""
         return ""
 
     def play(self, episode: int, render: bool = False) -> Iterator[Transition]:
@@ -103,7 +103,7 @@ class PostEvaluation:
             print(f"{name}  fitness {fitness}  steps {transition.step}")
 
     def frames(self, episodes: int, activations: bool) -> Iterator[np.ndarray]:
-        """Pictures of the first episodes with a caption, and with the neurons on request."""
+        """Yield pictures of the first episodes with a caption, and with the neurons on request."""
         from botschool.render.canvas import draw_offscreen
         from botschool.render.panel import with_activations, with_caption
         from botschool.render.scenes import scene_of
@@ -125,7 +125,7 @@ class PostEvaluation:
         return self.policy.neurons
 
     def _robots(self, scene) -> tuple[str, ...]:
-        """Names beside the neurons of each robot; "" for a single one."""
+        """Return names beside the neurons of each robot; "" for a single one."""
         if scene:
             return scene.robots
         return self.problem.sides if self.problem.interface.robots > 1 else ("",)

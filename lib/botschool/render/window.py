@@ -14,7 +14,7 @@ from botschool.render.canvas import import_pygame
 
 
 def show(frames: Iterable[np.ndarray], fps: float, title: str) -> bool:
-    """Shows frames, each (height, width, 3) uint8, in a window, `fps` a second.
+    """Show frames, each (height, width, 3) uint8, in a window, `fps` a second.
 
     The space key pauses and goes on; Esc, q or closing the window ends. Returns True if all
     frames were shown, False if the user ended before. Raises BotschoolError where there is no
@@ -43,7 +43,7 @@ def show(frames: Iterable[np.ndarray], fps: float, title: str) -> bool:
 
 
 def open_display(pygame: Any) -> None:
-    """Opens the machine's display, in place of one that was opened for drawing offscreen."""
+    """Open the machine's display, in place of one that was opened for drawing offscreen."""
     pygame.display.quit()
     places = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
     if sys.platform == "linux" and not any(map(os.environ.get, places)):

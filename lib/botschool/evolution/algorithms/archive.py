@@ -35,7 +35,9 @@ class Archive(HallOfFame):
     """One centre a side; any archived opponent is as likely as any other."""
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Candidates (1, 2 * samplesize, parameters), opponents (1, samplesize, ncompetitors)."""
+        """Return candidates (1, 2 * samplesize, parameters), opponents (1, samplesize,
+        ncompetitors).
+        """
         numbers = generator(self.seed, self.generation)
         candidates = self._samples(numbers)
 
@@ -45,7 +47,7 @@ class Archive(HallOfFame):
         return candidates, numbers.integers(archived, size=shape)
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Moves the centre; the best sample of some turns enters the archive."""
+        """Move the centre; the best sample of some turns enters the archive."""
         best = self._climb(fitness)
         if self.turn % self.config.addtoarchiveevery == 0:
             self.archives[self.side].extend(best.astype(np.float32))

@@ -85,7 +85,8 @@ class ArchiveStar(HallOfFame):
         return np.stack([slot[drawn[..., c]] for c, slot in enumerate(slots)], axis=-1)
 
     def _strongest(self, numbers: np.random.Generator) -> np.ndarray:
-        """Each opponent is the strongest of `preferential` drawn ones; of equals, the first."""
+        """Return the opponents: each is the strongest of `preferential` drawn ones; the first wins
+        ties."""
         strengths = np.array(self.strengths[1 - self.side])
         known = ~np.isnan(strengths)
         strengths[~known] = mean(strengths[known]) if known.any() else 0
@@ -94,7 +95,7 @@ class ArchiveStar(HallOfFame):
         return np.take_along_axis(drawn, strongest, axis=-1)[..., 0]
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Moves the centres; the best sample of each lineage enters the archive in some turns."""
+        """Move the centres; the best sample of each lineage enters the archive in some turns."""
         side = self.side
         self._remember(self.strengths[1 - side], fitness)
         best = self._climb(fitness)
@@ -105,7 +106,7 @@ class ArchiveStar(HallOfFame):
         self.generation += 1
 
     def _remember(self, strengths: list[float], fitness: np.ndarray) -> None:
-        """Updates the strength of those who were met."""
+        """Update the strength of those who were met."""
         met = np.repeat(self.opponents, 2, axis=1)  # by both candidates of a perturbation
         for place in np.unique(met):
             success = self.whole - mean(fitness[met == place])

@@ -36,7 +36,7 @@ class ARSConfig(RunConfig):
 
 
 def shift(fitness: np.ndarray, samples: np.ndarray, ntop: int) -> np.ndarray:
-    """How far the centre moves at a step size of 1, shape (parameters,).
+    """Return how far the centre moves at a step size of 1, shape (parameters,).
 
     samples: directions, shape (samplesize, parameters); fitness: that of the two candidates of
     each, centre + s e and centre - s e, shape (2 * samplesize,).
@@ -60,7 +60,7 @@ class ARS(AroundCentre):
 
     @staticmethod
     def conflicts(config: ARSConfig) -> Iterator[tuple[tuple[str, ...], str]]:
-        """Hyperparameters that cannot go together."""
+        """Yield hyperparameters that cannot go together."""
         if config.ntop > config.samplesize:
             yield (
                 ("ntop", "samplesize"),
@@ -69,7 +69,7 @@ class ARS(AroundCentre):
             )
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Moves the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
+        """Move the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
         config = self.config
         rising = shift(fitness, self.samples, config.ntop or config.samplesize)
         self.centre = self.centre + config.stepsize * rising

@@ -45,12 +45,14 @@ class Ascent:
         self._numbers.bit_generator.state = start.stream
 
     def cloud(self) -> Cloud:
-        """What the next offspring are drawn from."""
+        """Return what the next offspring are drawn from."""
         start, stream = self.start, self._numbers.bit_generator.state
         return Cloud(self.centres, start.samplesize, start.deviation, True, stream)
 
     def offspring(self) -> Drawn:
-        """Candidates on both sides of each centre, float64 (count * 2 * samplesize, parameters)."""
+        """Return candidates on both sides of each centre, float64 (count * 2 * samplesize,
+        parameters).
+        """
         start = self.start
         self._samples, candidates = draw(
             self._numbers, self.centres, start.samplesize, start.deviation

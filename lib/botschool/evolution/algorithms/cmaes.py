@@ -84,12 +84,12 @@ class Settings:
 
 
 def total(values: np.ndarray) -> float:
-    """Their sum, exact but for its last rounding."""
+    """Return their sum, exact but for its last rounding."""
     return math.fsum(values.tolist())
 
 
 def effective(weights: np.ndarray) -> float:
-    """How many equal weights would average as much: (sum w)^2 / sum w^2."""
+    """Return how many equal weights would average as much: (sum w)^2 / sum w^2."""
     return total(weights) ** 2 / total(weights * weights)
 
 
@@ -112,7 +112,7 @@ class FullMatrix:
         self.covariance = keep * self.covariance + added
 
     def decompose(self) -> None:
-        """Takes C into use: root = B D B', where C has eigenvectors B and eigenvalues D D."""
+        """Take C into use: root = B D B', where C has eigenvectors B and eigenvalues D D."""
         try:
             values, rows = eigen(self.covariance)
         except ValueError:

@@ -9,9 +9,6 @@ members of their own population that differ from each other; then they meet all 
 who does well with all of them has a place in the population.
 """
 
-# Hyperparameters keep the names they have in .ini files.
-# ruff: noqa: N815
-
 from __future__ import annotations
 
 import math
@@ -25,20 +22,24 @@ from botschool.evolution.algorithm import (
     Play,
     Stateful,
     algorithm,
-    generations_between_saves,
     mean_absolute,
 )
-from botschool.evolution.algorithms.ascent import Ascent, Start
-from botschool.evolution.algorithms.coevo2 import SUB_GENERATIONS, Coevo2, differing
-from botschool.evolution.algorithms.sides import everyone, mean, means, ranking
-from botschool.policies.hyperparameters import WEIGHT_DECAY, hyper
+from botschool.evolution.algorithms.coevo2 import (
+    SUB_GENERATIONS,
+    AscentConfig,
+    Coevo2,
+    differing,
+    improve,
+)
+from botschool.evolution.algorithms.sides import everyone, mean, ranking
+from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 POPULATION = "population"
 
 
 @dataclass
-class CoevoConfig:
+class CoevoConfig(AscentConfig):
     """Section [ALGO] of coevo."""
 
     ngenerations: int = hyper(
@@ -48,13 +49,6 @@ class CoevoConfig:
     selsize: int = hyper(
         10, "individuals evolved, and partners met, in a generation", low=1, high=10000
     )
-    samplesize: int = hyper(
-        20, "perturbations per sub-generation, two candidates each", low=1, high=1000000
-    )
-    stepsize: float = hyper(0.01, "step size of Adam", above=0, high=1000)
-    noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
-    wdecay: int = hyper(0, "pull of the centre towards 0", choices=WEIGHT_DECAY)
-    saveeach: int = generations_between_saves(100)
 
 
 @algorithm("coevo", "one population that plays both sides", CoevoConfig, competitive=True)
@@ -90,7 +84,7 @@ class Coevo(Stateful):
 
     @staticmethod
     def conflicts(config: CoevoConfig) -> Iterator[tuple[tuple[str, ...], str]]:
-        """Hyperparameters that cannot go together."""
+        """Yield hyperparameters that cannot go together."""
         yield from Coevo2.conflicts(config)
 
     @property
@@ -99,7 +93,9 @@ class Coevo(Stateful):
         return not np.isnan(self.fitness.flat[0])
 
     def _numbers(self, generation: int) -> tuple[np.random.Generator, list[int]]:
-        """A generation's generator, and its seeds: of meetings with all, of each sub-generation."""
+        """Return a generation's generator, and its seeds: of meetings with all, of each
+        sub-generation.
+        """
         numbers = generator(self.seed, generation)
         return numbers, numbers.integers(2**62, size=1 + SUB_GENERATIONS).tolist()
 
@@ -116,16 +112,14 @@ class Coevo(Stateful):
         chosen = numbers.permutation(config.popsize)[: config.selsize]
 
         # evolve copies of them as first robots, then let them meet everyone
-        centres, m, v = (array[chosen] for array in (self.parameters, self.m, self.v))
-        stream = numbers.bit_generator.state
-        rules = (config.samplesize, config.noiseStdDev, config.stepsize, config.wdecay)
-        ascent = Ascent(Start(centres, m, v, stream, *rules))
         others = self.parameters[partners]
-        for seed in seeds[1:]:
-            met = _first(everyone(play, ascent.offspring(), others, seed))
-            ascent.climb(means(met).reshape(len(chosen), -1))
-        evolved = ascent.centres, ascent.m, ascent.v
-        after = _first(everyone(play, ascent.centres, self.parameters, seeds[0]))
+
+        def meet(offspring: np.ndarray, k: int) -> np.ndarray:
+            return _first(everyone(play, offspring, others, seeds[1 + k]))
+
+        copies = (array[chosen] for array in (self.parameters, self.m, self.v))
+        evolved = improve(config, numbers, copies, meet)
+        after = _first(everyone(play, evolved[0], self.parameters, seeds[0]))
         progress = mean(after[:, partners]) - mean(self.fitness[np.ix_(chosen, partners)])
 
         # evolved ones that are good enough take the places of the worst, newcomers before equals
@@ -148,21 +142,21 @@ class Coevo(Stateful):
         return _first(everyone(play, individuals, individuals, seed))
 
     def best(self) -> tuple[np.ndarray, float]:
-        """The best first robot, the best second one, and the first one's mean fitness."""
+        """Return the best first robot, the best second one, and the first one's mean fitness."""
         first, second = ranking(self.fitness)[0], ranking(self.fitness.T)[0]
         pair = np.concatenate([self.parameters[first], self.parameters[second]])
         return pair, mean(self.fitness[first])
 
     def summary(self) -> dict[str, float]:
-        """Local progress, and the mean fitness of the population."""
+        """Return the local progress, and the mean fitness of the population."""
         return {"local progress": self.progress, POPULATION: mean(self.fitness)}
 
     def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray] | None:
-        """The population, in its order."""
+        """Return the population, in its order."""
         return (self.parameters, self.fitness) if self.met else None
 
     def remembered(self) -> tuple | None:
-        """The first individual with everyone."""
+        """Return the first individual with everyone."""
         if not self.met:
             return None
         count = self.config.popsize
@@ -171,10 +165,10 @@ class Coevo(Stateful):
         return self.parameters[:1], self.parameters, pairs, seed, self.fitness[0]
 
     def average_parameter(self) -> float:
-        """Average absolute parameter of the population."""
+        """Return the average absolute parameter of the population."""
         return mean_absolute(self.parameters)
 
 
 def _first(fitness: np.ndarray) -> np.ndarray:
-    """The first robot's fitness, where both have one."""
+    """Return the first robot's fitness, where both have one."""
     return fitness[0] if fitness.ndim == 3 else fitness

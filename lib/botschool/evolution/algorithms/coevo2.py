@@ -15,7 +15,7 @@ That discards the opportunists, who do well against the few only.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -47,7 +47,7 @@ SUB_GENERATIONS = 20
 
 
 def differing(fitness: np.ndarray, count: int, first: int) -> np.ndarray:
-    """Chooses `count` rows that differ most from each other, beginning with the row `first`.
+    """Choose `count` rows that differ most from each other, beginning with the row `first`.
 
     The next one is always the row with the largest sum of absolute differences to those chosen so
     far; of equals, the earlier one.
@@ -63,8 +63,8 @@ def differing(fitness: np.ndarray, count: int, first: int) -> np.ndarray:
 
 
 @dataclass
-class Coevo2Config:
-    """Section [ALGO] of coevo2."""
+class AscentConfig:
+    """Hyperparameters of algorithms whose populations improve by ascents."""
 
     ngenerations: int = hyper(
         1000, "length of the run, in generations", low=1, high=1000000000, free=True
@@ -79,12 +79,37 @@ class Coevo2Config:
     stepsize: float = hyper(0.01, "step size of Adam", above=0, high=1000)
     noiseStdDev: float = hyper(0.02, "standard deviation of perturbations", above=0, high=1000)
     wdecay: int = hyper(0, "pull of the centre towards 0", choices=WEIGHT_DECAY)
+    saveeach: int = generations_between_saves(100)
+
+
+@dataclass
+class Coevo2Config(AscentConfig):
+    """Section [ALGO] of coevo2."""
+
     evolving: str = hyper(
         "best",
         "which candidates evolve in a generation",
         choices={"best": "the best against the chosen competitors", "random": "drawn at random"},
     )
-    saveeach: int = generations_between_saves(100)
+
+
+def improve(
+    config: AscentConfig,
+    numbers: np.random.Generator,
+    individuals: Iterable[np.ndarray],
+    meet: Callable[[np.ndarray, int], np.ndarray],
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return improved copies of individuals, given and returned as (parameters, m, v).
+
+    meet(offspring, k) returns the fitness (rows) of the offspring of sub-generation k against each
+    opponent (columns).
+    """
+    rules = (config.samplesize, config.noiseStdDev, config.stepsize, config.wdecay)
+    parameters, m, v = individuals
+    ascent = Ascent(Start(parameters, m, v, numbers.bit_generator.state, *rules))
+    for k in range(SUB_GENERATIONS):
+        ascent.climb(means(meet(ascent.offspring(), k)).reshape(len(ascent.centres), -1))
+    return ascent.centres, ascent.m, ascent.v
 
 
 @algorithm("coevo2", "two competing populations", Coevo2Config, competitive=True)
@@ -121,7 +146,7 @@ class Coevo2(Stateful):
 
     @staticmethod
     def conflicts(config: Any) -> Iterator[tuple[tuple[str, ...], str]]:
-        """Hyperparameters that cannot go together."""
+        """Yield hyperparameters that cannot go together."""
         if config.selsize > config.popsize:
             yield (
                 ("selsize", "popsize"),
@@ -157,15 +182,13 @@ class Coevo2(Stateful):
         chosen = order[: self.config.selsize]
 
         # evolve copies of them, then let them meet everyone
-        config, stream = self.config, numbers.bit_generator.state
-        parameters, m, v = (array[side, chosen] for array in (self.parameters, self.m, self.v))
-        rules = (config.samplesize, config.noiseStdDev, config.stepsize, config.wdecay)
-        ascent = Ascent(Start(parameters, m, v, stream, *rules))
         opponents = self.parameters[other, competitors]
-        for _ in range(SUB_GENERATIONS):  # each one's offspring all meet all opponents
-            met = _play(play, side, ascent.offspring(), opponents)
-            ascent.climb(means(seen_by(side, met)).reshape(len(chosen), -1))
-        evolved = ascent.centres, ascent.m, ascent.v
+
+        def meet(offspring: np.ndarray, _: int) -> np.ndarray:
+            return seen_by(side, _play(play, side, offspring, opponents))
+
+        copies = (array[side, chosen] for array in (self.parameters, self.m, self.v))
+        evolved = improve(self.config, numbers, copies, meet)
         met = _play(play, side, evolved[0], self.parameters[other])
         after = seen_by(side, met)[:, competitors]
 
@@ -180,7 +203,7 @@ class Coevo2(Stateful):
         self.progress = mean(after) - mean(before[chosen])
 
     def _sort(self) -> None:
-        """Puts the best of both populations first."""
+        """Put the best of both populations first."""
         for side in (PREDATORS, PREY):
             order = ranking(seen_by(side, self.fitness))
             self.fitness = np.take(self.fitness, order, axis=side - 2)
@@ -188,20 +211,22 @@ class Coevo2(Stateful):
                 array[side] = array[side, order]
 
     def best(self) -> tuple[np.ndarray, float]:
-        """The first of both populations, and the predator's mean fitness against all prey."""
+        """Return the first of both populations, and the predator's mean fitness against all
+        prey.
+        """
         return np.concatenate(self.parameters[:, 0]), mean(seen_by(PREDATORS, self.fitness)[0])
 
     def summary(self) -> dict[str, float]:
-        """Local progress, and the mean fitness of both populations."""
+        """Return the local progress, and the mean fitness of both populations."""
         sides = {name: mean(seen_by(side, self.fitness)) for side, name in enumerate(SIDES)}
         return {"local progress": self.progress, **sides}
 
     def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray] | None:
-        """Both populations, the best first."""
+        """Return both populations, the best first."""
         return (self.parameters, self.fitness) if self.met else None
 
     def remembered(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None:
-        """The best predator against the prey."""
+        """Return the best predator against the prey."""
         if not self.met:
             return None
         predators, prey = self.parameters
@@ -209,10 +234,10 @@ class Coevo2(Stateful):
         return predators[:1], prey, pairs, self.fitness[..., 0, :]
 
     def average_parameter(self) -> float:
-        """Average absolute parameter of both populations."""
+        """Return the average absolute parameter of both populations."""
         return float(np.mean(np.abs(self.parameters)))
 
 
 def _play(play: Play, side: int, ours: np.ndarray, theirs: np.ndarray) -> np.ndarray:
-    """Individuals of one side meet competitors; the fitness has predators in rows."""
+    """Let individuals of one side meet competitors; the fitness has predators in rows."""
     return everyone(play, *((ours, theirs) if side == PREDATORS else (theirs, ours)))

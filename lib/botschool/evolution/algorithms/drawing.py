@@ -15,7 +15,7 @@ STRIDE = 16
 
 
 def mirrored(centres: np.ndarray, samples: np.ndarray, deviation: float) -> np.ndarray:
-    """Candidates on both sides of each centre, shape (..., 2 * samplesize, parameters).
+    """Return candidates on both sides of each centre, shape (..., 2 * samplesize, parameters).
 
     centres: (..., parameters); samples: (..., samplesize, parameters). Candidates 2 b and 2 b + 1
     are centre + deviation * e_b and centre - deviation * e_b.
@@ -48,7 +48,7 @@ class Cloud:
         return len(self.centres) * self.samplesize * (2 if self.both else 1)
 
     def rows(self, numbers: np.ndarray) -> np.ndarray:
-        """The candidates with these numbers, sorted: float64 (n, parameters)."""
+        """Return the candidates with these numbers, sorted: float64 (n, parameters)."""
         sides = 2 if self.both else 1
         first, last = int(numbers[0]) // sides, int(numbers[-1]) // sides + 1
         parts = []
@@ -105,7 +105,7 @@ class Drawn(np.ndarray):
 
 
 def candidates_of(centres: np.ndarray, samples: np.ndarray, deviation) -> np.ndarray:
-    """One candidate a direction: centre + deviation * e."""
+    """Return one candidate a direction: centre + deviation * e."""
     return centres + deviation * samples
 
 

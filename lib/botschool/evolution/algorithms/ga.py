@@ -47,7 +47,7 @@ class GA(Stateful):
 
     @staticmethod
     def conflicts(config: GAConfig) -> Iterator[tuple[tuple[str, ...], str]]:
-        """Hyperparameters that cannot go together."""
+        """Yield hyperparameters that cannot go together."""
         if config.selsize > config.popsize:
             yield (
                 ("selsize", "popsize"),
@@ -56,7 +56,8 @@ class GA(Stateful):
             )
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """The population, shape (popsize, parameters), and the seed of each one's evaluation.
+        """Return the population, shape (popsize, parameters), and the seed of each one's
+        evaluation.
 
         All individuals of a generation meet the same conditions.
         """
@@ -80,5 +81,5 @@ class GA(Stateful):
         self.generation += 1
 
     def average_parameter(self) -> float:
-        """Average absolute parameter of the population."""
+        """Return the average absolute parameter of the population."""
         return mean_absolute(self.population)

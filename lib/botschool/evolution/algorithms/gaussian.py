@@ -49,7 +49,7 @@ class Gaussian(Stateful):
 
     @staticmethod
     def conflicts(config: GaussianConfig) -> Iterator[tuple[tuple[str, ...], str]]:
-        """Hyperparameters that cannot go together."""
+        """Yield hyperparameters that cannot go together."""
         if config.popsize == 1:
             yield (
                 ("popsize",),
@@ -58,29 +58,29 @@ class Gaussian(Stateful):
             )
 
     def shaped(self, z: np.ndarray) -> np.ndarray:
-        """Numbers of the standard normal distribution in the distribution's shape, without sigma;
-        both (popsize, parameters)."""
+        """Return numbers of the standard normal distribution in the distribution's shape, without
+        sigma; both (popsize, parameters)."""
         return z
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Candidates, shape (popsize, parameters), and the seed of each one's evaluation."""
+        """Return candidates, shape (popsize, parameters), and the seed of each one's evaluation."""
         numbers = generator(self.seed, self.generation)
         self.z = numbers.standard_normal((self.popsize, self.size))
         self.y = self.shaped(self.z)
         return self.mean + self.sigma * self.y, self.evaluation_seeds()
 
     def evaluation_seeds(self) -> np.ndarray:
-        """All candidates of a generation meet the same conditions, so that the better one wins and
-        not the luckier one."""
+        """All candidates of a generation meet the same conditions, so that the better one
+        wins and not the luckier one."""
         return np.full(self.popsize, self.seed + self.generation, dtype=np.uint64)
 
     def average_parameter(self) -> float:
-        """Average absolute parameter of the mean."""
+        """Return the average absolute parameter of the mean."""
         return mean_absolute(self.mean)
 
 
 def best_first(fitness: np.ndarray) -> np.ndarray:
-    """Indices from the best to the worst; of equals, the earlier first."""
+    """Return indices from the best to the worst; of equals, the earlier first."""
     return np.argsort(-fitness, kind="stable")
 
 
@@ -100,7 +100,7 @@ def within_limits(sigma: float | np.ndarray) -> float | np.ndarray:
 
 
 def refuse_large(size: int, algorithm: str, remedy: str) -> None:
-    """Raises BotschoolError for a network that is too large for a full matrix."""
+    """Raise BotschoolError for a network that is too large for a full matrix."""
     if size > LARGEST:
         raise BotschoolError(
             f"{algorithm} adapts a matrix of {size} x {size} numbers for this network's {size} "

@@ -117,7 +117,7 @@ class HallOfFame(Stateful):
         return self.generation // 2 + 1
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Candidates, shape (popsize, 2 * samplesize, parameters), and whom they meet.
+        """Return candidates, shape (popsize, 2 * samplesize, parameters), and whom they meet.
 
         Opponents are places in the other side's archive, shape (popsize, samplesize, ncompetitors):
         both candidates of a perturbation meet the same ones.
@@ -156,13 +156,13 @@ class HallOfFame(Stateful):
         self.tell(met.reshape(*candidates.shape[:2], -1))
 
     def _samples(self, numbers: np.random.Generator) -> np.ndarray:
-        """Draws a turn's directions and returns the candidates on both sides of each centre."""
+        """Draw a turn's directions and return the candidates on both sides of each centre."""
         centres, config = self.centres[self.side], self.config
         self.samples, drawn = draw(numbers, centres, config.samplesize, config.noiseStdDev)
         return drawn.reshape(len(centres), -1, centres.shape[1])
 
     def _climb(self, fitness: np.ndarray) -> np.ndarray:
-        """Moves the side's centres, and returns the best sample of each: (popsize, parameters)."""
+        """Move the side's centres, and return the best sample of each: (popsize, parameters)."""
         side, config = self.side, self.config
         count, candidates, _ = fitness.shape
         average = means(fitness.reshape(count * candidates, -1)).reshape(count, candidates)
@@ -182,11 +182,13 @@ class HallOfFame(Stateful):
         return ranked[:, 0]
 
     def best(self) -> tuple[np.ndarray, float]:
-        """The best samples of the sides' newest turns, and the predator's mean fitness."""
+        """Return the best samples of the sides' newest turns, and the predator's mean fitness."""
         return np.concatenate(self.champions), float(self.fitness[PREDATORS, 0])
 
     def summary(self) -> dict[str, float]:
-        """Mean fitness of either side in its newest turn, against opponents from the archive."""
+        """Return the mean fitness of either side in its newest turn, against opponents from the
+        archive.
+        """
         return dict(zip(SIDES, self.fitness[:, 1].tolist(), strict=True))
 
     def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray]:
@@ -197,7 +199,7 @@ class HallOfFame(Stateful):
         """No meeting can be repeated: the opponents that were drawn are not kept."""
 
     def average_parameter(self) -> float:
-        """Average absolute parameter of all centres."""
+        """Return the average absolute parameter of all centres."""
         return float(np.mean(np.abs(self.centres)))
 
     def state(self) -> dict[str, np.ndarray]:

@@ -67,7 +67,9 @@ class MaxSolveStar(HallOfFame):
         return min(int(self.share * self.config.nphases), self.config.nphases - 1)
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Candidates (1, 2 * samplesize, parameters), opponents (1, samplesize, ncompetitors)."""
+        """Return candidates (1, 2 * samplesize, parameters), opponents (1, samplesize,
+        ncompetitors).
+        """
         self.numbers = generator(self.seed, self.generation)
         candidates = self._samples(self.numbers)
         archived = len(self.archives[1 - self.side])
@@ -76,7 +78,7 @@ class MaxSolveStar(HallOfFame):
         return candidates, self.opponents
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Moves the centre, which enters the archive; one member of a full archive may leave it."""
+        """Move the centre, which enters the archive; one member of a full archive may leave it."""
         side = self.side
         met = np.repeat(self.opponents, 2, axis=1)  # by both candidates of a perturbation
         for place, value in zip(met.ravel().tolist(), fitness.ravel().tolist(), strict=True):
@@ -90,7 +92,7 @@ class MaxSolveStar(HallOfFame):
         self.generation += 1
 
     def _drop(self, side: int) -> None:
-        """Looks at some members at random, and drops the first one that is dominated."""
+        """Look at some members at random, and drop the first one that is dominated."""
         solved = np.array(self.solved[side])
         looked_at = self.numbers.permutation(len(solved))[:LOOKED_AT].tolist()
         for place in looked_at:
@@ -100,7 +102,7 @@ class MaxSolveStar(HallOfFame):
 
 
 def dominated(sums: np.ndarray, counts: np.ndarray, place: int) -> bool:
-    """Whether another one is at least as hard to beat as the one at `place`, in every phase.
+    """Return whether another one is at least as hard to beat as the one at `place`, in every phase.
 
     sums, counts: shape (archived, phases), fitness of those who met them, and how many they were.
     What counts are the phases in which the one at `place` was met: the other one must have been met

@@ -62,5 +62,5 @@ class OnePlusOne(Stateful):
         self.generation += 1
 
     def average_parameter(self) -> float:
-        """Average absolute parameter of the parent."""
+        """Return the average absolute parameter of the parent."""
         return mean_absolute(self.parent)

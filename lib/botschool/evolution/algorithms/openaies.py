@@ -30,7 +30,7 @@ DECAY = 0.005
 
 @cache
 def ranks(count: int) -> np.ndarray:
-    """The utilities of `count` candidates, the worst first; not to be changed."""
+    """Return the utilities of `count` candidates, the worst first; not to be changed."""
     return np.linspace(-0.5, 0.5, count)
 
 
@@ -71,7 +71,7 @@ def climb(
     fitness: np.ndarray,
     config: Any,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """One step of several centres, without bias correction: their next parameters, m and v.
+    """Return one step of several centres, without bias correction: their next parameters, m and v.
 
     Shapes: centres, m and v (count, parameters); samples (count, samplesize, parameters); fitness
     (count, 2 * samplesize), in the order of drawing.mirrored(). config has stepsize and wdecay.
@@ -112,7 +112,8 @@ class AroundCentre(Stateful):
         self.centre = initial(0)
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Candidates, shape (2 * samplesize, parameters), and the seed of each one's evaluation.
+        """Return candidates, shape (2 * samplesize, parameters), and the seed of each one's
+        evaluation.
 
         Candidates 2 b and 2 b + 1 are centre + noiseStdDev * e_b and centre - noiseStdDev * e_b.
         """
@@ -124,7 +125,7 @@ class AroundCentre(Stateful):
         return candidates, self.seed + self.generation * self._seeds_used + self._own_seeds
 
     def average_parameter(self) -> float:
-        """Average absolute parameter of the centre."""
+        """Return the average absolute parameter of the centre."""
         return mean_absolute(self.centre)
 
 
@@ -141,7 +142,7 @@ class OpenAIES(AroundCentre):
         self.v = np.zeros_like(self.centre)
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Moves the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
+        """Move the centre; fitness has shape (2 * samplesize,), in the order of ask()."""
         config = self.config
         rising = gradient(fitness, self.samples)
         m, v = adam(self.m, self.v, rising, self.centre, config.wdecay)

@@ -69,7 +69,9 @@ class Asked:
         ).start()
 
     def ask(self) -> tuple[Any, Any]:
-        """The next candidates, and the seed of their evaluation. Raises what the function does."""
+        """Return the next candidates, and the seed of their evaluation. Raises what the function
+        does.
+        """
         candidates, seed, error = self._asked.get()
         if error is not None:
             raise error
@@ -130,7 +132,7 @@ class Own(Stateful):
         self._average = 0.0
 
     def _given(self, options: dict[str, Any], initial: Initial) -> dict[str, Any]:
-        """The arguments of the strategy. Raises BotschoolError if they cannot be given."""
+        """Return the arguments of the strategy. Raises BotschoolError if they cannot be given."""
         try:
             takes = inspect.signature(self._found).parameters
         except (TypeError, ValueError):
@@ -168,7 +170,7 @@ class Own(Stateful):
         return given
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """The strategy's candidates, and a seed for each. Raises BotschoolError."""
+        """Return the strategy's candidates, and a seed for each. Raises BotschoolError."""
         if self._candidates is None:
             if self._strategy is None:
                 self._strategy = self._called(self._start)
@@ -192,7 +194,7 @@ class Own(Stateful):
         self.generation += 1
 
     def average_parameter(self) -> float:
-        """Average absolute parameter of the candidates that were told last."""
+        """Return the average absolute parameter of the candidates that were told last."""
         return self._average
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
@@ -255,7 +257,7 @@ class Own(Stateful):
         raise self._wrong(f"gives evaluate the seed {seed!r:.40}: it must be a whole number")
 
     def _called(self, function: Callable, *arguments: Any) -> Any:
-        """What the strategy's code returns. Raises BotschoolError for whatever it raises."""
+        """Return what the strategy's code returns. Raises BotschoolError for whatever it raises."""
         try:
             return function(*arguments)
         except (BotschoolError, KeyboardInterrupt):
@@ -283,7 +285,7 @@ class Own(Stateful):
 
 
 def _find(name: str) -> Callable[..., Any]:
-    """The function or class that `module:name` names. Raises BotschoolError."""
+    """Return the function or class that `module:name` names. Raises BotschoolError."""
     module, _, attribute = name.partition(":")
     inside = import_here(module, f"take the strategy {attribute} from")
     found = getattr(inside, attribute, None)

@@ -51,7 +51,8 @@ class PGPE(Stateful):
         self.sigma = np.full(len(self.mean), config.sigma)
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Candidates, shape (2 * samplesize, parameters), and the seed of each one's evaluation.
+        """Return candidates, shape (2 * samplesize, parameters), and the seed of each one's
+        evaluation.
 
         Candidates 2 b and 2 b + 1 are mean + sigma z_b and mean - sigma z_b. All of a generation
         meet the same conditions.
@@ -62,7 +63,7 @@ class PGPE(Stateful):
         return candidates, np.full(2 * count, self.seed + self.generation, dtype=np.uint64)
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Moves mean and deviations; fitness has shape (2 * samplesize,), in the order of ask()."""
+        """Move mean and deviations; fitness has shape (2 * samplesize,), in the order of ask()."""
         # rewards: ranks from -1 (worst) to 1 (best), so that the scale of fitness does not count
         rewards = np.empty(len(fitness))
         rewards[fitness.argsort(kind="stable")] = np.linspace(-1, 1, len(fitness))
@@ -78,5 +79,5 @@ class PGPE(Stateful):
         self.generation += 1
 
     def average_parameter(self) -> float:
-        """Average absolute parameter of the mean."""
+        """Return the average absolute parameter of the mean."""
         return mean_absolute(self.mean)

@@ -13,7 +13,7 @@ SIDES = ("predators", "prey")
 
 
 def seen_by(side: int, fitness: np.ndarray) -> np.ndarray:
-    """Fitness of the individuals of one side (rows) against their competitors (columns).
+    """Return the fitness of the individuals of one side (rows) against their competitors (columns).
 
     fitness: of predators (rows) against prey (columns), whose fitness is 1 - the predators'; or
     with a first axis of two, the predators' and the prey's own.
@@ -24,7 +24,7 @@ def seen_by(side: int, fitness: np.ndarray) -> np.ndarray:
 
 
 def unknown(count: int, constant_sum: bool) -> np.ndarray:
-    """What `everyone` gives, before so many of each side have met: nan."""
+    """Return what `everyone` gives, before so many of each side have met: nan."""
     return np.full((count, count) if constant_sum else (2, count, count), np.nan)
 
 
@@ -36,7 +36,8 @@ network's weights are read once for four of them (lib/evonet/rows.hpp)."""
 def everyone(
     play: Play, predators: np.ndarray, prey: np.ndarray, seed: int | None = None
 ) -> np.ndarray:
-    """Fitness of every predator (rows) against every prey (columns), as `seen_by` takes it.
+    """Return the fitness of every predator (rows) against every prey (columns), as `seen_by` takes
+    it.
 
     They meet in bands of a few predators: all of a band the first prey, then the next.
     """
@@ -50,15 +51,15 @@ def everyone(
 
 
 def mean(fitness: np.ndarray) -> float:
-    """Mean of all, by an exact sum: the same bits on every machine, in any order."""
+    """Return the mean of all, by an exact sum: the same bits on every machine, in any order."""
     return math.fsum(fitness.ravel().tolist()) / fitness.size
 
 
 def means(fitness: np.ndarray) -> np.ndarray:
-    """Mean of each row."""
+    """Return the mean of each row."""
     return np.array([mean(row) for row in fitness])
 
 
 def ranking(fitness: np.ndarray) -> np.ndarray:
-    """Rows from the best mean to the worst; of equals, the earlier row first."""
+    """Return rows from the best mean to the worst; of equals, the earlier row first."""
     return np.argsort(-means(fitness), kind="stable")

@@ -42,7 +42,7 @@ class SSS(Stateful):
 
     @staticmethod
     def conflicts(config: SSSConfig) -> Iterator[tuple[tuple[str, ...], str]]:
-        """Hyperparameters that cannot go together."""
+        """Yield hyperparameters that cannot go together."""
         if config.popsize % 2:
             yield (
                 ("popsize",),
@@ -51,7 +51,8 @@ class SSS(Stateful):
             )
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """The population, shape (popsize, parameters), and the seed of each one's evaluation.
+        """Return the population, shape (popsize, parameters), and the seed of each one's
+        evaluation.
 
         All individuals of a generation meet the same conditions, so that the better one wins and
         not the luckier one.
@@ -75,5 +76,5 @@ class SSS(Stateful):
         self.generation += 1
 
     def average_parameter(self) -> float:
-        """Average absolute parameter of the population."""
+        """Return the average absolute parameter of the population."""
         return mean_absolute(self.population)

@@ -111,6 +111,13 @@ def counting(
         yield (lambda count: bar.update(task, total=count)), (lambda: bar.advance(task))
 
 
+def say_missing(console: Console, results: list[dict]) -> None:
+    """Print what the system could not confine while these were graded, if anything."""
+    missing = list(dict.fromkeys(each for result in results for each in result["missing"]))
+    if missing:
+        console.print(f"[yellow]{notice(missing)}[/]")
+
+
 def notice(missing: list[str]) -> str:
     """What the grader could not confine on this system, in a sentence; "" if nothing."""
     if not missing:

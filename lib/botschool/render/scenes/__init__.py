@@ -24,7 +24,7 @@ for _module in pkgutil.iter_modules(__path__):
 
 
 def make_scene(name: str, robots: tuple[RobotModel, ...] = (), plan: Plan | None = None) -> Scene:
-    """The scene of a native problem: its own, or meters where nobody has drawn it.
+    """Return the scene of a native problem: its own, or meters where nobody has drawn it.
 
     robots: its wheeled robots, () for its own. plan: a declared arena. Raises BotschoolError for
     another problem.
@@ -42,14 +42,16 @@ def make_scene(name: str, robots: tuple[RobotModel, ...] = (), plan: Plan | None
 
 
 def scene_of(problem: Any) -> Scene | None:
-    """The scene that a problem's steps are drawn by; None where they bring their own pictures."""
+    """Return the scene that a problem's steps are drawn by; None where they bring their own
+    pictures.
+    """
     if not problem.native or drawn_by_gymnasium(problem):
         return None
     return make_scene(problem.dynamics, problem.robots, problem.plan)
 
 
 def drawn_by_gymnasium(problem: Problem) -> bool:
-    """Whether Gymnasium has a picture of a native problem that has none of its own here.
+    """Return whether Gymnasium has a picture of a native problem that has none of its own here.
 
     It can be used if the environment keeps its state, as classic control does, in `state`.
     """
@@ -63,7 +65,7 @@ def drawn_by_gymnasium(problem: Problem) -> bool:
 
 
 def with_frames(problem: Problem, play: Iterator[Transition]) -> Iterator[Transition]:
-    """The steps of an episode, with Gymnasium's pictures where a problem is drawn by it."""
+    """Yield the steps of an episode, with Gymnasium's pictures where a problem is drawn by it."""
     if not drawn_by_gymnasium(problem):
         yield from play
         return

@@ -1,15 +1,18 @@
-"""What the pictures of all arenas with wheeled robots share: lengths in mm, y upwards."""
+"""Arenas with wheeled robots (lengths in mm, y upwards): ErDiscrim, ErPredprey, ErStaybehind."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi, radians
+from math import hypot, pi, radians
 
 import numpy as np
 
 from botschool.arenas.robots import RobotModel
-from botschool.render.scene import Scene
+from botschool.render.scene import Scene, draws
 from botschool.render.shapes import arc, arrow, rectangle, ring
+
+# --- What the pictures of all arenas with wheeled robots share: lengths in mm, y upwards.
+
 
 CAMERA_SECTORS = 8
 
@@ -87,7 +90,7 @@ class ArenaScene(Scene):
             self._add_camera(pose, 1.55 * model.radius, 1.85 * model.radius, "camera")
 
     def _sensed(self, look: Look, model: RobotModel, readings: np.ndarray) -> list[float]:
-        """The numbers of what `_add_sensors` added; readings: of this robot, 0 to 1."""
+        """Return the numbers of what `_add_sensors` added; readings: of this robot, 0 to 1."""
         nrays = len(model.directions)
         numbers = infrared_numbers(model, readings[:nrays])
         return numbers + list(readings[nrays : nrays + CAMERA_SECTORS] if look.camera else [])
@@ -163,10 +166,143 @@ class ArenaScene(Scene):
         return [*numbers, *action]
 
     def _objects(self, state: np.ndarray, reward: float) -> list[float]:
-        """The numbers of what `_add_objects` added."""
+        """Return the numbers of what `_add_objects` added."""
         return []
 
 
 def infrared_numbers(model: RobotModel, readings: np.ndarray) -> list[float]:
-    """Length and strength of each wedge."""
+    """Return the length and strength of each wedge."""
     return [n for reading in readings for n in (model.radius + model.range * reading, reading)]
+
+
+# --- ErDiscrim.
+
+
+@draws("ErDiscrim")
+class DiscrimScene(ArenaScene):
+    """ErDiscrim: the cylinder, and around it the zone in which the robot is rewarded."""
+
+    state_size, side, trail, scale_bar = 6, 400.0, 120, 100.0
+    looks = (Look("robot", "blue", observations=8),)
+    CYLINDER = 12.5
+
+    @property
+    def zone(self) -> float:
+        """Distance of the centres below which there is a reward."""
+        return self.models[0].radius + self.CYLINDER + 60.0
+
+    def _add_objects(self, poses: list[int]) -> None:
+        cylinder, near = self.pose(), self.value()
+        self.add("disc", [(0.0, 0.0)], "goal", radius=self.zone, pose=cylinder, opacity=0.08)
+        self.add(
+            "disc", [(0.0, 0.0)], "goal",
+            radius=self.zone, pose=cylinder, opacity=0.16, level=near,
+        )  # fmt: skip
+        self.add("disc", [(0.0, 0.0)], "object", radius=self.CYLINDER, pose=cylinder)
+
+    def _objects(self, state: np.ndarray, reward: float) -> list[float]:
+        x, y, _, cylinder_x, cylinder_y, _ = state
+        near = hypot(x - cylinder_x, y - cylinder_y) < self.zone
+        return [cylinder_x, cylinder_y, 0.0, float(near)]
+
+
+# --- ErPredprey.
+
+
+@draws("ErPredprey")
+class PredpreyScene(ArenaScene):
+    """ErPredprey: the floor darkens away from the centre, as the ground sensors read it.
+
+    A ring marks where the predator caught the prey, which a reward other than 0 tells; then they
+    touch.
+    """
+
+    state_size, side, trail, scale_bar = 7, 3000.0, 80, 500.0
+    looks = (Look("predator", "orange", 24, camera=True), Look("prey", "blue", 24, camera=True))
+    robots = ("predator", "prey")
+
+    def _add_ground(self) -> None:
+        self._add_gradient()
+
+    def _add_objects(self, poses: list[int]) -> None:
+        self._caught, caught = self.pose(), self.value()
+        for radius, opacity in ((330.0, 0.18), (250.0, 0.25)):
+            self.add(
+                "disc", [(0.0, 0.0)], "force",
+                radius=radius, pose=self._caught, opacity=opacity, level=caught,
+            )  # fmt: skip
+
+    def _numbers(self, state, action, observation, reward) -> list[float]:
+        if reward:
+            state = state.copy()
+            state[:2] = touching(state[:2], state[3:5], sum(model.radius for model in self.models))
+        return super()._numbers(state, action, observation, reward)
+
+    def _objects(self, state: np.ndarray, reward: float) -> list[float]:
+        x, y = (state[0] + state[3]) / 2, (state[1] + state[4]) / 2
+        return [x, y, 0.0, float(reward != 0.0)]
+
+
+def touching(predator: np.ndarray, prey: np.ndarray, apart: float) -> np.ndarray:
+    """Return where a predator that has caught the prey is drawn, x and y: led up to it.
+
+    The arena does not carry out a move that ends in a collision, so the last poses leave a gap.
+    apart: distance of the centres of robots that touch.
+    """
+    away = predator - prey
+    return prey + away * (apart / np.linalg.norm(away))
+
+
+# --- ErStaybehind.
+
+
+NEAR, FAR = 340.0, 600.0
+"""Distances of the centres between which the leader has to be."""
+
+
+@draws("ErStaybehind")
+class StaybehindScene(ArenaScene):
+    """ErStaybehind: a red disc and the word "blocked" mark a robot that is blocked.
+
+    The piece of a ring before the follower is where the leader has to be; it is green in a step
+    that is rewarded. The floor darkens away from the centre, as the ground sensors read it.
+    """
+
+    state_size, side, trail, scale_bar = 9, 3000.0, 80, 500.0
+    looks = (
+        Look("follower", "orange", 32, camera=True),
+        Look("leader", "blue", 32, camera=True),
+    )
+    robots = ("follower", "leader")
+
+    def _add_ground(self) -> None:
+        self._add_gradient()
+
+    def _add_objects(self, poses: list[int]) -> None:
+        place = ring(radians(-45), radians(45), NEAR, FAR)
+        self.add("polygon", place, "muted", pose=poses[0], opacity=0.12)
+        self.add("polygon", place, "goal", pose=poses[0], opacity=0.45, level=self.value())
+        for pose in poses:
+            blocked, where = self.value(), self.pose()
+            self.add(
+                "disc", [(0.0, 0.0)], "force", radius=190.0, pose=pose, opacity=0.45, level=blocked
+            )
+            self.add("text", [(0.0, 0.0)], "force", pose=where, level=blocked, text="blocked")
+
+    def _numbers(self, state, action, observation, reward) -> list[float]:
+        action = np.concatenate([wheels(*pair) for pair in action.reshape(-1, 2)] or [action])
+        return super()._numbers(state, action, observation, reward)
+
+    def _objects(self, state: np.ndarray, reward: float) -> list[float]:
+        numbers = [float(reward > 0)]
+        for robot in range(2):
+            x, y = state[3 * robot : 3 * robot + 2]
+            numbers += [state[6 + robot], x, y + 260.0, 0.0]
+        return numbers
+
+
+def wheels(speed: float, turn: float) -> np.ndarray:
+    """Shares of the greatest speed of the left and the right wheel that a robot's action means."""
+    forward, turn = (speed + 1) / 2, (turn + 1) / 2
+    slower = forward * (1 - 2 * abs(turn - 0.5))
+    return np.array([slower, forward] if turn < 0.5 else [forward, slower])

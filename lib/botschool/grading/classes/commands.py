@@ -1,0 +1,172 @@
+"""What the subcommands for a whole class do: export and grade-all."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+
+from rich.console import Console
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.choice import listed
+from botschool.grading.classes.collect import PAGES, TABLE, Class, Laboratory, grade_all
+from botschool.grading.classes.exporting import export
+from botschool.grading.classes.policy import FILE, Policy, read_policy
+from botschool.grading.classes.register import Settings
+from botschool.grading.classes.roster import read_roster
+from botschool.grading.classes.statistics import by_task, hardest
+from botschool.grading.declare.exercise import Number, course_root, secret_for_others, selected
+from botschool.grading.report.screen import counting, say_missing
+from botschool.grading.run.confined import close_class
+from botschool.terminal import exits_on_signals
+
+
+def export_command(platform: str, exercises: str, output: Path, wheel: Path | None) -> None:
+    """Write what a platform takes to grade by itself, and say what to do with it."""
+    root = course_root()
+    asked = selected(exercises, root)
+    if any(asked.values()):
+        raise BotschoolError(f"'{exercises[:30]}' names a task: an exercise is exported whole.")
+    for path in export(platform, list(asked), exercises, output, root, wheel):
+        print(f"made: {path}")
+    print(
+        {
+            "gradescope": "Upload each zip file as the autograder of its assignment. It holds your "
+            "secret: give it to nobody else.",
+            "actions": "Put the folder .github into the repository that students start from, "
+            "which is a copy made by botschool release.",
+            "classroom50": "Put the folder autograders into the classroom's folder of your "
+            "classroom50 repository. Give runtime.json to 'gh teacher assignment add --runtime'.",
+        }[platform]
+    )
+
+
+@exits_on_signals()
+def grade_all_command(
+    folder: Path,
+    output: Path,
+    exercise: str,
+    workers: int | None,
+    fresh: bool,
+    roster: Path | None = None,
+    gradebook: Path | None = None,
+    column: str = "",
+    settings: Path | None = None,
+    laboratories: Mapping[Number, Laboratory] = MappingProxyType({}),
+) -> bool:
+    """Grade a class and say where the results are.
+
+    exercise: as `selected` takes it, beside names of laboratories; "all" stands for all exercises
+    and those laboratories that somebody handed in.
+
+    True if all could be graded, and all are on the roster and have handed something in.
+    """
+    root = course_root()
+    asked, labs = _asked(exercise, root, laboratories)
+    console = Console(highlight=False)
+    known = _settings(folder, roster, gradebook, column, settings)
+    secret, said = secret_for_others(root)
+    close_class(folder, output)
+    with counting("Grading", console) as (start, step):
+        found = grade_all(
+            folder,
+            output,
+            asked,
+            root,
+            workers or os.cpu_count() or 1,
+            fresh,
+            secret,
+            start,
+            step,
+            known,
+            labs,
+            exercise == "all",
+        )
+    good = say_class(console, found)
+    console.print(f"Table: {output / TABLE}   Feedback: {output / PAGES}", markup=False)
+    shown = "   ".join(str(path) for path in found.written)
+    console.print(f"Also: {shown}", markup=False, soft_wrap=True)
+    if said:
+        console.print(said, markup=False, soft_wrap=True)
+    say_missing(console, [result for row in found.rows for result in row.results])
+    return good
+
+
+def _asked(
+    text: str, root: Path, laboratories: Mapping[Number, Laboratory]
+) -> tuple[dict[Number, tuple[str, ...]], dict[Number, Laboratory]]:
+    """Return what is to be graded, and the laboratories among it. Raises BotschoolError."""
+    if text.strip() == "all":
+        every: dict[Number, tuple[str, ...]] = dict(selected(text, root).items())
+        return every | dict.fromkeys(laboratories, ()), dict(laboratories)
+    parts = [part.strip().lower() for part in text.split(",")]
+    found: dict[Number, Laboratory] = {}
+    for name in [part for part in parts if part.startswith("lab")]:
+        key = f"lab{name[3:].lstrip('0')}"
+        if key not in laboratories:
+            raise BotschoolError(
+                f"'{name[:30]}' names no laboratory: there are {', '.join(map(str, laboratories))}."
+            )
+        found[key] = laboratories[key]
+    exercises = ",".join(part for part in parts if not part.startswith("lab"))
+    asked: dict[Number, tuple[str, ...]] = {}
+    asked |= selected(exercises, root).items() if exercises else {}
+    return asked | dict.fromkeys(found, ()), found
+
+
+def _settings(
+    download: Path,
+    roster: Path | None,
+    gradebook: Path | None,
+    column: str,
+    settings: Path | None,
+) -> Settings:
+    """Return what is known of the class; class.yaml beside the download is found by itself."""
+    beside = download.absolute().parent / FILE
+    if settings is None and beside.is_file() and not beside.is_symlink():
+        settings = beside
+    policy = read_policy(settings) if settings else Policy()
+    roster = roster or policy.roster
+    book = read_roster(gradebook) if gradebook else None
+    if book and book.kind == "plain":
+        raise BotschoolError(
+            f"{gradebook} is neither Moodle's grading worksheet nor Canvas's gradebook: name it "
+            "with --roster."
+        )
+    return Settings(policy, read_roster(roster) if roster else None, book, column)
+
+
+def say_class(console: Console, found: Class) -> bool:
+    """Print a class's results in a few lines; True if nobody is missing, unknown or ungraded."""
+    register, rows = found.register, found.rows
+    handed_in = [row for row in rows if row.page]
+    totals = [row.total for row in rows if row.total is not None]
+    maximum = register.maximum(rows[0].results)
+    average = f"{sum(totals) / len(totals):.1f} of {maximum} points on average" if totals else ""
+    ungraded = sum(row.total is None for row in handed_in)
+    left = f"{ungraded} not graded and not counted" if ungraded else ""
+    missing = f"{len(register.missing)} handed in nothing" if register.missing else ""
+    unknown = f"{len(register.unknown)} not on the roster" if register.unknown else ""
+    parts = [f"{len(handed_in)} submissions", average, left, missing, unknown]
+    lines = [", ".join(filter(None, parts)) + "."]
+    if register.missing:
+        lines.append(f"Nothing from: {listed([each.name for each in register.missing])}.")
+    if register.unknown:
+        lines.append(f"Not on the roster: {listed(register.unknown)}.")
+    lines += found.notes
+    if found.nobodys:
+        lines.append(f"Nobody's: {listed(found.nobodys)}.")
+    problems = [row.name for row in handed_in if any(r["problem"] for r in row.results)]
+    if problems:
+        more = f" and {len(problems) - 5} more" if len(problems) > 5 else ""
+        shown = ", ".join(problems[:5]) + more
+        lines.append(f"Not all could be graded, see the notes in the table: {shown}")
+    hard = hardest(by_task(result for row in rows for result in row.results))
+    if hard and len(handed_in) > 1:
+        shown = ", ".join(f"{t.id} {t.title} ({round(100 * t.reached)}%)" for t in hard)
+        lines.append(f"Where the class stumbled: {shown}.")
+    for line in lines:
+        console.print(line, markup=False, soft_wrap=True)
+    return not (ungraded or register.missing or register.unknown)
