@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 RESAMPLES = 10_000
+CYLINDER = (200, 150)
+"""Where it stands in `forage`: x and y in mm."""
 
 
 def record(run: dict[str, Any], seed: int = 1) -> dict[str, Any]:
@@ -42,6 +45,40 @@ def play_again(run: dict[str, Any], seed: int = 1, episodes: int = 100) -> np.nd
     batch = Episodes.of(np.array([seed], dtype=np.uint64), episodes)
     steps = experiment.policy.maxsteps
     return problem.evaluate(policy, genotype[None], normalisation, batch, steps).fitness
+
+
+def forage(run: dict[str, Any], forget: bool = False) -> list[dict[str, np.ndarray]]:
+    """Let a run's best Khepera look for the cylinder from 12 places, and record each episode.
+
+    "poses", shape (T + 1, 3): x and y in mm and the heading in rad, at the start and after each
+    step; "rewards", shape (T,), 1 near the cylinder. The cylinder stands at CYLINDER. forget: the
+    network's memory is emptied before each step.
+    """
+    from botschool import arena as arenas
+    from botschool import problems
+    from botschool.config import from_dict
+
+    experiment = from_dict(run["experiment"])
+    policy = problems.of(experiment).policy(experiment.policy)
+    policy.load(*policy.split(np.asarray(run["genotype"])))
+    arena = arenas.make("discrim", max_steps=experiment.policy.maxsteps)
+    recorded = []
+    headings = np.arange(3) * 2 * np.pi / 3
+    for number, start in enumerate(product((150, 250), (270, 350), headings)):
+        arena.reset(number)
+        arena.robots[0] = start
+        arena.objects[0, :2] = CYLINDER
+        arena.sense()
+        policy.reset(number, 0)
+        poses, rewards = [arena.robots[0].copy()], []
+        while not arena.done:
+            if forget:
+                policy.reset(number, 0)
+            arena.action = policy.act(arena.observation)
+            rewards.append(arena.step())
+            poses.append(arena.robots[0].copy())
+        recorded.append({"poses": np.array(poses), "rewards": np.array(rewards)})
+    return recorded
 
 
 def seconds_per_million(number: int, condition: str) -> float:
