@@ -11,6 +11,7 @@ import numpy as np
 from botschool.labs.declare import load_lab
 from botschool.labs.folder import Place, start
 from botschool.labs.runs import make_runs, own_runs
+from botschool.labs.saved import plain_runs
 
 
 def student(number):
@@ -96,7 +97,7 @@ def measured(place):
     exec((place.folder / "measure.py").read_text(), space)
     found = {}
     for name, runs in own_runs(place.lab, place.sheet(), place.runs).items():
-        rows = [space["measure"](run.plain()) for run in runs]
+        rows = [space["measure"](run) for run in plain_runs(runs, place.lab.others)]
         found[name] = {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
     return found
 

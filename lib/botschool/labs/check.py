@@ -20,7 +20,7 @@ from botschool.labs.declare import PARTS, STRATEGY, WORDS
 from botschool.labs.folder import Place
 from botschool.labs.own import replayed
 from botschool.labs.runs import changed, drawn, own_runs
-from botschool.labs.saved import SavedRun
+from botschool.labs.saved import SavedRun, plain_runs
 from botschool.labs.sheet import Sheet, Unreadable, check_specific, numbers_in
 
 COMPLETE, EVIDENCE = 10, 15
@@ -185,14 +185,15 @@ class Check:
         try:
             with student_file(self.place.folder / "measure.py") as student:
                 found = []
-                for i, condition in enumerate(self.lab.unseen):
-                    run = condition.maker.made(condition, seed + i).plain()
+                made = [c.maker.made(c, seed + i) for i, c in enumerate(self.lab.unseen)]
+                for run in plain_runs(made, self.lab.others):
                     found.append(measured(student, run, names))
                     self._compare(found[-1], run)
                 if told := self.lab.separate(found):
                     raise Wrong(told)
                 for name, runs in self.runs.items():
-                    rows = [measured(student, run.plain(), names) for run in runs]
+                    plain = plain_runs(runs, self.lab.others)
+                    rows = [measured(student, run, names) for run in plain]
                     self._remember(name, rows)
             part.points = MEASURE
         except MachineFault:
@@ -200,7 +201,8 @@ class Check:
         except Wrong as error:
             part.lose(f"measure.py: {error}")
             for name, runs in self.runs.items():
-                self._remember(name, [self._reference(run.plain()) for run in runs])
+                plain = plain_runs(runs, self.lab.others)
+                self._remember(name, [self._reference(run) for run in plain])
 
     def _reference(self, run: dict[str, Any]) -> dict[str, float]:
         return self.lab.reference(run, self.answers)

@@ -158,6 +158,8 @@ class Lab:
     """How many times smaller the budget of --quick is; it makes three runs of each condition."""
     redone: int = 3
     """Whole runs that a check makes again."""
+    others: bool = False
+    """Whether measure.py is also given the robots of the condition's other runs."""
     strategy: str = ""
     """The exercise's file that strategy.py is copied from, as ex08_openai_es/openai_es.py."""
     resources: Path = field(default=Path(), compare=False)

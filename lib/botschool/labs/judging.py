@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from botschool.labs.declare import Answers, Data
-from botschool.labs.measuring import permutation_test, power
+from botschool.labs.measuring import paired_test, permutation_test, power
 
 Judged = tuple[Callable[[Any], bool], str]
 CANNOT_TELL = "my runs cannot tell"
@@ -23,27 +23,47 @@ def larger(
 
     def judge(data: Data, answers: Answers) -> Judged:
         a, b = data[one][measure], data[other][measure]
-        p = permutation_test(a, b)
-        winner = labels[0] if a.mean() > b.mean() else labels[1]
-        right = {winner} if p < LEVEL else {CANNOT_TELL}
-        if NEAR[0] < p < NEAR[1]:
-            right = {winner, CANNOT_TELL}
-        told = (
-            f"means of {a.mean():.4g} and {b.mean():.4g}, p = {p:.3g} (permutation test): "
-            f"your runs support '{sorted(right)[0]}'."
-        )
-        return lambda answer: answer in right, told
+        return decided(a, b, permutation_test(a, b), labels, "permutation test")
 
     return judge
 
 
-def p_value(measure: str, one: str, other: str) -> Callable[[Data, Answers], Judged]:
-    """Judge the p of a permutation test of two conditions."""
+def larger_of_pairs(
+    condition: str, one: str, other: str, labels: tuple[str, str]
+) -> Callable[[Data, Answers], Judged]:
+    """Judge which of two measures of the same runs has the larger mean."""
 
     def judge(data: Data, answers: Answers) -> Judged:
-        p = permutation_test(data[one][measure], data[other][measure])
-        told = f"a permutation test of your runs gives p = {p:.3g}."
-        return lambda answer: abs(answer - p) <= 0.01 + 0.2 * p, told
+        a, b = data[condition][one], data[condition][other]
+        return decided(a, b, paired_test(a, b), labels, "paired test")
+
+    return judge
+
+
+def decided(a: np.ndarray, b: np.ndarray, p: float, labels: tuple[str, str], test: str) -> Judged:
+    """Which label is right, given p; near LEVEL "cannot tell" is, too."""
+    winner = labels[0] if a.mean() > b.mean() else labels[1]
+    right = {winner} if p < LEVEL else {CANNOT_TELL}
+    if NEAR[0] < p < NEAR[1]:
+        right = {winner, CANNOT_TELL}
+    told = (
+        f"means of {a.mean():.4g} and {b.mean():.4g}, p = {p:.3g} ({test}): "
+        f"your runs support '{sorted(right)[0]}'."
+    )
+    return lambda answer: answer in right, told
+
+
+def p_value(measure: str, one: str, other: str) -> Callable[[Data, Answers], Judged]:
+    """Judge the p of a permutation test of two conditions."""
+    return p_of(lambda data: permutation_test(data[one][measure], data[other][measure]))
+
+
+def p_of(test: Callable[[Data], float]) -> Callable[[Data, Answers], Judged]:
+    """Judge the p that a test of the data gives."""
+
+    def judge(data: Data, answers: Answers) -> Judged:
+        p = test(data)
+        return lambda answer: abs(answer - p) <= 0.01 + 0.2 * p, f"your runs give p = {p:.3g}."
 
     return judge
 

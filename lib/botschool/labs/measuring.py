@@ -81,6 +81,39 @@ def forage(run: dict[str, Any], forget: bool = False) -> list[dict[str, np.ndarr
     return recorded
 
 
+def swing(run: dict[str, Any], gravity: float = 10.0, episodes: int = 10) -> dict[str, np.ndarray]:
+    """Let a run's best pendulum swing under that gravity (m/s2; it evolved under 10).
+
+    "angles", shape (episodes, 201): rad from upright, -pi to pi, at the start and after each step;
+    "velocities", likewise, in rad/s; "rewards", shape (episodes, 200).
+    """
+    import gymnasium
+
+    from botschool import problems
+    from botschool.config import from_dict
+
+    experiment = from_dict(run["experiment"])
+    policy = problems.of(experiment).policy(experiment.policy)
+    policy.load(*policy.split(np.asarray(run["genotype"])))
+    env = gymnasium.make("Pendulum-v1", g=gravity)
+    seen, rewards = [], []
+    for episode in range(episodes):
+        observation, _ = env.reset(seed=episode)
+        policy.reset(episode, 0)
+        seen.append([observation])
+        rewards.append([])
+        for _ in range(200):
+            observation, reward, *_ = env.step(policy.act(observation))
+            seen[-1].append(observation)
+            rewards[-1].append(float(reward))
+    cosine, sine, velocities = np.moveaxis(np.array(seen, dtype=float), -1, 0)
+    return {
+        "angles": np.arctan2(sine, cosine),
+        "velocities": velocities,
+        "rewards": np.array(rewards),
+    }
+
+
 def seconds_per_million(number: int, condition: str) -> float:
     """The processor time that a million steps of a laboratory's condition take on this machine."""
     from time import process_time
@@ -118,6 +151,15 @@ def permutation_test(one: ArrayLike, other: ArrayLike, seed: int = 1) -> float:
     return float((1 + (apart >= seen - 1e-9).sum()) / (1 + RESAMPLES))
 
 
+def paired_test(one: ArrayLike, other: ArrayLike, seed: int = 1) -> float:
+    """Return how likely so large a mean difference of pairs is if signs are drawn at random."""
+    differences = np.asarray(one, dtype=float) - np.asarray(other, dtype=float)
+    rng = np.random.default_rng(seed)
+    signs = rng.choice([-1.0, 1.0], size=(RESAMPLES, len(differences)))
+    apart = np.abs((signs * differences).mean(axis=1))
+    return float((1 + (apart >= abs(differences.mean()) - 1e-9).sum()) / (1 + RESAMPLES))
+
+
 def power(one: ArrayLike, other: ArrayLike, runs: int, seed: int = 1) -> float:
     """Return how often the permutation test would find the difference with so many runs a group.
 
@@ -142,10 +184,11 @@ def measure_all(measure: Callable[[dict], dict], folder: str | Path = ".") -> di
     """The student's measure of each of his runs: condition -> measure -> array."""
     from botschool.labs.folder import Place
     from botschool.labs.runs import own_runs
+    from botschool.labs.saved import plain_runs
 
     place = Place.find(Path(folder))
     found: dict[str, dict[str, np.ndarray]] = {}
     for name, runs in own_runs(place.lab, place.sheet(), place.runs).items():
-        rows = [measure(run.plain()) for run in runs]
+        rows = [measure(run) for run in plain_runs(runs, place.lab.others)]
         found[name] = {key: np.array([row[key] for row in rows]) for key in (rows or [{}])[0]}
     return found

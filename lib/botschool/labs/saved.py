@@ -53,6 +53,15 @@ class SavedRun:
         )
 
 
+def plain_runs(runs: list[SavedRun], others: bool) -> list[dict[str, Any]]:
+    """What measure.py is given of several runs; others: with the genotypes of all others."""
+    told = [run.plain() for run in runs]
+    if others:
+        for number, each in enumerate(told):
+            each["others"] = [run.genotype for i, run in enumerate(runs) if i != number]
+    return told
+
+
 def numbers(path: Path, dimensions: int) -> np.ndarray | None:
     """The finite float64 numbers of a regular file, None if there are none."""
     try:
