@@ -1,5 +1,5 @@
 // Normal numbers as numpy's Generator(Philox(key)) gives them: Philox4x64-10 (Salmon et al. 2011) and
-// the ziggurat method with 256 layers (Marsaglia and Tsang 2000). docs/specification.md, "In a page".
+// the ziggurat method with 256 layers (Marsaglia and Tsang 2000). docs/page.md.
 #pragma once
 
 #include <cmath>
