@@ -253,6 +253,17 @@ def test_the_call_and_the_cause_stand_below(graded):
     assert eval(call.partition(": ")[2], {"np": np, "double": len}) == 4
 
 
+def test_a_right_answer_may_not_change_what_it_is_given(graded):
+    """Neither an array nor a list; a copy may be changed."""
+    result = graded("def double(x):\n    x *= 2\n    return x\n").tasks[0]
+    assert result.points == 0
+    assert result.message.startswith("double([")
+    assert "changed its argument number 1 in place" in result.message
+    assert (
+        not graded("def double(x):\n    x = x.copy()\n    x *= 2\n    return x\n").tasks[0].message
+    )
+
+
 def test_what_two_calls_tell(graded):
     random = "import random\ndef double(x): return x + random.random()\n"
     assert "it gives different answers" in graded(random).tasks[0].message

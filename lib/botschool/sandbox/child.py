@@ -55,6 +55,26 @@ def run_twice(module: Any, message: bytes) -> dict[str, Any]:
     return {"answers": [*answers, run(module, second)], "arguments": first["arguments"]}
 
 
+def changed_arguments(request: dict[str, Any], message: bytes) -> list[int]:
+    """The numbers, from 1, of the arguments that a function has changed; message: the request."""
+    before, after = protocol.unpack(message), request
+    pairs = zip(
+        [*before["arguments"], *before["options"].values()],
+        [*after["arguments"], *after["options"].values()],
+        strict=True,
+    )
+    return [i for i, (old, new) in enumerate(pairs, 1) if _differ(old, new)]
+
+
+def _differ(old: Any, new: Any) -> bool:
+    if not isinstance(old, (list, dict, numpy.ndarray)):
+        return False
+    try:
+        return protocol.pack(old) != protocol.pack(new)
+    except protocol.NotPlain:
+        return True
+
+
 def substitute(module: Any, references: dict[str, Any]) -> None:
     """Puts other functions in the place of some of the untrusted module's.
 
@@ -70,8 +90,12 @@ def answer_to(module: Any, message: bytes, file: Path) -> bytes:
     """The packed answer to a packed request; exceptions of any kind become answers."""
     try:
         request = protocol.unpack(message)
-        call = run_twice(module, message) if request.get("twice") else run(module, request)
-        return protocol.pack({"value": call})
+        if request.get("twice"):
+            return protocol.pack({"value": run_twice(module, message)})
+        answer = {"value": run(module, request)}
+        if "driver" not in request:
+            answer["changed"] = changed_arguments(request, message)
+        return protocol.pack(answer)
     except protocol.NotPlain as error:
         return protocol.pack({"error": "NotPlain", "text": str(error), "line": None})
     except BaseException as error:

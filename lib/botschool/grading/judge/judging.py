@@ -153,6 +153,7 @@ def _problem(task: Task, check: Callable[[Student], None], student: Student) -> 
     """Why a check is not passed; None when it is."""
     answers = student.answers
     before = student.seconds_left
+    student.changed = ""
     try:
         with processor_time_limit(CHECK_SECONDS):
             check(student)
@@ -169,7 +170,7 @@ def _problem(task: Task, check: Callable[[Student], None], student: Student) -> 
         return Failure(_unjudged(task, student, answers, error))
     except Exception as error:
         return Failure(_unjudged(task, student, answers, error))
-    return None
+    return Failure(student.changed) if student.changed else None
 
 
 def _unjudged(task: Task, student: Student, answers: int, error: Exception) -> str:

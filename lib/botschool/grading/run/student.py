@@ -72,6 +72,8 @@ class Student:
         """The last one."""
         self.answer: Any = None
         """To the last request."""
+        self.changed = ""
+        """The first call that changed an array, list or dict that it was given, in a sentence."""
         self.trace: list[tuple[bytes, bytes]] | None = None
         """Packed requests with their packed answers, once this is a list."""
         self._references = references
@@ -194,6 +196,12 @@ class Student:
         if "value" not in answer:
             raise Wrong(f"{self.said} sent back something that is no plain data.")
         self.answer = answer["value"]
+        if answer.get("changed") and not self.changed:
+            number = answer["changed"][0] if isinstance(answer["changed"], list) else "?"
+            self.changed = (
+                f"{self.said} changed its argument number {number} in place, which others go on "
+                "using: work on a copy (.copy())."
+            )
         if self.trace is not None:
             self.trace.append((pack(request), pack(self.answer)))
         return self.answer
