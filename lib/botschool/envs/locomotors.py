@@ -267,10 +267,11 @@ class Locomotor(gymnasium.Env):
             "joints_at_limit": -0.1 * step.at_limit,
         }
 
-    def measured(self) -> dict[str, float]:
+    def measured(self) -> dict[str, Any]:
         """Return what the last step led to: metres to the target, height (m), pitch and heading
         (rad).
 
+        "positions" and "speeds" are those of the joints, as observed but without limits.
         "touching" is 1.0 if a part of a HalfCheetah other than its feet was on the floor after the
         step before the last one, which is when its alive bonus looks.
         """
@@ -280,6 +281,8 @@ class Locomotor(gymnasium.Env):
             "pitch": self._pitch,
             "heading": self._heading,
             "touching": self._touching,
+            "positions": self._observation[self._positions],
+            "speeds": self._observation[self._speeds],
         }
 
     def render(self) -> np.ndarray | None:
