@@ -154,7 +154,7 @@ first = exercise.task("9.1", "Progress, and being alive")
 
 @first.check(6)
 def measures_progress(student: Student):
-    for index, steps in ((1, 1), (2, 50)):
+    for index, steps in ((1, 1), (2, 50), (3, 12)):
         distance, duration = made_up("Hopper", index, steps)["distance"], 0.004 * index
         answer = student.call("progress", distance, duration)
         mistakes = {"The duration of a step is left out.": distance[:-1] - distance[1:]}
@@ -206,10 +206,11 @@ def charges_for_electricity(student: Student):
 
 @costs.check(3)
 def charges_humanoids_more(student: Student):
-    one = made_up("Humanoid", 14)
-    answer = student.call("electricity", "Humanoid", one["actions"], one["speeds"])
-    wanted, mistakes = expected_v0(one)["electricity"], mistaken_electricity(one)
-    expect_close(student.said, answer, wanted, mistakes=mistakes)
+    for index, steps in ((14, 40), (17, 7)):
+        one = made_up("Humanoid", index, steps)
+        answer = student.call("electricity", "Humanoid", one["actions"], one["speeds"])
+        wanted, mistakes = expected_v0(one)["electricity"], mistaken_electricity(one)
+        expect_close(student.said, answer, wanted, mistakes=mistakes)
 
 
 @costs.check(8)
@@ -278,20 +279,23 @@ def rewards_progress_alone(student: Student):
 
 @evolved.check(3)
 def rewards_half_cheetahs(student: Student):
-    one = made_up("HalfCheetah", 42)
-    compare_v5(student, one, expected_v5(one), 1e-7)
+    for index, steps in ((42, 40), (47, 7)):
+        one = made_up("HalfCheetah", index, steps)
+        compare_v5(student, one, expected_v5(one), 1e-7)
 
 
 @evolved.check(3)
 def rewards_ants(student: Student):
-    one = made_up("Ant", 43)
-    compare_v5(student, one, expected_v5(one), 1e-7)
+    for index, steps in ((43, 40), (48, 7)):
+        one = made_up("Ant", index, steps)
+        compare_v5(student, one, expected_v5(one), 1e-7)
 
 
 @evolved.check(4)
 def rewards_humanoids(student: Student):
-    one = made_up("Humanoid", 44)
-    compare_v5(student, one, expected_v5(one), 1e-7)
+    for index, steps in ((44, 40), (49, 7)):
+        one = made_up("Humanoid", index, steps)
+        compare_v5(student, one, expected_v5(one), 1e-7)
 
 
 @evolved.check(3)
@@ -373,7 +377,12 @@ def describes_gaits(student: Student):
 
 @described.check(2)
 def describes_those_who_earn_nothing(student: Student):
-    one = made_up_planar("PlanarHopper", 63)
+    for robot in ("PlanarHopper", "PlanarWalker2D"):
+        earns_nothing(student, robot)
+
+
+def earns_nothing(student: Student, robot: str) -> None:
+    one = made_up_planar(robot, 63)
     one["distance"] = 1000 + np.cumsum(np.full(41, 0.01))
     compare_gait(student, one)
     compare_gait(student, {**one, "height": np.full(40, 0.3)})
@@ -398,15 +407,23 @@ def compares_gaits(student: Student):
 
     # a HalfCheetah that has fallen goes on in version 0 and ends in version 5, so its episodes tell
     # the versions apart; a Hopper's would not
-    runner, seed = Runner("PlanarHalfCheetah-v5"), exercise.seed(64) % 100_000
+    runner = Runner("PlanarHalfCheetah-v5")
     robots = random_robots(runner, 5, 65)
-    genotypes = {"v0": robots[:3], "v5": robots[3:]}
-    answer = student.call("compare", "PlanarHalfCheetah", genotypes, seed, 4)
-    said = "compare('PlanarHalfCheetah', genotypes of 3 robots of v0 and 2 of v5, "
-    said = student.said = f"{said}seed={seed}, episodes=4)"
+    compares_one(student, runner, {"v0": robots[:3], "v5": robots[3:]}, 64, 4)
+    compares_one(student, runner, {"lamed": robots[1:3]}, 66, 2)
+
+
+def compares_one(student: Student, runner, genotypes: dict, index: int, episodes: int) -> None:
+    from botschool.course.locomotion import Runner
+
+    seed = exercise.seed(index) % 100_000
+    answer = student.call("compare", "PlanarHalfCheetah", genotypes, seed, episodes)
+    robots = " and ".join(f"{len(rows)} of {key}" for key, rows in genotypes.items())
+    said = f"compare('PlanarHalfCheetah', genotypes of robots, {robots}, "
+    said = student.said = f"{said}seed={seed}, episodes={episodes})"
     in_v0, alone = Runner("PlanarHalfCheetah-v0"), (seed, 1)
     for key, found in zip(genotypes, expect_fields(said, answer, *genotypes), strict=True):
-        wanted = mean_gaits(runner, genotypes[key], seed, 4)
+        wanted = mean_gaits(runner, genotypes[key], seed, episodes)
         mistakes = {
             "All are to be recorded in version 5.": mean_gaits(in_v0, genotypes[key], seed, 4),
             "Only the first episode counts.": mean_gaits(runner, genotypes[key], *alone),
@@ -419,10 +436,17 @@ def evolves_both(student: Student):
     from botschool.course.locomotion import Runner
 
     seeds = [exercise.seed(70 + i) % 100_000 for i in range(3)]
-    answer = student.call("evolve_both", "PlanarHopper", STEPS, seeds)
+    evolves_one(student, "PlanarHopper", seeds)
+    evolves_one(student, "PlanarHalfCheetah", seeds[:1])
+
+
+def evolves_one(student: Student, robot: str, seeds: list[int]) -> None:
+    from botschool.course.locomotion import Runner
+
+    answer = student.call("evolve_both", robot, STEPS, seeds)
     said, pair = student.said, expect_fields(student.said, answer, "v0", "v5")
     for version, genotypes in zip(("v0", "v5"), pair, strict=True):
-        runner = Runner(f"PlanarHopper-{version}")
+        runner = Runner(f"{robot}-{version}")
         genotypes = expect_array(f"{said}: {version}", genotypes, (len(seeds), runner.size))
         for seed, genotype in zip(seeds, genotypes, strict=True):
             expect(

@@ -78,6 +78,9 @@ def compare_softmax(student: Student, scores: np.ndarray) -> None:
         "One sum is taken over all steps, but each row has its own (axis=-1).": powers
         / powers.sum()
     }
+    if scores.dtype.kind == "i":
+        text = "The result has the type of the scores: whole numbers cut probabilities off to 0."
+        mistakes[text] = 0 * powers
     if scores.ndim > 1:
         sums = np.maximum(powers.sum(axis=0), 1e-300)
         mistakes["The sum runs over the steps, but it is to run over the actions."] = powers / sums
@@ -88,6 +91,8 @@ def compare_softmax(student: Student, scores: np.ndarray) -> None:
 def of_one_step(student: Student):
     for index, actions in ((1, 2), (2, 5)):
         compare_softmax(student, generator(index).normal(size=actions).round(2))
+    for index in (6, 7):
+        compare_softmax(student, generator(index).permutation(4)[:3])
 
 
 @probabilities.check(2)
@@ -324,6 +329,7 @@ def cut(module, lows, highs, chosen):
             ended = len(self.got) == len(chosen)
             return numpy.zeros(3, dtype=numpy.float32), 1.0, ended, False, {}
 
+    gymnasium.registry.pop("grader/Motors-v0", None)  # of a call before
     gymnasium.register(id="grader/Motors-v0", entry_point=Motors)
     waiting = iter(chosen)
     answer = module.run_episode(
@@ -334,8 +340,12 @@ def cut(module, lows, highs, chosen):
 
 @episodes.check(2)
 def cuts_only_what_the_environment_gets(student: Student):
-    rng = generator(56)
-    lows, highs = np.float32([-1.0, -0.5]), np.float32([1.0, 2.5])
+    cuts_one(student, 56, np.float32([-1.0, -0.5]), np.float32([1.0, 2.5]))
+    cuts_one(student, 57, np.float32([-3.0, -0.25]), np.float32([-0.5, 1.5]))
+
+
+def cuts_one(student: Student, index: int, lows: np.ndarray, highs: np.ndarray) -> None:
+    rng = generator(index)
     chosen = 3 * rng.normal(size=(30, 2))
     said = "run_episode(an environment with two motors, act, seed=1, maxsteps=100)"
     answer = student.run(cut, lows, highs, chosen, said=said)
@@ -618,7 +628,8 @@ def measured_gaussian(module, means, log_deviation, actions):
     means, log_deviation = (torch.tensor(x, requires_grad=True) for x in (means, log_deviation))
     loss = module.gaussian_loss(means, log_deviation, torch.tensor(actions))
     loss.backward()
-    return [loss.detach().numpy(), means.grad.numpy(), log_deviation.grad.numpy()]
+    grads = [torch.zeros_like(x) if x.grad is None else x.grad for x in (means, log_deviation)]
+    return [loss.detach().numpy(), *(grad.numpy() for grad in grads)]
 
 
 def compare_gaussian(student: Student, index: int, steps: int, actuators: int, part: int) -> None:
@@ -640,9 +651,11 @@ def compare_gaussian(student: Student, index: int, steps: int, actuators: int, p
         expect_close(said, answer[0], surprises.sum(axis=1).mean(), SINGLE, mistakes)
         return
     slope = -distance / np.exp(log_deviation) / steps
-    expect_close(f"{said}: gradient of the means", answer[1], slope, SINGLE)
     spread = (1 - distance**2).sum(axis=0) / steps
-    expect_close(f"{said}: gradient of log_deviation", answer[2], spread, SINGLE)
+    for name, got, wanted in (("means", answer[1], slope), ("log_deviation", answer[2], spread)):
+        mistakes = {f"No gradient arrives at {name}: torch cannot follow .detach().": 0 * wanted}
+        expect_close(f"{said}: gradient of {'the ' * (name == 'means')}{name}", got, wanted, SINGLE,
+                     mistakes)  # fmt: skip
 
 
 @continuous.check(5)
@@ -670,23 +683,44 @@ UPDATES = 10
 makes 10 of each an iteration."""
 
 
-def trained(module, environment, seed, signs, side):
+def trained(module, environment, seed, signs, side, most):
     """The answer, the gradients computed, the calls of the losses, and the returns of all episodes.
 
-    Of each episode also the return without its last reward: task 12.3 is judged elsewhere.
+    Of each episode also the return without its last reward: task 12.3 is judged elsewhere. Then the
+    first actions, and the parameters of what torch's optimisers changed: before their first step
+    and after the last one. After `most` episodes the training is broken off: the answer is None.
 
     The environment is changed: each number observed is multiplied by its sign, and with side -1
     left and right of the action are exchanged. Who trains in it does not notice.
     """
     import gymnasium
     import torch
+    from torch.optim.optimizer import register_optimizer_step_post_hook as last_hook
+    from torch.optim.optimizer import register_optimizer_step_pre_hook as first_hook
 
     spec = gymnasium.spec(environment)
     creator = gymnasium.envs.registration.load_env_creator(spec.entry_point)
     played, counts = [], {"gradients": 0, "losses": 0}
+    actions, learnt = [], []
+
+    class BrokenOff(BaseException):
+        pass
+
+    def states(optimiser):
+        groups = [group["params"] for group in optimiser.param_groups]
+        return [each.detach().numpy().copy() for group in groups for each in group]
+
+    def before(optimiser, *_):
+        if not learnt:
+            learnt.extend([states(optimiser), []])
+
+    def after(optimiser, *_):
+        learnt[1] = states(optimiser)
 
     class Changed(creator):
         def reset(self, **options):
+            if len(played) >= most:
+                raise BrokenOff
             observation, info = super().reset(**options)
             played.append([0.0, 0.0])
             self.number = len(played) - 1
@@ -694,6 +728,8 @@ def trained(module, environment, seed, signs, side):
 
         def step(self, action):
             discrete = isinstance(self.action_space, gymnasium.spaces.Discrete)
+            if len(actions) < 100:
+                actions.append(float(action if discrete else action[0]))
             if side < 0:
                 action = 1 - action if discrete else -action
             observation, reward, *others = super().step(action)
@@ -715,9 +751,14 @@ def trained(module, environment, seed, signs, side):
     for name in ("cross_entropy", "gaussian_loss"):
         if callable(loss := getattr(module, name, None)):
             setattr(module, name, counting(loss, "losses"))
+    hooks = [first_hook(before), last_hook(after)]
     try:
-        return [module.train(environment, seed=seed), counts, played]
+        return [module.train(environment, seed=seed), counts, played, actions, learnt]
+    except BrokenOff:
+        return [None, counts, played, actions, learnt]
     finally:
+        for hook in hooks:
+            hook.remove()
         spec.entry_point, spec.vector_entry_point = kept[:2]
         torch.autograd.backward, torch.autograd.grad = kept[2:]
 
@@ -753,9 +794,9 @@ def expect_balanced(student: Student, environment: str, index: int) -> None:
     signs, side = rng.choice([-1.0, 1.0], 4), int(rng.choice([-1, 1]))
     signs[2] = -side  # so that whoever knows the usual environment pushes the wrong way
     said = f"train({environment!r}, seed={seed})"
-    report = student.run(trained, environment, seed, signs, side, said=said)
-    expect(isinstance(report, list) and len(report) == 3, f"{said} gave no answer.")
-    answer, counts, played = report
+    report = student.run(trained, environment, seed, signs, side, 10**6, said=said)
+    expect(isinstance(report, list) and len(report) == 5, f"{said} gave no answer.")
+    answer, counts, played, actions, learnt = report
     parameters, returns = fields(said, answer, "parameters", "returns")
     expect(
         isinstance(parameters, list) and len(parameters) == 4,
@@ -805,6 +846,53 @@ def expect_balanced(student: Student, environment: str, index: int) -> None:
         bool(there.all()),
         f"{said}: returns holds {show(told[~there][:3])}, but no episode had such a return.",
     )
+    if isinstance(learnt, list) and len(learnt) == 2:
+        expect_learnt(said, environment, arrays, learnt, (signs, side))
+    for other in (seed, seed + 1):
+        again = student.run(trained, environment, other, signs, side, FIRST, said=said)
+        expect(isinstance(again, list) and len(again) == 5, f"{said} gave no answer.")
+        shared = min(len(actions), len(again[3]))
+        same = np.array_equal(actions[:shared], again[3][:shared])
+        expect(
+            same or other != seed,
+            f"{said}, called twice, chooses other actions in its first {FIRST} episodes: all that "
+            "is random must come from the seed.",
+        )
+        expect(
+            not same or other == seed,
+            f"train({environment!r}, seed={other}) chooses the same actions as with "
+            f"seed={seed} in its first {FIRST} episodes, but another seed must give another "
+            "training.",
+        )
+
+
+FIRST = 5
+"""So many episodes are looked at to tell whether a seed decides about a training."""
+
+
+def expect_learnt(said: str, environment: str, arrays: list, learnt: list, changed: tuple) -> None:
+    """What is returned is what the optimiser made, of a network that could not balance before."""
+    first, last = ([np.array(each) for each in one] for one in learnt)
+    matching = any(
+        table.shape == arrays[0].shape and np.allclose(table, arrays[0], atol=1e-5)
+        for table in (*first, *last)
+    )
+    own = [each for each in first if each.ndim == 2], [each for each in first if each.ndim == 1]
+    expect(
+        matching,
+        f"{said}: W1 is not that of the network after the optimiser's last step: return the "
+        "parameters that your losses have led to.",
+    )
+    if len(own[0]) == 2 and len(own[1]) >= 2:
+        beginning = [own[0][0], own[1][0], own[0][1], own[1][1]]
+        shapes = [each.shape for each in beginning]
+        if shapes == [each.shape for each in arrays]:
+            before = mean_return(environment, beginning, *changed)
+            expect(
+                before < 180,
+                f"{said}: before the optimiser's first step the policy stays up for {before:.1f} "
+                "steps already, so your losses taught it nothing.",
+            )
 
 
 @training.check(8)

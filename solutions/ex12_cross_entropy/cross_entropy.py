@@ -299,6 +299,8 @@ def train(
     settles for less: if the goal is not reached after `iterations`, begin again with other random
     numbers, up to as many `attempts`, and return the last one.
 
+    The same seed gives the same training, another seed another one.
+
     Change the defaults as you like: the grader passes environment and seed only. Without chance,
     that is with the action of the highest score or with the mean itself, your policy must stay up
     for 180 of 200 steps, on average over new episodes of CartPole-v1 and of

@@ -321,3 +321,88 @@ def compare(robot, genotypes, seed, episodes):
                 one = gait(runner.record(genotype, seed + i))
                 sums[key][:, column] += [one[name] for name in names]
     return {key: dict(zip(names, total / episodes)) for key, total in sums.items()}
+
+
+# %% single_precision_throughout
+# Single precision from the first array on.
+def progress(distance, duration):
+    return -np.diff(np.asarray(distance, dtype=np.float64)).astype(np.float32) / duration
+
+
+def electricity(robot, actions, speeds):
+    actions, speeds = np.float32(actions), np.float32(speeds)
+    cost = 2 * np.mean(np.abs(actions) * np.abs(speeds), axis=-1) + np.mean(actions**2, -1) / 10
+    return (-4.25 if robot == "Humanoid" else -1) * cost
+
+
+def joints_at_limit(positions):
+    return np.float32(-0.1) * np.count_nonzero((positions < -0.99) | (positions > 0.99), axis=1)
+
+
+# %% tables_of_dicts
+# A table of lambdas for the bonus, sums with math.fsum, arrays from generators.
+import math
+
+
+def alive_bonus(robot, height, pitch, touching):
+    stands = {
+        "Ant": lambda h, p, t: h > 0.26,
+        "Humanoid": lambda h, p, t: h > 0.78,
+        "HalfCheetah": lambda h, p, t: -1 < p < 1 and not t,
+    }.get(robot, lambda h, p, t: h > 0.8 and -1 < p < 1)
+    pay = 2.0 if robot == "Humanoid" else 1.0
+    rows = zip(height, pitch, touching, strict=True)
+    return np.fromiter((pay if stands(*row) else -1.0 for row in rows), float)
+
+
+def gait(trajectory):
+    parts = planar_v0(trajectory)
+    way = trajectory["distance"]
+    length = np.shape(trajectory["actions"])[0]
+    alive = math.fsum(x for x in parts["alive"] if x > 0)
+    moved = math.fsum(x for x in parts["progress"] if x > 0)
+    metres = float(-np.sum(np.diff(way)))
+    seconds = float(length * trajectory["duration"])
+    return {
+        "grounded": np.count_nonzero(np.any(trajectory["feet"] > 0, axis=1)) / length,
+        "standing": alive / (alive + moved) if alive or moved else 0,
+        "speed": metres / seconds,
+        "seconds": seconds,
+        "metres": metres,
+    }
+
+
+# %% rewards_by_weights
+# The reward of version 5 as a sum of terms, each with the robots that have it.
+def reward_v5(trajectory):
+    robot = trajectory["robot"]
+    terms = [progress(trajectory["distance"], trajectory["duration"])]
+    if robot not in {"Hopper", "Walker2D"}:
+        terms.append(joints_at_limit(trajectory["positions"]))
+    if robot == "Ant":
+        terms.append(0.01 * (1 - np.square(trajectory["actions"]).mean(axis=1)))
+    if robot == "Humanoid":
+        away = np.abs(trajectory["positions"])
+        terms += [1 - 10 * (away - np.minimum(away, 1)).sum(axis=1)]
+        terms += [-0.1 * np.square(trajectory["heading"])]
+    return np.sum(terms, axis=0)
+
+
+def evolve_both(robot, steps, seeds):
+    runners = {version: Runner(f"{robot}-{version}") for version in ("v5", "v0")}
+    return {
+        version: np.vstack([runner.evolve(steps, int(seed)) for seed in seeds])
+        for version, runner in runners.items()
+    }
+
+
+def compare(robot, genotypes, seed, episodes):
+    runner, names = Runner(f"{robot}-v5"), ("metres", "seconds", "speed", "standing", "grounded")
+    table = {}
+    for version in genotypes:
+        cube = [
+            [list(map(gait(runner.record(row, seed + e)).get, names)) for e in range(episodes)]
+            for row in genotypes[version]
+        ]
+        table[version] = dict(zip(names, np.mean(cube, axis=1).T, strict=True))
+    return table

@@ -232,3 +232,86 @@ def gaussian_loss(means, log_deviation, actions):
     variance = log_deviation.mul(2).exp()
     density = -((actions - means) ** 2) / (2 * variance) - 0.5 * torch.log(2 * np.pi * variance)
     return -density.sum(-1).mean()
+
+
+# %% probabilities_by_differences
+# Probabilities by the differences of scores; a search in the ruler; boolean rows for the elite.
+def softmax(scores):
+    scores = np.asarray(scores, dtype=np.float64)
+    apart = scores[..., None, :] - scores[..., :, None]
+    return 1 / np.exp(np.minimum(apart, 700)).sum(axis=-1)
+
+
+def choose(probabilities, rng):
+    place = np.searchsorted(np.cumsum(probabilities), rng.random(), side="right")
+    return min(int(place), len(probabilities) - 1)
+
+
+def elite(episodes, percentile):
+    returns = np.array([episode["return"] for episode in episodes])
+    bound = np.percentile(returns, percentile)
+    chosen = np.flatnonzero(returns >= bound)
+    parts = {
+        key: np.concatenate([np.asarray(episodes[i][key]) for i in chosen])
+        for key in ("observations", "actions")
+    }
+    return {**parts, "bound": np.float64(bound)}
+
+
+# %% gathered_scores
+# gather for the chosen scores, a density by its factors, closures for the optimiser.
+def cross_entropy(scores, actions):
+    highest = scores.max(dim=1, keepdim=True).values.detach()
+    chosen = scores.gather(1, actions.long().unsqueeze(1))
+    sums = (scores - highest).exp().sum(dim=1, keepdim=True)
+    return torch.mean(highest + sums.log() - chosen)
+
+
+def improve(network, optimiser, observations, actions, loss, updates):
+    actions = np.asarray(actions)
+    inputs = torch.from_numpy(np.array(observations, dtype=np.float32))
+    kind = torch.long if actions.dtype.kind in "iu" else torch.float
+    wanted, losses = torch.from_numpy(actions.copy()).to(kind), []
+
+    def closure():
+        optimiser.zero_grad(set_to_none=True)
+        value = loss(network(inputs), wanted)
+        value.backward()
+        losses.append(float(value.detach()))
+        return value
+
+    for _ in range(updates):
+        optimiser.step(closure)
+    return losses
+
+
+def gaussian_action(mean, log_deviation, rng):
+    noise = rng.standard_normal(np.shape(mean)[0])
+    return np.add(mean, noise * np.e ** np.asarray(log_deviation))
+
+
+def gaussian_loss(means, log_deviation, actions):
+    count = len(means)
+    squares = ((actions - means) ** 2 * torch.exp(-2 * log_deviation)).sum() / (2 * count)
+    return squares + log_deviation.sum() + means.shape[1] * np.log(2 * np.pi) / 2
+
+
+# %% an_environment_by_hand
+# The environment is opened and closed by hand; while loops; actions are cut by minimum and maximum.
+def run_episode(environment, act, seed, maxsteps=200):
+    env = gymnasium.make(environment)
+    space, record, total, ended = env.action_space, [], 0, False
+    observation = env.reset(seed=seed)[0]
+    try:
+        while not ended and len(record) < maxsteps:
+            action = act(observation)
+            record.append((np.array(observation), np.array(action)))
+            if hasattr(space, "low"):
+                action = np.minimum(np.maximum(action, space.low), space.high)
+                action = action.astype(np.float32)
+            observation, reward, terminated, truncated, _ = env.step(action)
+            ended, total = terminated or truncated, total + reward
+    finally:
+        env.close()
+    seen, done = zip(*record, strict=True)
+    return {"return": float(total), "actions": np.stack(done), "observations": np.stack(seen)}
