@@ -270,7 +270,7 @@ def evolve(seed: int) -> np.ndarray:
 
     Choose algorithm and hyperparameters yourself: your own of exercise 3 or 8, or another one.
     Asked for: in each of 20 episodes that it has not met, the robot balances for all 500 steps.
-    It should take some ten seconds. Another seed gives another controller.
+    It should take some ten seconds. The same seed gives the same controller, another seed another.
 
     Returns its parameters, shape (4,).
     """

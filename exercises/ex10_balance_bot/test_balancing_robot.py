@@ -6,10 +6,11 @@ up, beside a second simulation, so that a forgotten physicsClientId shows.
 
 Stochastic checks (tasks 10.9 and 10.10): a controller must balance for 500 steps in 20 of 20 unseen
 episodes (grading seeds 71, 73 and 81) in the grader's simulation. So that none can be written down
-by heart, it is also learnt for a robot whose wheels turn the other way; and the layers of task
-10.10 must be those that PPO has made. With each of 20 seeds (1 to 20) the solution's `evolve`
-balances in 20 of 20 episodes, so its margin is whole; returns are 462 to 492. Its PPO, of which
-fewer runs were made (seed 1 and the grading seed), did so, too.
+by heart, it is learnt for a robot whose gyroscope is mounted the other way round and for one whose
+wheels turn the other way; evolution must begin with candidates that fall, other seeds must give
+other runs, and the layers of task 10.10 must be those that PPO has made. With each of 20 seeds (1
+to 20) the solution's `evolve` balances in 20 of 20 episodes, so its margin is whole; returns are
+462 to 492. Its PPO, of which fewer runs were made (seed 1 and the grading seed), did so, too.
 """
 
 import tempfile
@@ -174,15 +175,24 @@ def on_stage(module, urdf, call, scenes):
             reports.append([answer, str(answer.dtype)])
         elif call == "drive":
             for action in actions:
-                env.drive(numpy.array([action], dtype=numpy.float32))
+                given = numpy.array([action], dtype=numpy.float32)
+                env.drive(given)
                 pybullet.stepSimulation(env.client)
                 turns = [pybullet.getJointState(env.robot, i, env.client)[1] for i in (0, 1)]
-                reports.append([env.speed, *turns])
+                reports.append([env.speed, *turns, float(given[0])])
         elif call == "step":
             env.drive, env.observe = turn, seen
             for action in actions:
                 answer = env.step(numpy.array([action], dtype=numpy.float32))
                 reports.append([list(answer[:4]), dict(answer[4]), len(answer)])
+        elif call == "draw":
+            env.drive, env.observe = turn, seen
+            for env.render_mode in (None, "rgb_array", "human"):
+                drawn = []
+                env.render = lambda drawn=drawn: drawn.append(1)
+                for action in actions:
+                    env.step(numpy.array([action], dtype=numpy.float32))
+                reports.append(len(drawn))
     return reports
 
 
@@ -329,7 +339,8 @@ def observes(student: Student):
          rng.uniform(-20, 20), [])
         for _ in range(6)
     ]  # fmt: skip
-    answers = staged(student, "observe()", "observe", scenes)
+    answers = staged(student, "observe()", "observe", scenes[:3])
+    answers += staged(student, "observe()", "observe", scenes[3:])
     for (inclination, _, turning, speed, _), (answer, kind) in zip(scenes, answers, strict=True):
         said = (
             f"observe(), with inclination {inclination:.3f}, angular velocity {turning[0]:.3f} and "
@@ -417,7 +428,12 @@ def compare_drive(student: Student, speed: float, actions: list[float]) -> None:
             }
             world.act(float(np.float32(action)))
             expect_close(f"{said}: self.speed", answer[0], world.speed, 1e-5, mistakes)
-            turns, wanted = np.array(answer[1:]), np.array(world.turns())
+            expect(
+                answer[3] == np.float32(action),
+                f"{said} changed the caller's array to [{answer[3]:.3f}]: leave the action as it "
+                "is, and work on a copy.",
+            )
+            turns, wanted = np.array(answer[1:3]), np.array(world.turns())
             expect(
                 np.allclose(turns, wanted, atol=1e-3),
                 f"{said}: a step later the wheels turn at {show(turns)} rad/s, but should at "
@@ -435,9 +451,11 @@ def speeds_up_and_slows_down(student: Student):
 @driving.check(5)
 def stays_within_limits(student: Student):
     rng = rng_of(31)
-    compare_drive(student, 0.0, (rng.choice([-1, 1], 4) * rng.uniform(2, 30, 4)).tolist())
+    for speed in (0.0, 5.0):
+        compare_drive(student, speed, (rng.choice([-1, 1], 4) * rng.uniform(2, 30, 4)).tolist())
     for side in (-1, 1):
         compare_drive(student, side * 23.5, [side * 0.9, side * 0.8, side * 0.4, -side * 0.7])
+        compare_drive(student, side * 24.0, [side * 0.7, side * 0.5, side * 1.5, -side * 0.9])
 
 
 # ------------------------------------------------------------------ 10.6
@@ -465,7 +483,7 @@ def steps_of(student: Student, index: int):
                 next(answers)
 
 
-@stepping.check(5)
+@stepping.check(4)
 def moves_one_step(student: Student):
     for said, ((observation, *_), info, count), world in steps_of(student, 40):
         expect(count == 5, f"{said}: {count} values came back, but 5 are needed.")
@@ -474,7 +492,7 @@ def moves_one_step(student: Student):
             expect_close(f"{said}: observation", observation, world.seen(), 2e-3)
 
 
-@stepping.check(4)
+@stepping.check(3)
 def rewards(student: Student):
     for said, ((_, reward, *_), *_), world in steps_of(student, 41):
         wanted = 1 - 0.05 * abs(world.speed)
@@ -483,13 +501,38 @@ def rewards(student: Student):
         expect_close(said_of, reward, wanted, 1e-5, mistakes)
 
 
-@stepping.check(5)
+@stepping.check(3)
 def ends_when_fallen(student: Student):
     for said, ((_, _, terminated, truncated), *_), world in steps_of(student, 42):
         height = world.height()
         fell = terminated if abs(height - 0.15) <= 1e-3 else height < 0.15
         why = f"with the centre of the body {height:.3f} m high it should be"
         expect_ends(said, (terminated, truncated), (fell, False), why)
+
+
+@stepping.check(2)
+def draws_in_a_window_only(student: Student):
+    scene = (0.1, [0.0, 0.0], [0.0, 0.0, 0.0], 0.0, [0.5] * 4)
+    counts = staged(student, "step(action)", "draw", [scene])
+    for mode, drawn in zip((None, "rgb_array", "human"), counts, strict=True):
+        wanted = 4 if mode == "human" else 0
+        expect(
+            drawn == wanted,
+            f"four calls of step([0.5]) with self.render_mode = {mode!r} called self.render() "
+            f"{drawn} times, but should have {wanted} times.",
+        )
+
+
+@stepping.check(2)
+def leaves_the_time_limit_to_gymnasium(student: Student):
+    scene = (0.1, [0.0, 0.0], [0.0, 0.0, 0.0], 0.0, [0.0] * 510)
+    answers = staged(student, "step(action)", "step", [scene])
+    for i, ((_, _, _, truncated), *_) in enumerate(answers, 1):
+        expect(
+            not truncated,
+            f"step([0.0]), call {i}, of the environment itself: truncated is {show(truncated)}. "
+            "The environment never cuts an episode: max_episode_steps of task 10.7 does.",
+        )
 
 
 # ------------------------------------------------------------------ 10.7
@@ -508,7 +551,9 @@ def played(module, urdf, seed, gains, most):
     module.robot_file = lambda name: os.path.abspath("balance_bot.urdf")
     gymnasium.registry.pop("BalanceBotBulletEnv-v0", None)
     module.register_robot()
-    env = gymnasium.make("BalanceBotBulletEnv-v0")
+    env = gymnasium.make("BalanceBotBulletEnv-v0", render_mode="rgb_array")
+    if env.unwrapped.render_mode != "rgb_array":
+        return repr(env.unwrapped.render_mode)
     observation, _ = env.reset(seed=seed)
     seen = [observation]
     for _ in range(most):
@@ -558,8 +603,10 @@ def compare_episode(student: Student, index: int, gains: np.ndarray) -> None:
     makes small differences large. So the grader's episode is played from neighbouring starts, too.
     """
     seed = exercise.seed(index)
-    said = f'an episode of gymnasium.make("{NAME}") with seed {seed}'
+    made = f'gymnasium.make("{NAME}", render_mode="rgb_array")'
+    said = f"an episode of {made} with seed {seed}"
     answer = student.run(played, robot_text(), seed, gains, 600, said=said)
+    expect(not isinstance(answer, str), f"{made}: the environment's render_mode is {answer}.")
     expect(isinstance(answer, list) and len(answer) == 3, f"{said}: no answer came back.")
     seen, terminated, truncated = answer
     start = seeding.np_random(seed)[0].uniform(-0.3, 0.3)
@@ -668,6 +715,11 @@ def says_what_it_needs(student: Student):
         isinstance(backend, list) and any("setuptools" in str(each) for each in backend),
         f"{said}: [build-system] must require setuptools.",
     )
+    backend = content["build-system"].get("build-backend")
+    expect(
+        isinstance(backend, str) and backend.split(":")[0] == "setuptools.build_meta",
+        f"{said}: build-backend is {show(backend)}, but should be 'setuptools.build_meta'.",
+    )
     project = content.get("project")
     name, version, needs = expect_fields(
         f"{said}: [project]", project, "name", "version", "dependencies"
@@ -721,11 +773,16 @@ def registers_on_import(student: Student):
 evolving = exercise.task("10.9", "Evolve a controller", seconds=240)
 
 
-def learnt(module, urdf, name, seed):
+def learnt(module, urdf, gyro, name, seed, most):
     """Calls evolve or train on the grader's own environment, for a robot of the grader's.
 
-    Returns the answer; for train also how often PPO has updated a policy, and whether the largest
-    layer of the answer is one that a policy had after such an update.
+    gyro: a factor of the angular velocity that the robot observes; most: episodes after which
+    evolving or training is broken off.
+
+    Returns the answer (None if it was broken off), the first action of each episode, and the
+    episodes' steps. For train also how often PPO has updated a policy, whether the largest layer of
+    the answer is one that a policy had after such an update, and by how much its weights differ
+    on average from those before the first update.
     """
     import gymnasium
     import numpy
@@ -734,6 +791,11 @@ def learnt(module, urdf, name, seed):
 
     with open("balance_bot.urdf", "w") as file:
         file.write(urdf)
+
+    class BrokenOff(BaseException):
+        pass
+
+    actions, steps = [], []
 
     class GradersEnv(gymnasium.Env):
         metadata = {"render_modes": ["rgb_array"], "render_fps": 100}  # noqa: RUF012
@@ -748,11 +810,14 @@ def learnt(module, urdf, name, seed):
         def look(self):
             place, orientation = pybullet.getBasePositionAndOrientation(self.body, self.world)
             turning = pybullet.getBaseVelocity(self.body, self.world)[1][0]
-            seen = [pybullet.getEulerFromQuaternion(orientation)[0], turning, self.speed]
+            seen = [pybullet.getEulerFromQuaternion(orientation)[0], gyro * turning, self.speed]
             return numpy.array(seen, dtype=numpy.float32), place[2]
 
         def reset(self, *, seed=None, options=None):
             super().reset(seed=seed)
+            if len(actions) >= most:
+                raise BrokenOff
+            self.begins = True
             lean = self.np_random.uniform(-0.3, 0.3)
             world = {"physicsClientId": self.world}
             pybullet.resetSimulation(**world)
@@ -770,6 +835,11 @@ def learnt(module, urdf, name, seed):
             return self.look()[0], {}
 
         def step(self, action):
+            if self.begins:
+                actions.append(float(action[0]))
+                steps.append(0)
+            self.begins = False
+            steps[-1] += 1
             self.speed += float(numpy.clip(action[0], -1, 1))
             self.speed = min(max(self.speed, -24.6), 24.6)
             pybullet.setJointMotorControlArray(
@@ -786,39 +856,50 @@ def learnt(module, urdf, name, seed):
     gymnasium.registry.pop("BalanceBotBulletEnv-v0", None)
     gymnasium.register(id="BalanceBotBulletEnv-v0", entry_point=GradersEnv, max_episode_steps=500)
     if name == "evolve":
-        return module.evolve(seed)
+        try:
+            return [module.evolve(seed), actions, steps]
+        except BrokenOff:
+            return [None, actions, steps]
 
     from stable_baselines3 import PPO
 
-    updates, learnt = PPO.train, []
+    updates, before, learnt = PPO.train, [], []
+
+    def tables(model):
+        return [each.detach().numpy().copy() for each in model.policy.parameters() if each.ndim > 1]
 
     def train(self):
+        first = tables(self)
         updates(self)
-        tables = [each.detach().numpy() for each in self.policy.parameters() if each.ndim == 2]
-        learnt.append([table.copy() for table in tables])
+        learnt.append(tables(self))
+        before.append(first if len(learnt) == 1 or self.num_timesteps <= self.n_steps else None)
 
     PPO.train = train
     try:
         answer = module.train(seed)
+    except BrokenOff:
+        return [None, actions, steps, 0, False, 0.0]
     finally:
         PPO.train = updates
     largest = max((numpy.array(layer[0]) for layer in answer), key=numpy.size)
-    same = any(
-        table.shape == largest.shape and numpy.allclose(table, largest, atol=1e-5)
-        for tables in learnt
-        for table in tables
-    )
-    return [answer, len(learnt), same]
+    same, change, start = False, 0.0, None
+    for first, after in zip(before, learnt, strict=True):
+        start = start if first is None else first
+        for i, table in enumerate(after):
+            if table.shape == largest.shape and numpy.allclose(table, largest, atol=1e-5):
+                same, change = True, max(change, float(numpy.abs(table - start[i]).mean()))
+    return [answer, actions, steps, len(learnt), same, change]
 
 
-def balanced(layers: list[tuple[np.ndarray, np.ndarray]], turned: bool, index: int) -> list[int]:
+def balanced(layers: list, robot: tuple[bool, int], index: int) -> list[int]:
     """Steps of 20 episodes of a network in the grader's simulation, until it falls."""
     steps = []
+    turned, gyro = robot
     for inclination in rng_of(index).uniform(-0.3, 0.3, 20):
         with World(inclination, urdf=robot_text(turned)) as world:
             step = 0
             while step < 500 and world.height() >= 0.15:
-                signal = np.array(world.seen())
+                signal = np.array(world.seen()) * [1, gyro, 1]
                 for weights, biases in layers[:-1]:
                     signal = np.tanh(weights @ signal + biases)
                 world.act(float((layers[-1][0] @ signal + layers[-1][1])[0]))
@@ -827,29 +908,68 @@ def balanced(layers: list[tuple[np.ndarray, np.ndarray]], turned: bool, index: i
     return steps
 
 
-def expect_balance(said: str, layers: list, turned: bool, index: int) -> None:
-    steps = balanced(layers, turned, index)
+def expect_balance(said: str, layers: list, robot: tuple[bool, int], index: int) -> None:
+    steps = balanced(layers, robot, index)
     good = sum(count == 500 for count in steps)
-    robot = "a robot whose wheels turn the other way" if turned else "the robot"
     expect(
         good == 20,
-        f"{said}: {robot} balances for 500 steps in {good} of 20 new episodes (on average for "
-        f"{np.mean(steps):.0f} steps), but 20 of 20 are asked for.",
+        f"{said}: {NAMES[robot]} balances for 500 steps in {good} of 20 new episodes (on average "
+        f"for {np.mean(steps):.0f} steps), but 20 of 20 are asked for.",
     )
 
 
-def evolves(student: Student, index: int, turned: bool) -> None:
+NAMES = {
+    (False, -1): "a robot whose sensor tells the angular velocity with the other sign",
+    (True, 1): "a robot whose wheels turn the other way",
+}
+FIRST = 12
+"""So many episodes are looked at to tell whether a seed decides about a run."""
+
+
+def learns(student: Student, name: str, seed: int, robot: tuple[bool, int], most: float) -> tuple:
+    """What `learnt` reports of a robot: (wheels turn the other way, sign of its gyro)."""
+    said, limit = f"{name}(seed={seed})", min(most, 1e9)
+    report = student.run(learnt, robot_text(robot[0]), robot[1], name, seed, int(limit), said=said)
+    expect(isinstance(report, list) and len(report) >= 3, f"{said}: no answer came back.")
+    return said, report
+
+
+def expect_seeded(student: Student, name: str, seed: int, robot: tuple, actions: list) -> None:
+    """The same seed begins in the same way, another seed in another way."""
+    for other in (seed, seed + 1):
+        said, (_, again, *_) = learns(student, name, other, robot, FIRST)
+        same = np.array_equal(again[:FIRST], actions[:FIRST])
+        expect(
+            same or other != seed,
+            f"{said}, called twice, makes other first steps in its first {FIRST} episodes: all "
+            "that is random must come from the seed.",
+        )
+        expect(
+            not same or other == seed,
+            f"{said} makes the same first steps as {name}(seed={seed}) in its first {FIRST} "
+            "episodes, but another seed must give another controller.",
+        )
+
+
+def evolves(student: Student, index: int, robot: tuple[bool, int]) -> None:
     seed = exercise.seed(index) % 100_000
-    said = f"evolve(seed={seed})"
-    answer = student.run(learnt, robot_text(turned), "evolve", seed, said=said)
+    said, (answer, actions, steps) = learns(student, "evolve", seed, robot, np.inf)
     parameters = expect_array(said, answer, (4,))
-    expect_balance(said, [(parameters[None, 1:], parameters[:1])], turned, index + 1)
+    expect_balance(said, [(parameters[None, 1:], parameters[:1])], robot, index + 1)
+    good = sum(count == 500 for count in steps[:10])
+    expect(
+        len(steps) >= 20 and good <= 6,
+        f"{said} played {len(steps)} episodes, and in {good} of the first ten the robot balanced "
+        "to the end. Begin with weights that know nothing of a robot, and let evolution find "
+        "better ones: at least 20 episodes, of which at most 6 of the first ten balance.",
+    )
+    expect_seeded(student, "evolve", seed, robot, actions)
 
 
 @evolving.check(8)
 def balances_whichever_way_the_wheels_turn(student: Student):
-    evolves(student, 70, turned=False)
-    evolves(student, 72, turned=True)
+    evolves(student, 70, (False, -1))
+    evolves(student, 72, (True, 1))
 
 
 # ----------------------------------------------------------------- 10.10
@@ -859,10 +979,9 @@ training = exercise.task("10.10", "Train a controller", seconds=300)
 @training.check(8)
 def balances_after_training(student: Student):
     seed = exercise.seed(80) % 100_000
-    said = f"train(seed={seed})"
-    report = student.run(learnt, robot_text(True), "train", seed, said=said)
-    expect(isinstance(report, list) and len(report) == 3, f"{said}: no answer came back.")
-    answer, updates, same = report
+    robot = True, 1
+    said, report = learns(student, "train", seed, robot, np.inf)
+    answer, actions, _, updates, same, change = report
     expect(
         isinstance(answer, list) and 0 < len(answer) < 10,
         f"{said} returned {show(answer)}, but a list of layers is needed.",
@@ -877,9 +996,15 @@ def balances_after_training(student: Student):
         weights = expect_array(f"{said}: weights of layer {i}", layer[0], (neurons, inputs))
         layers.append((weights, expect_array(f"{said}: biases of layer {i}", layer[1], (neurons,))))
         inputs = neurons
-    expect_balance(said, layers, True, 81)
+    expect_balance(said, layers, robot, 81)
     expect(
         same is True,
         f"{said}: the layers are not those of a policy after one of PPO's updates, of which there "
         f"were {show(updates)}. What is asked for here is a network that PPO has trained.",
     )
+    expect(
+        change > 1e-3,
+        f"{said}: PPO's {show(updates)} updates changed the weights of the largest layer by "
+        f"{change:.2g} on average: the network knew before what it should have learnt.",
+    )
+    expect_seeded(student, "train", seed, robot, actions)

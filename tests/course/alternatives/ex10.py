@@ -255,3 +255,87 @@ def evolve(seed):
         population = np.concatenate([parents, parents + rng.normal(0, [0.1, 1, 0.5, 0.05], (8, 4))])
     fitness = robot.evaluate(population, seed, episodes=4, maxsteps=500)
     return population[fitness.argmax()].tolist()
+
+
+# %% by_the_tree
+# A dict of parents, numbers from a table of defaults; the spaces keep their limits as arrays.
+def describe(urdf):
+    root = ElementTree.fromstring(urdf)
+    offset = {root.find("link").get("name"): np.zeros(3)}
+    joints = []
+    for joint in root.iter("joint"):
+        names = {key: joint.find(key).attrib["link"] for key in ("parent", "child")}
+        move = numbers_of(joint.find("./origin"), "xyz", [0, 0, 0])
+        offset[names["child"]] = offset[names["parent"]] + np.array(move, dtype=float)
+        axis = np.array(numbers_of(joint.find("./axis"), "xyz", [1, 0, 0]), dtype=float).tolist()
+        joints.append({**names, "name": joint.get("name"), "type": joint.get("type"), "axis": axis})
+    masses, sums = {}, np.zeros(4)
+    for link in root.iter("link"):
+        name = link.get("name")
+        mass = float(link.find("inertial").find("mass").get("value"))
+        place = offset[name] + numbers_of(link.find("inertial").find("origin"), "xyz", [0, 0, 0])
+        masses[name] = mass
+        sums += mass * np.array([1, *place])
+    return {"centre": sums[1:] / sums[0], "mass": float(sums[0]), "joints": joints, "links": masses}
+
+
+class BalanceBotEnv(BalanceBotEnv):
+    def observe(self):
+        _, turn = pybullet.getBasePositionAndOrientation(self.robot, physicsClientId=self.client)
+        turning = pybullet.getBaseVelocity(self.robot, physicsClientId=self.client)[1]
+        x, y, z, w = turn
+        lean = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+        return np.array([lean, turning[0], self.speed]).astype("float32")
+
+
+# %% one_call_for_both_motors
+# One call of PyBullet for both motors, a step that asks its parts in another order.
+class BalanceBotEnv(BalanceBotEnv):
+    def drive(self, action):
+        change = max(-1.0, min(1.0, float(np.asarray(action).ravel()[0])))
+        self.speed = max(-FASTEST, min(FASTEST, self.speed + change))
+        pybullet.setJointMotorControlArray(
+            self.robot, (0, 1), pybullet.VELOCITY_CONTROL,
+            targetVelocities=(self.speed, -self.speed), physicsClientId=self.client,
+        )  # fmt: skip
+
+    def step(self, action):
+        self.drive(action)
+        pybullet.stepSimulation(physicsClientId=self.client)
+        fallen, reward = bool(self.fallen()), float(self.reward())
+        if self.render_mode not in (None, "rgb_array"):
+            self.render()
+        return self.observe(), reward, fallen, False, dict()
+
+    def reward(self):
+        return 1.0 - abs(0.05 * self.speed)
+
+    def fallen(self):
+        return pybullet.getBasePositionAndOrientation(self.robot, self.client)[0][2] < LOWEST
+
+
+# %% registered_by_a_text
+# The entry point is a function that hands everything on; another order in the package's files.
+def register_robot():
+    def made(render_mode=None):
+        return BalanceBotEnv(render_mode=render_mode)
+
+    gymnasium.register("BalanceBotBulletEnv-v0", made, max_episode_steps=500)
+
+
+def package_files():
+    project = {
+        "project": ['name = "balance_bot"', 'version = "2.0"',
+                    'dependencies = ["pybullet", "numpy>=1.26", "gymnasium[classic-control]>=1"]'],
+        "build-system": ['build-backend = "setuptools.build_meta"',
+                         'requires = ["setuptools>=70", "wheel"]'],
+        "tool.setuptools": ['packages = ["balance_bot"]'],
+        "tool.setuptools.package-data": ['balance_bot = ["*"]'],
+    }  # fmt: skip
+    lines = [line for name, rows in project.items() for line in (f"[{name}]", *rows, "")]
+    init = (
+        "from gymnasium import register\n\n"
+        "register('BalanceBotBulletEnv-v0', 'balance_bot.env:BalanceBotEnv', "
+        "max_episode_steps=500)\n"
+    )
+    return {"pyproject.toml": "\n".join(lines), "balance_bot/__init__.py": init}

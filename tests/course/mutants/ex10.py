@@ -41,6 +41,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 # %% part_of_the_quaternion loses 10.3, 10.7
 # Takes the first number of the quaternion for the angle.
+# says: this
 class BalanceBotEnv(BalanceBotEnv):
     def observe(self):
         seen = super().observe()
@@ -59,6 +60,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 # %% earth_gravity loses 10.4, 10.7
 # Gravity 9.81 downwards, as on earth, but not as in the text.
+# says: this
 class BalanceBotEnv(BalanceBotEnv):
     def reset(self, *, seed=None, options=None):
         answer = super().reset(seed=seed)
@@ -186,3 +188,291 @@ def train(seed):
     from stable_baselines3 import PPO
 
     return actor_layers(PPO("MlpPolicy", "BalanceBotBulletEnv-v0", seed=seed, device="cpu"))
+
+
+# %% places_in_the_parent loses 10.1
+# The place of a joint is taken in its parent's frame alone: earlier links of the chain do not count.
+# says: this
+# -         frames[child] = frames[parent] + origin
+# +         frames[child] = np.array(origin)
+
+
+# %% axis_without_sign loses 10.1
+# The axis of a joint has lost its sign.
+# says: this
+# -         axis = numbers_of(joint.find("axis"), "xyz", [1.0, 0.0, 0.0])
+# +         axis = [abs(each) for each in numbers_of(joint.find("axis"), "xyz", [1.0, 0.0, 0.0])]
+
+
+# %% mass_without_the_base loses 10.1
+# The mass is that of the links that a joint moves: the first link does not count.
+# says: this
+# -     mass, moment = sum(links.values()), np.zeros(3)
+# +     mass, moment = sum(list(links.values())[1:]), np.zeros(3)
+
+
+# %% in_simulation_0 loses 10.3, 10.7
+# Looks at the robot of simulation 0: the physicsClientId is missing.
+# says: this
+class BalanceBotEnv(BalanceBotEnv):
+    def observe(self):
+        _, orientation = pybullet.getBasePositionAndOrientation(self.robot)
+        velocity = pybullet.getBaseVelocity(self.robot, self.client)[1]
+        angle = pybullet.getEulerFromQuaternion(orientation)[0]
+        return np.array([angle, velocity[0], self.speed], dtype=np.float32)
+
+
+# %% speed_of_the_wheel loses 10.3, 10.7
+# Observes the speed at which the wheel turns, not the one that it should have.
+# says: this
+class BalanceBotEnv(BalanceBotEnv):
+    def observe(self):
+        seen = super().observe()
+        seen[2] = pybullet.getJointState(self.robot, 0, self.client)[1]
+        return seen
+
+
+# %% on_the_ground loses 10.4, 10.7
+# The robot begins at the height 0.
+# says: 30 steps later
+class BalanceBotEnv(BalanceBotEnv):
+    def reset(self, *, seed=None, options=None):
+        _, info = super().reset(seed=seed)
+        place, orientation = pybullet.getBasePositionAndOrientation(self.robot, self.client)
+        pybullet.resetBasePositionAndOrientation(
+            self.robot, [0, 0, place[2] - 0.001], orientation, physicsClientId=self.client
+        )
+        return self.observe(), info
+
+
+# %% robots_pile_up loses 10.4, 10.7
+# The old robot stays in the world: the simulation is not emptied.
+# says: this
+# -         pybullet.resetSimulation(physicsClientId=self.client)
+
+
+# %% own_inertia loses 10.4, 10.7
+# PyBullet computes the inertias anew: the flag is missing.
+# says: this
+# -             flags=pybullet.URDF_USE_INERTIA_FROM_FILE,
+# -             physicsClientId=self.client,
+# -         )
+# -         self.speed = 0.0
+# +             physicsClientId=self.client,
+# +         )
+# +         self.speed = 0.0
+
+
+# %% no_step_of_its_own loses 10.4, 10.7
+# The time step is PyBullet's own.
+# says: this
+# -         pybullet.setTimeStep(TIME_STEP, physicsClientId=self.client)
+
+
+# %% starts_twice_as_steep loses 10.4, 10.7
+# Begins with inclinations of up to 0.6.
+# says: this
+# -         inclination = self.np_random.uniform(-0.3, 0.3)
+# +         inclination = 2 * self.np_random.uniform(-0.3, 0.3)
+
+
+# %% changes_the_action loses 10.5
+# Cuts the caller's own array: the action is another one after the call.
+# says: changed the caller's array
+class BalanceBotEnv(BalanceBotEnv):
+    def drive(self, action):
+        np.clip(action, -1.0, 1.0, out=action)
+        super().drive(action)
+
+
+# %% limited_on_one_side loses 10.5
+# The speed is limited forwards, and not backwards.
+# says: this
+# -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
+# +         self.speed = float(min(self.speed + change, FASTEST))
+
+
+# %% remembers_the_uncut_speed loses 10.5
+# The motors get the limited speed, but self.speed keeps growing.
+# says: this
+# -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
+# -         for wheel, target in ((0, self.speed), (1, -self.speed)):
+# +         self.speed = float(self.speed + change)
+# +         cut = float(np.clip(self.speed, -FASTEST, FASTEST))
+# +         for wheel, target in ((0, cut), (1, -cut)):
+
+
+# %% rewarded_before_it_drives loses 10.6
+# The reward is that of the speed before the action.
+# says: this
+# -         self.drive(action)
+# -         pybullet.stepSimulation(self.client)
+# +         reward = self.reward()
+# +         self.drive(action)
+# +         pybullet.stepSimulation(self.client)
+# -         return self.observe(), self.reward(), self.fallen(), False, {}
+# +         return self.observe(), reward, self.fallen(), False, {}
+
+
+# %% window_not_drawn loses 10.6
+# A window is never drawn: step does not call render.
+# says: called self.render\(\) 0 times
+# -         if self.render_mode == "human":
+# -             self.render()
+# -         return self.observe(), self.reward(), self.fallen(), False, {}
+# +         return self.observe(), self.reward(), self.fallen(), False, {}
+
+
+# %% counts_its_steps_itself loses 10.6
+# The environment says by itself that 500 steps are over, which Gymnasium's time limit does.
+# says: never cuts an episode
+class BalanceBotEnv(BalanceBotEnv):
+    def reset(self, *, seed=None, options=None):
+        self.count = 0
+        return super().reset(seed=seed)
+
+    def step(self, action):
+        self.count = getattr(self, "count", 0) + 1
+        observation, reward, fallen, _, info = super().step(action)
+        return observation, reward, fallen, self.count >= 500, info
+
+
+# %% fallen_is_truncated loses 10.6, 10.7
+# A fall is reported as truncated.
+# says: this
+# -         return self.observe(), self.reward(), self.fallen(), False, {}
+# +         return self.observe(), self.reward(), False, self.fallen(), {}
+
+
+# %% without_a_render_mode loses 10.7
+# gymnasium.make cannot hand on a render_mode: the entry point takes none.
+# says: render_mode
+def register_robot():
+    gymnasium.register(
+        id="BalanceBotBulletEnv-v0", entry_point=lambda: BalanceBotEnv(), max_episode_steps=500
+    )
+
+
+# %% one_step_more loses 10.7
+# Episodes end after 501 steps.
+# says: 501
+# -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
+# +         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=501
+
+
+# %% no_such_backend loses 10.8
+# The build backend is none that exists.
+# says: build-backend is 'setuptools.build'
+_package_files = package_files
+
+
+def package_files():
+    files = _package_files()
+    files["pyproject.toml"] = files["pyproject.toml"].replace("build_meta", "build")
+    return files
+
+
+# %% needs_gym loses 10.8
+# Depends on the old package gym, and not on gymnasium.
+# says: must name gymnasium
+_package_files = package_files
+
+
+def package_files():
+    files = _package_files()
+    files["pyproject.toml"] = files["pyproject.toml"].replace("gymnasium>=1.0", "gym>=0.21")
+    return files
+
+
+# %% no_limit_in_the_package loses 10.8
+# The package registers the environment without a limit of steps.
+# says: was not cut
+_package_files = package_files
+
+
+def package_files():
+    files = _package_files()
+    init = files["balance_bot/__init__.py"].replace("    max_episode_steps=500,\n", "")
+    return {**files, "balance_bot/__init__.py": init}
+
+
+# %% by_heart_with_a_sign loses 10.9
+# Tries known weights with both signs, and keeps the better ones.
+# says: balances for 500 steps in
+def evolve(seed):
+    robot = Robot("BalanceBotBulletEnv-v0", nhiddens=0)
+    known = np.array([0.0, -8.0, -3.0, 0.3])
+    both = np.array([known, -known]) + 0.01 * np.random.default_rng(seed).standard_normal((2, 4))
+    return both[robot.evaluate(both, seed, episodes=1, maxsteps=500).argmax()]
+
+
+# %% evolves_from_known_weights loses 10.9
+# Begins to evolve at weights that balance already, with the sign that fits.
+# says: of 20 new|Begin with weights
+def evolve(seed):
+    robot = Robot("BalanceBotBulletEnv-v0", nhiddens=0)
+    rng = np.random.default_rng(seed)
+    known = np.array([0.0, -8.0, -3.0, 0.3])
+    both = np.array([known, -known])
+    centre = both[robot.evaluate(both, seed, episodes=1, maxsteps=500).argmax()]
+    for generation in range(5):
+        population = centre + 0.05 * rng.standard_normal((6, 4))
+        fitness = robot.evaluate(population, seed + generation, episodes=1, maxsteps=500)
+        centre = population[np.argsort(fitness)[-3:]].mean(axis=0)
+    return centre
+
+
+# %% seed_ignored loses 10.9
+# Evolves with the seed 1 always.
+# says: same first steps
+_evolve = evolve
+
+
+def evolve(seed):
+    return _evolve(1)
+
+
+# %% another_every_time loses 10.9
+# The same seed gives another controller each time.
+# says: all that is random must come from the seed
+_evolve = evolve
+
+
+def evolve(seed):
+    return _evolve(int(np.random.default_rng().integers(10_000)))
+
+
+# %% imitates_before_it_trains loses 10.10
+# Sets a network that was evolved before into PPO's policy; PPO then learns at a rate of nearly 0.
+# says: knew before
+def train(seed):
+    import torch
+    from stable_baselines3 import PPO
+
+    bias, *weights = evolve(seed)
+    model = PPO(
+        "MlpPolicy", "BalanceBotBulletEnv-v0", seed=seed, device="cpu", n_steps=256, n_epochs=1,
+        learning_rate=1e-9,
+    )  # fmt: skip
+    first, second, last = [*model.policy.mlp_extractor.policy_net, model.policy.action_net][::2]
+    with torch.no_grad():
+        for layer in (first, second, last):
+            layer.weight *= 0
+            layer.bias *= 0
+        first.weight[0] = torch.as_tensor(np.array(weights) / 100)
+        second.weight[0, 0] = 1.0
+        second.weight[1:] += 1e-3
+        last.weight[0, 0] = 100.0
+        last.bias[0] = bias
+    model.learn(512)
+    return actor_layers(model)
+
+
+# %% ppo_of_another_seed loses 10.10
+# PPO gets no seed: the same seed gives other networks.
+# says: all that is random must come from the seed
+# -         seed=seed,
+# -         device="cpu",
+# -         n_steps=512,
+# +         device="cpu",
+# +         n_steps=512,
