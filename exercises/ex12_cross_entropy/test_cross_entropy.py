@@ -687,13 +687,15 @@ def trained(module, environment, seed, signs, side, most):
     """The answer, the gradients computed, the calls of the losses, and the returns of all episodes.
 
     Of each episode also the return without its last reward: task 12.3 is judged elsewhere. Then the
-    first actions, and the parameters of what torch's optimisers changed: before their first step
-    and after the last one. After `most` episodes the training is broken off: the answer is None.
+    first actions, and of what torch's optimisers changed the parameters before their first step,
+    and whether W2 is among those after a step (W1 may hold a scale of the observations, too).
+    After `most` episodes the training is broken off: the answer is None.
 
     The environment is changed: each number observed is multiplied by its sign, and with side -1
     left and right of the action are exchanged. Who trains in it does not notice.
     """
     import gymnasium
+    import numpy
     import torch
     from torch.optim.optimizer import register_optimizer_step_post_hook as last_hook
     from torch.optim.optimizer import register_optimizer_step_pre_hook as first_hook
@@ -701,7 +703,7 @@ def trained(module, environment, seed, signs, side, most):
     spec = gymnasium.spec(environment)
     creator = gymnasium.envs.registration.load_env_creator(spec.entry_point)
     played, counts = [], {"gradients": 0, "losses": 0}
-    actions, learnt = [], []
+    actions, learnt, tables = [], [], []
 
     class BrokenOff(BaseException):
         pass
@@ -712,10 +714,15 @@ def trained(module, environment, seed, signs, side, most):
 
     def before(optimiser, *_):
         if not learnt:
-            learnt.extend([states(optimiser), []])
+            learnt.append(states(optimiser))
 
     def after(optimiser, *_):
-        learnt[1] = states(optimiser)
+        tables.extend(each for each in states(optimiser) if each.ndim == 2)
+
+    def reached(parameters):
+        last = numpy.asarray(parameters[2], dtype=float)
+        same = (each for each in tables if each.shape == last.shape)
+        return any(numpy.allclose(each, last, rtol=1e-4, atol=1e-5) for each in same)
 
     class Changed(creator):
         def reset(self, **options):
@@ -753,7 +760,10 @@ def trained(module, environment, seed, signs, side, most):
             setattr(module, name, counting(loss, "losses"))
     hooks = [first_hook(before), last_hook(after)]
     try:
-        return [module.train(environment, seed=seed), counts, played, actions, learnt]
+        answer = module.train(environment, seed=seed)
+        if learnt:
+            learnt.append(reached(answer["parameters"]))
+        return [answer, counts, played, actions, learnt]
     except BrokenOff:
         return [None, counts, played, actions, learnt]
     finally:
@@ -872,15 +882,11 @@ FIRST = 5
 
 def expect_learnt(said: str, environment: str, arrays: list, learnt: list, changed: tuple) -> None:
     """What is returned is what the optimiser made, of a network that could not balance before."""
-    first, last = ([np.array(each) for each in one] for one in learnt)
-    matching = any(
-        table.shape == arrays[0].shape and np.allclose(table, arrays[0], atol=1e-5)
-        for table in (*first, *last)
-    )
+    first, matching = [np.array(each) for each in learnt[0]], learnt[1] is True
     own = [each for each in first if each.ndim == 2], [each for each in first if each.ndim == 1]
     expect(
         matching,
-        f"{said}: W1 is not that of the network after the optimiser's last step: return the "
+        f"{said}: W2 is not that of the network after one of the optimiser's steps: return the "
         "parameters that your losses have led to.",
     )
     if len(own[0]) == 2 and len(own[1]) >= 2:
