@@ -370,6 +370,8 @@ def solved_for_good(student: Student):
     expect_solved(student, 39, [120.0, 110.0, 150.0], 0)
     expect_solved(student, 40, [5.0, 130.0, 140.0, 99.0], None)
     expect_solved(student, 41, [5.0, 50.0, 60.0, 100.5], 3)
+    expect_solved(student, 42, [5.0, 60.0, 98.0, 120.0], 3)
+    expect_solved(student, 43, [20.0, 97.0, 130.0], 2)
 
 
 @success.check(1)
@@ -448,9 +450,10 @@ def deviations_and_gains(student: Student):
 
 @table.check(3)
 def a_seed_counts_once(student: Student):
-    runs = drawn_runs(55, {"default": 4, "slow": 3})
-    again = [{**run, "return": run["return"] + 50} for run in runs[1:5]]
-    compare_table(student, runs + again, "default", "runs", "mean", "deviation", "gain")
+    for index, sizes in ((55, {"default": 4, "slow": 3}), (57, {"default": 2, "slow": 3})):
+        runs = drawn_runs(index, sizes)
+        again = [{**run, "return": run["return"] + 50} for run in runs[1:5]]
+        compare_table(student, runs + again, "default", "runs", "mean", "deviation", "gain")
 
 
 # ------------------------------------------------------------------- 14.5
@@ -549,6 +552,7 @@ def parts_of_a_training(student: Student):
 def borders_gaps_and_nan(student: Student):
     rng = generator(74)
     compare_phases(student, np.array([0, 100, 200, 300]), rng.normal(size=4), 300, 3)
+    compare_phases(student, np.array([0, 40, 50, 100]), generator(65).normal(size=4), 100, 2)
     compare_phases(student, np.array([80, 290]), rng.normal(size=2), 300, 3)
     values = rng.normal(size=12)
     values[[0, 5]] = np.nan
@@ -569,9 +573,10 @@ def expect_signs(student: Student, index: int, names: tuple[str, ...], missing: 
         values += rng.normal(0, 1, len(steps)) * (steps <= 2000)
         indicators[name] = {"steps": steps, "values": values}
         side, shift = ("above", "below")[rng.integers(2)], (0.2, -0.2)[rng.integers(2)]
-        chosen[f"sign {number}"] = (name, side, round(late + shift, 3))
+        sign = f"sign {(5 * number + 3) % 11}"  # in another order than that of the names
+        chosen[sign] = (name, side, round(late + shift, 3))
         if (side == "above") == (shift < 0) and number >= missing:
-            wanted.append(f"sign {number}")
+            wanted.append(sign)
     for number, name in enumerate(names[:missing]):
         if number % 2:
             del indicators[name]

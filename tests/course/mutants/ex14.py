@@ -328,3 +328,187 @@ def curve_of(place):
     if not str(place).endswith(".npy"):
         curve["steps"] = RunFolder(place).evaluations().steps
     return curve
+
+
+# %% last_run_of_each_variation loses 14.1
+# Keeps the last seed of each variation only.
+# -             records.append(
+# -                 {"variant": name, "seed": seed, "return": result, "folder": str(run.path)}
+# -             )
+# -     return records
+# +         records.append(
+# +             {"variant": name, "seed": seed, "return": result, "folder": str(run.path)}
+# +         )
+# +     return records
+
+
+# %% one_folder_for_all loses 14.1
+# All variations lie in one folder.
+# -             run = train("ppo", environment, Path(folder) / name, params=params, steps=steps,
+# +             run = train("ppo", environment, Path(folder), params=params, steps=steps,
+
+
+# %% best_post_evaluation loses 14.1
+# Reports the best post-evaluation instead of the last one.
+# -             result = run.evaluations().last
+# +             result = float(run.evaluations().returns.mean(axis=1).max())
+
+
+# %% eight_evaluations_always loses 14.1
+# The numbers of evaluations and episodes are the defaults, whatever is asked for.
+_train_variations = train_variations
+
+
+def train_variations(environment, variations, seeds, steps, folder, evaluations=8, episodes=5):
+    return _train_variations(environment, variations, seeds, steps, folder)
+
+
+# %% train_indicators_only loses 14.2
+# Reads the indicators of the training only, and not those of the episodes.
+# -     for name in log.Tags()["scalars"]:
+# +     for name in [each for each in log.Tags()["scalars"] if each.startswith("train/")]:
+
+
+# %% area_by_left_edges loses 14.3
+# The average weighs each value by the steps until the next one, without the line between them.
+# says: this
+# -     area = np.sum(widths * (means[:-1] + means[1:]) / 2)
+# +     area = np.sum(widths * means[:-1])
+
+
+# %% area_from_zero loses 14.3
+# The average counts the steps before the first post-evaluation, too.
+# -         "average": float(area / widths.sum()) if len(means) > 1 else float(means[0]),
+# +         "average": float((area + steps[0] * means[0]) / steps[-1]),
+
+
+# %% solved_by_the_best_episode loses 14.3
+# The goal counts as reached if one episode reaches it.
+# says: this
+# -     for when, mean in zip(steps[::-1], means[::-1], strict=True):
+# +     for when, mean in zip(steps[::-1], np.max(returns, axis=1)[::-1], strict=True):
+
+
+# %% never_solved_is_zero loses 14.3
+# A training that never reaches the goal is solved after 0 steps.
+# -         "solved": solved,
+# +         "solved": solved or 0,
+
+
+# %% last_result_counts loses 14.4
+# Of several results with the same variant and seed the last one counts.
+# says: this
+# -         results.setdefault(run["variant"], {}).setdefault(run["seed"], run["return"])
+# +         results.setdefault(run["variant"], {})[run["seed"]] = run["return"]
+
+
+# %% lowest_first loses 14.4
+# The rows begin with the lowest mean.
+# says: this
+# -     for variant in sorted(means, key=means.get, reverse=True):
+# +     for variant in sorted(means, key=means.get):
+
+
+# %% gain_in_percent loses 14.4
+# The gain is a share of the baseline's mean.
+# -                 "gain": float(means[variant] - means[baseline]),
+# +                 "gain": float((means[variant] - means[baseline]) / abs(means[baseline])),
+
+
+# %% halves_only loses 14.5
+# The groups are dealt out as if both had the size of the first one.
+# -     n, m = len(first), len(second)
+# -     observed = abs(np.mean(first) - np.mean(second))
+# -     ways = np.array(list(combinations(range(n + m), n)))
+# +     n, m = len(first), len(second)
+# +     observed = abs(np.mean(first) - np.mean(second))
+# +     ways = np.array(list(combinations(range(n + m), min(n, m))))
+
+
+# %% without_the_real_way loses 14.5
+# The way in which the results really fell is not counted among the ways.
+# -     return float(np.mean(differences >= observed - 1e-9))
+# +     return float(np.mean(differences[1:] >= observed - 1e-9))
+
+
+# %% medians_for_means loses 14.5
+# Compares medians, not means.
+# -     observed = abs(np.mean(first) - np.mean(second))
+# +     observed = abs(np.median(first) - np.median(second))
+# -     totals = together[ways].sum(axis=1)
+# -     differences = abs(totals / n - (together.sum() - totals) / m)
+# +     rest = [[i for i in range(n + m) if i not in way] for way in ways.tolist()]
+# +     medians = np.median(together[ways], axis=1)
+# +     differences = abs(medians - np.median(together[np.array(rest, dtype=int)], axis=1))
+
+
+# %% step_0_left_out loses 14.6
+# What was logged at step 0 belongs to no part.
+# says: this
+# -         if part == 0:
+# -             inside |= steps == 0
+
+
+# %% border_in_both loses 14.6
+# What was logged at the border of two parts counts in both.
+# says: this
+# -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
+# +         inside = (steps * parts >= part * total) & (steps * parts <= (part + 1) * total)
+
+
+# %% three_parts_always loses 14.6
+# There are three parts, however many are asked for.
+# says: this
+# -     means = []
+# -     for part in range(parts):
+# +     means, parts = [], 3
+# +     for part in range(parts):
+
+
+# %% signs_in_the_order_of_their_names loses 14.6
+# The signs come in the order of their names.
+_warning_signs = warning_signs
+
+
+def warning_signs(indicators, total, signs):
+    return sorted(_warning_signs(indicators, total, signs))
+
+
+# %% equal_numbers_share_the_lowest_rank loses 14.7
+# Equal numbers get the lowest rank of theirs, not the mean.
+# says: this
+# -         ranks = smaller + (equal + 1) / 2
+# +         ranks = smaller + (equal > 0)
+
+
+# %% correlation_without_sign loses 14.7
+# The correlation is never negative.
+# says: this
+# -     return float((a * b).sum() / below) if below > 0 else 0.0
+# +     return abs(float((a * b).sum() / below)) if below > 0 else 0.0
+
+
+# %% one_when_all_are_equal loses 14.7
+# Two arrays of which one holds equal numbers correlate by 1.
+# -     return float((a * b).sum() / below) if below > 0 else 0.0
+# +     return float((a * b).sum() / below) if below > 0 else 1.0
+
+
+# %% last_value_for_best loses 14.8
+# The curve of a training falls again: it holds the means, not the best so far.
+# says: this
+# -         "best": np.maximum.accumulate(found.returns.mean(axis=1)),
+# +         "best": found.returns.mean(axis=1),
+
+
+# %% post_evaluation_not_included loses 14.8
+# The steps of a post-evaluation count from the next one on.
+# says: this
+# -         "steps": found.steps + found.lengths.sum(axis=1).cumsum(),
+# +         "steps": found.steps + found.lengths.sum(axis=1).cumsum() - found.lengths.sum(axis=1),
+
+
+# %% each_group_has_its_own_steps loses 14.8
+# The range of the steps follows from the last group only.
+# -     curves = [curve for group in groups.values() for curve in group]
+# +     curves = [*groups.values()][-1]
