@@ -445,6 +445,7 @@ def places_of_the_fall(student: Student):
     cases += [np.round(generator(29).normal(size=50), 3)]
     cases += [np.array([1.0, 4.0, 4.0, 2.0, 3.0, 2.0, 9.0]), np.array([0.0, 5.0, 3.0, 6.0, 1.0])]
     cases += [np.array([-5.0, -1.0, -3.0, 2.0, 0.0]), np.arange(4.0), np.full(3, -7.0)]
+    cases += [np.array([3.0, 3.0, 0.0, 4.0])]
     for curve in cases:
         said, answer, right = judged(student, curve)
         for key in ("peak", "bottom"):

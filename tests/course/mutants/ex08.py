@@ -422,3 +422,131 @@ _train = train
 
 def train(environment, seed):
     return _train(environment, int(np.random.default_rng().integers(1 << 30)))
+
+
+# %% one_side_only loses 8.1
+# Both candidates of a sample lie on the same side of the centre.
+# says: this
+# -     candidates[1::2] = centre - noiseStdDev * samples
+# +     candidates[1::2] = centre + noiseStdDev * samples
+
+
+# %% centre_scaled loses 8.1
+# The noise multiplies the centre instead of being added.
+# says: this
+# -     candidates[0::2] = centre + noiseStdDev * samples
+# -     candidates[1::2] = centre - noiseStdDev * samples
+# +     candidates[0::2] = centre * (1 + noiseStdDev * samples)
+# +     candidates[1::2] = centre * (1 - noiseStdDev * samples)
+
+
+# %% ranks_from_zero_to_one loses 8.2
+# The ranks are not centred: they run from 0 to 1.
+# says: this
+# -     utilities[np.argsort(fitness, kind="stable")] = np.linspace(-0.5, 0.5, len(fitness))
+# +     utilities[np.argsort(fitness, kind="stable")] = np.linspace(0, 1, len(fitness))
+
+
+# %% standardised_fitness loses 8.2
+# The utilities are the standardised fitness, not ranks.
+# says: this
+# -     utilities[np.argsort(fitness, kind="stable")] = np.linspace(-0.5, 0.5, len(fitness))
+# +     fitness = np.asarray(fitness, dtype=float)
+# +     utilities[:] = (fitness - fitness.mean()) / (fitness.std() + 1e-8)
+
+
+# %% later_equals_lower loses 8.2
+# Of equals, the one that comes last gets the lower rank.
+# says: this
+# -     utilities[np.argsort(fitness, kind="stable")] = np.linspace(-0.5, 0.5, len(fitness))
+# +     order = np.argsort(np.asarray(fitness)[::-1], kind="stable")
+# +     utilities[::-1][order] = np.linspace(-0.5, 0.5, len(fitness))
+
+
+# %% halves_for_pairs loses 8.3
+# Takes the first half of the utilities for the plus side and the second for the minus side.
+# says: this
+# -     weights = utilities[0::2] - utilities[1::2]
+# +     half = len(utilities) // 2
+# +     weights = utilities[:half] - utilities[half:]
+
+
+# %% decay_ten_times_as_strong loses 8.4
+# The decay is ten times as strong.
+# says: this
+# -     return -gradient + 0.005 * pull
+# +     return -gradient + 0.05 * pull
+
+
+# %% kinds_of_decay_exchanged loses 8.4
+# The two kinds of decay are exchanged.
+# says: this
+# -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
+# +     pull = {0: np.zeros(len(centre)), 2: centre, 1: np.sign(centre)}[wdecay]
+
+
+# %% decays_exchanged_in_adam loses 8.5
+# The decay rates of m and v are exchanged.
+# says: this
+# -     m = 0.9 * m + 0.1 * d
+# -     v = 0.999 * v + 0.001 * d**2
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# +     m = 0.999 * m + 0.001 * d
+# +     v = 0.9 * v + 0.1 * d**2
+# +     step = (m / (1 - 0.999**t)) / (np.sqrt(v / (1 - 0.9**t)) + 1e-8)
+
+
+# %% adam_climbs loses 8.5
+# The step goes along d, not against it.
+# says: this
+# -     return centre - stepsize * step, m, v
+# +     return centre + stepsize * step, m, v
+
+
+# %% one_seed_for_all_generations loses 8.6
+# All generations are evaluated with the same seed.
+# -         fitness = evaluate(candidates_around(centre, samples, noiseStdDev), seed + generation)
+# +         fitness = evaluate(candidates_around(centre, samples, noiseStdDev), seed)
+
+
+# %% samples_drawn_once loses 8.6
+# The samples are drawn once, and are the same in every generation.
+# -     for generation in range(generations):
+# -         samples = rng.standard_normal((samplesize, len(centre)))
+# +     samples = rng.standard_normal((samplesize, len(centre)))
+# +     for generation in range(generations):
+
+
+# %% median_in_the_history loses 8.6
+# The history holds the median of the candidates, not the mean.
+# -         history.append(float(np.mean(fitness)))
+# +         history.append(float(np.median(fitness)))
+
+
+# %% divided_at_the_ends loses 8.7
+# The mean goes over the neighbours that there are, and the curve keeps its length.
+# -     return np.convolve(curve, np.full(width, 1 / width), mode="valid")
+# +     window = np.ones(width)
+# +     counts = np.convolve(np.ones(len(curve)), window, mode="same")
+# +     return np.convolve(curve, window, mode="same") / counts
+
+
+# %% fall_by_the_height loses 8.7
+# The fall is a share of the height that it fell from, not of the whole range.
+# says: this
+# -     height = curve.max() - curve.min()
+# +     height = curve[peak]
+
+
+# %% last_bottom loses 8.7
+# Of equal falls the last one counts.
+# says: this
+# -     bottom = int(np.argmax(falls))
+# +     bottom = len(falls) - 1 - int(np.argmax(falls[::-1]))
+
+
+# %% last_peak loses 8.7
+# Of equal heights before the fall the last one is the peak.
+# says: this
+# -     peak = int(np.argmax(curve[: bottom + 1]))
+# +     peak = bottom - int(np.argmax(curve[: bottom + 1][::-1]))
