@@ -262,7 +262,9 @@ def compare_described(student: Student, walk: tuple, names: tuple) -> None:
     answer = student.call("describe", *walk)
     expected = described(*walk)
     for name, value in zip(names, expect_fields(student.said, answer, *names), strict=True):
-        expect_close(f"describe(...): {name}", value, expected[name], 1e-4)
+        near = int(np.sum(np.asarray(walk[1]) > 0))
+        said = f"describe(<{len(walk[1])} steps, near the cylinder in {near}>): {name}"
+        expect_close(said, value, expected[name], 1e-4)
 
 
 @behaviour.check(10)

@@ -14,6 +14,7 @@
 
 # %% memory_overwritten loses 6.1
 # The new memory is written into the array of the old one.
+# says: in place
 _think = think
 
 
@@ -342,3 +343,115 @@ def reactions(brain, observation, memories):
 # The bias of the two wheels is left out.
 # -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
 # +     action = np.tanh(brain["readout"] @ outputs)
+
+
+# %% five_hundred_steps_always loses 6.2
+# An episode lasts up to 500 steps, whatever is asked for.
+# -     arena = arenas.make("discrim", max_steps=maxsteps)
+# +     arena = arenas.make("discrim", max_steps=500)
+
+
+# %% seed_not_used loses 6.2
+# The arena is reset with the same seed in every episode.
+# -     arena.reset(seed)
+# +     arena.reset(0)
+
+
+# %% sensed_before_it_was_moved loses 6.2
+# The first observation is that of the place where the seed has put the robot.
+# -     arena.robots[0] = start
+# -     arena.objects[0, :2] = cylinder
+# -     arena.sense()
+# +     arena.robots[0] = start
+# +     arena.objects[0, :2] = cylinder
+
+
+# %% upper_end_left_out loses 6.3
+# The last place of each row is left out of the range: the upper ends are missing.
+# says: this
+# -     ys, xs = np.linspace(270, 350, places), np.linspace(150, 250, places)
+# +     steps = np.arange(places) / places
+# +     ys, xs = 270 + 80 * steps, 150 + 100 * steps
+
+
+# %% never_near_searches_nothing loses 6.4
+# A robot that never gets near the cylinder has a search of 0 steps.
+# says: search is 0, but
+# -     search = int(near.argmax()) if near.any() else len(rewards)
+# +     search = int(near.argmax())
+
+
+# %% pace_forwards loses 6.4
+# The pace counts the way forwards alone, with its sign.
+# says: this
+# -         "pace": mean(np.hypot(*moved[near].T)),
+# +         "pace": mean(forward[near]),
+
+
+# %% wall_of_the_whole_episode loses 6.4
+# The time near a wall is that of the whole episode, not of the search.
+# says: this
+# -         "wall": mean(to_wall[:search] < 72.5),
+# +         "wall": mean(to_wall < 72.5),
+
+
+# %% side_in_the_arena loses 6.4
+# The side is where the cylinder lies in the arena, not as the robot sees it.
+# says: this
+# -     bearing = np.arctan2(away[:, 1], away[:, 0]) - after[:, 2]
+# +     bearing = np.arctan2(away[:, 1], away[:, 0])
+
+
+# %% farthest_relative loses 6.5
+# Two families are as far apart as their most different robots.
+# says: this
+# -         apart = [distance[np.ix_(groups[i], groups[j])].mean() for i, j in pairs]
+# +         apart = [distance[np.ix_(groups[i], groups[j])].max() for i, j in pairs]
+
+
+# %% city_blocks loses 6.5
+# The distance is the sum of the differences, not the straight line.
+# says: this
+# -     distance = np.linalg.norm(rows[:, None] - rows[None], axis=2)
+# +     distance = np.abs(rows[:, None] - rows[None]).sum(axis=2)
+
+
+# %% frozen_from_the_first_episode loses 6.6
+# The frozen memory is that of the first episode: it is kept from one episode to the next.
+def freeze(since):
+    kept = []
+
+    def remember(step, before, after):
+        if step < since:
+            return after
+        kept.append(before)
+        return kept[0]
+
+    return remember
+
+
+# %% one_seed_for_all_starts loses 6.6
+# All episodes have the same seed.
+# -             episode(brain, start, cylinder, seed + i, remember, maxsteps)
+# -             for i, start in enumerate(starts)
+# +             episode(brain, start, cylinder, seed, remember, maxsteps)
+# +             for start in starts
+
+
+# %% last_reward_for_the_return loses 6.6
+# The return is the reward of the last step.
+# -         returns[name] = float(np.mean([each["rewards"].sum() for each in episodes]))
+# +         returns[name] = float(np.mean([each["rewards"][-1] for each in episodes]))
+
+
+# %% forgets_the_cells_alone loses 6.6
+# Only the cells are forgotten: the outputs of the step before stay.
+def forget(step, before, after):
+    return np.stack([np.zeros_like(after[0]), after[1]])
+
+
+# %% memories_are_averaged loses 6.7
+# Reacts with the mean of all memories.
+# -     return np.array([think(brain, observation, memory)[0] for memory in memories])
+# +     mean_memory = np.mean(memories, axis=0)
+# +     return np.array([think(brain, observation, mean_memory)[0] for memory in memories])
