@@ -340,3 +340,90 @@ def describe(poses):
         "wall": (margin.min(axis=0)[:-1] < 300).mean(axis=0),
         "distance": np.abs(other[:, 0]).mean(),
     }
+
+
+# %% sums_in_place_of_means
+# Sums and counts in place of means, loops over generations, a table of the pairs.
+def master(table):
+    count, n, others, m = np.shape(table)
+    predators = np.einsum("ginj->gn", table) / (n * m)
+    return {"prey": np.array([[1 - predators[g, h] for g in range(count)] for h in range(others)]),
+            "predators": predators}  # fmt: skip
+
+
+def profile(matrix):
+    count = len(matrix)
+    below, above = np.tril(matrix, -1), np.triu(matrix, 1)
+    numbers = np.arange(1, count)
+    return {
+        "future": above.sum(axis=1)[:-1] / numbers[::-1],
+        "ancient": below.sum(axis=1)[1:] / numbers,
+        "present": [matrix[g][g] for g in range(count)],
+    }
+
+
+def red_queen(matrix):
+    count = len(matrix)
+    rows, columns = matrix.sum(axis=1) / count, matrix.sum(axis=0) / count
+    present = matrix.diagonal()
+    return {
+        "own": rows[1:] - rows[0],
+        "others": columns[1:] - columns[0],
+        "change": present[1:] - present[0],
+    }
+
+
+# %% combinations
+# itertools for the triples, generators for the cases, complex numbers for the headings.
+from itertools import combinations
+
+
+def cycles(matrix):
+    groups = list(combinations(range(len(matrix)), 3))
+    won = [[matrix[a, b] > matrix[b, a] for b in range(len(matrix))] for a in range(len(matrix))]
+    found = 0
+    for group in groups:
+        wins = sorted(sum(won[a][b] for b in group if b != a) for a in group)
+        found += wins == [1, 1, 1]
+    return found / len(groups) if groups else 0
+
+
+def progress(matrix):
+    count = len(matrix)
+    historical, overall, points, cases = [], [], 0.0, 0
+    for g in range(1, count):
+        gains = [matrix[g][h] - matrix[g - 1][h] for h in range(count)]
+        overall.append(sum(gains) / count)
+        historical.append(sum(gains[:g]) / g)
+        points += sum(1.0 if gain > 0 else 0.5 if gain == 0 else 0.0 for gain in gains[:g])
+        cases += g
+    return {"historical": historical, "global": overall, "share": points / cases}
+
+
+# %% take_along_axis
+# take_along_axis for the resamples, percentiles, arenas with a list of actions.
+def interval(table, measure, rng, resamples=300):
+    table = np.asarray(table)
+    found = np.empty(resamples)
+    for i in range(resamples):
+        first = rng.integers(0, table.shape[1], (table.shape[0], table.shape[1]))
+        second = rng.integers(0, table.shape[3], (table.shape[2], table.shape[3]))
+        drawn = np.take_along_axis(table, first[:, :, None, None], axis=1)
+        found[i] = measure(np.take_along_axis(drawn, second[None, None], axis=3))
+    return tuple(np.percentile(found, [2.5, 97.5]))
+
+
+def chase(predator, prey, maxsteps=2000):
+    arena = arenas.make("predprey", max_steps=maxsteps)
+    arena.reset(seed=1)
+    minds, poses, total = [robot(predator), robot(prey)], [np.array(arena.robots)], 0
+    half = len(arena.observation) // 2
+    while not arena.done:
+        seen, wheels = np.array(arena.observation), []
+        for i, mind in enumerate(minds):
+            mind.observation = seen[i * half : (i + 1) * half]
+            wheels += list(mind.step())
+        arena.action = np.array(wheels)
+        total = total + arena.step()
+        poses.append(np.array(arena.robots))
+    return {"fitness": total, "caught": bool(arena.terminated), "poses": np.stack(poses)}

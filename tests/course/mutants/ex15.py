@@ -182,6 +182,7 @@ def progress(matrix):
 
 # %% equal_is_not_better loses 15.5
 # Counts only those who do better, and nothing for a draw.
+# says: this
 _progress = progress
 
 
@@ -431,3 +432,125 @@ def describe(poses):
 # -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
 # +         hunters = rng.integers(max(n - 1, 1), size=(rows, n))
 # +         hunted = rng.integers(max(m - 1, 1), size=(columns, m))
+
+
+# %% last_pose_missing loses 15.1
+# The poses after the last step are missing.
+# -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
+# +     return {"poses": np.array(poses[:-1]), "caught": arena.terminated, "fitness": float(fitness)}
+
+
+# %% two_thousand_steps_always loses 15.1
+# A chase lasts up to 2000 steps, whatever is asked for.
+# -     arena = arenas.make("predprey", max_steps=maxsteps)
+# +     arena = arenas.make("predprey", max_steps=2000)
+
+
+# %% one_prey_a_generation loses 15.2
+# Only the first prey of each generation plays, and its result stands for all.
+# -     pairs = np.array([(i, j) for i in range(len(hunters)) for j in range(len(hunted))])
+# +     m = len(prey[0])
+# +     pairs = np.array([(i, j // m * m) for i in range(len(hunters)) for j in range(len(hunted))])
+
+
+# %% two_thousand_in_the_tournament loses 15.2
+# The tournament's chases last up to 2000 steps, whatever is asked for.
+# -     fitness = play(hunters, hunted, pairs, maxsteps)
+# +     fitness = play(hunters, hunted, pairs, 2000)
+
+
+# %% best_individuals loses 15.3
+# Each generation counts by its best individual, not by the mean.
+# says: this
+# -     mean = table.mean(axis=(1, 3))
+# +     mean = table.max(axis=1).mean(axis=2)
+
+
+# %% mean_of_the_first_only loses 15.3
+# Averages over the predators, and takes the first prey for all.
+# says: this
+# -     mean = table.mean(axis=(1, 3))
+# +     mean = table.mean(axis=1)[:, :, 0]
+
+
+# %% future_and_ancient_swapped loses 15.4
+# Ancient and future competitors are exchanged.
+# says: this
+# -         "ancient": np.array([matrix[g, :g].mean() for g in range(1, count)]),
+# +         "ancient": np.array([matrix[g, g + 1 :].mean() for g in range(count - 1)]),
+# -         "future": np.array([matrix[g, g + 1 :].mean() for g in range(count - 1)]),
+# +         "future": np.array([matrix[g, :g].mean() for g in range(1, count)]),
+
+
+# %% last_generation_only loses 15.4
+# The ancient are only those of the generation before.
+# says: this
+# -         "ancient": np.array([matrix[g, :g].mean() for g in range(1, count)]),
+# +         "ancient": np.array([matrix[g, g - 1] for g in range(1, count)]),
+
+
+# %% global_without_the_present loses 15.5
+# Global progress leaves out the competitors of the same generation.
+# says: this
+# -         "global": gain.mean(axis=1),
+# +         "global": np.array([np.delete(row, g).mean() for g, row in enumerate(gain, 1)]),
+
+
+# %% share_of_the_means loses 15.5
+# The share counts generations whose mean progress is positive, not the single cases.
+# says: this
+# -         "share": float(np.mean((cases > 0) + 0.5 * (cases == 0))),
+# +         "share": float(np.mean([row.mean() > 0 for row in ancient])),
+
+
+# %% every_triple_twice loses 15.5
+# The cycles are counted in both directions, but divided by the groups of one order only.
+# says: this
+# -     return float(np.mean(triples)) if triples else 0.0
+# +     return 2 * float(np.mean(triples)) if triples else 0.0
+
+
+# %% no_group_is_a_cycle loses 15.5
+# Without a group of three the share is 1, not 0.
+# -     return float(np.mean(triples)) if triples else 0.0
+# +     return float(np.mean(triples)) if triples else 1.0
+
+
+# %% change_from_generation_to_generation loses 15.6
+# The change is that from each generation to the next one, not that since the first.
+# says: this
+# -         "change": np.diag(matrix)[1:] - matrix[0, 0],
+# +         "change": np.diff(np.diag(matrix)),
+
+
+# %% own_against_the_present loses 15.6
+# Its own part is that against the competitors of its own time only.
+# says: this
+# -         "own": (matrix[1:] - matrix[0]).mean(axis=1),
+# +         "own": np.diag(matrix[1:, 1:]) - matrix[0, 1:],
+
+
+# %% one_draw_for_both_sides loses 15.7
+# The individuals drawn of the predators are those drawn of the prey.
+# -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
+# +         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
+# +         hunted[: len(hunters), : hunters.shape[1]] = hunters[: len(hunted), : hunted.shape[1]] % m
+
+
+# %% three_hundred_always loses 15.7
+# Draws 300 times, whatever is asked for.
+# -     for _ in range(resamples):
+# +     for _ in range(300):
+
+
+# %% signed_turning loses 15.8
+# Turns to the left and to the right cancel out.
+# says: this
+# -         "turning": np.abs(turned).mean(axis=0) / 0.1,
+# +         "turning": turned.mean(axis=0) / 0.1,
+
+
+# %% speed_of_the_whole_way loses 15.8
+# The speed is that of the straight line from the start to the end.
+# -         "speed": np.linalg.norm(moved, axis=-1).mean(axis=0) / 0.1,
+# +         "speed": np.linalg.norm(moved.mean(axis=0), axis=-1) / 0.1,
