@@ -188,3 +188,88 @@ def test_a_strategy_that_changed_after_the_runs_costs_its_runs(tmp_path):
     path.write_text(path.read_text().replace("default_rng(seed)", "default_rng(seed + 1)"))
     assert points(place) == FULL | {"runs": 5, "measurements": 17.5, "figure": 0, "conclusion": 5}
     assert "strategy.py" in messages(place)
+
+
+# --- what each laboratory takes off, as its declaration says
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A function that gives a finished laboratory, made once."""
+    made = {}
+
+    def of(number):
+        if number not in made:
+            made[number] = honest(small(number), tmp_path_factory.mktemp("finished"))
+        return made[number]
+
+    return of
+
+
+def without(lab, condition, evidence):
+    """The points that are left where a condition has a run too few; evidence: for the others."""
+    most = len(lab.conditions)
+    cells = [
+        (c.name, column) for c in lab.conditions for column in lab.columns if column.only(c.name)
+    ]
+    kept = sum(name != condition for name, _ in cells)
+    return FULL | {
+        "runs": round(evidence + 10 * (most - 1) / most, 1),
+        "measurements": round(10 + 15 * kept / len(cells), 1),
+        "conclusion": sum(s.points for s in lab.statements if condition not in s.needs),
+    }
+
+
+def with_other_genotype(place):
+    """A robot exchanged, in the first run of the last condition."""
+    name = place.lab.conditions[-1].name
+    file = next((place.runs / name).glob("bestgS*.npy"))
+    genotype = np.load(file)
+    genotype[:3] += 0.5
+    np.save(file, genotype)
+    return without(place.lab, name, 0)
+
+
+def with_a_run_too_few(place):
+    name = place.lab.conditions[-1].name
+    next((place.runs / name).glob("statS*.npy")).unlink()
+    return without(place.lab, name, 15)
+
+
+def with_another_prediction(place):
+    answer(place, {"why": "I knew it before because somebody has told me the result of it all."})
+    return dict.fromkeys(FULL, 0)
+
+
+def with_an_invented_number(place):
+    name = place.lab.conditions[-1].name
+    row = rf"^(\| {re.escape(name)} \| )[^|]*"
+    edit(place, lambda text: re.sub(row, r"\g<1>-77777 ", text, flags=re.M))
+    cells = sum(col.only(c.name) for c in place.lab.conditions for col in place.lab.columns)
+    return FULL | {"measurements": round(10 + 15 * (cells - 1) / cells, 1)}
+
+
+def with_a_conclusion_against_its_data(place):
+    """The first choice says what the student's own data do not support."""
+    checked, lab = Check(place).all(), place.lab
+    kinds = {field.id: field.kind for field in lab.fields}
+    statement = next(s for s in lab.statements if kinds[s.field] == "choice")
+    right, _ = statement.judge(checked.data, checked.answers)
+    labels = re.findall(r"\[.\] (.+?)(?=   |$)", place.sheet().raw(statement.field), re.M)
+    answer(place, {statement.field: next(label for label in labels if not right(label))})
+    return FULL | {"conclusion": 25 - statement.points}
+
+
+@pytest.mark.parametrize("number", [14, 15])
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        with_other_genotype,
+        with_a_run_too_few,
+        with_another_prediction,
+        with_an_invented_number,
+        with_a_conclusion_against_its_data,
+    ],
+)
+def test_a_wrong_sheet_loses_exactly_what_it_should(finished, tmp_path, number, spoil):
+    place = copied(finished(number), tmp_path)
+    expected = spoil(place)
+    assert points(place) == expected, messages(place)

@@ -54,3 +54,61 @@ def lab(
         commands.report_command(number)
     else:
         raise BotschoolError(f"lab has no action {action}: write start, run, check or report.")
+
+
+@app.command(epilog="Example: botschool enter 'lab09/runs/bonus 0/bestgS7.npy' --name Ada")
+def enter(
+    genotype: Annotated[
+        Path, typer.Argument(help="A bestgS*.npy that a run has saved.", metavar="GENOTYPE")
+    ],
+    file: Annotated[
+        Path | None,
+        typer.Option(
+            "-f",
+            "--file",
+            help="Its experiment (.ini).",
+            metavar="FILE",
+            show_default="that of the laboratory whose run it is",
+        ),
+    ] = None,
+    name: Annotated[
+        str, typer.Option(help="Shown on the league's page; without it you stay anonymous.")
+    ] = "",
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="The entry.", metavar="FILE")
+    ] = None,
+) -> None:
+    """Make an entry for the league: one file of some KB with your robot."""
+    from botschool.labs.entries import write_entry
+
+    path = write_entry(genotype, file, name, output)
+    print(f"entry: {path} ({path.stat().st_size / 1000:.0f} kB), {name or 'anonymous'}")
+
+
+@app.command(epilog="Example: botschool league entries -o results/league.html")
+def league(
+    folder: Annotated[Path, typer.Argument(help="Folder of entries.", metavar="FOLDER")],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="The page; a .csv beside it.", metavar="FILE")
+    ] = Path("results/league.html"),
+    title: Annotated[str, typer.Option(help="The page's heading.")] = "The league",
+) -> None:
+    """For instructors: let everybody's robots compete, and make a page of the results.
+
+    Hoppers, walkers and cheetahs run for metres, cart-poles balance longer and longer poles, and
+    all predators chase all prey. Everything is measured here.
+    """
+    from botschool.grading.run.temporary import temporary_folder
+    from botschool.labs.league import compete, results_csv
+    from botschool.labs.league_page import write_page
+    from botschool.output import save_bytes
+
+    found = compete(folder, print)
+    output.parent.mkdir(parents=True, exist_ok=True)
+    with temporary_folder() as temporary:
+        write_page(found, output, temporary, title)
+    table = output.with_suffix(".csv")
+    save_bytes(table, results_csv(found))
+    for sentence in found.refused:
+        print(f"not in the league: {sentence}")
+    print(f"Page: {output}   Table: {table}")

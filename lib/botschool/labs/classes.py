@@ -30,7 +30,9 @@ SECONDS = 60
 """Of processor time, that the parts of a laboratory may take one by one."""
 MAX_FILE, MAX_ALL = 20 * 2**20, 45 * 2**20
 _TITLE = re.compile(rb"\s*#\s+Laboratory\s+(\d+)\.")
-_NEEDED = re.compile(r"\w+\.py|runs/(?:runs\.json|[^/]+/(?:(?:statS|bestgS)\d+|S\d+G\d+)\.npy)")
+_NEEDED = re.compile(
+    r"\w+\.py|runs/(?:runs\.json|[^/]+/(?:(?:statS|bestgS)\d+\.npy|S\d+G\d+\.npy|checkpointS\d+\.npz))"
+)
 
 
 class Part(Task):

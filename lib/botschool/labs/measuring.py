@@ -114,6 +114,37 @@ def swing(run: dict[str, Any], gravity: float = 10.0, episodes: int = 10) -> dic
     }
 
 
+def chases(run: dict[str, Any], best: int = 5) -> np.ndarray:
+    """Let the best predators and prey of all saved generations of a run meet.
+
+    Returns the predators' fitness, shape (G, n, G, n): entry [g, i, h, j] is that of predator i of
+    the g-th saved generation against prey j of the h-th one. best: n.
+    """
+    from botschool import problems
+    from botschool.config import from_dict
+    from botschool.problems import Episodes
+
+    experiment = from_dict(run["experiment"])
+    problem = problems.of(experiment)
+    sides = [np.split(np.asarray(each), 2) for each in run["populations"].values()]
+    predators = np.concatenate([each[0][:best] for each in sides])
+    prey = np.concatenate([each[1][:best] for each in sides])
+    row, column = np.indices((len(predators), len(prey)), dtype=np.int32).reshape(2, -1)
+    met = problem.evaluate(
+        problem.policy(experiment.policy),
+        np.concatenate([predators, prey]),
+        None,
+        Episodes(
+            np.ascontiguousarray(np.stack([row, column + len(predators)]), dtype=np.int32),
+            np.zeros(len(row), dtype=np.uint64),
+            np.zeros(len(row), dtype=np.uint32),
+        ),
+        experiment.policy.maxsteps,
+    )
+    count = len(sides)
+    return met.fitness.reshape(count, len(predators) // count, count, len(prey) // count)
+
+
 def seconds_per_million(number: int, condition: str) -> float:
     """The processor time that a million steps of a laboratory's condition take on this machine."""
     from time import process_time

@@ -1,0 +1,149 @@
+"""Entries of a league: one file of some KB each, with a robot, its network's kind and a name."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from botschool import problems
+from botschool.config import Experiment, from_dict, load, to_dict
+from botschool.errors import BotschoolError
+from botschool.labs.declare import load_lab
+from botschool.output import save_npz
+from botschool.policies.policy import Policy
+from botschool.problems.base import Problem
+
+DISCIPLINES = {
+    "PlanarHopper-v5": "hopper",
+    "PlanarWalker2D-v5": "walker",
+    "PlanarHalfCheetah-v5": "cheetah",
+    "CartPole-v1": "cart-pole",
+    "ErPredprey": "chase",
+}
+"""Environment -> where its robots compete."""
+ALIKE = {"CartPole-v0": "CartPole-v1"} | {
+    name.replace("v5", "v0"): name for name in DISCIPLINES if name.startswith("Planar")
+}
+"""Environments whose robots are the same."""
+MAX_BYTES, MAX_CONTENT, MAX_NAME = 2**20, 4 * 2**20, 40
+LARGEST = {"nhiddens": 1000, "nhiddens2": 1000, "nlayers": 10}
+SUFFIX = ".robot.npz"
+
+
+class Unusable(ValueError):
+    """A file that is no entry; the text is a sentence without its name."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A robot that takes part."""
+
+    file: str
+    name: str
+    """As its owner wishes to be called; "" for nobody who wants to be named."""
+    experiment: Experiment
+    genotype: np.ndarray
+
+    @property
+    def discipline(self) -> str:
+        """Where it competes."""
+        return DISCIPLINES[self.experiment.exp.environment]
+
+    def robot(self) -> tuple[Problem, Policy, np.ndarray, np.ndarray | None]:
+        """The problem, the policy, and what goes into it."""
+        problem = problems.of(self.experiment)
+        policy = problem.policy(self.experiment.policy)
+        return problem, policy, *policy.split(self.genotype)
+
+
+def write_entry(genotype: Path, experiment: Path | None, name: str, output: Path | None) -> Path:
+    """Write an entry and return its file. Raises BotschoolError.
+
+    experiment: an .ini file; None for a run of a laboratory, whose folders tell it.
+    """
+    told = load(experiment) if experiment else _of_laboratory(genotype)
+    try:
+        numbers = np.load(genotype, allow_pickle=False)
+    except (OSError, ValueError, EOFError):
+        raise BotschoolError(f"{genotype} cannot be read: name a bestgS*.npy of a run.") from None
+    parts = to_dict(told)
+    about = json.dumps({"exp": parts["exp"], "policy": parts["policy"]})
+    name = " ".join(name.split())[:MAX_NAME]
+    path = output or Path(f"{genotype.stem}{SUFFIX}")
+    try:
+        read_robot(path.name, name, about, numbers)
+    except Unusable as error:
+        raise BotschoolError(f"{genotype} {error}") from None
+    save_npz(path, {"name": name, "experiment": about, "genotype": numbers})
+    return path
+
+
+def _of_laboratory(genotype: Path) -> Experiment:
+    parts = genotype.resolve().parts
+    try:
+        return load_lab(parts[-4]).condition(parts[-2]).load()
+    except (BotschoolError, IndexError, StopIteration, KeyError):
+        raise BotschoolError(
+            f"Say which experiment {genotype} is of: add -f FILE.ini. Only runs of a laboratory "
+            "(lab09/runs/CONDITION) tell it themselves."
+        ) from None
+
+
+def read_entry(path: Path) -> Entry:
+    """Raises Unusable."""
+    try:
+        if path.is_symlink() or not path.is_file():
+            raise Unusable("is a link or no file: hand in the file itself.")
+        if path.stat().st_size > MAX_BYTES:
+            raise Unusable(f"is larger than {MAX_BYTES // 2**20} MB: an entry has some KB.")
+        with zipfile.ZipFile(path) as archive:
+            if sum(each.file_size for each in archive.infolist()) > MAX_CONTENT:
+                raise Unusable(f"unpacks to more than {MAX_CONTENT // 2**20} MB.")
+        with np.load(path, allow_pickle=False) as arrays:
+            name, about, genotype = (arrays[key] for key in ("name", "experiment", "genotype"))
+    except KeyError as error:
+        raise Unusable(f"lacks {str(error).split()[0]}: make it with botschool enter.") from None
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile, NotImplementedError) as error:
+        if isinstance(error, Unusable):
+            raise
+        raise Unusable("is damaged, or no entry: make it with botschool enter.") from None
+    if name.dtype.kind != "U" or name.shape or about.dtype.kind != "U" or about.shape:
+        raise Unusable("has no name or experiment as text: make it with botschool enter.")
+    return read_robot(path.name, str(name), str(about), genotype)
+
+
+def read_robot(file: str, name: str, about: str, genotype: np.ndarray) -> Entry:
+    """An entry of these parts. Only the network's settings are believed. Raises Unusable."""
+    try:
+        told = json.loads(about)
+        environment, policy = str(told["exp"]["environment"]), dict(told["policy"])
+    except (ValueError, KeyError, TypeError, RecursionError):
+        raise Unusable("has an experiment that cannot be read.") from None
+    environment = ALIKE.get(environment, environment)
+    if environment not in DISCIPLINES:
+        raise Unusable(
+            f"is of {environment[:40]!r}, where nobody competes; there are "
+            f"{', '.join(DISCIPLINES)}."
+        )
+    for key, most in LARGEST.items():
+        value = policy.get(key, 0)
+        if not isinstance(value, int) or value > most:
+            raise Unusable(f"has {key} above {most}, or no number.")
+    algo = "coevo2" if environment == "ErPredprey" else "OpenAI-ES"
+    try:
+        parts: dict[str, Any] = {
+            "exp": {"environment": environment, "algo": algo},
+            "policy": policy,
+            "algo": {},
+        }
+        experiment = from_dict(parts, "its experiment")
+        entry = Entry(file, " ".join(name.split())[:MAX_NAME], experiment, genotype)
+        entry.robot()
+    except BotschoolError as error:
+        raise Unusable(f"cannot play: {error}") from None
+    return entry

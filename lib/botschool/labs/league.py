@@ -1,0 +1,207 @@
+"""A league: robots of a class compete, measured here and not by what their files tell."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from botschool.arenas import arena as arenas
+from botschool.errors import BotschoolError
+from botschool.labs.entries import SUFFIX, Entry, Unusable, read_entry
+from botschool.policies.net import Network
+from botschool.policies.policy import Policy
+
+SEED, EPISODES = 1, 5
+"""Of the races: the seed, and how many episodes each robot runs."""
+RACE_STEPS, CHASE_STEPS, POLE_STEPS = 1000, 1000, 500
+POLES = tuple(round(1.0 * 1.1**k, 2) for k in range(41))
+"""Lengths of poles in metres, from CartPole's own on."""
+MAX_ENTRIES = 1000
+UNITS = {
+    "hopper": "metres in 8 seconds",
+    "walker": "metres in 8 seconds",
+    "cheetah": "metres in 50 seconds",
+    "cart-pole": "metres: the longest pole balanced",
+    "predator": "mean share of time left when it catches",
+    "prey": "mean share of time that it stays free",
+}
+"""Discipline -> what is ranked; chases have a table for each side."""
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """A place in a discipline."""
+
+    rank: int
+    entry: Entry
+    result: float
+
+
+@dataclass
+class League:
+    """What came out."""
+
+    tables: dict[str, list[Ranked]]
+    refused: list[str]
+    """A sentence for each file that is no entry."""
+    chases: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+    """The predators' fitness: predators in rows, prey in columns."""
+    hunters: list[Entry] = field(default_factory=list)
+    """Whose they are."""
+
+
+def compete(folder: Path, told: Callable[[str], None] = lambda text: None) -> League:
+    """Let all entries of a folder compete. Raises BotschoolError if there are none."""
+    if not folder.is_dir():
+        raise BotschoolError(f"There is no folder {folder}: name the one with the entries.")
+    files = sorted(path for path in folder.rglob(f"*{SUFFIX}") if ".git" not in path.parts)
+    entries, refused = [], []
+    for path in files[:MAX_ENTRIES]:
+        try:
+            entries.append(read_entry(path))
+        except Unusable as error:
+            refused.append(f"{path.relative_to(folder)} {error}")
+    if len(files) > MAX_ENTRIES:
+        refused.append(f"{len(files) - MAX_ENTRIES} files beyond {MAX_ENTRIES} are left out.")
+    if not entries:
+        why = f" {refused[0]}" if refused else ""
+        raise BotschoolError(
+            f"{folder} holds no entries (*{SUFFIX}): botschool enter makes one.{why}"
+        )
+    league = League({}, refused)
+    for discipline, measure in MEASURES.items():
+        group = [entry for entry in entries if entry.discipline == discipline]
+        if group:
+            told(f"{discipline}: {len(group)} robots")
+            league.tables[discipline] = ranked(group, [measure(entry) for entry in group])
+    league.hunters = [entry for entry in entries if entry.discipline == "chase"]
+    if league.hunters:
+        told(f"chases: {len(league.hunters)} pairs")
+        league.chases = everybody(league.hunters)
+        predators, prey = means(league.chases)
+        league.tables["predator"] = ranked(league.hunters, predators)
+        league.tables["prey"] = ranked(league.hunters, prey)
+    return league
+
+
+def ranked(entries: list[Entry], results: list[float]) -> list[Ranked]:
+    """The best first; equal results share a rank."""
+    order = sorted(range(len(entries)), key=lambda i: (-results[i], entries[i].file))
+    return [
+        Ranked(1 + sum(other > results[i] for other in results), entries[i], results[i])
+        for i in order
+    ]
+
+
+def metres(entry: Entry) -> float:
+    """How far a runner goes ahead, the mean of the episodes."""
+    native: Any
+    native, policy, genotype, normalisation = entry.robot()
+    engine, steps = native.engine(policy), native.steps(RACE_STEPS)
+    gone = []
+    for episode in range(EPISODES):
+        tape = engine.record(genotype[None], normalisation, SEED, episode, steps)
+        gone.append(tape["states"][-1, 0] - tape["states"][0, 0])
+    return float(np.mean(gone))
+
+
+def longest_pole(entry: Entry) -> float:
+    """The longest pole that stays up in each episode, from CartPole's own on; 0 if none does."""
+    import gymnasium
+
+    _, policy, genotype, normalisation = entry.robot()
+    policy.load(genotype, normalisation)
+    environment: Any = gymnasium.make("CartPole-v1").unwrapped
+    best = 0.0
+    for length in POLES:
+        environment.length = length / 2
+        environment.polemass_length = environment.masspole * environment.length
+        if not all(_stays_up(environment, policy, episode) for episode in range(EPISODES)):
+            break
+        best = length
+    return best
+
+
+def _stays_up(environment: Any, policy: Policy, episode: int) -> bool:
+    policy.reset(SEED, episode)
+    observed, _ = environment.reset(seed=1000 * SEED + episode)
+    for _ in range(POLE_STEPS):
+        observed, _, fallen, *_ = environment.step(policy.act(observed))
+        if fallen:
+            return False
+    return True
+
+
+MEASURES: dict[str, Callable[[Entry], float]] = {
+    "hopper": metres,
+    "walker": metres,
+    "cheetah": metres,
+    "cart-pole": longest_pole,
+}
+
+
+def everybody(entries: list[Entry]) -> np.ndarray:
+    """Every predator (rows) chases every prey (columns); the predators' fitness."""
+    sides = [_networks(entry) for entry in entries]
+    return np.array([[_chase(one[0], other[1]) for other in sides] for one in sides])
+
+
+def _networks(entry: Entry) -> tuple[Network, Network]:
+    """The predator's, then the prey's."""
+    _, policy, genotype, _ = entry.robot()
+    found = []
+    for half in np.split(genotype, 2):
+        network = Network(policy.spec)
+        network.parameters[:] = half
+        found.append(network)
+    return found[0], found[1]
+
+
+def _chase(predator: Network, prey: Network) -> float:
+    arena = arenas.make("predprey", max_steps=CHASE_STEPS)
+    arena.reset(seed=0)
+    networks = predator, prey
+    for network in networks:
+        network.reset()
+    wheels, total = np.empty(4), 0.0
+    while not arena.done:
+        for side, network in enumerate(networks):
+            network.observation[:] = arena.observation[24 * side : 24 * side + 24]
+            wheels[2 * side : 2 * side + 2] = network.step()
+        arena.action = wheels
+        total += arena.step()
+    return float(total)
+
+
+def means(chases: np.ndarray) -> tuple[list[float], list[float]]:
+    """Of each predator and each prey, against those of others; alone, against its own."""
+    others = ~np.eye(len(chases), dtype=bool) if len(chases) > 1 else np.ones((1, 1), dtype=bool)
+    predators = [float(row[mask].mean()) for row, mask in zip(chases, others, strict=True)]
+    prey = [1 - float(row[mask].mean()) for row, mask in zip(chases.T, others.T, strict=True)]
+    return predators, prey
+
+
+def shown_name(entry: Entry) -> str:
+    """The name, if the owner gave one."""
+    return entry.name or "anonymous"
+
+
+def results_csv(league: League) -> bytes:
+    """All results with the names of the files, for the instructor."""
+    from botschool.grading.classes.tables import safe_cell
+
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["discipline", "rank", "name", "result", "unit", "file"])
+    for discipline, places in league.tables.items():
+        for each in places:
+            name, file = safe_cell(each.entry.name), safe_cell(each.entry.file)
+            row = [discipline, each.rank, name, f"{each.result:.4g}", UNITS[discipline], file]
+            writer.writerow(row)
+    return stream.getvalue().encode("utf-8-sig", "replace")
