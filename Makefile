@@ -3,8 +3,9 @@
 # PyTorch without its CUDA packages (some GB): TORCH=cpu make test-ex11
 
 BIN := .venv/bin
+READY := .venv/.module
 CPP := $(shell find lib tests -name '*.cpp' -o -name '*.hpp' -o -name '*.h' 2>/dev/null)
-CPP_INPUTS := $(filter lib/%,$(CPP)) $(shell find lib -name CMakeLists.txt -o -name '*.cmake')
+CPP_INPUTS := $(filter lib/%,$(CPP)) $(shell find lib -name CMakeLists.txt -o -name '*.cmake' 2>/dev/null)
 
 # Packages that another project put on the path (ROS, for one) would shadow the pinned ones.
 unexport PYTHONPATH PYTHONHOME
@@ -16,8 +17,18 @@ unexport PYTHONDONTWRITEBYTECODE
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z%-]+:.*## / { sub("%", "N", $$1); printf "make %-14s %s\n", $$1, $$2 }' Makefile
 
+# A copy that `botschool course` has made has neither source nor wheels: it uses the botschool that is installed.
+ifeq ($(wildcard lib wheels),)
+BIN := $(patsubst %/,%,$(dir $(shell command -v botschool || echo .venv/bin/botschool)))
+READY := installed
+endif
+.PHONY: installed
+installed:
+	@command -v botschool >/dev/null || { echo "error: there is no botschool command here: activate the" \
+		"environment that botschool is installed in" >&2; exit 2; }
+
 DEMO := results/demo
-demo: .venv/.module ## evolve an Acrobot and a hopping robot, draw their curves and film them
+demo: $(READY) ## evolve an Acrobot and a hopping robot, draw their curves and film them
 	$(BIN)/botschool es -f data/experiments/acrobot.ini -s 1 -w 2 -o $(DEMO)/acrobot --steps 3000000 --force
 	$(BIN)/botschool plotstat $(DEMO)/acrobot -o $(DEMO)/acrobot.png
 	$(BIN)/botschool es -f data/experiments/acrobot.ini -s 1 -p -g $(DEMO)/acrobot/bestgS1.npy \
@@ -28,7 +39,7 @@ demo: .venv/.module ## evolve an Acrobot and a hopping robot, draw their curves 
 		--episodes 1 --video $(DEMO)/hopper.mp4
 	@echo "Curves: $(DEMO)/acrobot.png $(DEMO)/hopper.png   Films: $(DEMO)/acrobot.mp4 $(DEMO)/hopper.mp4"
 
-build: .venv/.module ## the Python environment and the C++ module
+build: $(READY) ## the Python environment and the C++ module
 
 web: lib/botschool/page/planar.wasm ## the core of pages, for `botschool page`
 
@@ -37,15 +48,15 @@ lib/botschool/page/planar.wasm: $(CPP_INPUTS) | .venv/.module
 
 # What an exercise trains and simulates with can be large: its grader names the extras it needs.
 .SECONDEXPANSION:
-extras = $(addprefix .venv/.extra-,$(shell tools/setup.sh extras $(1)))
+extras = $(if $(filter installed,$(READY)),,$(addprefix .venv/.extra-,$(shell tools/setup.sh extras $(1))))
 
 # The student's own file, or SUBMISSION=FOLDER. Points below 100 are a result, no failure of make's: only where
 # $CI is set do they end it with an error, as they end `botschool grade` with exit code 1 everywhere.
 export SUBMISSION
-test-ex%: .venv/.module $$(call extras,$$*) FORCE ## grade exercise N; SUBMISSION=FOLDER grades another folder
+test-ex%: $(READY) $$(call extras,$$*) FORCE ## grade exercise N; SUBMISSION=FOLDER grades another folder
 	@$(BIN)/botschool grade $* $(if $(SUBMISSION),--submission "$$SUBMISSION") || { [ $$? = 1 ] && [ -z "$$CI" ]; }
 
-notebook-ex%: .venv/.module $$(call extras,$$*) .venv/.extra-notebook FORCE ## open your file of exercise N as a notebook, in JupyterLab
+notebook-ex%: $(READY) $$(call extras,$$*) $(if $(filter installed,$(READY)),,.venv/.extra-notebook) FORCE ## open your file of exercise N as a notebook, in JupyterLab
 	@$(BIN)/botschool start $* --notebook
 
 # BEGIN NOT RELEASED
@@ -121,8 +132,13 @@ clean: ## remove what the targets above set up; results stay
 .venv/.sources: .venv/.made FORCE
 	@tools/setup.sh sources
 
+ifneq ($(wildcard lib),)
 .venv/.module: .venv/.tools .venv/.sources $(CPP_INPUTS)
 	@tools/setup.sh module
+else
+.venv/.module: .venv/.made $(wildcard wheels/*.whl)
+	@tools/setup.sh wheel
+endif
 
 .PRECIOUS: .venv/.extra-%
 .venv/.extra-%: .venv/.module

@@ -2,8 +2,10 @@
 
 import importlib
 import re
+import runpy
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -27,9 +29,12 @@ from botschool.errors import BotschoolError
 from botschool.evolution.run import Run, evolve
 from botschool.grading.classes import batch
 from botschool.grading.copies.skeleton import skeleton
+from botschool.grading.declare import exercise as declared
 from botschool.grading.declare.exercise import exercise_numbers, load_exercise, submission_file
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
+from botschool.grading.report.screen import Screen
+from botschool.grading.run import absent
 from botschool.moved import MOVED
 from running import call, environment_of_command
 
@@ -182,6 +187,7 @@ def test_film_of_an_agent_whose_choices_are_other_types_than_int(tmp_path, kind)
 # --- What exercise 9 is given: runners, recorded episodes; and that it is graded without PyBullet.
 
 
+BALANCING = ROOT / "solutions" / "ex10_balance_bot" / "balancing_robot.py"
 ROBOTS = ("Hopper", "HalfCheetah", "Ant", "Walker2D", "Humanoid")
 
 
@@ -271,6 +277,52 @@ def test_exercise_9_is_graded_without_pybullet(without_pybullet):
     tasks = [exercise.find(id) for id in ("9.3", "9.4")]
     result = grade(exercise, file, tasks=tasks)
     assert [task.points for task in result.tasks] == [task.max_points for task in tasks]
+
+
+def hide_pybullet(monkeypatch):
+    """Let PyBullet seem not to be installed, for graders and for what they import."""
+    monkeypatch.setattr(
+        declared, "missing_packages", lambda extras: ["pybullet"] if "pybullet" in extras else []
+    )
+    monkeypatch.setattr(absent, "find_spec", lambda name: None)
+    for name in (*absent.NAMES, "botschool.course.robots"):
+        monkeypatch.setitem(sys.modules, name, None)
+        monkeypatch.delitem(sys.modules, name)
+
+
+def test_exercise_10_is_graded_without_pybullet_as_far_as_it_can(monkeypatch, capsys):
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(ROOT))
+    hide_pybullet(monkeypatch)
+    exercise = load_exercise(10, ROOT)
+    tasks = [exercise.find(id) for id in ("10.1", "10.3", "10.8", "10.10")]
+    result = grade(exercise, BALANCING, tasks=tasks)
+    assert [(task.points, task.graded) for task in result.tasks] == [
+        (12, True), (0, False), (8, True), (0, False),
+    ]  # fmt: skip
+    (first, second, *_) = result.to_json()["tasks"]
+    assert "graded" not in first and second["graded"] is False
+    assert re.match(
+        r"Not graded: this task needs pybullet, not installed here: ", second["message"]
+    )
+    screen = Screen()
+    screen.task(result.tasks[1])
+    screen.end(result, whole=False)
+    told = capsys.readouterr().out
+    assert "– of 8" in told and "20 of 36 points (16 of them could not be graded" in told
+    with pytest.raises(BotschoolError, match=r"Exercise 10 needs pybullet: .*botschool\[pybullet"):
+        exercise.require_some([exercise.find("10.3")])
+    exercise.require_some(exercise.tasks)
+    with pytest.raises(BotschoolError, match="pybullet"):
+        exercise.require()
+
+
+def test_a_file_that_imports_pybullet_is_loaded_without_it(monkeypatch):
+    hide_pybullet(monkeypatch)
+    absent.stand_in()
+    names = runpy.run_path(str(BALANCING))
+    assert names["package_files"]().keys() == {"pyproject.toml", "balance_bot/__init__.py"}
+    with pytest.raises(ModuleNotFoundError, match="PyBullet is not installed here"):
+        names["BalanceBotEnv"]()
 
 
 def test_a_picture_of_gaits_shows_every_robot(tmp_path):

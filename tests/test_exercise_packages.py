@@ -19,6 +19,8 @@ ROOT = Path(__file__).parents[1]
 NUMBERS = sorted(int(path.name[2:4]) for path in (ROOT / "solutions").glob("ex[0-9][0-9]_*"))
 OWN = {"botschool", "balance_bot", "pip"}
 """Ours, what exercise 10 builds, and what stands in for tomllib in Python 3.10."""
+BROUGHT = {"PIL", "imageio_ffmpeg", "pygame", "nbformat", "nbconvert", "traitlets"}
+"""What matplotlib, imageio[ffmpeg], gymnasium[classic-control] and nbgrader are made of."""
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
 
@@ -61,6 +63,13 @@ def test_an_exercise_declares_what_it_imports(number):
     for path in (*solution.glob("*.py"), *folder.glob("test_*.py")):
         names |= imported(path)
     assert not missing(names, load_exercise(number, ROOT).extras)
+
+
+def test_the_library_imports_only_what_the_project_declares():
+    """A package that comes with another one today, as click came with typer, may not tomorrow."""
+    names = {each for path in ROOT.glob("lib/botschool/**/*.py") for each in imported(path)}
+    extras = tuple(PROJECT["optional-dependencies"])
+    assert missing(names - BROUGHT, extras) == set()
 
 
 def test_a_missing_extra_is_found():

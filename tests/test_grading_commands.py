@@ -30,9 +30,10 @@ from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
 from botschool.grading.report import showing
 from botschool.grading.report.progress import table
-from botschool.grading.report.screen import Screen, watch
+from botschool.grading.report.screen import Screen, Watched, watch
 from botschool.grading.report.showing import show
 from botschool.sandbox import seccomp
+from exports import notebook, zipped
 from running import call, environment_of_command, finish, one_sentence, start
 from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
 
@@ -212,8 +213,11 @@ def test_watch_grades_after_each_save(course):
             raise KeyboardInterrupt
         file.write_text(SOLUTION)
 
+    def found():
+        return Watched(file, file, [], file.parent)
+
     with pytest.raises(KeyboardInterrupt):
-        watch(exercise, file, exercise.tasks[:1], Recorder(), wait)
+        watch(exercise, found, exercise.tasks[:1], Recorder(), wait)
     assert seen == [0, 60]
 
 
@@ -321,7 +325,7 @@ def test_a_long_run_says_that_it_goes_on(course, monkeypatch, capfd):
 
 def test_a_finished_file_is_run_in_results(course):
     made = course.resolve() / "results" / "ex03" / "picture.txt"
-    assert show(3, str(course / "solutions"), course) == [made]
+    assert show(3, course / "solutions" / FOLDER / FILE, course) == [made]
     code, out, errors = call("show", "3", cwd=course)
     assert code == 2 and out == "" and errors.count("\n") < 4  # a sentence, no traceback
     assert "3.1, 3.2 are not done yet in tiny.py" in " ".join(errors.split())
@@ -333,8 +337,39 @@ def test_a_finished_file_is_run_in_results(course):
     code, out, errors = call("show", "3", cwd=course)
     assert (code, errors) == (0, "") and "made: results/ex03/picture.txt" in out
     (course / "solutions" / FOLDER / FILE).unlink()
-    with pytest.raises(BotschoolError, match=r"no tiny\.py in"):
-        show(3, str(course / "solutions"), course)
+    code, _, errors = call("show", "3", "--submission", "solutions", cwd=course)
+    assert code == 2 and "There is no tiny.py" in errors
+
+
+def test_watch_and_show_find_what_grade_finds(course, tmp_path):
+    """A renamed file, and a notebook in a zip file."""
+    place = tmp_path / "handed-in"
+    place.mkdir()
+    (place / "tiny (1).py").write_text(SOLUTION)
+    code, out, errors = call("show", "3", "--submission", str(place), cwd=course)
+    assert code == 0, errors
+    assert "Graded: tiny (1).py" in out and "made: results/ex03/picture.txt" in out
+    (course / "results" / "ex03" / "picture.txt").unlink()
+    (tmp_path / "one.zip").write_bytes(zipped({"work/tiny.ipynb": notebook(SOLUTION)}))
+    code, out, errors = call("show", "3", "--submission", str(tmp_path / "one.zip"), cwd=course)
+    assert code == 0 and "made: results/ex03/picture.txt" in out, errors
+    unbuffered = environment_of_command() | {"PYTHONUNBUFFERED": "1"}
+    process = start("watch", "3", "--submission", str(place), env=unbuffered)
+    lines = []
+    for line in process.stdout:
+        lines.append(line)
+        if "Ctrl-C ends" in line:
+            break
+    assert "Graded: tiny (1).py" in "".join(lines) and "100 of 100" in "".join(lines)
+    (place / "tiny (1).py").write_text(SOLUTION.replace("2 * ", "3 * "))
+    again = []
+    for line in process.stdout:
+        again.append(line)
+        if "Ctrl-C ends" in line:
+            break
+    assert "40 of 100" in "".join(again)
+    process.send_signal(signal.SIGINT)
+    assert finish(process, 60)[0] == 0
 
 
 DRAWING = (

@@ -11,7 +11,7 @@ LAYERS = (
     {"moved"},
     {"errors", "__init__"},
     {"_core", "paths", "terminal", "seeds", "inifile", "output", "sandbox"},
-    {"linear", "lock", "wrappers"},
+    {"examples", "linear", "lock", "wrappers"},
     {"policies"},
     {"arenas"},
     {"arena", "net"},

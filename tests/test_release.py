@@ -7,6 +7,7 @@ import json
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -14,10 +15,13 @@ import typer
 
 from botschool.cli.app import commands
 from botschool.errors import BotschoolError
+from botschool.grading.copies import release as releasing
 from botschool.grading.copies.release import MANIFEST, release
+from botschool.grading.copies.skeleton import find_leaks
+from botschool.grading.declare import trust as trusting
 from botschool.grading.declare.exercise import exercise_numbers, load_exercise, missing_packages
 from botschool.grading.declare.trust import trust
-from botschool.grading.packed import unpack_answers
+from botschool.grading.packed import is_packed, unpack_answers
 from running import call, environment_of_command
 from tiny_course import FILE, FOLDER, SOLUTION, make_course
 
@@ -35,6 +39,14 @@ def copy(tmp_path_factory):
         pytest.skip("this is a student's copy itself")
     folder = tmp_path_factory.mktemp("released") / "copy"
     release(ROOT, folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory):
+    """A copy that uses botschool as installed: `botschool course` makes it, a wheel brings it."""
+    folder = tmp_path_factory.mktemp("released") / "installed"
+    release(ROOT, folder, compiled=False)
     return folder
 
 
@@ -98,6 +110,11 @@ def absent(copy, name, text):
             if not (copy / name).parent.joinpath(link).exists():
                 yield link
     yield from re.findall(r"solution-ex\S*|SUBMISSION=solutions|CONTRIBUTING\S*", text)
+    if name.endswith(".md"):  # a sentence may begin with the name
+        parts = enumerate(text.split("```"))
+        text = "```".join(
+            p if i % 2 else re.sub(r"^botschool ", "", p, flags=re.M) for i, p in parts
+        )
     yield from unknown_commands(text)
 
 
@@ -129,7 +146,8 @@ def test_no_text_names_what_the_copy_does_not_have(copy):
     assert len(found) > 60 and "exercises/README.md" in found
     assert not {name: what for name, what in found.items() if what}
     bad = "`make bench`, `make solution-ex3`, solutions/ex01_gymnasium, [x](y.md), make it\n"
-    bad += "botschool walk 3\n`botschool es -f x.ini --quick`, `botschool rl fly`, a botschool of\n"
+    bad += "```\nbotschool walk 3\n```\n"
+    bad += "`botschool es -f x.ini --quick`, `botschool rl fly`, a botschool of\n"
     assert list(absent(copy, "docs/x.md", bad)) == [
         "make bench", "make solution-ex3", "solutions/ex01_gymnasium", "y.md", "solution-ex3`,",
         "botschool walk", "botschool es --quick", "botschool fly",
@@ -137,6 +155,45 @@ def test_no_text_names_what_the_copy_does_not_have(copy):
 
 
 FIGURE = re.compile(r"^!\[([^\]]+)\]\(([^)]+)\)\n\n\*([^*]+)\*$", re.MULTILINE)
+
+
+def test_no_text_of_an_installed_copy_names_what_it_does_not_have(installed):
+    found = {
+        name: [what for what in absent(installed, name, text) if not what.startswith("lib/")]
+        for name, text in texts(installed)
+    }
+    assert len(found) > 60 and "exercises/README.md" in found
+    assert not {name: what for name, what in found.items() if what}
+    names = {path.relative_to(installed).as_posix() for path in installed.rglob("*")}
+    assert not [name for name in names if name.startswith(("lib", "solutions"))]
+    assert {"docs/replays/hopper_v0.html", "data/experiments/acrobot.ini"} <= names
+
+
+def test_a_copy_of_what_a_wheel_brings_is_the_same(installed, tmp_path, monkeypatch):
+    monkeypatch.setattr(releasing, "material", lambda: installed.resolve())
+    monkeypatch.setattr(trusting, "material", lambda: installed.resolve())
+    done = release(installed, tmp_path / "copy")
+    files = {path.relative_to(installed) for path in installed.rglob("*") if path.is_file()}
+    assert done.files == len(files) - 1  # without the list of files
+    for name in files:
+        assert (tmp_path / "copy" / name).read_bytes() == (installed / name).read_bytes(), name
+    release(installed, tmp_path / "third", {3})
+    assert [path.name for path in (tmp_path / "third/exercises").glob("ex*")] == [
+        "ex03_evolution_strategy"
+    ]
+    with pytest.raises(BotschoolError, match="student's copy already"):
+        release(tmp_path / "copy", tmp_path / "another")
+
+
+def test_what_a_wheel_gets_has_no_plain_solutions_graders_and_measures(tmp_path):
+    """As tools/material.py puts it into a wheel."""
+    subprocess.run([sys.executable, ROOT / "tools" / "material.py", tmp_path], check=True)
+    assert not find_leaks(ROOT, (path for path in tmp_path.rglob("*") if path.is_file()))
+    graders = [*tmp_path.glob("material/exercises/ex*/test_*.py")]
+    measures = [*tmp_path.glob("labs/lab*/reference.py")]
+    assert len(graders) == len(NUMBERS)
+    assert len(measures) == len([*ROOT.glob("lib/botschool/labs/lab*/reference.py")]) > 0
+    assert all(is_packed(path.read_text()) for path in (*graders, *measures))
 
 
 def test_every_figure_of_the_texts_is_in_the_copy(copy):

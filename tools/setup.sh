@@ -1,6 +1,6 @@
 #!/bin/sh
 # One step of what the Makefile sets up:
-# tools/setup.sh venv|tools|sources|module|extra NAME|pytest|tests|bench|book|web|sanitize
+# tools/setup.sh venv|tools|sources|module|wheel|extra NAME|pytest|tests|bench|book|web|sanitize
 # or a question: tools/setup.sh extras EXERCISE
 # Says in a line what it does, and on a terminal how far it is; a tool's own output appears only when it fails.
 set -u
@@ -53,6 +53,7 @@ check_python() {
         fail "$candidate lacks its venv module:" \
             "$(remedy "python$version-venv" "python$version" "brew reinstall python@$version" \
                 "your system's package of Python's venv and ensurepip modules")"
+    [ -d lib ] || return 0  # nothing is compiled
     "$candidate" -c 'import os, sysconfig; os.stat(sysconfig.get_path("include") + "/Python.h")' 2>/dev/null ||
         fail "$candidate lacks the header files that the C++ module needs:" \
             "$(remedy "python$version-dev" "python$version-devel" "brew reinstall python@$version" \
@@ -61,6 +62,7 @@ check_python() {
 
 # CXX if it is set, else the first of the usual names (a Python may bring another one's name along).
 check_compiler() {
+    [ -d lib ] || return 0
     if [ -n "${CXX:-}" ]; then
         have "${CXX%% *}" && return
         fail "CXX=$CXX names a C++ compiler that is not there: unset it or correct it"
@@ -263,6 +265,15 @@ print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["dependencies"], se
     [ "$failed" = 0 ] || show_failure
 }
 
+# In a copy that brings wheels: installs the one for this Python and system, and what it needs.
+install_wheel() {
+    say "Installing botschool from $(ls wheels | tr '\n' ' ')(up to a minute)"
+    run_pip --no-index --find-links wheels --no-deps --force-reinstall botschool >"$log" 2>&1 ||
+        fail "none of these wheels is for $("$python" -V) on this system: ask your instructor for another one"
+    have uv || run_pip --only-binary :all: uv >"$log" 2>&1
+    install botschool
+}
+
 # Compiles and puts the module where it is imported from, without asking pip.
 recompile() {
     PATH="$PWD/.venv/bin:$PATH" cmake --build build/editable --target _core &&
@@ -428,6 +439,7 @@ case $1 in
     tools) install_tools && touch .venv/.tools ;;
     sources) list_sources ;;
     module) build_module && touch .venv/.module ;;
+    wheel) install_wheel && touch .venv/.module ;;
     extra) install_extra "$2" ;;
     extras) extras_of "$2" ;;
     pytest) install_pytest && touch .venv/.pytest ;;

@@ -11,6 +11,11 @@ class BotschoolError(Exception):
     """
 
 
+def listed(words: list[str]) -> str:
+    """Return "a, b and c"."""
+    return " and ".join(filter(None, [", ".join(words[:-1]), words[-1]])) if words else ""
+
+
 def said(error: BaseException) -> str:
     """What an exception says, on one line without a full stop; its type if it says nothing."""
     text = " ".join(str(error).split()).rstrip(".") or type(error).__name__

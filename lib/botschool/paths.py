@@ -13,6 +13,9 @@ from types import ModuleType
 
 from botschool.errors import BotschoolError, said
 
+MATERIAL = "material"
+"""In the installed package: a copy of the course, as `botschool course` makes it."""
+
 
 def course_root() -> Path:
     """Return the folder that holds exercises/; looked for from the present folder upwards."""
@@ -22,9 +25,34 @@ def course_root() -> Path:
         if (folder / "exercises").is_dir():
             return folder
     raise BotschoolError(
-        "There is no course here: go to the folder that holds exercises/, or name it in "
-        "BOTSCHOOL_COURSE."
+        "There is no course here: go to the folder that holds exercises/, name it in "
+        "BOTSCHOOL_COURSE, or make one with 'botschool course FOLDER'."
     )
+
+
+def material() -> Path:
+    """The folder with the data/ and exercises/ that come with botschool.
+
+    It is a part of the installed package, or else the checkout that the package lies in.
+    """
+    package = Path(__file__).resolve().parent
+    installed = package / MATERIAL
+    return installed if installed.is_dir() else package.parents[1]
+
+
+def own_file(name: str | os.PathLike[str], folder: str = "") -> Path:
+    """The file of this name, or the one of data/FOLDER that comes with botschool.
+
+    name: as the user wrote it, as acrobot.ini or data/experiments/acrobot.ini. What exists is taken
+    as it is.
+    """
+    path = Path(name)
+    if not path.exists() and not path.is_absolute() and ".." not in path.parts:
+        for place in (material() / "data" / folder / path, material() / path):
+            if place.is_file():
+                print(f"{name} is the one that comes with botschool: {place}", file=sys.stderr)
+                return place
+    return path
 
 
 def look_here(module: str) -> None:

@@ -87,11 +87,12 @@ def write(picture: Image.Image, name: str, colours: int = 256) -> None:
 
 def made(number: int, file: str) -> Path:
     """What the solution of an exercise has made; runs it if it is not there."""
+    from botschool.grading.declare.exercise import submission_file
     from botschool.grading.report.showing import show
 
     path = ROOT / "results" / f"ex{number:02d}" / file
     if not path.is_file():
-        show(number, "solutions", ROOT)
+        show(number, submission_file(number, "solutions", ROOT), ROOT)
     return path
 
 

@@ -17,12 +17,21 @@ from typing import Annotated, Any, NoReturn
 import typer
 
 from botschool import __version__
-from botschool.cli import course, es, labs, page, plots, rl, tournament
+from botschool.cli import course, es, examples, labs, page, plots, rl, tournament
 from botschool.errors import BotschoolError
 
 UsageError: Any = typer.BadParameter.__base__
 
-GROUPS = {es: None, plots: None, page: None, tournament: None, course: None, labs: None, rl: "rl"}
+GROUPS = {
+    es: None,
+    examples: None,
+    plots: None,
+    page: None,
+    tournament: None,
+    course: None,
+    labs: None,
+    rl: "rl",
+}
 """Modules with commands, in the order of --help, and the name before their commands."""
 
 # numpy's BLAS starts threads that would only wait: nothing here multiplies large matrices

@@ -129,36 +129,63 @@ def trust(
     trust_command(folder)
 
 
+Exercises = Annotated[
+    str,
+    typer.Option(
+        "-e",
+        "--exercises",
+        "--exercise",
+        help="Those to add, as 1-3,7; earlier ones stay.",
+        metavar="N,N-N",
+    ),
+]
+
+
+@app.command(epilog="Example: botschool course my-course")
+def course(
+    folder: Annotated[
+        Path, typer.Argument(help="A new folder, or a copy to bring up to date.", metavar="FOLDER")
+    ],
+    exercises: Exercises = "all",
+) -> None:
+    """Make a folder with the exercises, which the installed botschool grades.
+
+    In a folder that is there already, files that you have edited are left alone.
+    """
+    from botschool.grading.commands import course_command
+
+    course_command(folder, exercises)
+
+
 @app.command(epilog="Example: botschool release ../course-for-students --exercises 1-3")
 def release(
     folder: Annotated[
         Path, typer.Argument(help="A new folder, or a copy to bring up to date.", metavar="FOLDER")
     ],
-    exercises: Annotated[
-        str,
-        typer.Option(
-            "-e",
-            "--exercises",
-            "--exercise",
-            help="Those to add, as 1-3,7; earlier ones stay.",
-            metavar="N,N-N",
-        ),
-    ] = "all",
+    exercises: Exercises = "all",
     answers: Annotated[
         bool,
         typer.Option("--answers", help="Let `show N --answers` tell what full marks have earned."),
     ] = False,
+    wheel: Annotated[
+        list[Path] | None,
+        typer.Option(
+            help="A wheel that the copy installs, so that nothing is compiled; several times for "
+            "several systems.",
+            metavar="FILE",
+        ),
+    ] = None,
 ) -> None:
-    """For instructors: make a copy of the repository for students, without solutions.
+    """For instructors: make a copy of the course for students, without solutions.
 
-    Call it in the repository: the installed package does not hold the exercises.
+    Away from a repository, it is made from the installed botschool, as `botschool course` does.
 
     In a copy that is there already, files that were edited since are left alone, and exercises
     that have their answers keep them.
     """
     from botschool.grading.commands import release_command
 
-    release_command(folder, exercises, answers)
+    release_command(folder, exercises, answers, wheel or [])
 
 
 @app.command("grade-all", epilog="Example: botschool grade-all submissions --exercise 3 -o grades")

@@ -11,6 +11,7 @@ import typer
 
 from botschool.cli import cluster_options as across
 from botschool.errors import BotschoolError
+from botschool.paths import own_file
 
 if TYPE_CHECKING:
     from botschool.config import Experiment
@@ -110,7 +111,7 @@ def es(
 
     machines = across.machines(cluster, no_tls, patience, workers)
     workers = workers or 1
-    experiment = config.load(file)
+    experiment = config.load(own_file(file, "experiments"))
     if page:
         from botschool.analysis.run_page import write_page
 

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from click import UsageError
 
+UsageError: Any = typer.BadParameter.__base__  # of the click that typer has, its own or another
 app = typer.Typer(
     help="Train agents by reinforcement learning (Stable-Baselines3), and watch them.",
     no_args_is_help=True,

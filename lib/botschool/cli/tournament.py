@@ -9,6 +9,7 @@ import typer
 
 from botschool.cli import cluster_options as options
 from botschool.errors import BotschoolError
+from botschool.paths import own_file
 
 if TYPE_CHECKING:
     from botschool.config import Experiment
@@ -93,7 +94,7 @@ def post_evaluate(
     if genotype is None:
         watching.show(PostEvaluation(experiment, seed))
     elif not experiment.competitive or coevolution.names_file(genotype):
-        path = Path(genotype)
+        path = own_file(genotype, "genotypes")
         watching.show(PostEvaluation(experiment, seed, read_genotype(path), path.name))
     else:
         request = coevolution.parse(genotype, folder)

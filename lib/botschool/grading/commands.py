@@ -11,8 +11,9 @@ import tempfile
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 from rich.console import Console
@@ -23,6 +24,7 @@ from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.declare.checks import Wrong, plain
 from botschool.grading.declare.exercise import (
     Exercise,
+    Task,
     course_root,
     exercise_numbers,
     folder_of,
@@ -35,10 +37,11 @@ from botschool.grading.declare.exercise import (
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import Result, grade
 from botschool.grading.report.progress import digest, remember
-from botschool.grading.report.screen import Screen, counting, say_missing
+from botschool.grading.report.screen import Screen, Watched, counting, say_missing
 from botschool.grading.run.confined import close_class
 from botschool.grading.run.debug import DirectStudent
 from botschool.grading.run.temporary import temporary_files_within
+from botschool.paths import MATERIAL, material
 from botschool.terminal import exits_on_signals
 
 
@@ -62,7 +65,7 @@ def _grade_one(
 ) -> tuple[bool, dict]:
     exercise = load_exercise(number)
     chosen = [exercise.find(task) for task in tasks] or None
-    file, shown, notes, kept = _file_of(exercise, submission)
+    (file, shown, notes, _), kept = _found(exercise, submission, chosen or exercise.tasks)
     graded = digest(file)
     if debug:
         if submission is not None:
@@ -82,30 +85,31 @@ def _grade_one(
         screen.end(result, whole=not tasks)
         if kept:
             screen.console.print(f"[dim]{escape(kept)}[/]", soft_wrap=True)
-    found = result.to_json() | ({"notes": notes} if notes else {})
+    found = result.to_json() | ({"notes": list(notes)} if notes else {})
     return result.points == result.max_points, found
 
 
-def _file_of(exercise: Exercise, submission: str | None) -> tuple[Path, Path, list[str], str]:
-    """Return the file to grade, its path to show, notes, and a sentence on others' secret.
+def _found(exercise: Exercise, submission: str | None, tasks: list[Task]) -> tuple[Watched, str]:
+    """Return the file to grade, and a sentence on the secret for the work of others.
 
     What somebody else handed in is found as grade-all finds it, and the class is closed to it.
     """
     number, root = exercise.number, course_root()
     if submission is None:
         file = submission_file(number, None)
-        exercise.require()
-        return file, file, [], ""
+        exercise.require_some(tasks)
+        return Watched(file, file, [], file.parent), ""
     from botschool.grading.classes.finding import find_one
 
     place = submission_place(submission, root)
     one = find_one(place, exercise, root, Path(tempfile.mkdtemp(prefix="botschool-")))
-    exercise.require()
+    exercise.require_some(tasks)
     choice = one.choices[number]
     origin = choice.origin.path
+    saved = origin.parent if place.is_dir() and origin.is_relative_to(place) else place
     kept = _prepare_for_others(exercise, origin if origin.is_relative_to(place) else place)
     shown = place / choice.origin.shown if place.is_dir() else place
-    return choice.file, shown, [*choice.notes, *one.notes], kept
+    return Watched(choice.file, shown, [*choice.notes, *one.notes], saved), kept
 
 
 def _prepare_for_others(exercise: Exercise, file: Path) -> str:
@@ -216,7 +220,7 @@ def _grade_own(root: Path, workers: int | None, console: Console) -> dict[int, d
 
 
 def _points(result: Result) -> list[tuple[str, int, int]]:
-    return [(task.id, task.points, task.max_points) for task in result.tasks]
+    return [(task.id, task.points, task.max_points) for task in result.tasks if task.graded]
 
 
 @exits_on_signals()
@@ -228,15 +232,12 @@ def watch_command(what: str, submission: str | None) -> None:
     number, task = _named(what)
     exercise = load_exercise(number)
     tasks = [exercise.find(what)] if task else exercise.tasks
-    file = submission_file(number, submission)
-    exercise.require()
-    if submission is not None:
-        _prepare_for_others(exercise, file)
     asked = False
 
     class Remembering(Screen):
         def end(self, result: Result, whole: bool = True) -> None:
             if submission is None:
+                file = submission_file(number, None)
                 remember(course_root(), number, _points(result), digest(file))
             super().end(result, whole)
 
@@ -250,9 +251,12 @@ def watch_command(what: str, submission: str | None) -> None:
             raise KeyboardInterrupt
         time.sleep(seconds)
 
+    def find() -> Watched:
+        return _found(exercise, submission, tasks)[0]
+
     before = signal.signal(signal.SIGINT, stop)
     try:
-        watch(exercise, file, tasks, Remembering(), wait)
+        watch(exercise, find, tasks, Remembering(), wait)
     except KeyboardInterrupt:
         print()
     finally:
@@ -278,7 +282,7 @@ def start_command(what: str, notebook: bool) -> None:
     console.print(f"  {'Grade':<11}botschool grade {number}, or botschool watch {number}")
     console.print(f"  {'A hint':<11}botschool hint {number}.1")
     console.print(f"  {'A notebook':<11}make notebook-ex{number} opens your file as one")
-    exercise.require()
+    exercise.require_some(exercise.tasks)
     if notebook:
         open_notebook(number, file, root)
 
@@ -295,15 +299,22 @@ def reset_command(what: str) -> None:
         print(f"{name} is as it began; yours is kept as {os.path.relpath(kept)}.")
 
 
+@temporary_files_within()
 def show_command(what: str, submission: str | None, opens: bool) -> None:
     """Runs a finished exercise, names what it has made, and opens it."""
     from botschool.grading.report.progress import answers
     from botschool.grading.report.showing import make_page, open_page, show
 
     number = _named(what)[0]
+    file = None
     if submission is not None:
-        _warn_of_unconfined(submission_file(number, submission))
-    made = show(number, submission)
+        exercise = load_exercise(number)
+        found, _ = _found(exercise, submission, exercise.tasks)
+        file = found.file
+        for note in found.notes:
+            print(note)
+        _warn_of_unconfined(found.shown)
+    made = show(number, file)
     folder = course_root().resolve() / "results" / f"ex{number:02d}"
     tops = Counter(path.relative_to(folder).parts[0] for path in made)
     for name, files in tops.items():
@@ -340,15 +351,40 @@ def trust_command(folder: Path) -> None:
     print(f"{folder.resolve()}: botschool will run this course's graders.")
 
 
-def release_command(folder: Path, exercises: str, answers: bool) -> None:
-    """Makes the students' copy, or brings it up to date."""
+def course_command(folder: Path, exercises: str) -> None:
+    """Make a copy of the course that the installed botschool grades, or bring it up to date."""
+    _copy(material(), folder, exercises, compiled=False)
+    print(f"Begin with: cd {quote(str(folder))}; botschool start 1")
+
+
+def release_command(folder: Path, exercises: str, answers: bool, wheels: list[Path]) -> None:
+    """Make the students' copy of the repository, or bring it up to date."""
+    root = material() if material().name == MATERIAL else course_root()
+    with contextlib.suppress(BotschoolError):
+        root = course_root()
+    if answers and not (root / "solutions").is_dir():
+        raise BotschoolError("The answers are in the repository only: release the copy there.")
+    for wheel in wheels:
+        if not wheel.is_file() or wheel.suffix != ".whl":
+            raise BotschoolError(f"{wheel} is no wheel: name a file botschool-....whl.")
+    _copy(root, folder, exercises, answers=answers, wheels=wheels)
+
+
+def _copy(
+    root: Path,
+    folder: Path,
+    exercises: str,
+    answers: bool = False,
+    compiled: bool = True,
+    wheels: Sequence[Path] = (),
+) -> None:
     from botschool.grading.copies.release import release
 
-    asked = selected(exercises)
+    asked = selected(exercises, root)
     if any(asked.values()):
         raise BotschoolError(f"'{exercises[:30]}' names a task: an exercise is released whole.")
     numbers = None if exercises == "all" else set(asked)
-    done = release(course_root(), folder, numbers, answers)
+    done = release(root, folder, numbers, answers, compiled=compiled, wheels=wheels)
     for path in done.edited:
         print(f"left alone, because it was edited: {path}")
     print(f"{folder}: {done.files} files for students, {done.written} of them new or changed.")

@@ -40,6 +40,11 @@ def pack(grader: str, solution: str = "", mistakes: str = "") -> str:
     )
 
 
+def is_packed(text: str) -> bool:
+    """Whether a Python file has been packed."""
+    return "from botschool.grading.packed import " in text
+
+
 def unpack(file: str, packed: str) -> Any:
     """The exercise that a packed grader declares; `file` is where it lies."""
     source, *known = json.loads(zlib.decompress(base64.b85decode(packed)))

@@ -13,7 +13,7 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-import botschool
+from botschool.paths import material
 from botschool.rl.folder import name_of
 from botschool.rl.weights import WEIGHTS
 
@@ -46,10 +46,8 @@ class Trained:
 
 
 def folder() -> Path:
-    """Where they are: in the installed package, or in the checkout that it is a part of."""
-    package = Path(botschool.__file__).parent
-    installed = package / "agents"
-    return installed if installed.is_dir() else package.parents[1] / "data" / "agents"
+    """Where they are."""
+    return material() / "data" / "agents"
 
 
 def agents() -> list[Trained]:

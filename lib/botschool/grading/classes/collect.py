@@ -100,7 +100,8 @@ def grade_all(
                     del one.choices[number]
         for number in asked:
             if any(number in one.files for one in submissions):
-                grades.exercise(number).require()
+                exercise = grades.exercise(number)
+                exercise.require(map(exercise.find, asked[number]) if asked[number] else None)
         register = Register(submissions, settings)
         rows = _grade(register, output, asked, grades, workers, start, report)
         found = Class(rows, register, export.nobodys, export.notes)

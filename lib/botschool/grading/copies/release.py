@@ -8,7 +8,7 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -16,10 +16,11 @@ from pathlib import Path
 
 from botschool.errors import BotschoolError
 from botschool.grading.copies.skeleton import find_leaks, pairs, skeleton
-from botschool.grading.declare.exercise import exercise_numbers, folder_of, load_exercise
+from botschool.grading.declare.exercise import MISTAKES, exercise_numbers, folder_of
 from botschool.grading.declare.trust import check_trusted, trust
-from botschool.grading.packed import PACKED, pack, pack_answers, pack_module
+from botschool.grading.packed import PACKED, is_packed, pack, pack_answers, pack_module
 from botschool.output import written_whole
+from botschool.paths import material
 from botschool.sandbox.scratch import remove_tree
 
 RELEASED = (
@@ -27,6 +28,10 @@ RELEASED = (
     "LICENSE", ".gitignore",
 )  # fmt: skip
 """At the top of the repository; everything else stays (envs/ is what exercise 10 builds)."""
+COMPILED = re.compile(r"lib/|pyproject\.toml$|tools/(material|build_backend)")
+"""What only a copy has that compiles botschool."""
+WHEELS = "wheels"
+"""In a copy that installs botschool: its wheels."""
 MANIFEST = ".release.json"
 """In the copy: the digest of every file as it was released, and the skeletons' texts."""
 START = "exercises/README.md"
@@ -62,11 +67,15 @@ def release(
     numbers: set[int] | None = None,
     with_answers: bool = False,
     trusted: bool = True,
+    compiled: bool = True,
+    wheels: Sequence[Path] = (),
 ) -> Released:
     """Makes the copy, or brings it up to date. numbers: exercises; None is all of them.
 
-    with_answers: their solutions' texts come packed, to be shown after full marks.
-    trusted: whether the user may run the copy's graders where it is.
+    root: the repository, or the material of an installed package. with_answers: their solutions'
+    texts come packed, to be shown after full marks. trusted: whether the user may run the copy's
+    graders where it is. compiled: whether the copy has botschool's source and compiles it; else it
+    uses botschool as installed, or installs one of the wheels.
 
     A new copy is made whole or not at all. In one that is there already, exercises that it has
     stay, and files that were edited since are left alone; .git is never touched. Raises
@@ -75,6 +84,7 @@ def release(
     root, target = root.resolve(), target.absolute()
     check_trusted(root)  # a repository's settings name programs that git runs
     manifest = _check(root, target)
+    compiled = compiled and not wheels and (root / "lib").is_dir()
     for number in sorted(numbers or ()):
         folder_of(number, root)
     numbers = set(exercise_numbers(root) if numbers is None else numbers)
@@ -84,7 +94,10 @@ def release(
             numbers = numbers | {int(found[1])}
             answered = answered | ({int(found[1])} if name.endswith(f"/{PACKED}") else set())
     with _temporary(target) as made:
-        _build(root, made, numbers)
+        _build(root, made, numbers, compiled)
+        for wheel in wheels:
+            (made / WHEELS).mkdir(exist_ok=True)
+            shutil.copy(wheel, made / WHEELS)
         _add_answers(root, made, answered)
         leaks = find_leaks(root, (path for path in made.rglob("*") if path.is_file()))
         if leaks:
@@ -96,7 +109,7 @@ def release(
         files = _digests(made)
         skeletons = {
             name: (made / name).read_text(encoding="utf-8")
-            for name in (place.relative_to(root).as_posix() for _, place in pairs(root))
+            for name in _skeletons_of(root)
             if name in files
         }
         text = json.dumps({"files": files, "skeletons": skeletons}, indent=1, sort_keys=True)
@@ -121,7 +134,7 @@ def release(
 
 def _check(root: Path, target: Path) -> dict[str, str]:
     """The digests of a copy that is there, {} for a new one. Raises BotschoolError."""
-    if not (root / "solutions").is_dir():
+    if not (root / "solutions").is_dir() and root != material():
         raise BotschoolError(f"{root} holds no solutions: it is a student's copy already.")
     if target.is_symlink() or (target.exists() and not target.is_dir()):
         raise BotschoolError(f"{target} is no folder: name a new one.")
@@ -158,9 +171,18 @@ def _temporary(target: Path) -> Iterator[Path]:
             remove_tree(made)
 
 
-def _build(root: Path, made: Path, numbers: set[int]) -> None:
+def _skeletons_of(root: Path) -> list[str]:
+    """The paths of the files that students write into."""
+    if (root / "solutions").is_dir():
+        return [place.relative_to(root).as_posix() for _, place in pairs(root)]
+    return list(json.loads((root / MANIFEST).read_text(encoding="utf-8"))["skeletons"])
+
+
+def _build(root: Path, made: Path, numbers: set[int], compiled: bool) -> None:
     """Writes the whole copy into an empty folder."""
     for path in released_files(root, numbers):
+        if not compiled and COMPILED.match(path.relative_to(root).as_posix()):
+            continue
         place = made / path.relative_to(root)
         place.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(path, place)
@@ -172,15 +194,65 @@ def _build(root: Path, made: Path, numbers: set[int]) -> None:
             text = skeleton(solution.read_text(encoding="utf-8"))
             released.write_text(text, encoding="utf-8", newline="\n")
     for grader in made.glob("exercises/ex[0-9][0-9]_*/test_*.py"):
-        known = load_exercise(int(grader.parent.name[2:4]), root).known
-        _change(grader, partial(pack, solution=known.solution, mistakes=known.mistakes))
-    for measures in made.glob("lib/botschool/labs/lab[0-9][0-9]/reference.py"):
-        _change(measures, pack_module)
+        _change(grader, partial(_packed, root=root, folder=grader.parent.name))
+    pack_measures(made / "lib" / "botschool", made / "lib" / "botschool")
+    if not compiled:
+        _leave_out_what_no_text_shows(made)
     start = made / START
     if start.is_file():
         _change(start, lambda text: _rows(text, start.parent))
         text = start.read_text(encoding="utf-8").replace("](ex", "](exercises/ex")
         (made / "README.md").write_text(text, encoding="utf-8", newline="\n")
+
+
+def _packed(grader: str, root: Path, folder: str) -> str:
+    """A grader packed with what it knows: its solution, and the wrong ones."""
+    file = re.search(r'file="([^"]+)"', grader)
+    if is_packed(grader) or not file:
+        return grader
+    solution = (root / "solutions" / folder / file[1]).read_text(encoding="utf-8")
+    mistakes = root / MISTAKES / f"{folder[:4]}.py"
+    known = mistakes.read_text(encoding="utf-8") if mistakes.is_file() else ""
+    return pack(grader, solution, known)
+
+
+def pack_measures(package: Path, target: Path) -> None:
+    """Pack what the laboratories check measures with; target: the package that gets it."""
+    for measures in package.glob("labs/lab[0-9][0-9]/reference.py"):
+        text = measures.read_text(encoding="utf-8")
+        place = target / measures.relative_to(package)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        packed = text if is_packed(text) else pack_module(text)
+        place.write_text(packed, encoding="utf-8", newline="\n")
+
+
+_LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s:]+)(#[^)\s]*)?\)")
+
+
+def _leave_out_what_no_text_shows(made: Path) -> None:
+    """Remove replays that no exercise links to and pictures that no text shows, and links to them.
+
+    A link to a file that the copy does not have becomes plain text.
+    """
+    texts = {path: path.read_text(encoding="utf-8") for path in made.rglob("*.md")}
+    kept = {
+        (path.parent / link[3]).resolve()
+        for path, text in texts.items()
+        for link in _LINK.finditer(text)
+        if link[1] or made / "exercises" in path.parents
+    }
+    for top in ("replays", "images"):
+        for path in sorted((made / "docs" / top).rglob("*")):
+            if path.is_file() and path.resolve() not in kept:
+                path.unlink()
+    for path, text in texts.items():
+        there = partial(_if_there, folder=path.parent)
+        path.write_text(_LINK.sub(there, text), encoding="utf-8", newline="\n")
+
+
+def _if_there(link: re.Match, folder: Path) -> str:
+    """A link as it is, or its text where there is no such file."""
+    return link[0] if (folder / link[3]).exists() else link[2]
 
 
 def _add_answers(root: Path, made: Path, numbers: set[int]) -> None:

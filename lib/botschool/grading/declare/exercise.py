@@ -7,13 +7,13 @@ import importlib.util
 import os
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from botschool.errors import BotschoolError
+from botschool.errors import BotschoolError, listed
 from botschool.grading.declare.mistakes import Known
 from botschool.grading.declare.references import pruned
 from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
@@ -24,6 +24,8 @@ STATE = ".botschool"
 """In the course folder: what the commands remember."""
 POINTS = 100
 """What every exercise is worth."""
+ABSENT = "botschool.grading.run.absent"
+"""What a submission finds imported where packages are missing that its exercise imports."""
 MISTAKES = "tests/course/mutants"
 """Of a course: the wrong solutions of its exercises, which the students' copy has packed."""
 
@@ -50,10 +52,11 @@ class Task:
     title: str
     seconds: float
     memory: int
-    imports: tuple[str, ...] = ()
     needs: tuple[str, ...] = ()
     """Tasks whose functions a submission calls in this one."""
     refused: tuple[str, ...] = ()
+    extras: tuple[str, ...] = ()
+    """Those of the exercise that the task needs."""
     checks: list[tuple[int, str, Check]] = field(default_factory=list)
 
     def check(self, points: int) -> Callable:
@@ -101,7 +104,8 @@ class Exercise:
         self.number = number
         self.title = title
         self.file = file
-        self.imports = imports
+        absent = any(importlib.util.find_spec(name.partition(".")[0]) is None for name in imports)
+        self.imports = (ABSENT,) if absent else imports
         self.extras = extras
         self.tasks: list[Task] = []
         self.secret = ""
@@ -127,14 +131,18 @@ class Exercise:
         memory: int = 4096,
         needs: tuple[str, ...] = (),
         refused: tuple[str, ...] = (),
+        packages: tuple[str, ...] | None = None,
     ) -> Task:
         """Adds a task; seconds: processor time of all its checks; memory: MB beyond the imports.
 
         needs: ids of tasks whose functions students call in this one. If one of these does not
         pass, this one is also graded with ours in its place.
         refused: functions of libraries that are the answer, as of refused.refuse.
+        packages: the exercise's extras that this task needs; None for all. The task is graded
+        where the others are not installed.
         """
-        self.tasks.append(Task(id, title, seconds, memory, self.imports, needs, refused))
+        extras = self.extras if packages is None else packages
+        self.tasks.append(Task(id, title, seconds, memory, needs, refused, extras))
         return self.tasks[-1]
 
     def needed(self, task: Task) -> list[Task]:
@@ -147,15 +155,26 @@ class Exercise:
                 waiting += self.find(id).needs
         return [each for each in self.tasks if each.id in found]
 
-    def require(self) -> None:
-        """Raises BotschoolError that says what to install if a package is not installed."""
-        missing = missing_packages(self.extras)
-        if missing:
-            listed = " and ".join(filter(None, [", ".join(missing[:-1]), missing[-1]]))
+    def require(self, tasks: Iterable[Task] | None = None) -> None:
+        """Raise BotschoolError that says what to install if one of the tasks lacks a package.
+
+        tasks: None for all that the exercise has, and for what its file does when it is run.
+        """
+        wanted = self.extras
+        if tasks is not None:
+            wanted = tuple(e for e in self.extras if any(e in task.extras for task in tasks))
+        if missing := missing_packages(wanted):
             raise BotschoolError(
-                f"Exercise {self.number} needs {listed}: install what it needs with "
-                f"'make test-ex{self.number}' or 'pip install botschool[{','.join(self.extras)}]'."
+                f"Exercise {self.number} needs {listed(missing)}: install what it needs with "
+                f"'make test-ex{self.number}' or 'pip install botschool[{','.join(wanted)}]'."
+                f"{_only_on(wanted)}"
             )
+
+    def require_some(self, tasks: Iterable[Task]) -> None:
+        """Raise BotschoolError as `require`, but only if none of the tasks can be graded."""
+        tasks = list(tasks)
+        if all(missing_packages(task.extras) for task in tasks):
+            self.require(tasks)
 
     def seed(self, index: int) -> int:
         """A grading seed; they follow from the instructor's secret (secret.py) and the submission.
@@ -177,6 +196,25 @@ class Exercise:
                 return each
         known = ", ".join(each.id for each in self.tasks)
         raise BotschoolError(f"Exercise {self.number} has no task {task}; its tasks are {known}.")
+
+
+def cannot_be_graded(task: Task) -> str:
+    """Return why a task cannot be graded on this machine; "" if it can."""
+    missing = missing_packages(task.extras)
+    if not missing:
+        return ""
+    return (
+        f"Not graded: this task needs {listed(missing)}, not installed here: "
+        f"pip install 'botschool[{','.join(task.extras)}]'.{_only_on(task.extras)}"
+    )
+
+
+def _only_on(extras: tuple[str, ...]) -> str:
+    """Return a sentence on where packages can be had that not every system has."""
+    here = sys.platform == "linux" and sys.version_info < (3, 12)
+    if "pybullet" not in extras or here:
+        return ""
+    return " PyBullet comes ready to install for Linux with Python 3.10 or 3.11 only."
 
 
 def folder_of(number: int, root: Path | None = None) -> Path:

@@ -15,7 +15,7 @@ from shlex import quote
 
 from botschool.errors import BotschoolError
 from botschool.output import save_bytes
-from botschool.sandbox.paths import IMPORT_ROOT
+from botschool.paths import material
 
 FILE = "trusted.json"
 """In the user's folder of settings: the courses that he trusts."""
@@ -25,7 +25,7 @@ def check_trusted(root: Path) -> None:
     """Raise BotschoolError, which says what to do, for a course that the user does not trust."""
     root = root.resolve()
     named = os.environ.get("BOTSCHOOL_COURSE")
-    if root == IMPORT_ROOT.parent.resolve() or (named and root == Path(named).resolve()):
+    if root == material() or (named and root == Path(named).resolve()):
         return
     if str(root) in _trusted():
         return

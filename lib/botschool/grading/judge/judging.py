@@ -54,6 +54,8 @@ class TaskResult:
     """What this system could not confine, in words."""
     pictures: list[tuple[str, bytes]] = field(default_factory=list)
     """(name, PNG) of those beside the submission's file after the task."""
+    graded: bool = True
+    """Whether this machine has what the task needs."""
 
 
 class GraderFault(BotschoolError):

@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from botschool.grading.declare.checks import Wrong
-from botschool.grading.declare.exercise import Exercise, Task
+from botschool.grading.declare.exercise import Exercise, Task, cannot_be_graded
 from botschool.grading.declare.references import functions_of, pruned
 from botschool.grading.judge.judging import TaskResult, grade_task, tried_twice
 from botschool.grading.run.cells import Script, Unreadable, code_cells, scripts
@@ -57,7 +57,11 @@ class Result:
     def to_json(self) -> dict:
         """The form of `botschool grade --json`."""
         shown = ("id", "title", "points", "max_points", "message")
-        tasks = [{name: getattr(task, name) for name in shown} for task in self.tasks]
+        tasks = [
+            {name: getattr(task, name) for name in shown}
+            | ({} if task.graded else {"graded": False})
+            for task in self.tasks
+        ]
         return {
             "exercise": self.exercise,
             "points": self.points,
@@ -151,6 +155,8 @@ class Submission:
 
     def grade(self, task: Task) -> TaskResult:
         """Grades a task; lines in the message are those of the file, or of a notebook's cell."""
+        if self._exercise is not None and (reason := cannot_be_graded(task)):
+            return TaskResult(task.id, task.title, 0, task.max_points, reason, graded=False)
         if self._failure:
             return TaskResult(task.id, task.title, 0, task.max_points, self._failure)
         if task.id not in self._results:

@@ -7,11 +7,13 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from shlex import quote
+from typing import NamedTuple
 
 from rich.console import Console
 from rich.markup import escape
 from rich.padding import Padding
 
+from botschool.errors import listed
 from botschool.grading.declare.exercise import Exercise
 from botschool.grading.judge.submission import Result, TaskResult, grade
 from botschool.grading.run.confined import fork_server
@@ -51,10 +53,10 @@ class Screen:
         mark = {True: "[green]✓[/]", False: "[red]✗[/]"}[result.points == result.max_points]
         if result.message.startswith("not done yet") and result.points == 0:
             mark = "[dim]·[/]"
-        self.console.print(
-            f" {mark} {result.id:<5} {escape(result.title):<44} "
-            f"{result.points:>3} of {result.max_points}"
-        )
+        points = f"{result.points:>3} of {result.max_points}"
+        if not result.graded:
+            mark, points = "[dim]–[/]", f"  – of {result.max_points}"
+        self.console.print(f" {mark} {result.id:<5} {escape(result.title):<44} {points}")
         if result.message:
             self._indented(result.message.splitlines(), MAX_MESSAGE_LINES, "")
         if result.printed.strip():
@@ -68,8 +70,12 @@ class Screen:
         """
         if result.missing:
             self.console.print(f"[yellow]{notice(result.missing)}[/]")
-        self.console.print(f"[bold]{result.points} of {result.max_points} points[/]")
-        missing = [task for task in result.tasks if task.points < task.max_points]
+        left = sum(task.max_points for task in result.tasks if not task.graded)
+        said = f" ({left} of them could not be graded on this machine)" if left else ""
+        self.console.print(f"[bold]{result.points} of {result.max_points} points[/]{said}")
+        missing = [task for task in result.tasks if task.points < task.max_points and task.graded]
+        if left and not missing:
+            return
         if not missing and not whole:
             self.console.print(
                 f"[green]Task {result.tasks[-1].id} done![/] All tasks: "
@@ -123,13 +129,9 @@ def notice(missing: list[str]) -> str:
     if not missing:
         return ""
     return (
-        f"Notice: this system cannot confine a submission's {_listed(missing)}; grade only "
+        f"Notice: this system cannot confine a submission's {listed(missing)}; grade only "
         "files that you trust here."
     )
-
-
-def _listed(words: list[str]) -> str:
-    return " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))
 
 
 POLL_SECONDS = 0.3
@@ -140,10 +142,10 @@ class Saved(Exception):
     """The file was saved while it was being graded."""
 
 
-def stamp(folder: Path) -> tuple:
-    """Changes when one of the Python files in a folder is saved."""
+def stamp(place: Path) -> tuple:
+    """Changes when a file, or one of the scripts and notebooks in a folder, is saved."""
     found = []
-    for path in sorted(folder.glob("*.py")):
+    for path in sorted([*place.glob("*.py"), *place.glob("*.ipynb")]) or [place]:
         try:
             status = path.stat()
             found.append((path.name, status.st_mtime_ns, status.st_size))
@@ -152,9 +154,21 @@ def stamp(folder: Path) -> tuple:
     return tuple(found)
 
 
+class Watched(NamedTuple):
+    """What is graded after every save."""
+
+    file: Path
+    shown: Path
+    """What it is called."""
+    notes: Sequence[str]
+    """Sentences on how it was found."""
+    place: Path
+    """The file or folder in which it is saved."""
+
+
 def watch(
     exercise: Exercise,
-    file: Path,
+    find: Callable[[], Watched],
     tasks: list,
     screen: Screen,
     wait: Callable[[float], None] = time.sleep,
@@ -162,31 +176,32 @@ def watch(
     """Grades now and after every save, for ever; `wait` is called between two looks."""
     with fork_server(exercise.imports) as server:
         while True:
-            seen = stamp(file.parent)
+            found = find()
+            seen = stamp(found.place)
             try:
-                _once(exercise, file, tasks, screen, seen, server)
+                _once(exercise, found, tasks, screen, seen, server)
             except Saved:
                 continue
             screen.console.print("[dim]Waiting for the next save; Ctrl-C ends.[/]")
-            while stamp(file.parent) == seen or not file.is_file():
+            while stamp(found.place) == seen or not found.place.exists():
                 wait(POLL_SECONDS)
 
 
 def _once(
     exercise: Exercise,
-    file: Path,
+    found: Watched,
     tasks: list,
     screen: Screen,
     seen: tuple,
     server: ForkServer,
 ) -> None:
     screen.console.clear()
-    screen.start(exercise.number, exercise.title, file)
+    screen.start(exercise.number, exercise.title, found.shown, found.notes)
 
     def report(result: TaskResult) -> None:
-        if stamp(file.parent) != seen:
+        if stamp(found.place) != seen:
             raise Saved
         screen.task(result)
 
-    result = grade(exercise, file, report, tasks, server, announce=screen.banner)
+    result = grade(exercise, found.file, report, tasks, server, announce=screen.banner)
     screen.end(result, whole=len(tasks) == len(exercise.tasks))

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 import time
 import webbrowser
 from html import escape
@@ -14,6 +15,8 @@ from urllib.parse import quote
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.exercise import load_exercise, submission_file
+from botschool.grading.run.notebooks import code_cells
+from botschool.grading.run.temporary import PREFIX
 from botschool.output import save_bytes
 from botschool.paths import course_root
 
@@ -35,15 +38,17 @@ figure { margin: 2rem 0 } figcaption { color: #555 }
 """
 
 
-def show(number: int, submission: str | None = None, root: Path | None = None) -> list[Path]:
-    """Runs a submission's file (None: the student's own) and returns what it made or changed.
+def show(number: int, file: Path | None = None, root: Path | None = None) -> list[Path]:
+    """Runs a file, a script or a notebook (None: the student's own); returns what it made.
 
     Says every 30 seconds on stderr that it still runs. Raises BotschoolError when tasks of the file
     are not done yet, and when it ends with an error.
     """
     root = (root or course_root()).resolve()
     load_exercise(number, root).require()
-    file = submission_file(number, submission, root).resolve()
+    file = (file or submission_file(number, None, root)).resolve()
+    if file.suffix == ".ipynb":
+        file = _script_of(file)
     _require_finished(file, number)
     folder = root / "results" / f"ex{number:02d}"
     folder.mkdir(parents=True, exist_ok=True)
@@ -58,6 +63,13 @@ def show(number: int, submission: str | None = None, root: Path | None = None) -
             f"{number}' says so."
         )
     return [path for path, stamp in _stamps(folder).items() if before.get(path) != stamp]
+
+
+def _script_of(notebook: Path) -> Path:
+    """The code of a notebook as a script, in a folder of its own."""
+    script = Path(tempfile.mkdtemp(prefix=PREFIX)) / notebook.with_suffix(".py").name
+    script.write_text("\n\n\n".join(code_cells(notebook)) + "\n", encoding="utf-8")
+    return script
 
 
 def _require_finished(file: Path, number: int) -> None:

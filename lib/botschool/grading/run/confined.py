@@ -15,6 +15,7 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.run.temporary import PREFIX
+from botschool.paths import material
 from botschool.sandbox import Child, ForkServer, Limits, Refused, SandboxError, Scratch, paths
 from botschool.sandbox.errors import CannotRead
 from botschool.sandbox.inside import read_inside
@@ -135,7 +136,7 @@ def close_class(*folders: Path) -> None:
     The folder of temporary files is closed, too: the copies of others lie there. Raises
     BotschoolError for a folder that submissions must read.
     """
-    data = paths.IMPORT_ROOT.resolve().parent / "data"
+    data = material() / "data"
     closed = [folder.resolve() for folder in folders]
     temporary = Path(tempfile.gettempdir()).resolve()
     closed.append(temporary.parent if temporary.name.startswith(PREFIX) else temporary)
@@ -166,8 +167,8 @@ def readable(file: Path) -> list[Path]:
     ]
     closed += map(Path, json.loads(os.environ.get(CLASS, "[]")))
     here = Path.cwd() / os.environ.get("BOTSCHOOL_COURSE", "")
-    courses = {own.parent, here, *here.parents, *file.parents}
+    courses = {material(), here, *here.parents, *file.parents}
     closed += [
         course / name for course in courses if (course / "exercises").is_dir() for name in _PRIVATE
     ]
-    return paths.without([*needed, own.parent / "data", *paths.system_paths()], closed)
+    return paths.without([*needed, material() / "data", *paths.system_paths()], closed)

@@ -1,0 +1,50 @@
+"""`botschool examples`: the experiments and robots that come with botschool."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+app = typer.Typer()
+
+
+@app.command(epilog="Example: botschool examples acrobot.ini acrobot.npy -o my-folder")
+def examples(
+    names: Annotated[
+        list[str] | None, typer.Argument(help="Those to copy.", metavar="NAME")
+    ] = None,
+    folder: Annotated[
+        Path, typer.Option("-o", "--output", help="Where to copy them.", metavar="FOLDER")
+    ] = Path("."),
+) -> None:
+    """List the experiments, robots and agents that come with botschool, or copy some."""
+    from botschool import examples as ours
+
+    if names:
+        for path in ours.copy(names, folder):
+            print(f"made: {path}")
+        return
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    console = Console(highlight=False)
+    table = Table(box=None, pad_edge=False, header_style="dim")
+    table.add_column("experiment", no_wrap=True)
+    table.add_column("evolved robot", no_wrap=True)
+    table.add_column("what it evolves")
+    robots = ours.examples(ours.ROBOTS)
+    for name, path in ours.examples("experiments").items():
+        robot = path.with_suffix(".npy").name
+        table.add_row(name, robot if robots.pop(robot, None) else "", escape(ours.purpose(path)))
+    console.print(table)
+    console.print(f"\n[dim]more robots:[/] {', '.join(robots)}")
+    console.print("[dim]trained agents:[/] botschool rl list --ours")
+    console.print(
+        "\nTo evolve: botschool es -f acrobot.ini -s 1 -o results/acrobot\n"
+        "To watch:  botschool es -f planarhopper.ini -p -g planarhopper.npy\n"
+        "To change: botschool examples acrobot.ini copies the file here",
+        soft_wrap=True,
+    )
