@@ -34,7 +34,7 @@ LAYERS = (
     {"grading.classes"},
     {"grading"},
     {"labs.declare"},
-    {"labs"},
+    {"labs", "page"},
     {"cli"},
     {"__main__"},
 )

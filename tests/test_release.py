@@ -95,7 +95,7 @@ def texts(copy):
 
 def absent(copy, name, text):
     """What a text names that the copy does not have: targets of make, files and folders, links."""
-    targets = re.findall(r"^([a-z%-]+):", (copy / "Makefile").read_text(), re.MULTILINE)
+    targets = re.findall(r"^([\w%./-]+):", (copy / "Makefile").read_text(), re.MULTILINE)
     known = [re.compile(target.replace("%", r"\d+")) for target in targets]
     for target in re.findall(r"(?:[`']|^|PYTHON=\S+ |TORCH=\S+ )make ([a-z][\w-]*)", text, re.M):
         if re.search(rf"[`'=]\S* ?make {target}|^make {target}", text, re.MULTILINE) and not any(
@@ -103,7 +103,8 @@ def absent(copy, name, text):
         ):
             yield f"make {target}"
     for place in PLACE.findall(text):
-        if not (copy / place).exists() and not re.search(r"[A-Z]{3}", place):
+        made = place in targets  # by make
+        if not made and not (copy / place).exists() and not re.search(r"[A-Z]{3}", place):
             yield place
     if name.endswith(".md"):
         for link in re.findall(r"\]\(([^)#\s:]+)(?:#[^)]*)?\)", text):
