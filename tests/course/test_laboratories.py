@@ -142,6 +142,17 @@ def test_a_conclusion_against_its_own_data_costs_its_points(spoiled):
     assert "permutation test" in messages(spoiled)
 
 
+def test_a_tipping_point_that_is_not_marked_costs_three_points(spoiled):
+    spoiled = type(spoiled)(
+        replace(spoiled.lab, figure=replace(spoiled.lab.figure, mark=lambda data: 0.7)),
+        spoiled.folder,
+    )
+    assert points(spoiled) == FULL | {"figure": 7}
+    path = spoiled.folder / "figure.py"
+    path.write_text(path.read_text().replace("return pic", "axes.axvline(0.7)\n    return pic"))
+    assert points(spoiled) == FULL
+
+
 def test_a_figure_of_means_costs_the_figure(spoiled):
     path = spoiled.folder / "figure.py"
     runs = '[x] * len(values["metres"]), values["metres"]'

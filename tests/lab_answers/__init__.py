@@ -4,7 +4,8 @@ PREDICTIONS: field -> answer; HONEST: three students with predictions (and a rul
 PARTS: how many times smaller the budgets of the proofs are; MEASURE: the functions of measure.py;
 SHOWN, DRAWN: which conditions the figure shows, and the measure with the names of both axes;
 cells(values): a row of the table; conclusions(place, data): the answers after the table.
-`prepare(place)` is optional: what the student does between `start` and `run`.
+Optional: `prepare(place)`, what the student does between `start` and `run`; `mark(data)`, code that
+marks the result in the figure.
 """
 
 from botschool.labs.measuring import permutation_test

@@ -46,6 +46,11 @@ def tipping(data):
     return point([g.mean() for g in groups]), np.percentile(again, [2.5, 97.5], method="nearest")
 
 
+def mark(data):
+    found = tipping(data)[0]
+    return "" if found == 3 else f"axes.axvline({found})\n    "
+
+
 def conclusions(place, data):
     found, (low, high) = tipping(data)
     predicted = place.sheet().values(place.lab.predictions)[0]["tipping"]

@@ -28,6 +28,9 @@ COMPLETE, EVIDENCE = 10, 15
 MEASURE, TABLE = 10, 15
 """Points of the part `measurements`: measure.py; the table."""
 
+MARK = 3
+"""Points of the part `figure` for a line that marks a result, where one is asked for."""
+
 
 @dataclass
 class Part:
@@ -265,10 +268,19 @@ class Check:
                 raise Wrong(f"the vertical axis needs its unit: {' or '.join(figure.units)}.")
             _check_points(drawn_["points"], figure.conditions, figure.y, self.data)
             part.points = part.max_points
+            self._marked(drawn_["verticals"])
         except MachineFault:
             raise
         except Wrong as error:
             part.lose(f"figure.py: {error}")
+
+    def _marked(self, verticals: np.ndarray) -> None:
+        """Take MARK points off a figure that lacks the vertical line that it needs."""
+        part, figure = self.parts["figure"], self.lab.figure
+        place = figure.mark(self.data) if set(figure.conditions) <= self.whole else None
+        if place is not None and not np.isclose(verticals, place, atol=0.01).any():
+            part.points -= MARK
+            part.lose(f"figure.py: draw a vertical line at {place:g} (axvline), as sheet.md asks.")
 
     def _conclusion(self) -> None:
         part = self.parts["conclusion"]

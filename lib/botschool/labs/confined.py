@@ -56,12 +56,13 @@ def measured(student: Student, run: dict[str, Any], names: tuple[str, ...]) -> d
 def drawn_figure(student: Student, measurements: dict[str, Any]) -> dict[str, Any]:
     """What figure(measurements) shows: names of the axes, and the points. Raises Wrong."""
     found = student.run(_inspect, measurements, said="figure(measurements)")
-    if not isinstance(found, dict) or not {"labels", "points", "png"} <= found.keys():
+    if not isinstance(found, dict) or not {"labels", "points", "verticals", "png"} <= found.keys():
         raise Wrong("figure(measurements) must return a matplotlib figure.")
     points = np.asarray(found["points"], dtype=float).reshape(-1, 2)
     labels = [(str(x), str(y)) for x, y in found["labels"]]
     png = np.asarray(found["png"], dtype=np.uint8).tobytes()
-    return {"labels": labels, "points": points, "png": png}
+    verticals = np.asarray(found["verticals"], dtype=float).ravel()
+    return {"labels": labels, "points": points, "verticals": verticals, "png": png}
 
 
 def _inspect(student: Any, measurements: dict[str, Any]) -> dict[str, Any]:
@@ -76,18 +77,21 @@ def _inspect(student: Any, measurements: dict[str, Any]) -> dict[str, Any]:
     figure = student.figure(measurements)
     if not hasattr(figure, "axes") or not hasattr(figure, "savefig"):
         raise TypeError("figure(measurements) must return a matplotlib figure")
-    labels, points = [], []
+    labels, points, verticals = [], [], []
     for axes in figure.axes:
         labels.append([axes.get_xlabel(), axes.get_ylabel()])
         for line in axes.lines:
             marker = line.get_marker()
             if marker not in ("", " ", "none", "None", None):
                 points.append(np.column_stack([np.asarray(d, float) for d in line.get_data()]))
+            elif len(set(line.get_xdata())) == 1 < len(line.get_xdata()):
+                verticals.append(float(line.get_xdata()[0]))
         points += [np.asarray(each.get_offsets(), float) for each in axes.collections]
     picture = io.BytesIO()
     figure.savefig(picture, format="png", dpi=100)
     return {
         "labels": labels,
         "points": np.concatenate(points) if points else np.zeros((0, 2)),
+        "verticals": verticals,
         "png": np.frombuffer(picture.getvalue(), np.uint8),
     }

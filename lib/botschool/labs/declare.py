@@ -122,6 +122,8 @@ class Figure:
     conditions: tuple[str, ...]
     units: tuple[str, ...]
     """Words of which the vertical axis's name holds one."""
+    mark: Callable[[Data], float | None] = lambda data: None
+    """Where on the horizontal axis a vertical line must stand; None: none is needed."""
 
 
 @dataclass(frozen=True)

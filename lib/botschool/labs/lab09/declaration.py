@@ -95,10 +95,15 @@ def against_prediction(data: Data, answers: Answers) -> Judged:
     return lambda answer: answer == right, told
 
 
+def shown(data: Data) -> float:
+    """The tipping point that the runs show."""
+    shares = np.array([data[f"bonus {bonus:g}"]["statue"].mean() for bonus in BONUSES])
+    return float(tipping_point(shares))
+
+
 def observed(data: Data, answers: Answers) -> Judged:
     """Judge the tipping point that the runs show."""
-    shares = np.array([data[f"bonus {bonus:g}"]["statue"].mean() for bonus in BONUSES])
-    found = float(tipping_point(shares))
+    found = shown(data)
     return lambda answer: abs(answer - found) < 0.01, f"the table of your runs gives {found:g}."
 
 
@@ -156,7 +161,12 @@ LAB = Lab(
         Statement("p", 4, (FIRST, LAST), p_value("metres", FIRST, LAST)),
         Statement("enough", 5, ALL, enough),
     ),
-    figure=Figure("metres", ALL, ("metre", "(m)", "[m]", " m ", "in m")),
+    figure=Figure(
+        "metres",
+        ALL,
+        ("metre", "(m)", "[m]", " m ", "in m"),
+        mark=lambda data: None if shown(data) == NEVER else shown(data),
+    ),
     rubric=(
         "The reason of the prediction names what the two rewards pay for.",
         "What surprised the student is a fact of the runs, with its number.",
