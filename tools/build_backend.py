@@ -7,11 +7,17 @@ import sys
 from scikit_build_core.build import *  # noqa: F403
 from scikit_build_core.build import build_wheel as _build_wheel
 from scikit_build_core.build import get_requires_for_build_wheel as _requires
+from scikit_build_core.build import prepare_metadata_for_build_wheel as _prepare
 
 
 def get_requires_for_build_wheel(config_settings=None):
     _check_compiler()
     return _requires(config_settings)
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    _check_compiler()
+    return _prepare(metadata_directory, config_settings)
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
