@@ -121,7 +121,7 @@ def compare_recording(student: Student, index: int, steps: int) -> None:
     wanted = episode(gains, seed, steps)
     expect_states(student.said, answer, wanted, 1e-3)  # torques in float32 too
     expect(
-        asked == len(wanted) - 1,
+        len(wanted) - 1 <= asked <= len(wanted),  # a generator may ask once more at the end
         f"{student.said} asked the controller {asked} times for {len(wanted) - 1} steps: ask once "
         "in each step, as a controller may remember what it has seen.",
     )
