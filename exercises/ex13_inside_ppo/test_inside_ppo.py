@@ -449,7 +449,16 @@ def of_gaussians(student: Student):
 moving = exercise.task("13.5", "How far has the policy moved?", refused=UPDATES_MADE)
 
 
-@moving.check(8)
+@moving.check(3)
+def estimates_the_divergence_of_drawn_batches(student: Student):
+    for index, steps in ((40, 30), (43, 6)):
+        given = drawn_batch(index, steps, 0.8)
+        ratio = np.exp(given["log_prob"] - given["old_log_prob"])
+        answer = student.call("approx_kl", given["log_prob"], given["old_log_prob"])
+        expect_close(student.said, answer, np.mean(ratio - 1 - np.log(ratio)), CLOSE)
+
+
+@moving.check(5)
 def estimates_the_divergence(student: Student):
     for _, _, given, logged in references().updates:
         answer = student.call("approx_kl", given["log_prob"], given["old_log_prob"])
@@ -459,10 +468,6 @@ def estimates_the_divergence(student: Student):
             )
         }
         expect_close(student.said, answer, logged["approx_kl"], CLOSE, mistakes)
-    given = drawn_batch(40, 30, 0.8)
-    ratio = np.exp(given["log_prob"] - given["old_log_prob"])
-    answer = student.call("approx_kl", given["log_prob"], given["old_log_prob"])
-    expect_close(student.said, answer, np.mean(ratio - 1 - np.log(ratio)), CLOSE)
 
 
 def compare_updates(student: Student, log_ratios: np.ndarray, target_kl: float | None) -> None:
@@ -504,7 +509,18 @@ def goes_on_when_near(student: Student):
 together = exercise.task("13.6", "All together", refused=EXPLAINED_VARIANCE)
 
 
-@together.check(6)
+@together.check(2)
+def adds_up_drawn_losses(student: Student):
+    for index, steps in ((51, 8), (52, 3)):
+        rng = generator(index)
+        policy, value, ent_coef, vf_coef = rng.uniform(0.1, 2, 4).round(3).tolist()
+        entropies = rng.uniform(0.1, 2, steps).round(3)
+        answer = student.call("total_loss", policy, value, entropies, ent_coef, vf_coef)
+        wanted = policy + vf_coef * value - ent_coef * entropies.sum() / steps
+        expect_close(student.said, answer, wanted, CLOSE)
+
+
+@together.check(4)
 def adds_up_the_losses(student: Student):
     for _, chosen, given, logged in references().updates:
         answer = student.call(
@@ -520,26 +536,49 @@ def adds_up_the_losses(student: Student):
         expect_close(student.said, answer, logged["loss"], CLOSE, mistakes)
 
 
-@together.check(4)
-def explains_the_variance(student: Student):
-    from stable_baselines3.common.utils import explained_variance
+@together.check(2)
+def explains_drawn_variances(student: Student):
+    for index, steps in ((50, 40), (53, 5)):
+        rng = generator(index)
+        returns = 4 + rng.normal(size=steps)
+        for values in (1 + returns + 0.3 * rng.normal(size=steps), -returns):
+            answer = student.call("explained_variance", values, returns)
+            apart = returns - values
+            unexplained = np.mean(apart**2) - np.mean(apart) ** 2
+            wanted = 1 - unexplained / (np.mean(returns**2) - np.mean(returns) ** 2)
+            expect_close(student.said, answer, wanted, CLOSE)
 
+
+@together.check(2)
+def explains_the_variance(student: Student):
     for environment, _, _, logged in references().updates:
         rollout = references().rollouts[environment]
         answer = student.call("explained_variance", rollout.values, rollout.returns)
         expect_close(student.said, answer, logged["explained_variance"], CLOSE)
-    rng = generator(50)
-    returns = 4 + rng.normal(size=40)
-    for values in (1 + returns + 0.3 * rng.normal(size=40), -returns):
-        answer = student.call("explained_variance", values, returns)
-        expect_close(student.said, answer, explained_variance(values, returns), CLOSE)
 
 
 # ------------------------------------------------------------------- 13.7
 seeing = exercise.task("13.7", "What the hidden neurons respond to")
 
 
-@seeing.check(6)
+@seeing.check(2)
+def activations_of_drawn_layers(student: Student):
+    for index, steps in ((62, 5), (63, 1)):
+        rng = generator(index)
+        layers = [(rng.normal(size=(n, m)), rng.normal(size=n)) for n, m in ((4, 3), (2, 4))]
+        signal = rng.normal(size=(steps, 3))
+        answer = student.call("hidden_activations", layers, signal)
+        said = f"hidden_activations(<two layers>, <{steps} observations>)"
+        expect(
+            isinstance(answer, list) and len(answer) == 2,
+            f"{said} must return a list of 2 arrays, not {show(answer)}.",
+        )
+        for number, ((weights, biases), got) in enumerate(zip(layers, answer, strict=True), 1):
+            signal = np.tanh(np.array([weights.dot(row) + biases for row in signal]))
+            expect_close(f"{said}: layer {number}", got, signal, CLOSE)
+
+
+@seeing.check(4)
 def activations_of_the_layers(student: Student):
     for environment, rollout in references().rollouts.items():
         wanted = references().activations[environment]

@@ -277,3 +277,91 @@ def responses(activations, observations):
         return np.where(still, 0.0, (table - table.mean(axis=0)) / deviation)
 
     return np.mean(standard(activations)[:, :, None] * standard(observations)[:, None], axis=0)
+
+
+# %% matrices_of_discounts
+# Advantages by a matrix of discounts for each environment; the loss by cases of the sign.
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    cut = (np.asarray(truncated) == 1) & (np.asarray(terminated) == 0)
+    return np.where(cut, rewards + gamma * np.asarray(final_values), rewards)
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    ends = np.vstack([episode_starts[1:], np.reshape(dones, (1, -1))])
+    after = np.vstack([values[1:], np.reshape(last_values, (1, -1))])
+    errors = rewards + gamma * (1 - ends) * after - values
+    steps, result = len(errors), np.empty(np.shape(errors))
+    for env in range(np.shape(errors)[1]):
+        weights = np.eye(steps)
+        for t in range(steps):
+            for k in range(t + 1, steps):
+                weights[t, k] = weights[t, k - 1] * gamma * gae_lambda * (1 - ends[k - 1, env])
+        result[:, env] = weights @ errors[:, env]
+    return result
+
+
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    if np.size(advantages) > 1:
+        centred = advantages - np.mean(advantages)
+        advantages = centred / (np.sqrt(np.sum(centred**2) / (len(centred) - 1)) + 1e-8)
+    ratio = np.exp(np.subtract(log_prob, old_log_prob))
+    good = np.minimum(ratio, 1 + clip_range) * advantages
+    bad = np.maximum(ratio, 1 - clip_range) * advantages
+    far = np.logical_or(ratio > 1 + clip_range, ratio < 1 - clip_range)
+    return {"loss": -np.where(advantages > 0, good, bad).mean(), "clip_fraction": far.mean()}
+
+
+# %% single_precision
+# Single precision where six digits are asked for; broadcasts for the updates.
+def value_loss(values, old_values, returns, clip_range_vf=None):
+    if clip_range_vf is None:
+        return np.square(np.float64(values) - returns).mean()
+    moved = np.minimum(np.maximum(values - old_values, -clip_range_vf), clip_range_vf)
+    return float(np.dot(returns - old_values - moved, returns - old_values - moved) / len(returns))
+
+
+def entropy_of_gaussians(log_deviation):
+    return np.log(np.sqrt(2 * np.pi * np.e) * np.exp(np.float64(log_deviation))).sum()
+
+
+def updates_made(divergences, target_kl):
+    flat = [each for epoch in divergences for each in epoch]
+    if target_kl is None:
+        return len(flat)
+    return next((i for i, each in enumerate(flat) if each > target_kl * 1.5), len(flat))
+
+
+def approx_kl(log_prob, old_log_prob):
+    log_ratio = np.subtract(log_prob, old_log_prob)
+    return np.expm1(log_ratio).mean() - log_ratio.mean()
+
+
+# %% sums_by_hand
+# Sums by hand for entropy and variance, einsum for the layers, the mean of all losses.
+def entropy_of_choices(scores):
+    scores = np.float64(scores)
+    found = []
+    for row in scores:
+        powers = np.exp(row - max(row))
+        p = powers / sum(powers)
+        found.append(-sum(x * np.log(x) for x in p if x > 0))
+    return np.array(found)
+
+
+def total_loss(policy_loss, value_loss, entropies, ent_coef, vf_coef):
+    bonus = ent_coef * sum(entropies) / len(entropies)
+    return policy_loss + value_loss * vf_coef - bonus
+
+
+def explained_variance(values, returns):
+    errors = np.ravel(returns) - np.ravel(values)
+    spread = np.ravel(returns) - np.mean(returns)
+    unexplained = np.sum(errors**2) - np.sum(errors) ** 2 / errors.size
+    return 1 - unexplained / np.sum(spread**2)
+
+
+def hidden_activations(layers, observations):
+    found = [np.asarray(observations, dtype=float)]
+    for weights, biases in layers:
+        found.append(np.tanh(np.einsum("ij,nj->ni", weights, found[-1]) + biases))
+    return found[1:]

@@ -193,6 +193,7 @@ def compare(environment_ids, episodes, seed):
 
 # %% mean_reward_of_a_step loses 1.6
 # The mean reward of a step instead of the mean return of an episode.
+# says: this
 _compare = compare
 
 

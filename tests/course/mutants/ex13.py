@@ -380,3 +380,157 @@ def responses(activations, observations):
     h, x = activations - activations.mean(axis=0), observations - observations.mean(axis=0)
     with np.errstate(all="ignore"):
         return (h / np.sqrt((h**2).sum(0))).T @ (x / np.sqrt((x**2).sum(0)))
+
+
+# %% returns_for_advantages loses 13.1
+# The values are added again: it gives the returns that the critic learns, not the advantages.
+# says: this
+# -         result[t] = following
+# -     return result
+# +         result[t] = following
+# +     return result + values
+
+
+# %% no_discount loses 13.1
+# gamma is left out of the TD error.
+# says: this
+# -         error = rewards[t] + gamma * goes_on * next_values - values[t]
+# +         error = rewards[t] + goes_on * next_values - values[t]
+
+
+# %% standardised_over_the_rollout loses 13.1
+# The advantages are normalised already here.
+# says: this
+# -         result[t] = following
+# -     return result
+# +         result[t] = following
+# +     return (result - result.mean()) / (result.std() + 1e-8)
+
+
+# %% ratio_upside_down loses 13.2
+# The ratio is that of the old probability to the new one.
+# says: this
+# -     ratio = np.exp(log_prob - old_log_prob)
+# +     ratio = np.exp(old_log_prob - log_prob)
+
+
+# %% clips_the_product loses 13.2
+# The product of ratio and advantage is clipped, not the ratio.
+# says: this
+# -     clipped = np.clip(ratio, 1 - clip_range, 1 + clip_range)
+# -     return {
+# -         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).mean()),
+# +     clipped = np.clip(ratio * advantages, 1 - clip_range, 1 + clip_range)
+# +     return {
+# +         "loss": float(-np.minimum(ratio * advantages, clipped).mean()),
+
+
+# %% sum_over_the_batch loses 13.2
+# The loss is the sum over the batch, not the mean.
+# says: this
+# -         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).mean()),
+# +         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).sum()),
+
+
+# %% clipped_upwards_only loses 13.2
+# Only ratios above 1 + clip_range count as clipped.
+# says: this
+# -         "clip_fraction": float(np.mean(np.abs(ratio - 1) > clip_range)),
+# +         "clip_fraction": float(np.mean(ratio - 1 > clip_range)),
+
+
+# %% larger_of_two_value_losses loses 13.3
+# Takes the larger one of the clipped and the unclipped loss, as some libraries do.
+# says: this
+# -     return float(np.mean((returns - predictions) ** 2))
+# +     both = (returns - predictions) ** 2, (returns - values) ** 2
+# +     return float(np.mean(np.maximum(*both)))
+
+
+# %% movement_cut_to_one_side loses 13.3
+# The values may fall as far as they like: only rises are cut.
+# says: this
+# -         predictions = old_values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
+# +         predictions = old_values + np.minimum(values - old_values, clip_range_vf)
+
+
+# %% mean_entropy_of_the_batch loses 13.4
+# The entropy is the mean of the batch, not one number for each step.
+# -     return -(np.exp(logarithms) * logarithms).sum(axis=1)
+# +     return np.full(len(scores), -(np.exp(logarithms) * logarithms).sum(axis=1).mean())
+
+
+# %% deviation_for_its_logarithm loses 13.4
+# Takes the argument for the deviation itself.
+# says: this
+# -     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.asarray(log_deviation)))
+# +     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.log(np.abs(log_deviation))))
+
+
+# %% divergence_the_other_way_round loses 13.5
+# The ratio is turned around: it is the divergence of the new policy from the old one's steps.
+# says: this
+# -     log_ratio = log_prob - old_log_prob
+# +     log_ratio = old_log_prob - log_prob
+
+
+# %% half_the_squared_difference loses 13.5
+# Half the mean squared difference of the logarithms, which is close for small ones only.
+# says: this
+# -     return float(np.mean(np.exp(log_ratio) - 1 - log_ratio))
+# +     return float(np.mean(log_ratio**2) / 2)
+
+
+# %% stops_when_the_mean_is_too_far loses 13.5
+# Looks at the mean divergence of an epoch, not at each batch.
+# says: this
+# -     for epoch in divergences:
+# -         for divergence in epoch:
+# -             if target_kl is not None and divergence > 1.5 * target_kl:
+# -                 return made
+# -             made += 1
+# +     for epoch in divergences:
+# +         if target_kl is not None and np.mean(epoch) > 1.5 * target_kl:
+# +             return made
+# +         made += len(epoch)
+
+
+# %% sum_of_the_entropies loses 13.6
+# The entropies of the batch are added up, not averaged.
+# says: this
+# -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
+# +     return float(policy_loss + vf_coef * value_loss - ent_coef * np.sum(entropies))
+
+
+# %% coefficients_exchanged loses 13.6
+# The coefficients of entropy and value loss are exchanged.
+# says: this
+# -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
+# +     return float(policy_loss + ent_coef * value_loss - vf_coef * np.mean(entropies))
+
+
+# %% squared_error_for_variance loses 13.6
+# The mean squared error takes the place of the variance of the error: a constant error counts.
+# says: this
+# -     return float(1 - np.var(returns - values) / np.var(returns))
+# +     return float(1 - np.mean((returns - values) ** 2) / np.var(returns))
+
+
+# %% never_below_zero loses 13.6
+# The explained variance is never negative.
+# says: this
+# -     return float(1 - np.var(returns - values) / np.var(returns))
+# +     return max(0.0, float(1 - np.var(returns - values) / np.var(returns)))
+
+
+# %% without_biases loses 13.7
+# The biases are left out.
+# says: this
+# -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
+# +         observations = np.tanh(observations @ np.asarray(weights).T)
+
+
+# %% last_layer_only loses 13.7
+# Returns the last hidden layer alone.
+# -         activations.append(observations)
+# +         activations = [observations]
