@@ -417,3 +417,103 @@ def at_equal_steps(groups, points):
         for name, group in groups.items()
     }
     return {**table, "steps": steps}
+
+
+# %% pairs_and_sums
+# Sums over pairs of neighbours, loops from the end, dicts of lists.
+def success_of(steps, returns, goal):
+    means = [float(sum(row)) / len(row) for row in returns]
+    area = 0.0
+    for i in range(len(steps) - 1):
+        area += (steps[i + 1] - steps[i]) * 0.5 * (means[i] + means[i + 1])
+    late = len(means)
+    while late > 0 and means[late - 1] >= goal:
+        late -= 1
+    return {
+        "solved": steps[late] if late < len(means) else None,
+        "average": area / (steps[-1] - steps[0]) if len(means) > 1 else means[0],
+        "best": max(means),
+        "last": means[-1],
+    }
+
+
+def chance_of(first, second):
+    first, second = list(first), list(second)
+    everything, count, ways = first + second, 0, 0
+    real = abs(sum(first) / len(first) - sum(second) / len(second))
+    for chosen in combinations(range(len(everything)), len(first)):
+        one = [everything[i] for i in chosen]
+        other = [x for i, x in enumerate(everything) if i not in chosen]
+        ways += 1
+        count += abs(sum(one) / len(one) - sum(other) / len(other)) > real - 1e-9
+    return count / ways
+
+
+# %% parts_by_edges
+# Parts by their edges, nanmean, ranks by sorting twice with shared places.
+def phase_means(steps, values, total, parts=3):
+    found = [[] for _ in range(parts)]
+    for step, value in zip(steps, values, strict=True):
+        part = 0
+        while step * parts > (part + 1) * total:
+            part += 1
+        if part < parts and value == value:
+            found[part].append(float(value))
+    return [sum(each) / len(each) if each else None for each in found]
+
+
+def rank_correlation(first, second):
+    def ranks(numbers):
+        ordered = sorted(numbers)
+        return np.array([ordered.index(x) + (ordered.count(x) - 1) / 2 for x in numbers])
+
+    a, b = ranks(list(first)), ranks(list(second))
+    if a.std() == 0 or b.std() == 0:
+        return 0
+    return np.corrcoef(a, b)[0, 1]
+
+
+def within_variants(numbers, variants):
+    groups = {}
+    for number, variant in zip(numbers, variants, strict=True):
+        groups.setdefault(variant, []).append(number)
+    means = {variant: sum(group) / len(group) for variant, group in groups.items()}
+    pairs = zip(numbers, variants, strict=True)
+    return np.array([round(float(number - means[variant]), 9) for number, variant in pairs])
+
+
+# %% tables_by_hand
+# A class for the rows, variance by hand, curves by loops.
+def table_of(runs, baseline):
+    seen, groups = set(), {}
+    for run in runs:
+        key = run["variant"], run["seed"]
+        if key not in seen:
+            seen.add(key)
+            groups.setdefault(run["variant"], []).append(float(run["return"]))
+    rows = []
+    for variant, group in groups.items():
+        n, mean = len(group), sum(group) / len(group)
+        spread = (sum((x - mean) ** 2 for x in group) / (n - 1)) ** 0.5 if n > 1 else None
+        rows.append({"variant": variant, "runs": n, "mean": mean, "deviation": spread})
+    base = [row["mean"] for row in rows if row["variant"] == baseline][0]
+    return sorted(
+        ({**row, "gain": row["mean"] - base} for row in rows), key=lambda row: -row["mean"]
+    )
+
+
+def at_equal_steps(groups, points):
+    curves = [curve for name in groups for curve in groups[name]]
+    start, end = max(c["steps"][0] for c in curves), min(c["steps"][-1] for c in curves)
+    steps = np.linspace(start, end, num=points)
+
+    def reached(curve, step):
+        return [b for s, b in zip(curve["steps"], curve["best"], strict=True) if s <= step][-1]
+
+    return {
+        "steps": steps,
+        **{
+            name: [[reached(curve, step) for step in steps] for curve in group]
+            for name, group in groups.items()
+        },
+    }
