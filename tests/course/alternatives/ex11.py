@@ -293,3 +293,99 @@ def feature_maps(network, low, high, n):
             pattern = torch.tensor([[x[column], x[row]]], dtype=torch.float32)
             maps[:, row, column] = network.features(pattern).detach().numpy()[0]
     return maps
+
+
+# %% layers_in_a_sequence
+# The gradient by einsum, pattern by pattern; the deviation by its formula; batches by splitting.
+def gradient_by_hand(inputs, targets, w1, b1, w2, b2):
+    n, m = targets.shape
+    found = {"loss": 0.0, "w1": 0 * w1, "b1": 0 * b1, "w2": 0 * w2, "b2": 0 * b2}
+    for x, y in zip(inputs, targets, strict=True):
+        h = 1 / (1 + np.exp(-(w1 @ x) - b1))
+        e = w2 @ h + b2 - y
+        back = 2 / (n * m) * e
+        inner = (back @ w2) * h * (1 - h)
+        found["loss"] = found["loss"] + np.sum(e * e) / (n * m)
+        found["w1"] = found["w1"] + np.outer(inner, x)
+        found["b1"] = found["b1"] + inner
+        found["w2"] = found["w2"] + np.outer(back, h)
+        found["b2"] = found["b2"] + back
+    return found
+
+
+def normalise(inputs):
+    inputs = np.array(inputs, dtype=np.float64)
+    mean = inputs.sum(axis=0) / len(inputs)
+    deviation = np.sqrt(((inputs - mean) ** 2).sum(axis=0) / len(inputs))
+    same = np.all(inputs == inputs[0], axis=0)
+    deviation[same] = 1.0
+    mean[same] = inputs[0, same]
+    return (inputs - mean) / deviation, mean, deviation
+
+
+def minibatches(n, batch_size, rng):
+    return np.split(rng.permutation(n), range(batch_size, n, batch_size))
+
+
+# %% gradients_by_autograd_grad
+# torch.autograd.grad in place of backward; the network is a chain of modules; steps by hand.
+class Network(nn.Module):
+    def __init__(self, inputs, hiddens, outputs):
+        super().__init__()
+        self.hidden, self.output = nn.Linear(inputs, hiddens), nn.Linear(hiddens, outputs)
+        self.squash = nn.Sigmoid()
+
+    def features(self, patterns):
+        return self.squash(patterns @ self.hidden.weight.T + self.hidden.bias)
+
+    def forward(self, patterns):
+        return torch.nn.functional.linear(
+            self.features(patterns), self.output.weight, self.output.bias
+        )
+
+
+def gradient_by_torch(inputs, targets, w1, b1, w2, b2):
+    x, y = (torch.as_tensor(each, dtype=torch.float64) for each in (inputs, targets))
+    own = [torch.from_numpy(np.array(each, dtype=float)) for each in (w1, b1, w2, b2)]
+    for each in own:
+        each.requires_grad_(True)
+    hidden = 1 / (1 + torch.exp(-(x @ own[0].T + own[1])))
+    loss = torch.nn.functional.mse_loss(hidden @ own[2].T + own[3], y)
+    loss.backward()
+    return {
+        "loss": loss.detach().numpy(),
+        **{
+            name: each.grad.numpy()
+            for name, each in zip(("w1", "b1", "w2", "b2"), own, strict=True)
+        },
+    }
+
+
+# %% momentum_by_hand
+# The velocity is kept by hand, and the weights are changed under no_grad.
+def train(network, inputs, targets, epochs, learning_rate, momentum):
+    own, losses = list(network.parameters()), []
+    velocity = [torch.zeros_like(each) for each in own]
+    for _ in range(epochs):
+        loss = ((network(inputs) - targets) ** 2).mean()
+        network.zero_grad()
+        loss.backward()
+        with torch.no_grad():
+            for i, each in enumerate(own):
+                velocity[i] = momentum * velocity[i] + each.grad
+                each.sub_(learning_rate * velocity[i])
+        losses.append(float(loss))
+    return losses
+
+
+def train_in_batches(network, inputs, targets, epochs, batch_size, learning_rate, momentum, seed):
+    rng, losses = np.random.default_rng(seed), []
+    optimiser = torch.optim.SGD(network.parameters(), learning_rate, momentum)
+    for _ in range(epochs):
+        for chosen in minibatches(inputs.shape[0], batch_size, rng):
+            chosen = torch.from_numpy(np.array(chosen))
+            network.zero_grad()
+            torch.square(network(inputs[chosen]) - targets[chosen]).mean().backward()
+            optimiser.step()
+        losses.append(torch.square(network(inputs) - targets).mean().item())
+    return losses

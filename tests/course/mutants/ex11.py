@@ -62,6 +62,7 @@ def gradient_by_hand(inputs, targets, *parameters):
 
 # %% slope_forgotten loses 11.2
 # The slope of the logistic function is left out on the way back.
+# says: this
 _gradient_by_hand = gradient_by_hand
 
 
@@ -467,3 +468,133 @@ def learn(inputs, targets, hiddens, seed):
 # -         for batch in minibatches(len(inputs), batch_size, rng):
 # -             optimiser.zero_grad()
 # +         for batch in minibatches(len(inputs), batch_size, rng):
+
+
+# %% logistic_outputs loses 11.1
+# The outputs are logistic, too: none can be below 0 or above 1.
+# -         return self.output(self.features(patterns))
+# +         return torch.sigmoid(self.output(self.features(patterns)))
+
+
+# %% features_before_the_logistic loses 11.1
+# The features are the sums before the logistic function.
+# -         return torch.sigmoid(self.hidden(patterns))
+# -         ### END SOLUTION
+# -
+# -     def forward(self, patterns: torch.Tensor) -> torch.Tensor:
+# -         """The outputs, shape (patterns, outputs); network(patterns) calls this."""
+# -         ### BEGIN SOLUTION task 11.1: compute the outputs
+# -         return self.output(self.features(patterns))
+# +         return self.hidden(patterns)
+# +         ### END SOLUTION
+# +
+# +     def forward(self, patterns: torch.Tensor) -> torch.Tensor:
+# +         """The outputs, shape (patterns, outputs); network(patterns) calls this."""
+# +         ### BEGIN SOLUTION task 11.1: compute the outputs
+# +         return self.output(torch.sigmoid(self.features(patterns)))
+
+
+# %% error_turned_around loses 11.2
+# The error is targets minus outputs, so each gradient has the wrong sign.
+# says: this
+# -     error = hidden @ w2.T + b2 - targets
+# +     error = targets - hidden @ w2.T - b2
+
+
+# %% half_the_squared_error loses 11.2
+# The factor 2 of the square's derivative is missing.
+# says: this
+# -     d2 = 2 * error / error.size
+# +     d2 = error / error.size
+
+
+# %% slope_of_the_sum loses 11.2
+# The slope is that of tanh, 1 - h^2, not that of the logistic function.
+# says: this
+# -     d1 = d2 @ w2 * hidden * (1 - hidden)
+# +     d1 = d2 @ w2 * (1 - hidden**2)
+
+
+# %% sum_for_the_mean loses 11.3
+# The loss adds up the squared errors instead of taking their mean.
+# says: this
+# -     loss = torch.mean((outputs - torch.tensor(targets, dtype=torch.float64)) ** 2)
+# +     loss = torch.sum((outputs - torch.tensor(targets, dtype=torch.float64)) ** 2)
+
+
+# %% loss_of_the_last_epoch loses 11.4
+# Returns the last loss for every epoch.
+# -         losses.append(loss.item())
+# -     return losses
+# -     ### END SOLUTION
+# +         losses.append(loss.item())
+# +     return losses[-1:] * epochs
+# +     ### END SOLUTION
+
+
+# %% adam_for_sgd loses 11.4
+# Trains with Adam, which adapts its steps, and not with the plain gradient and momentum.
+# -     optimiser = torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)
+# -     losses = []
+# -     for _ in range(epochs):
+# -         optimiser.zero_grad()
+# +     optimiser = torch.optim.Adam(network.parameters(), lr=learning_rate)
+# +     losses = []
+# +     for _ in range(epochs):
+# +         optimiser.zero_grad()
+
+
+# %% nesterov loses 11.4
+# The momentum is Nesterov's, which looks ahead.
+# -     optimiser = torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)
+# -     losses = []
+# -     for _ in range(epochs):
+# -         optimiser.zero_grad()
+# +     optimiser = torch.optim.SGD(
+# +         network.parameters(), lr=learning_rate, momentum=momentum, nesterov=momentum > 0
+# +     )
+# +     losses = []
+# +     for _ in range(epochs):
+# +         optimiser.zero_grad()
+
+
+# %% one_mean_for_all_columns loses 11.6
+# All columns share the mean of all numbers.
+# says: this
+# -     mean, deviation = inputs.mean(axis=0), inputs.std(axis=0)
+# +     mean, deviation = np.full(inputs.shape[1], inputs.mean()), inputs.std(axis=0)
+
+
+# %% scaled_to_one loses 11.6
+# Divides by the range of the column, not by the deviation.
+# says: this
+# -     deviation = np.where(np.ptp(inputs, axis=0) == 0, 1.0, deviation)
+# +     deviation = np.where(np.ptp(inputs, axis=0) == 0, 1.0, np.ptp(inputs, axis=0))
+
+
+# %% batches_of_equal_size loses 11.7
+# The patterns are cut into as many batches of nearly equal size.
+# says: this
+# -     return [order[start : start + batch_size] for start in range(0, n, batch_size)]
+# +     return np.array_split(order, -(-n // batch_size))
+
+
+# %% loss_of_the_last_batch loses 11.7
+# Returns the loss of each epoch's last minibatch, not that of the whole training set.
+# -             losses.append(nn.functional.mse_loss(network(inputs), targets).item())
+# +             losses.append(loss.item())
+
+
+# %% momentum_begins_anew loses 11.7
+# The momentum begins anew in each epoch: the optimiser is made again.
+# -     for _ in range(epochs):
+# -         for batch in minibatches(len(inputs), batch_size, rng):
+# +     for _ in range(epochs):
+# +         optimiser = torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)
+# +         for batch in minibatches(len(inputs), batch_size, rng):
+
+
+# %% returns_no_normalisation loses 11.8
+# Trains on normalised inputs, and returns the mean and the deviation of other ones.
+# -     return network, mean, deviation
+# +     return network, np.zeros_like(mean), np.ones_like(deviation)
