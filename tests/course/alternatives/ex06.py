@@ -396,3 +396,116 @@ def memory_test(brain, starts, cylinder, seed, since, maxsteps=500):
 
 def reactions(brain, observation, memories):
     return np.array([think(brain, observation, memory)[0] for memory in memories], np.float32)
+
+
+# %% einsum_of_gates
+# One einsum for the gates, exponentials in place of logistic, a deque for the record.
+from collections import deque
+
+
+def think(brain, observation, memory):
+    cells, outputs = memory
+    seen = np.hstack([observation, outputs])
+    z = np.einsum("gui,i->gu", brain["gates"], seen)
+    opened = 1 / (1 + np.exp(-np.array([z[0] + 1, z[1], z[2]])))
+    new = opened[0] * cells + opened[1] * np.tanh(z[3])
+    shown = opened[2] * np.tanh(new)
+    return np.tanh(brain["bias"] + np.dot(brain["readout"], shown)), np.array([new, shown])
+
+
+def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
+    arena = arenas.make("discrim", max_steps=maxsteps)
+    arena.reset(seed)
+    arena.robots[0, :] = np.asarray(start)
+    arena.objects[0, 0], arena.objects[0, 1] = cylinder
+    arena.sense()
+    record, poses, step = deque(), [np.array(arena.robots[0])], 0
+    memory = np.zeros((2, 10))
+    while not arena.done:
+        seen = np.array(arena.observation)
+        action, after = think(brain, seen, np.array(memory))
+        arena.action = np.array(action)
+        reward = arena.step()
+        record.append({"observations": seen, "memories": np.array(memory), "actions": action,
+                       "rewards": reward})  # fmt: skip
+        poses.append(np.array(arena.robots[0]))
+        memory = remember(step, memory, after)
+        step += 1
+    names = ("observations", "memories", "actions", "rewards")
+    return {"poses": np.stack(poses)} | {
+        name: np.array([row[name] for row in record]) for name in names
+    }
+
+
+# %% product_of_places
+# itertools for the places, angles by the remainder of math, a class for the frozen memory.
+import itertools
+import math
+
+
+def grid(places, headings):
+    def along(low, high):
+        if places == 1:
+            return [low]
+        return [low + (high - low) * i / (places - 1) for i in range(places)]
+
+    turns = [2 * math.pi * k / headings for k in range(headings)]
+    triples = itertools.product(along(270, 350), along(150, 250), turns)
+    return np.array([[x, y, heading] for y, x, heading in triples])
+
+
+class Frozen:
+    def __init__(self, since):
+        self.since = since
+
+    def __call__(self, step, before, after):
+        return before.copy() if step >= self.since else after.copy()
+
+
+def freeze(since):
+    return Frozen(since)
+
+
+def forget(step, before, after):
+    return 0.0 * np.asarray(after)
+
+
+# %% merging_in_a_table
+# Sums of distances between groups in a table; the mean and the variance by their formulas.
+def standardise(table):
+    table = np.asarray(table, dtype=float)
+    centred = table - table.sum(axis=0) / len(table)
+    spread = np.sqrt((centred**2).sum(axis=0) / len(table))
+    result = np.zeros(table.shape)
+    for column in range(table.shape[1]):
+        if spread[column] > 1e-12:
+            result[:, column] = centred[:, column] / spread[column]
+    return result
+
+
+def families(table, threshold):
+    rows = standardise(table)
+    groups = {i: [i] for i in range(len(rows))}
+
+    def apart(one, other):
+        pairs = [np.sqrt(((rows[a] - rows[b]) ** 2).sum()) for a in one for b in other]
+        return sum(pairs) / len(pairs)
+
+    while len(groups) > 1:
+        keys = sorted(groups)
+        best = min((apart(groups[i], groups[j]), j, i) for j in keys for i in keys if i < j)
+        if best[0] >= threshold:
+            break
+        groups[best[2]] = groups[best[2]] + groups.pop(best[1])
+    numbers = {}
+    for number, key in enumerate(sorted(groups, key=lambda k: min(groups[k]))):
+        for robot in groups[key]:
+            numbers[robot] = number
+    return [numbers[robot] for robot in range(len(rows))]
+
+
+def reactions(brain, observation, memories):
+    found = np.empty((len(memories), 2))
+    for i in range(len(memories)):
+        found[i], _ = think(brain, observation, memories[i])
+    return found
