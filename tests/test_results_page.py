@@ -39,6 +39,20 @@ def test_the_page_of_algorithms_is_made_from_its_data():
 
 
 @pytest.mark.usefixtures("studies")
+def test_the_page_of_evolution_and_ppo_is_made_from_its_data():
+    import evolution_and_ppo as study
+    import evolution_and_ppo_page as page
+
+    results = study.Results(page.DATA)
+    text = page.PAGE.read_text(encoding="utf-8")
+    assert page.filled(text, results) == text, "run tools/studies evolution_and_ppo page"
+    for problem in study.PROBLEMS:
+        for method in study.METHODS:
+            for unit in page.UNITS:
+                runs = results.best(problem, method, unit)
+                assert [run["seed"] for run in runs] == list(study.SEEDS)
+
+
 def test_what_tuning_gives_is_told_from_its_data():
     import json
 
