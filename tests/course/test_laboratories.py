@@ -269,7 +269,7 @@ def with_a_conclusion_against_its_data(place):
     return FULL | {"conclusion": 25 - statement.points}
 
 
-@pytest.mark.parametrize("number", [14, 15])
+@pytest.mark.parametrize("number", [12, 14, 15])
 @pytest.mark.parametrize(
     "spoil",
     [
@@ -284,3 +284,12 @@ def test_a_wrong_sheet_loses_exactly_what_it_should(finished, tmp_path, number, 
     place = copied(finished(number), tmp_path)
     expected = spoil(place)
     assert points(place) == expected, messages(place)
+
+
+def test_runs_of_other_rules_than_the_students_are_not_his(finished, tmp_path):
+    place = copied(finished(12), tmp_path)
+    path = place.folder / "learn.py"
+    path.write_text(path.read_text().replace(">= bound", "> bound"))
+    place = replace(place, lab=replace(place.lab, redone=16))
+    assert points(place)["runs"] == 2.5
+    assert "it comes out differently" in messages(place)

@@ -18,6 +18,7 @@ from botschool.grading.run.student import Student
 from botschool.labs.confined import drawn_figure, measured, student_file
 from botschool.labs.declare import PARTS, STRATEGY, WORDS
 from botschool.labs.folder import Place
+from botschool.labs.learning import LEARN
 from botschool.labs.own import replayed
 from botschool.labs.runs import changed, drawn, own_runs
 from botschool.labs.saved import SavedRun, plain_runs
@@ -158,14 +159,26 @@ class Check:
                     told = "" if maker.genuine(run) else "its robot gets another fitness"
                     if not told and redo and run.condition.own:
                         told = self._replayed(run, stack)
-                    elif not told and redo and not run.same(maker.made(run.condition, run.seed)):
-                        told = "it comes out differently"
+                    elif not told and redo:
+                        told = self._made_again(run, stack)
                     if told:
                         false.append(f"{name}, seed {run.seed} ({told})")
                     else:
                         proven.append(run)
                 self.runs[name] = proven
         return false
+
+    def _made_again(self, run: SavedRun, stack: ExitStack) -> str:
+        """What is wrong with a run that is made again; "" if nothing is."""
+        student = None
+        try:
+            if "learner" in run.condition.experiment:
+                path = self.place.folder / LEARN
+                student = stack.enter_context(student_file(path)).call
+            again = run.condition.maker.made(run.condition, run.seed, student)
+        except (Wrong, BotschoolError) as error:
+            return f"{LEARN}: {error}"
+        return "" if run.same(again) else "it comes out differently"
 
     def _replayed(self, run: SavedRun, stack: ExitStack) -> str:
         """What is wrong with a run of the student's own strategy; "" if nothing is."""

@@ -12,7 +12,12 @@ from botschool.labs.declare import STRATEGY, Lab, load_lab
 from botschool.labs.sheet import Sheet
 from botschool.paths import course_root
 
-FILES = {"sheet.txt": "sheet.md", "measure.txt": "measure.py", "figure.txt": "figure.py"}
+FILES = {
+    "sheet.txt": "sheet.md",
+    "measure.txt": "measure.py",
+    "figure.txt": "figure.py",
+    "learn.txt": "learn.py",
+}
 """In a declaration's folder -> in the student's."""
 NAME = Path(".botschool") / "name"
 
@@ -60,6 +65,8 @@ def start(place: Place, name: str, course: str) -> list[Path]:
     kept = []
     for source, target in FILES.items():
         path = place.folder / target
+        if not (place.lab.resources / source).is_file():
+            continue
         if path.exists():
             kept.append(path)
             continue

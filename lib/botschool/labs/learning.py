@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import runpy
+from collections.abc import Callable
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,6 +24,27 @@ def whole_episodes(ended: np.ndarray) -> list[tuple[int, int, int]]:
         ends = np.flatnonzero(ended[:, environment]) + 1
         found += [(environment, int(a), int(b)) for a, b in pairwise(ends)]
     return found
+
+
+LEARN = "learn.py"
+"""The student's own functions, in the laboratory's folder."""
+
+
+def own_functions(path: Path) -> Callable[..., Any] | None:
+    """Call the student's functions by name, at home; None if he has no such file."""
+    if not path.is_file():
+        return None
+    space = runpy.run_path(str(path))
+
+    def call(name: str, *arguments: Any) -> Any:
+        if name not in space:
+            raise BotschoolError(f"{path} has no function {name}.")
+        try:
+            return space[name](*arguments)
+        except NotImplementedError:
+            raise BotschoolError(f"Write {name} in {path} first.") from None
+
+    return call
 
 
 def weigh(rollout: Any, learner: Any, student: Any) -> None:

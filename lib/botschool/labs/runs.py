@@ -12,6 +12,7 @@ import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.labs.declare import Lab
+from botschool.labs.learning import LEARN, own_functions
 from botschool.labs.saved import MAX_BYTES, SavedRun
 from botschool.labs.sheet import Sheet, base_seed, seeds_of
 from botschool.output import save_bytes
@@ -41,13 +42,16 @@ def make_runs(lab: Lab, sheet: Sheet, folder: Path, workers: int, replications: 
     }
     ready = sum(map(len, done.values()))
     print(f"{total} {lab.robot}, seeds from your name and your prediction; {ready} are there.")
+    student = own_functions(folder.parent / LEARN)
     began, made = time.monotonic(), 0
     for number, condition in enumerate(lab.conditions, 1):
         todo = [s for s in seeds[condition.name] if s not in done[condition.name]]
         if not todo:
             continue
         place = folder / condition.name
-        finished = condition.maker.make_all(condition, seeds[condition.name], place, workers, None)
+        finished = condition.maker.make_all(
+            condition, seeds[condition.name], place, workers, student
+        )
         if not finished:
             print("Stopped; what is done is saved. The same command goes on.")
             return False
