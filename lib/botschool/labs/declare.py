@@ -149,8 +149,8 @@ class Lab:
     """For the instructor who reads the words."""
     robot: str
     """What a run evolves, in the plural: hoppers."""
-    shown: tuple[str, str]
-    """Two conditions whose best robots the report replays."""
+    shown: tuple[str, ...]
+    """Conditions whose best robots the report replays; none of trainings."""
     best: Callable[[Mapping[str, np.ndarray]], np.ndarray]
     """A number for each run of a condition, the highest for the robot to replay."""
     separate: Callable[[list[dict[str, float]]], str] = lambda measured: ""
