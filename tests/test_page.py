@@ -59,8 +59,7 @@ def written(experiment, tmp_path, seed=3, **more):
 
 
 def core_of(experiment):
-    planar = experiment.exp.environment.startswith("Planar")
-    return str(SCRIPTS / ("planar.wasm" if planar else "others.wasm"))
+    return str(SCRIPTS / f"{page.part_of(experiment.exp.environment)}.wasm")
 
 
 def node(tmp_path, script, *scripts):
@@ -286,9 +285,16 @@ def test_frozen_memory_stays(tmp_path):
 
 @built
 def test_a_page_is_small_and_whole(tmp_path):
-    for name in ("acrobot", "planarhopper", "discrim"):
+    saved = {
+        "planarhopper": "planarhopper.npy",
+        "discrim": "discrim.npy",
+        "predprey": "predprey/S12G300.npy",
+    }
+    for name in ("acrobot", "planarhopper", "discrim", "predprey"):
         experiment = config.load(ROOT / f"data/experiments/{name}.ini")
-        path, data = written(experiment, tmp_path, seed=11)
+        file = saved.get(name)
+        given = {"saved": np.load(ROOT / "data/genotypes" / file), "name": file} if file else {}
+        path, data = written(experiment, tmp_path, seed=11, **given)
         text = path.read_text()
         assert path.stat().st_size < 250_000, name
         assert "http" not in text.replace("http-equiv", "")
@@ -345,6 +351,35 @@ DRAG = """(() => {
   send("pointermove", 200, 150);
   send("pointerup", 200, 150);
 })()"""
+
+
+@built
+@pytest.mark.long
+@pytest.mark.parametrize("algo", ["OpenAI-ES", "SSS"])
+@pytest.mark.parametrize("problem", PROBLEMS)
+def test_runs_in_a_browser_are_the_command_s(browser, problem, algo, tmp_path):
+    experiment = experiment_of(problem, algo)
+    expected = digests_of_the_command(experiment, 3, tmp_path / "run")
+    path, _ = written(experiment, tmp_path)
+    browser.open(path)
+    browser.wait("bench && game.step > 0")
+    browser.run("byId('evolve').click()")
+    browser.wait("!byId('downloads').hidden")
+    assert browser.run(HASH) == expected
+
+
+@built
+def test_predators_and_prey_can_be_watched(browser, tmp_path):
+    experiment = config.load(ROOT / "data/experiments/predprey.ini")
+    saved = np.load(ROOT / "data/genotypes/predprey/S12G300.npy")
+    path, _ = written(experiment, tmp_path, saved=saved, name="generation 300")
+    browser.errors.clear()
+    browser.open(path)
+    browser.wait("bench && game.step > 3")
+    both = np.concatenate([saved[0], saved[10]]).astype(float)
+    assert browser.run("[...bench.genotype]") == both.tolist()
+    assert browser.run("byId('evolution').hidden")
+    assert browser.errors == []
 
 
 @built

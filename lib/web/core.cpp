@@ -181,6 +181,11 @@ void evaluate(const Task* task, const double* genotypes, int size, const double*
               nullptr});
 }
 
+/// Writes the random network with a number that a seed begins with.
+EXPORT(initial) void initial(const Task* task, double seed, int index, double* parameters) {
+  initial_parameters(task->layout, static_cast<std::uint64_t>(seed),
+                     static_cast<std::uint32_t>(index), parameters);
+}
 /// Writes 1 to `mask` for each parameter of a network that a neuron has: weights from it and to it, and
 /// its bias. neuron: inputs, hidden and output neurons in this order.
 EXPORT(mark) void mark(const Task* task, int neuron, double* mask) {

@@ -42,18 +42,25 @@ def write_page(
 ) -> None:
     """Write the page of an experiment on a native problem.
 
-    saved: the robot that it begins with, as run files hold it, called `name`; the random one that
-    the seed's run starts from if it is None. Raises BotschoolError.
+    saved: the robot that it begins with, as run files hold it, called `name`; of populations of
+    predators and prey, shape (2 n, parameters), the first of each. If it is None, it is the random
+    one that the seed's run starts from. Raises BotschoolError.
     """
     path = check_output(path, (".html",))
     problem = _checked(experiment)
     policy = problem.policy(experiment.policy)
+    given = saved is not None
     if saved is None:
         normalisation = np.repeat([0.0, 1.0], policy.spec.inputs) if policy.spec.normalize else None
         saved = policy.join(policy.initial(seed), normalisation)
+    elif np.ndim(saved) == 2 and experiment.competitive:
+        saved = np.asarray(saved)[[0, len(saved) // 2]].ravel()
+    name = name or ("the robot that was given" if given else "")
     genotype, normalisation = policy.split(np.asarray(saved, dtype=np.float64))
-    data = _data(experiment, problem, policy, policy.join(genotype, normalisation))
+    data = _data(experiment, problem, policy)
     data["who"] = name or "a random robot, with which evolution starts"
+    if name:
+        data |= _encoded(policy.join(genotype, normalisation))
     first = next(
         problem.play(policy, genotype, normalisation, seed + POST_EVALUATION_SEED, 0, 1), None
     )
@@ -62,10 +69,16 @@ def write_page(
     save_bytes(path, _page(data, seed).encode())
 
 
+def part_of(problem: str) -> str:
+    """Return which of the three cores has a problem (lib/CMakeLists.txt)."""
+    if problem.startswith("Planar"):
+        return "planar"
+    return "wheeled" if problem.startswith("Er") and problem != "ErDpole" else "classic"
+
+
 def core(problem: str) -> bytes:
     """Return the compiled core that has a problem. Raises BotschoolError if it was not built."""
-    name = "planar.wasm" if problem.startswith("Planar") else "others.wasm"
-    place = files("botschool.page") / name
+    place = files("botschool.page") / f"{part_of(problem)}.wasm"
     if not place.is_file():
         raise BotschoolError(
             "The core for pages is not built here: type `make web` in the checkout (a minute or "
@@ -93,7 +106,7 @@ def _checked(experiment: Experiment) -> NativeProblem:
     return problem
 
 
-def _data(experiment: Experiment, problem: NativeProblem, policy: Any, saved: np.ndarray) -> dict:
+def _data(experiment: Experiment, problem: NativeProblem, policy: Any) -> dict:
     scene, spec, p = problem_scene(problem), policy.spec, experiment.policy
     inputs, outputs = policy.neurons
     neurons = len(policy.network.activations)
@@ -105,7 +118,7 @@ def _data(experiment: Experiment, problem: NativeProblem, policy: Any, saved: np
         "about": "evolves in this page, with the bits of the command; nothing leaves your computer",
         "name": experiment.path.stem if experiment.path else "experiment",
         "palette": palette(),
-        "scene": scene_description(scene) | twin(problem, scene),
+        "scene": _rounded(scene_description(scene)) | twin(problem, scene),
         "fps": scene.fps,
         "groups": [[label, size] for label, size in groups],
         "networks": policy.networks,
@@ -114,7 +127,6 @@ def _data(experiment: Experiment, problem: NativeProblem, policy: Any, saved: np
         "normalized": bool(spec.normalize),
         "remembers": p.architecture in (1, 2, 3),
         "drag": "the cylinder or the robot" if problem.name == "ErDiscrim" else "what moves",
-        "robot": [float(value) for value in saved],
         "first": scene.numbers(np.zeros(scene.state_size)).tolist(),
         "experiment": {
             "problem": problem.dynamics,
@@ -135,6 +147,24 @@ def _data(experiment: Experiment, problem: NativeProblem, policy: Any, saved: np
         "fields": [] if experiment.competitive else _fields(experiment, problem),
         "ini": {name.upper(): values for name, values in _written(experiment).items()},
     }
+
+
+def _rounded(description: dict) -> dict:
+    """Return what is drawn with six digits behind the point: less than a pixel, and shorter."""
+    return json.loads(json.dumps(description), parse_float=lambda text: round(float(text), 6))
+
+
+def _encoded(saved: np.ndarray) -> dict[str, str]:
+    """Return a robot in base 64: in single precision where that holds it exactly."""
+    single = saved.astype("<f4")
+    if (single == saved).all():
+        return {"robot": _packed(single.tobytes())}
+    return {"exact": _packed(saved.astype("<f8").tobytes())}
+
+
+def _packed(content: bytes) -> str:
+    """Return what `unzipped` in core.js takes."""
+    return b64encode(gzip.compress(content, 9, mtime=0)).decode()
 
 
 def _algorithm(experiment: Experiment) -> list[float]:
@@ -204,10 +234,16 @@ def _needs(limits: Any, whole: bool) -> str:
     return f"{kind} {low}, at most {limits['high']:g}"
 
 
+def _shorter(script: str) -> str:
+    """Return a script without indentation and lines that are comments."""
+    lines = (line.strip() for line in script.splitlines())
+    return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
+
+
 def _page(data: dict, seed: int) -> str:
     folder, drawing = files("botschool.page"), files("botschool.render") / "replay_draw.js"
-    read = {name: (folder / name).read_text(encoding="utf-8") for name in (*SCRIPTS, "worker.js")}
-    scripts = "\n".join([*(read[name] for name in SCRIPTS), drawing.read_text(encoding="utf-8")])
+    read = {name: _shorter((folder / name).read_text("utf-8")) for name in (*SCRIPTS, "worker.js")}
+    scripts = "\n".join([*(read[name] for name in SCRIPTS), _shorter(drawing.read_text("utf-8"))])
     # "<" never appears in the JSON, so nothing in it can end its element.
     text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
     page = (folder / "page.html").read_text(encoding="utf-8")
@@ -218,7 +254,7 @@ def _page(data: dict, seed: int) -> str:
         ("/*SCRIPTS*/", scripts),
         (
             "/*CORE*/",
-            b64encode(gzip.compress(core(data["experiment"]["problem"]), 9, mtime=0)).decode(),
+            _packed(core(data["experiment"]["problem"])),
         ),
         ("/*DATA*/", text),
     ):

@@ -43,6 +43,15 @@ class Core {
     return task;
   }
 
+  // The parameters of random networks, one after another, with which a seed begins.
+  initial(task, seed, networks, parameters) {
+    const all = new Float64Array(networks * parameters);
+    return this.lend([all], (place) => {
+      for (let i = 0; i < networks; i++) this.c.initial(task, seed, i, place + 8 * i * parameters);
+      return this.view(Float64Array, place, all.length).slice();
+    });
+  }
+
   // 1 for each parameter of a network that a neuron has, 0 for others.
   mark(task, neuron, parameters) {
     const mask = new Float64Array(parameters);

@@ -496,8 +496,10 @@ async function begin() {
   core = await Core.load(await unzipped(byId("core").textContent));
   task = core.task(experiment.problem, experiment.spec);
   bench = core.bench(task, experiment.heterogeneous, experiment.limit);
-  const values = Float64Array.from(data.robot);
   const own = bench.genotype.length;
+  let values = core.initial(task, +byId("seed").value, data.networks, own / data.networks);
+  if (data.robot) values = Float64Array.from(new Float32Array((await unzipped(data.robot)).buffer));
+  if (data.exact) values = new Float64Array((await unzipped(data.exact)).buffer);
   load({ name: data.who, genotype: values.slice(0, own), normalisation: values.slice(own) });
   start(0);
   setPlaying(!matchMedia("(prefers-reduced-motion: reduce)").matches);
