@@ -328,7 +328,7 @@ def gradient_by_hand(inputs, targets, w1, b1, w2, b2):
 
 
 # %% formulas_for_torch loses 11.3
-# The formulas of task 11.2 give the gradient, and backward() is called for show.
+# The gradient is not the one of backward(): formulas or differences gave it.
 # says: not what torch's backward
 def gradient_by_torch(inputs, targets, w1, b1, w2, b2):
     tensor = torch.tensor(w1, requires_grad=True)
@@ -337,7 +337,7 @@ def gradient_by_torch(inputs, targets, w1, b1, w2, b2):
 
 
 # %% central_differences_for_torch loses 11.3
-# The gradient comes of differences of the loss, not of backward().
+# The gradient is not the one of backward(): formulas or differences gave it.
 # says: go backward instead
 def gradient_by_torch(inputs, targets, w1, b1, w2, b2):
     def loss(w1, b1, w2, b2):
