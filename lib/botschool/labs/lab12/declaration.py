@@ -119,6 +119,6 @@ LAB = Lab(
     robot="trainings",
     shown=(),
     best=lambda values: -values["episodes"],
-    redone=8,
+    redone=40,
     resources=Path(__file__).parent,
 )
