@@ -30,7 +30,7 @@ def test_imports_are_made_before_a_child_starts(tmp_path):
             for _ in range(2):
                 child = Child(server, scratch, file.name, Limits(1))
                 request = {"name": "get", "arguments": [], "options": {}}
-                assert child.ask(request, Allowance(1)) == {"value": 7}
+                assert child.ask(request, Allowance(1))["value"] == 7
                 child.kill()
                 assert child.printed() == ""
         with (
@@ -162,6 +162,7 @@ def clock(monkeypatch):
     monkeypatch.setattr(usage, "processor_seconds", lambda pid: used["processor"])
     monkeypatch.setattr(usage, "delayed_seconds", lambda pid: used["delayed"])
     monkeypatch.setattr("time.monotonic", lambda: used["time"])
+    monkeypatch.setattr(Allowance, "PAUSE", float("inf"))  # time may jump
     return used
 
 
@@ -192,6 +193,20 @@ def test_no_process_is_kept_waiting_for_ever(clock):
     with allowance.charged(1) as left:
         clock.update(delayed=159.0, time=259.0)
         assert left() == 1
+
+
+def test_a_pause_of_the_machine_is_not_charged(clock, monkeypatch):
+    monkeypatch.setattr(Allowance, "PAUSE", 2.0)
+    allowance = Allowance(1)
+    with allowance.charged(1) as left:
+        clock.update(time=1000.0)  # nobody could ask what is left
+        assert left() == 1
+        assert (allowance.active, allowance.passed) == (2, 2)
+        for _ in range(30):
+            clock["time"] += 0.1
+            left()
+        assert left() <= 0  # but a child that sleeps while others are awake is
+    assert allowance.slept
 
 
 def test_where_nothing_is_known_the_time_that_passes_counts(clock, monkeypatch):
@@ -242,5 +257,5 @@ def test_a_busy_machine_costs_no_time(sandboxed, server):
             assert other.stdout.readline() == b"\n"  # it runs
         allowance = Allowance(1)
         answer = one.child.ask({"name": "work", "arguments": [0.7], "options": {}}, allowance)
-    assert answer == {"value": None}
+    assert answer["value"] is None
     assert allowance.processor < 1 < allowance.passed

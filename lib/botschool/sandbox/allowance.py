@@ -15,8 +15,11 @@ class Allowance:
     A child that has to wait for a processor, because others use it, is charged nothing for that.
     A sleeping one is: after 2 * seconds + 2, in which it need not compute, it is enough; after
     10 * seconds + 60 it is in any case. Where processor time cannot be known, the time that
-    passes is charged in its place.
+    passes is charged in its place. A pause in which nobody asked what is left, since the whole
+    machine or this process was stopped, counts PAUSE seconds at most.
     """
+
+    PAUSE = 2.0
 
     def __init__(self, seconds: float) -> None:
         """seconds: of processor time."""
@@ -46,11 +49,14 @@ class Allowance:
     def charged(self, pid: int) -> Iterator[Callable[[], float]]:
         """Charges what a process uses in the block; gives a function that tells what is left."""
         before = self.processor, self.active, self.passed
-        start = time.monotonic()
+        asked, elapsed = time.monotonic(), 0.0
         processor, delayed = usage.processor_seconds(pid), usage.delayed_seconds(pid)
 
         def left() -> float:
-            elapsed = time.monotonic() - start
+            nonlocal asked, elapsed
+            now = time.monotonic()
+            elapsed += min(now - asked, self.PAUSE)
+            asked = now
             used = elapsed if processor is None else usage.processor_seconds(pid)
             self.passed = before[2] + elapsed
             if used is not None:  # else it has ended
