@@ -16,7 +16,7 @@ from botschool.grading.classes.policy import read_policy
 from botschool.grading.classes.texts import decoded, text_of_page
 from botschool.grading.classes.unpack import Room, Unpackable, unpack
 from botschool.grading.copies.skeleton import skeleton
-from botschool.grading.run.cells import code_cells
+from botschool.grading.run.notebooks import code_cells
 from exports import (
     PLATFORMS,
     Handed,

@@ -102,9 +102,10 @@ def test_a_sixteenth_exercise_is_two_folders(sixteen, tmp_path):
     assert call("release", tmp_path / "copy", env=env)[0] == 0
     code, out, _ = call("grade", "16", env=env | {"BOTSCHOOL_COURSE": str(tmp_path / "copy")})
     assert code == 1 and "0 of 100 points" in out
-    for folder in (root, tmp_path / "copy"):
-        for number, needed in ((1, []), (13, ["rl"]), (16, ["rl"])):
-            assert _set_up_for(folder, number) == needed
+    (root / "lib").mkdir()  # a course with its source; a copy without one uses what is installed
+    for number, needed in ((1, []), (13, ["rl"]), (16, ["rl"])):
+        assert _set_up_for(root, number) == needed
+    assert _set_up_for(tmp_path / "copy", 16) == []
 
 
 def _set_up_for(root, number):

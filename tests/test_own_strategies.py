@@ -74,7 +74,7 @@ def test_a_strategy_that_changed_is_not_resumed(folder):
     (folder / "a.ini").write_text(INI.format("mine:Climber", ""))
     es = ("es", "-f", "a.ini", "-s", "3")
     assert call(*es, "--generations", "3", cwd=folder)[0] == 0
-    (folder / "mine.py").write_text(CLASS.replace("noise=0.1", "noise=0.5"))
+    (folder / "mine.py").write_text(CLASS.replace("noise=0.1", "noise=0.55"))
     code, _, error = call(*es, "--resume", cwd=folder)
     assert code == 2 and "gives other candidates than before" in error
 

@@ -53,6 +53,7 @@ def test_the_page_of_evolution_and_ppo_is_made_from_its_data():
                 assert [run["seed"] for run in runs] == list(study.SEEDS)
 
 
+@pytest.mark.usefixtures("studies")
 def test_what_tuning_gives_is_told_from_its_data():
     import json
 

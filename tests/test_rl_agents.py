@@ -241,17 +241,11 @@ def test_a_file_that_would_fill_the_memory(tmp_path, monkeypatch):
 
 
 def test_they_are_found_in_an_installed_package(tmp_path, monkeypatch):
-    package = tmp_path / "site-packages" / "botschool"
-    shutil.copytree(shipped.folder(), package / "agents")
-    monkeypatch.setattr(shipped.botschool, "__file__", str(package / "__init__.py"))
-    assert shipped.folder() == package / "agents"
+    material = tmp_path / "site-packages" / "botschool" / "material"
+    shutil.copytree(shipped.folder(), material / "data" / "agents")
+    monkeypatch.setattr(shipped, "material", lambda: material)
+    assert shipped.folder() == material / "data" / "agents"
     assert len(shipped.agents()) == len(OURS)
-
-
-def test_a_build_installs_them():
-    """The line of CMakeLists.txt that puts data/agents into a wheel."""
-    text = (ROOT / "lib" / "CMakeLists.txt").read_text()
-    assert re.search(r"install\(DIRECTORY \S*/\.\./data/agents DESTINATION botschool", text)
 
 
 def test_environments_of_packages_say_what_to_install(tmp_path, refused, monkeypatch):

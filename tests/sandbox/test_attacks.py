@@ -17,6 +17,7 @@ from botschool.sandbox import paths
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="confined on Linux only")
 ATTACKS = Path(__file__).with_name("attacks.py")
 FULL = "it wrote more than 40 MB of files"
+IN_ALL = "it wrote more than 160 MB to the disk in all"
 MANY = "it wrote more than 100 files"
 THREADS = "it started more than 64 threads"
 
@@ -84,7 +85,10 @@ def told(request):
     ],
 )
 def test_the_attack_ends(told, attack, ending):
-    assert told["attacks"][attack] == [None, ending]
+    value, how = told["attacks"][attack]
+    assert value is None
+    # on a fast disk what was written in all may be counted first
+    assert how == ending or (ending == FULL and how == IN_ALL)
 
 
 @pytest.mark.parametrize(
@@ -124,4 +128,4 @@ def test_what_reaches_the_disk_is_bounded(told):
     if told["in_memory"]:
         assert answer == "written"
     else:
-        assert ending == "it wrote more than 160 MB to the disk in all"
+        assert ending == IN_ALL

@@ -19,8 +19,8 @@ from botschool.grading.declare.exercise import (
 )
 from botschool.grading.judge.judging import GraderFault
 from botschool.grading.judge.submission import Submission, TaskResult
-from botschool.grading.run.cells import code_cells
 from botschool.grading.run.confined import MachineFault, close_class, fork_server
+from botschool.grading.run.notebooks import code_cells
 
 MAX_PRINTED = 1500
 """Characters of what a task's code printed that are shown."""

@@ -14,9 +14,10 @@ from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Exercise, Task, cannot_be_graded
 from botschool.grading.declare.references import functions_of, pruned
 from botschool.grading.judge.judging import TaskResult, grade_task, tried_twice
-from botschool.grading.run.cells import Script, Unreadable, code_cells, scripts
+from botschool.grading.run.cells import Script, Unreadable, scripts
 from botschool.grading.run.confined import content_digest, fork_server, submission_files
 from botschool.grading.run.failures import Origin
+from botschool.grading.run.notebooks import code_cells
 from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 from botschool.sandbox.inside import read_inside

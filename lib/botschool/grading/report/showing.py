@@ -15,7 +15,7 @@ from urllib.parse import quote
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.exercise import load_exercise, submission_file
-from botschool.grading.run.cells import code_cells
+from botschool.grading.run.notebooks import code_cells
 from botschool.grading.run.temporary import PREFIX
 from botschool.output import save_bytes
 from botschool.paths import course_root

@@ -14,9 +14,6 @@ import subprocess
 import symtable
 import sys
 from dataclasses import dataclass, field
-from pathlib import Path
-
-from botschool.errors import BotschoolError
 
 PARSE_SECONDS = 30
 MAX_CODE = 2**20
@@ -190,19 +187,3 @@ if __name__ == "__main__":
     made = {"whole": vars(whole(given)), "definitions": vars(definitions(given))}
     json.dump(made, sys.stdout)
     sys.stdout.flush()
-
-
-# --- The code of a saved notebook.
-
-
-def code_cells(path: Path) -> list[str]:
-    """The texts of a notebook's code cells. Raises BotschoolError."""
-    try:
-        cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
-        code = [cell["source"] for cell in cells if cell["cell_type"] == "code"]
-        return ["".join(source) for source in code]
-    except (OSError, ValueError, LookupError, TypeError, RecursionError):
-        raise BotschoolError(
-            f"There is no notebook {path.name} in the folder {path.parent}: save it there under "
-            "this name, then run this cell again."
-        ) from None

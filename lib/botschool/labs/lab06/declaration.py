@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -48,7 +49,7 @@ def families(table: np.ndarray, threshold: float) -> list[set[int]]:
     apart = np.linalg.norm(rows[:, None] - rows[None], axis=2)
     groups = [[robot] for robot in range(len(rows))]
     while len(groups) > 1:
-        pairs = [(i, j) for j in range(len(groups)) for i in range(j)]
+        pairs = sorted(combinations(range(len(groups)), 2), key=lambda pair: pair[::-1])
         distance = [apart[np.ix_(groups[i], groups[j])].mean() for i, j in pairs]
         if min(distance) >= threshold:
             break
