@@ -351,7 +351,7 @@ def evolve(algorithm, evaluate, generations, every):
     kept = [g for g in table if g % every == 0 or g + 1 == generations]
     return {
         "generations": np.array(kept),
-        "parameters": [table[g][1] for g in kept],
+        "parameters": np.stack([table[g][1] for g in kept]),
         "history": [table[g][0] for g in table],
     }
 
