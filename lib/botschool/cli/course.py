@@ -152,7 +152,7 @@ def course(
 
     In a folder that is there already, files that you have edited are left alone.
     """
-    from botschool.grading.commands import course_command
+    from botschool.grading.copies.commands import course_command
 
     course_command(folder, exercises)
 
@@ -183,7 +183,7 @@ def release(
     In a copy that is there already, files that were edited since are left alone, and exercises
     that have their answers keep them.
     """
-    from botschool.grading.commands import release_command
+    from botschool.grading.copies.commands import release_command
 
     release_command(folder, exercises, answers, wheel or [])
 

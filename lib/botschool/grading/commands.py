@@ -11,9 +11,8 @@ import tempfile
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from shlex import quote
 from typing import Any
 
 from rich.console import Console
@@ -41,7 +40,6 @@ from botschool.grading.report.screen import Screen, Watched, counting, say_missi
 from botschool.grading.run.confined import close_class
 from botschool.grading.run.debug import DirectStudent
 from botschool.grading.run.temporary import temporary_files_within
-from botschool.paths import MATERIAL, material
 from botschool.terminal import exits_on_signals
 
 
@@ -349,45 +347,6 @@ def trust_command(folder: Path) -> None:
         raise BotschoolError(f"{folder} holds no exercises/: name the folder of a course.")
     trust(folder)
     print(f"{folder.resolve()}: botschool will run this course's graders.")
-
-
-def course_command(folder: Path, exercises: str) -> None:
-    """Make a copy of the course that the installed botschool grades, or bring it up to date."""
-    _copy(material(), folder, exercises, compiled=False)
-    print(f"Begin with: cd {quote(str(folder))}; botschool start 1")
-
-
-def release_command(folder: Path, exercises: str, answers: bool, wheels: list[Path]) -> None:
-    """Make the students' copy of the repository, or bring it up to date."""
-    root = material() if material().name == MATERIAL else course_root()
-    with contextlib.suppress(BotschoolError):
-        root = course_root()
-    if answers and not (root / "solutions").is_dir():
-        raise BotschoolError("The answers are in the repository only: release the copy there.")
-    for wheel in wheels:
-        if not wheel.is_file() or wheel.suffix != ".whl":
-            raise BotschoolError(f"{wheel} is no wheel: name a file botschool-....whl.")
-    _copy(root, folder, exercises, answers=answers, wheels=wheels)
-
-
-def _copy(
-    root: Path,
-    folder: Path,
-    exercises: str,
-    answers: bool = False,
-    compiled: bool = True,
-    wheels: Sequence[Path] = (),
-) -> None:
-    from botschool.grading.copies.release import release
-
-    asked = selected(exercises, root)
-    if any(asked.values()):
-        raise BotschoolError(f"'{exercises[:30]}' names a task: an exercise is released whole.")
-    numbers = None if exercises == "all" else set(asked)
-    done = release(root, folder, numbers, answers, compiled=compiled, wheels=wheels)
-    for path in done.edited:
-        print(f"left alone, because it was edited: {path}")
-    print(f"{folder}: {done.files} files for students, {done.written} of them new or changed.")
 
 
 def _named(what: str) -> tuple[int, str]:

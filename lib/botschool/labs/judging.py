@@ -7,13 +7,26 @@ from typing import Any
 
 import numpy as np
 
-from botschool.labs.declare import Answers, Data
-from botschool.labs.measuring import paired_test, permutation_test, power
+from botschool.labs.declare import Answers, Column, Data
+from botschool.labs.measuring import interval, paired_test, permutation_test, power
 
 Judged = tuple[Callable[[Any], bool], str]
 CANNOT_TELL = "my runs cannot tell"
 LEVEL, NEAR = 0.05, (0.03, 0.07)
 """p below LEVEL tells two groups apart; within NEAR either answer is right."""
+FRESH = (
+    Column(
+        "median fitness in new episodes",
+        lambda values: (float(np.median(values["fresh"])),),
+        lambda true: 0.6 + 0.002 * abs(true[0]),
+    ),
+    Column(
+        "95 % interval",
+        lambda values: interval(values["fresh"]),
+        lambda true: 1 + 0.3 * (true[1] - true[0]),
+    ),
+)
+"""The columns of the measure "fresh", fitness in new episodes."""
 
 
 def larger(

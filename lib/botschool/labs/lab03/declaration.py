@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from botschool.labs.declare import Answers, Column, Condition, Data, Field, Figure, Lab, Statement
-from botschool.labs.judging import Judged, larger, p_value
+from botschool.labs.judging import FRESH, Judged, larger, p_value
 from botschool.labs.lab03.reference import reference
-from botschool.labs.measuring import interval
 
 SIZES = (4, 20, 100)
 PROBLEMS = {
@@ -104,16 +103,7 @@ LAB = Lab(
             is_cartpole,
         ),
         Column("median evaluations until solved", of_cartpole, lambda true: 0.6, is_cartpole),
-        Column(
-            "median fitness in new episodes",
-            lambda values: (float(np.median(values["fresh"])),),
-            lambda true: 0.6 + 0.002 * abs(true[0]),
-        ),
-        Column(
-            "95 % interval",
-            lambda values: interval(values["fresh"]),
-            lambda true: 1 + 0.3 * (true[1] - true[0]),
-        ),
+        *FRESH,
     ),
     statements=(
         Statement(

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from botschool.labs.declare import Answers, Column, Condition, Data, Field, Figure, Lab, Statement
-from botschool.labs.judging import CANNOT_TELL, Judged
+from botschool.labs.judging import CANNOT_TELL, FRESH, Judged
 from botschool.labs.lab04.reference import reference
-from botschool.labs.measuring import interval, permutation_test
+from botschool.labs.measuring import permutation_test
 
 BASE = "base"
 PROBLEMS: dict[str, dict[str, Any]] = {
@@ -134,16 +134,7 @@ LAB = Lab(
     reference=reference,
     unseen=(CONDITIONS[1], CONDITIONS[-1]),
     columns=(
-        Column(
-            "median fitness in new episodes",
-            lambda values: (float(np.median(values["fresh"])),),
-            lambda true: 0.6 + 0.002 * abs(true[0]),
-        ),
-        Column(
-            "95 % interval",
-            lambda values: interval(values["fresh"]),
-            lambda true: 1 + 0.3 * (true[1] - true[0]),
-        ),
+        *FRESH,
         Column(
             "mean luck",
             lambda values: (float((values["reported"] - values["fresh"]).mean()),),

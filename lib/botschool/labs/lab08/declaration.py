@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from botschool.labs.declare import Column, Condition, Field, Figure, Lab, Statement
-from botschool.labs.judging import larger, p_value, powerful
+from botschool.labs.judging import FRESH, larger, p_value, powerful
 from botschool.labs.lab08.reference import reference
-from botschool.labs.measuring import interval
 
 STEPS = {"hopper": (0.01, 0.03, 0.1), "Pendulum": (0.02, 0.1, 0.5)}
 PROBLEMS: dict[str, dict[str, Any]] = {
@@ -82,16 +81,7 @@ LAB = Lab(
             lambda true: 0.006,
         ),
         Column("severe", lambda values: (float(values["severe"].sum()),), lambda true: 0.01),
-        Column(
-            "median fitness in new episodes",
-            lambda values: (float(np.median(values["fresh"])),),
-            lambda true: 0.6 + 0.002 * abs(true[0]),
-        ),
-        Column(
-            "95 % interval",
-            lambda values: interval(values["fresh"]),
-            lambda true: 1 + 0.3 * (true[1] - true[0]),
-        ),
+        *FRESH,
     ),
     statements=(
         Statement(

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from botschool.course.locomotion import ALGO, POLICY
 from botschool.labs.declare import Answers, Column, Condition, Data, Field, Figure, Lab, Statement
 from botschool.labs.judging import CANNOT_TELL, Judged, larger, p_value, span
 from botschool.labs.lab09.reference import reference
@@ -29,26 +30,8 @@ def condition(bonus: float) -> Condition:
                 "algo": "OpenAI-ES",
                 "options": f"alive={bonus:g}",
             },
-            "policy": {
-                "episodes": 1,
-                "pepisodes": 3,
-                "maxsteps": 1000,
-                "nhiddens": 50,
-                "bias": 1,
-                "afunction": 2,
-                "out_type": 3,
-                "winit": 1,
-                "action_noise": 1,
-                "normalize": 1,
-                "clip": 1,
-            },
-            "algo": {
-                "maxmsteps": MSTEPS,
-                "samplesize": 20,
-                "stepsize": 0.01,
-                "noiseStdDev": 0.02,
-                "wdecay": 1,
-            },
+            "policy": POLICY,
+            "algo": ALGO | {"maxmsteps": MSTEPS},
         },
         x=bonus,
     )

@@ -1,0 +1,50 @@
+"""What the subcommands that make copies of the course do."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Sequence
+from pathlib import Path
+from shlex import quote
+
+from botschool.errors import BotschoolError
+from botschool.grading.copies.release import release
+from botschool.grading.declare.exercise import course_root, selected
+from botschool.paths import MATERIAL, material
+
+
+def course_command(folder: Path, exercises: str) -> None:
+    """Make a copy of the course that the installed botschool grades, or bring it up to date."""
+    _copy(material(), folder, exercises, compiled=False)
+    print(f"Begin with: cd {quote(str(folder))}; botschool start 1")
+
+
+def release_command(folder: Path, exercises: str, answers: bool, wheels: list[Path]) -> None:
+    """Make the students' copy of the repository, or bring it up to date."""
+    root = material() if material().name == MATERIAL else course_root()
+    with contextlib.suppress(BotschoolError):
+        root = course_root()
+    if answers and not (root / "solutions").is_dir():
+        raise BotschoolError("The answers are in the repository only: release the copy there.")
+    for wheel in wheels:
+        if not wheel.is_file() or wheel.suffix != ".whl":
+            raise BotschoolError(f"{wheel} is no wheel: name a file botschool-....whl.")
+    _copy(root, folder, exercises, answers=answers, wheels=wheels)
+
+
+def _copy(
+    root: Path,
+    folder: Path,
+    exercises: str,
+    answers: bool = False,
+    compiled: bool = True,
+    wheels: Sequence[Path] = (),
+) -> None:
+    asked = selected(exercises, root)
+    if any(asked.values()):
+        raise BotschoolError(f"'{exercises[:30]}' names a task: an exercise is released whole.")
+    numbers = None if exercises == "all" else set(asked)
+    done = release(root, folder, numbers, answers, compiled=compiled, wheels=wheels)
+    for path in done.edited:
+        print(f"left alone, because it was edited: {path}")
+    print(f"{folder}: {done.files} files for students, {done.written} of them new or changed.")
