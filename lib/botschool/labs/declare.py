@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -16,8 +16,10 @@ from botschool.errors import BotschoolError
 PARTS = {"prediction": 5, "runs": 25, "measurements": 25, "figure": 10, "conclusion": 25}
 """The points that a machine gives, part by part; WORDS are the instructor's."""
 WORDS = 10
-NUMBERS = tuple(sorted(int(path.name[3:]) for path in Path(__file__).parent.glob("lab[0-9][0-9]")))
-"""The laboratories that exist: packages labNN beside this file."""
+NUMBERS = tuple(
+    sorted(int(path.stem[3:]) for path in Path(__file__).parent.glob("lab[0-9][0-9].py"))
+)
+"""The laboratories that exist: modules labNN beside this file."""
 
 STRATEGY = "strategy"
 """The module with the student's own strategy, in the laboratory's folder."""
@@ -164,8 +166,6 @@ class Lab:
     """Whether measure.py is also given the robots of the condition's other runs."""
     strategy: str = ""
     """The exercise's file that strategy.py is copied from, as ex08_openai_es/openai_es.py."""
-    resources: Path = field(default=Path(), compare=False)
-    """The folder of sheet and skeletons."""
 
     @property
     def name(self) -> str:
@@ -185,4 +185,4 @@ def load_lab(number: str | int) -> Lab:
         raise BotschoolError(
             f"There is no laboratory {number}: the laboratories that exist are {there}."
         )
-    return import_module(f"botschool.labs.lab{int(text):02}.declaration").LAB
+    return import_module(f"botschool.labs.lab{int(text):02}").LAB

@@ -6,19 +6,15 @@ import re
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import indent
 
 from botschool.errors import BotschoolError
 from botschool.labs.declare import STRATEGY, Lab, load_lab
 from botschool.labs.sheet import Sheet
 from botschool.paths import course_root
 
-FILES = {
-    "sheet.txt": "sheet.md",
-    "measure.txt": "measure.py",
-    "figure.txt": "figure.py",
-    "learn.txt": "learn.py",
-}
-"""In a declaration's folder -> in the student's."""
+FILE = re.compile(r"^<!-- file: (\S+) -->\n", re.MULTILINE)
+"""In labNN.md, begins what the student's folder gets under that name; the sheet is before it."""
 NAME = Path(".botschool") / "name"
 
 
@@ -59,18 +55,28 @@ class Place:
         return Sheet.read(self.folder / "sheet.md")
 
 
+def skeletons(lab: Lab) -> dict[str, str]:
+    """What the student's folder gets: name of the file -> its text."""
+    here = Path(__file__).parent
+    sheet, *parts = FILE.split((here / f"{lab.name}.md").read_text(encoding="utf-8"))
+    files = {"sheet.md": sheet.rstrip() + "\n"}
+    for name, text in zip(parts[::2], parts[1::2], strict=True):
+        files[name] = text.strip().removeprefix("```python\n").removesuffix("```")
+    told = indent(files["figure.py"], "    ").strip()
+    figure = (here / "figure.txt").read_text(encoding="utf-8")
+    files["figure.py"] = figure.replace("{NUMBER}", str(lab.number)).replace("{TOLD}", told)
+    return files
+
+
 def start(place: Place, name: str, course: str) -> list[Path]:
     """Make the folder; return the files that were there already and stay as they are."""
     place.folder.mkdir(parents=True, exist_ok=True)
     kept = []
-    for source, target in FILES.items():
+    for target, text in skeletons(place.lab).items():
         path = place.folder / target
-        if not (place.lab.resources / source).is_file():
-            continue
         if path.exists():
             kept.append(path)
             continue
-        text = (place.lab.resources / source).read_text(encoding="utf-8")
         text = text.replace("{NAME}", name).replace("{COURSE}", course)
         path.write_text(text, encoding="utf-8")
     if place.lab.strategy:

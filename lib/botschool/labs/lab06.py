@@ -1,0 +1,180 @@
+"""How many ways are there to find a cylinder, and which need memory?"""
+
+from __future__ import annotations
+
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from botschool.labs.declare import Answers, Column, Condition, Data, Field, Figure, Lab, Statement
+from botschool.labs.judging import CANNOT_TELL, Judged, larger, p_value
+from botschool.labs.measuring import CYLINDER, forage, interval
+
+
+def described(episode: dict[str, np.ndarray]) -> tuple[float, float, float, float]:
+    """Steps of the search, speed and turning in it, and the side of the cylinder afterwards."""
+    poses, near = episode["poses"], episode["rewards"] > 0
+    search = int(near.argmax()) if near.any() else len(near)
+    before, after = poses[:-1], poses[1:]
+    moved = after[:, :2] - before[:, :2]
+    forward = moved[:, 0] * np.cos(before[:, 2]) + moved[:, 1] * np.sin(before[:, 2])
+    turned = (after[:, 2] - before[:, 2] + np.pi) % (2 * np.pi) - np.pi
+    away = np.asarray(CYLINDER) - after[:, :2]
+    sides = np.sin(np.arctan2(away[:, 1], away[:, 0]) - after[:, 2])[near]
+    told = [values.mean() if len(values) else 0.0 for values in (forward[:search], turned[:search])]
+    return search, float(told[0]), float(told[1]), float(sides.mean()) if len(sides) else 0.0
+
+
+def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
+    """Return, the share of it that is lost without memory, and four descriptors."""
+    ordinary, forgetful = forage(run), forage(run, forget=True)
+    earned = float(np.mean([each["rewards"].sum() for each in ordinary]))
+    without = float(np.mean([each["rewards"].sum() for each in forgetful]))
+    rows = np.mean([described(each) for each in ordinary], axis=0)
+    return {
+        "return": earned,
+        "lost": 1 - without / earned if earned > 0 else 0.0,
+        **dict(zip(("search", "speed", "turning", "side"), map(float, rows), strict=True)),
+    }
+
+
+KINDS = {"LSTM": 3, "feed-forward": 0}
+"""Networks: name -> architecture."""
+DESCRIPTORS = ("search", "speed", "turning", "side")
+THRESHOLD = 2.0
+SHARE = 0.8
+"""Does memory earn more than this?"""
+
+
+def condition(kind: str, msteps: float = 20) -> Condition:
+    """Kheperas with that network."""
+    return Condition(
+        kind,
+        {
+            "exp": {"environment": "ErDiscrim", "algo": "OpenAI-ES"},
+            "policy": {
+                "episodes": 3,
+                "pepisodes": 25,
+                "maxsteps": 500,
+                "nhiddens": 10,
+                "bias": 1,
+                "architecture": KINDS[kind],
+                "out_type": 2,
+                "winit": 0,
+            },
+            "algo": {"maxmsteps": msteps, "samplesize": 20, "stepsize": 0.03, "noiseStdDev": 0.05},
+        },
+        x=float(list(KINDS).index(kind)),
+    )
+
+
+def families(table: np.ndarray, threshold: float) -> list[set[int]]:
+    """Robots grouped by the mean distance of their standardised descriptors (exercise 6)."""
+    spread = table.std(axis=0)
+    rows = (table - table.mean(axis=0)) / np.where(spread < 1e-12, np.inf, spread)
+    apart = np.linalg.norm(rows[:, None] - rows[None], axis=2)
+    groups = [[robot] for robot in range(len(rows))]
+    while len(groups) > 1:
+        pairs = sorted(combinations(range(len(groups)), 2), key=lambda pair: pair[::-1])
+        distance = [apart[np.ix_(groups[i], groups[j])].mean() for i, j in pairs]
+        if min(distance) >= threshold:
+            break
+        i, j = pairs[int(np.argmin(distance))]
+        groups[i] += groups.pop(j)
+    return [set(group) for group in groups]
+
+
+def grouped(data: Data) -> list[list[set[int]]]:
+    """The families of all robots, at the threshold and a little below and above."""
+    columns = [np.concatenate([data[kind][name] for kind in KINDS]) for name in DESCRIPTORS]
+    table = np.stack(columns, axis=1)
+    return [families(table, THRESHOLD * factor) for factor in (0.98, 1, 1.02)]
+
+
+def counted(data: Data, answers: Answers) -> Judged:
+    """Judge the number of families."""
+    counts = [len(groups) for groups in grouped(data)]
+    told = f"the descriptors of your robots give {counts[1]} families."
+    return lambda answer: answer in counts, told
+
+
+def mixed(data: Data, answers: Answers) -> Judged:
+    """Judge whether a family has robots of both kinds."""
+    first = set(range(len(data["LSTM"]["speed"])))
+    found = [any(g & first and g - first for g in groups) for groups in grouped(data)]
+    words = ["yes" if each else "no" for each in found]
+    return lambda answer: answer in words, f"the families of your robots say {words[1]}."
+
+
+def share_lost(data: Data, answers: Answers) -> Judged:
+    """Judge whether memory earns more than SHARE of the LSTMs' return."""
+    low, high = interval(data["LSTM"]["lost"], np.mean)
+    ends = {
+        "more" if low > SHARE + slack else "less" if high < SHARE - slack else CANNOT_TELL
+        for slack in (-0.015, 0.0, 0.015)
+    }
+    told = f"the mean share that your LSTM robots lose lies between {low:.3f} and {high:.3f}."
+    return lambda answer: answer in ends, told
+
+
+BOTH = ("LSTM", "feed-forward")
+LAB = Lab(
+    number=6,
+    title="How many ways are there to find a cylinder, and which need memory?",
+    conditions=tuple(condition(kind) for kind in KINDS),
+    predictions=(
+        Field("families-expected", "number", "How many families there are", 1, 20),
+        Field("better-expected", "choice", "Which kind earns more"),
+        Field("lost-expected", "number", "The share that is lost without memory", -10, 1),
+        Field("why", "text", "Why you predict this", words=10),
+    ),
+    fields=(
+        Field("families", "number", "The number of families", 1, 20),
+        Field("mixed", "choice", "Whether a family has both kinds"),
+        Field("better", "choice", "Which kind earns more"),
+        Field("p", "number", "The p of the permutation test", 0, 1),
+        Field("lost", "choice", "What memory is worth"),
+    ),
+    measures={"return": 1e-3, "lost": 1e-3} | dict.fromkeys(DESCRIPTORS, 1e-3),
+    reference=reference,
+    unseen=(condition("LSTM", 4), condition("feed-forward", 4)),
+    columns=(
+        Column(
+            "median return",
+            lambda values: (float(np.median(values["return"])),),
+            lambda true: 0.6,
+        ),
+        Column(
+            "95 % interval",
+            lambda values: interval(values["return"]),
+            lambda true: 1 + 0.3 * (true[1] - true[0]),
+        ),
+        Column(
+            "median share lost",
+            lambda values: (float(np.median(values["lost"])),),
+            lambda true: 0.006,
+        ),
+        Column(
+            "median steps of the search",
+            lambda values: (float(np.median(values["search"])),),
+            lambda true: 0.6,
+        ),
+    ),
+    statements=(
+        Statement("families", 6, BOTH, counted),
+        Statement("mixed", 4, BOTH, mixed),
+        Statement("better", 5, BOTH, larger("return", *BOTH, BOTH)),
+        Statement("p", 4, BOTH, p_value("return", *BOTH)),
+        Statement("lost", 6, ("LSTM",), share_lost),
+    ),
+    figure=Figure("turning", BOTH, ("rad",)),
+    rubric=(
+        "Two families are described in words, so that one could recognise them on the replay.",
+        "The student says what the feed-forward robots are good for here (a control).",
+        "What surprised the student is a fact of the runs, with its number.",
+    ),
+    robot="Kheperas",
+    shown=BOTH,
+    best=lambda values: values["return"],
+)
