@@ -197,6 +197,13 @@ def test_what_a_wheel_gets_has_no_plain_solutions_graders_and_measures(tmp_path)
     assert all(is_packed(path.read_text()) for path in (*graders, *measures))
 
 
+def test_laboratories_have_their_sheets_and_scripts_in_the_copy(copy):
+    pages = sorted(ROOT.glob("lib/botschool/labs/lab*.md"))
+    assert len(pages) == len([*copy.glob("lib/botschool/labs/lab[0-9]*.py")])
+    for page in pages:
+        assert (copy / page.relative_to(ROOT)).read_bytes() == page.read_bytes()
+
+
 def test_every_figure_of_the_texts_is_in_the_copy(copy):
     """At least two in each, with a caption, the expected result on top; and no other pictures."""
     named = set()

@@ -38,7 +38,7 @@ START = "exercises/README.md"
 """Where students start: this is the copy's own README.md too."""
 _WITHHELD = re.compile(
     r"docs/(reports/)?(instructor|answer|solution|architecture|algorithms|chapter|cluster|results\.|evolution)"
-    r"|^lib/.*\.md$|^docs/book/|^tools/(figures|studies)/"
+    r"|^lib/(?!botschool/labs/lab\d\d\.).*\.md$|^docs/book/|^tools/(figures|studies)/"
     r"|(^|/)(__pycache__|\..*_cache|results)/"
     r"|\.(pyc|so|pyd|dylib|dll|ipynb|egg-info)$|(^|/)(?!\.gitignore$)\.[^/]*$",
     re.IGNORECASE,
