@@ -124,7 +124,7 @@ def test_output_to_a_full_disk(own, tmp_path):
     with open("/dev/full", "w") as full:
         process = start("es", "-f", tmp_path / "own.ini", "-o", tmp_path / "results", stdout=full)
         code, _, errors = finish(process)
-    one_sentence(code, errors, ["Standard output", "No space left on device"])
+    one_sentence(code, errors, ["standard output", "No space left on device"])
     assert readable(tmp_path / "results") >= 1  # lines are printed every tenth of a second
     assert run_seeds(own, tmp_path / "results", resume=True)
     assert run_seeds(own, tmp_path / "whole")

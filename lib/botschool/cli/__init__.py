@@ -1,4 +1,4 @@
-"""The command line; `main` is what `botschool` runs."""
+"""Define the command line: `botschool` runs `main`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import signal
 
 
 def main() -> None:
-    """Run the command. Ctrl-C ends it with a sentence from its first moment to its last."""
+    """Run the command; Ctrl-C ends it with one sentence at any time."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _stop)
     from botschool.cli.app import run
@@ -16,6 +16,6 @@ def main() -> None:
 
 
 def _stop(number: int, frame: object) -> None:
-    """End the process while its modules are being imported."""
+    """End the process during its imports."""
     os.write(2, b"Stopped before anything was done.\n")
     os._exit(130)

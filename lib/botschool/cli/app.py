@@ -1,7 +1,7 @@
-"""The command `botschool`: its groups of subcommands, and how errors end it.
+"""Put the groups of subcommands together, and turn errors into sentences and exit codes.
 
-A module of this package is a group of subcommands, one short function each. Heavy imports are made
-where they are used.
+Each module of this package holds a group of subcommands, one short function each. Functions import
+heavy modules when they need them.
 """
 
 from __future__ import annotations
@@ -32,15 +32,17 @@ GROUPS = {
     labs: None,
     rl: "rl",
 }
-"""Modules with commands, in the order of --help, and the name before their commands."""
+"""Modules with commands, in the order of --help, and the word before their commands."""
 
-# numpy's BLAS starts threads that would only wait: nothing here multiplies large matrices
+# numpy's BLAS would start threads that only wait: no command multiplies large matrices
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
 def commands(asked: str | None = None) -> typer.Typer:
-    """The command with all its subcommands; with only the one asked for, if there is such (making
-    all of them takes longer than many a run)."""
+    """Return the command with the subcommand asked for, or with all if there is no such one.
+
+    Making all subcommands takes longer than many runs.
+    """
     app = typer.Typer(
         help="Train robots in simulation by evolution and by reinforcement learning.",
         no_args_is_help=True,
@@ -55,7 +57,7 @@ def commands(asked: str | None = None) -> typer.Typer:
 
 
 def _names(module: ModuleType) -> list[str]:
-    """What may stand after `botschool` for the commands of a module."""
+    """Return the words after `botschool` that select a module's commands."""
     if GROUPS[module]:
         return [GROUPS[module]]
     return [c.name or c.callback.__name__ for c in module.app.registered_commands]
@@ -73,11 +75,11 @@ def _options(
         typer.Option("--version", help="Print it.", is_eager=True, callback=_tell_version),
     ] = False,
 ) -> None:
-    """Options of `botschool` itself."""
+    """Define the options of `botschool` itself."""
 
 
 def run() -> NoReturn:
-    """Run the command and exit; errors for learners are one sentence and exit code 2."""
+    """Run the command and exit; a learner's error is one sentence and exit code 2."""
     code, stopped = 130, False
 
     def stop(number: int, frame: object) -> None:
@@ -92,7 +94,7 @@ def run() -> NoReturn:
     except KeyboardInterrupt:
         pass
     finally:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # all is done: impatience is no error
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # all work is done: another Ctrl-C is no error
     if stopped and code == 130:
         print("Stopped.", file=sys.stderr)
     sys.exit(code)
@@ -115,17 +117,16 @@ def _run() -> int:
         code = _refuse(f"{message}{see} {command} --help.") if message else 2
     except MemoryError:
         code = _refuse(
-            "There is not enough memory: lower samplesize, popsize, nhiddens or the number of "
-            "workers (-w)."
+            "Not enough memory: lower samplesize, popsize, nhiddens or the number of workers (-w)."
         )
     except (KeyboardInterrupt, typer.Abort):
         code = 130
     except BrokenPipeError:
         code = _silence(1)
     except OSError as error:
-        place = error.filename or "Standard output"
+        place = error.filename or "standard output"
         code = _refuse(
-            f"{place} cannot be read or written ({error.strerror or error}): free some space or "
+            f"Cannot read or write {place} ({error.strerror or error}): free some space or "
             "choose another place."
         )
         code = _silence(code)
@@ -133,7 +134,7 @@ def _run() -> int:
 
 
 def _once(message: str) -> str:
-    """With one suggestion; Typer and Click each add theirs."""
+    """Return the message with one suggestion; Typer and Click each add theirs."""
     suggestion = r"\.? \(?Did you mean(?: one of:)? ([^?]*)\?.*"
     return re.sub(suggestion, r"; did you mean \1?", message)
 
@@ -144,7 +145,7 @@ def _refuse(sentence: str) -> int:
 
 
 def _silence(code: int) -> int:
-    """Drops what the interpreter would still print to a broken standard output at its end."""
+    """Drop what the interpreter would still print to a broken standard output; return the code."""
     with suppress(OSError):
         sys.stdout.flush()
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

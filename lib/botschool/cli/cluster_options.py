@@ -1,4 +1,4 @@
-"""The options of commands that can evaluate on a cluster."""
+"""Define the options of commands that can evaluate on a cluster."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Patience = Annotated[
     float | None,
     typer.Option(
         min=0,
-        help="With --cluster: minutes to wait for workers, or for a scheduler that is away.",
+        help="With --cluster: minutes to wait for workers or for a scheduler that does not answer.",
         show_default="5",
     ),
 ]
@@ -39,14 +39,14 @@ Patience = Annotated[
 def machines(
     cluster: str | None, no_tls: bool, patience: float | None, workers: int | None
 ) -> Open | None:
-    """The cluster that the options name, not yet opened; None without --cluster."""
+    """Return the cluster that the options name, not yet opened; None without --cluster."""
     if cluster is None:
         if no_tls or patience is not None:
-            raise BotschoolError("--no-tls and --patience go with --cluster: name one.")
+            raise BotschoolError("--no-tls and --patience need --cluster: add --cluster ADDRESS.")
         return None
     if workers is not None:
         raise BotschoolError(
-            "--cluster brings its own workers: leave -w out (local:N starts N on this machine)."
+            "--cluster has its own workers: leave -w out (local:N starts N on this machine)."
         )
     from botschool.cluster import PATIENCE, Open
 

@@ -1,4 +1,4 @@
-"""The course's subcommands: those of students, then those of instructors."""
+"""Define the course's subcommands: first those for students, then those for instructors."""
 
 from __future__ import annotations
 
@@ -12,13 +12,19 @@ app = typer.Typer()
 Submission = Annotated[
     str | None,
     typer.Option(
-        help="Another folder, zip file or file; `solutions` is the reference.", metavar="FOLDER"
+        help="Use another folder, zip file or file; `solutions` is the reference.",
+        metavar="FOLDER",
     ),
 ]
 GradingWorkers = Annotated[
     int | None,
     typer.Option(
-        "-w", "--workers", min=1, max=1024, help="Submissions at a time.", show_default="all cores"
+        "-w",
+        "--workers",
+        min=1,
+        max=1024,
+        help="Number of submissions graded at the same time.",
+        show_default="all cores",
     ),
 ]
 
@@ -30,10 +36,10 @@ Number = Annotated[str, typer.Argument(help="Exercise N.", metavar="N")]
 def start(
     exercise: Number,
     notebook: Annotated[
-        bool, typer.Option("--notebook", help="Open your file as a notebook, too.")
+        bool, typer.Option("--notebook", help="Also open your file as a notebook.")
     ] = False,
 ) -> None:
-    """Say what to read, where to write and how to go on."""
+    """Print what to read, where to write and which command comes next."""
     from botschool.grading.commands import start_command
 
     start_command(exercise, notebook)
@@ -41,7 +47,7 @@ def start(
 
 @app.command(epilog="Example: botschool reset 3")
 def reset(exercise: Number) -> None:
-    """Put your file back to its beginning; what you had is kept beside it."""
+    """Put your file back to its beginning; your version is kept beside it."""
     from botschool.grading.commands import reset_command
 
     reset_command(exercise)
@@ -55,7 +61,10 @@ def grade(
     submission: Submission = None,
     json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
     debug: Annotated[
-        bool, typer.Option(help="One task in this process, without points, for breakpoints.")
+        bool,
+        typer.Option(
+            help="Run one task in this process, without points, so that breakpoints work."
+        ),
     ] = False,
 ) -> None:
     """Grade your solution of an exercise, or of one task."""
@@ -69,7 +78,7 @@ def grade(
 def hint(
     task: Annotated[str, typer.Argument(help="Task N.T.", metavar="N.T")],
 ) -> None:
-    """Show one more hint for a task, each time it is called."""
+    """Show one more hint for a task with each call."""
     from botschool.grading.commands import hint_command
 
     hint_command(task)
@@ -78,11 +87,11 @@ def hint(
 @app.command(epilog="Example: botschool progress")
 def progress(
     grade: Annotated[
-        bool, typer.Option("--grade", help="Grade them all first (takes minutes).")
+        bool, typer.Option("--grade", help="Grade all exercises first (takes minutes).")
     ] = False,
     workers: GradingWorkers = None,
 ) -> None:
-    """Show your points in all exercises, as last graded, and what comes next."""
+    """Show your last points in all exercises, and what comes next."""
     from botschool.grading.commands import progress_command
 
     progress_command(grade, workers)
@@ -93,7 +102,7 @@ def watch(
     what: Annotated[str, typer.Argument(help="Exercise N or task N.T.", metavar="N[.T]")],
     submission: Submission = None,
 ) -> None:
-    """Grade again whenever you save; Ctrl-C ends."""
+    """Grade again whenever you save; stop with Ctrl-C."""
     from botschool.grading.commands import watch_command
 
     watch_command(what, submission)
@@ -104,13 +113,16 @@ def show(
     exercise: Number,
     submission: Submission = None,
     opens: Annotated[
-        bool, typer.Option("--open/--no-open", help="In your browser, if there is a display.")
+        bool,
+        typer.Option(
+            "--open/--no-open", help="Open the result in your browser, if there is a display."
+        ),
     ] = True,
     answers: Annotated[
-        bool, typer.Option("--answers", help="Show the answers instead, after full marks.")
+        bool, typer.Option("--answers", help="Show the answers instead; you need full marks.")
     ] = False,
 ) -> None:
-    """Run your finished file in results/exNN, and open what it has made."""
+    """Run your finished file in results/exNN and open the result."""
     from botschool.grading.commands import answers_command, show_command
 
     if answers:
@@ -123,7 +135,7 @@ def show(
 def trust(
     folder: Annotated[Path, typer.Argument(help="The course's folder.", metavar="FOLDER")],
 ) -> None:
-    """Let botschool run the graders of a course that you got from somebody you trust."""
+    """Trust a course, so that botschool runs its graders; do so only if you know the sender."""
     from botschool.grading.commands import trust_command
 
     trust_command(folder)
@@ -135,7 +147,7 @@ Exercises = Annotated[
         "-e",
         "--exercises",
         "--exercise",
-        help="Those to add, as 1-3,7; earlier ones stay.",
+        help="Exercises to add, such as 1-3,7; exercises of an earlier call stay.",
         metavar="N,N-N",
     ),
 ]
@@ -144,13 +156,13 @@ Exercises = Annotated[
 @app.command(epilog="Example: botschool course my-course")
 def course(
     folder: Annotated[
-        Path, typer.Argument(help="A new folder, or a copy to bring up to date.", metavar="FOLDER")
+        Path, typer.Argument(help="A new folder, or a course folder to update.", metavar="FOLDER")
     ],
     exercises: Exercises = "all",
 ) -> None:
     """Make a folder with the exercises, which the installed botschool grades.
 
-    In a folder that is there already, files that you have edited are left alone.
+    In an existing folder, the command leaves the files alone that you have edited.
     """
     from botschool.grading.copies.commands import course_command
 
@@ -160,28 +172,32 @@ def course(
 @app.command(epilog="Example: botschool release ../course-for-students --exercises 1-3")
 def release(
     folder: Annotated[
-        Path, typer.Argument(help="A new folder, or a copy to bring up to date.", metavar="FOLDER")
+        Path, typer.Argument(help="A new folder, or a copy to update.", metavar="FOLDER")
     ],
     exercises: Exercises = "all",
     answers: Annotated[
         bool,
-        typer.Option("--answers", help="Let `show N --answers` tell what full marks have earned."),
+        typer.Option(
+            "--answers",
+            help="Allow `show N --answers`, which shows the answers to students with full marks.",
+        ),
     ] = False,
     wheel: Annotated[
         list[Path] | None,
         typer.Option(
-            help="A wheel that the copy installs, so that nothing is compiled; several times for "
-            "several systems.",
+            help="A wheel that the copy installs, so that students compile nothing; repeat the "
+            "option for several systems.",
             metavar="FILE",
         ),
     ] = None,
 ) -> None:
     """For instructors: make a copy of the course for students, without solutions.
 
-    Away from a repository, it is made from the installed botschool, as `botschool course` does.
+    Outside a repository, the command copies the installed botschool's course, as `botschool course`
+    does.
 
-    In a copy that is there already, files that were edited since are left alone, and exercises
-    that have their answers keep them.
+    In an existing copy, the command leaves files alone that somebody has edited, and exercises keep
+    the answers they have.
     """
     from botschool.grading.copies.commands import release_command
 
@@ -203,16 +219,19 @@ def grade_all(
             "-e",
             "--exercise",
             "--exercises",
-            help="As 3, 1-3,7, 3.2 for a task, lab9, or all.",
+            help="Exercises or tasks: 3, 1-3,7, 3.2, lab9 or all.",
             metavar="N",
         ),
     ] = "all",
     output: Annotated[
-        Path, typer.Option("-o", "--output", help="Folder of table and feedback.", metavar="FOLDER")
+        Path,
+        typer.Option(
+            "-o", "--output", help="Folder for the table and the feedback.", metavar="FOLDER"
+        ),
     ] = Path("results/grades"),
     workers: GradingWorkers = None,
     fresh: Annotated[
-        bool, typer.Option("--fresh", help="Grade again what has not changed since.")
+        bool, typer.Option("--fresh", help="Grade all submissions again, also unchanged ones.")
     ] = False,
     roster: Annotated[
         Path | None, typer.Option(help="A table of the class: names, ids, mail.", metavar="CSV")
@@ -220,17 +239,18 @@ def grade_all(
     gradebook: Annotated[
         Path | None,
         typer.Option(
-            help="Moodle's grading worksheet or Canvas's gradebook, to be filled in.", metavar="CSV"
+            help="Moodle's grading worksheet or Canvas's gradebook; the command fills in a copy.",
+            metavar="CSV",
         ),
     ] = None,
     column: Annotated[
-        str, typer.Option(help="The assignment in Canvas's gradebook.", metavar="NAME")
+        str, typer.Option(help="Name of the assignment in Canvas's gradebook.", metavar="NAME")
     ] = "",
     settings: Annotated[
         Path | None,
         typer.Option(
             "--class",
-            help="Deadlines and more.",
+            help="A file of deadlines and other rules.",
             metavar="FILE",
             show_default="class.yaml beside the download",
         ),
@@ -238,8 +258,9 @@ def grade_all(
 ) -> None:
     """For instructors: grade a class into a table and a page of feedback per student.
 
-    What cannot be graded by a fault of this machine gets an empty cell in the table. Exit code 1
-    says so, or that somebody on the roster handed in nothing, or is not on it.
+    If this machine fails to grade a submission, its cell stays empty. The exit code is 1 if a cell
+    stays empty, if somebody on the roster has no submission, or if a submission's author is not on
+    it.
     """
     from botschool.grading.classes.commands import grade_all_command
     from botschool.labs.classes import laboratories
@@ -263,10 +284,12 @@ def export(
     ] = Path("results/export"),
     wheel: Annotated[
         Path | None,
-        typer.Option(help="botschool as a wheel, so that nothing is compiled.", metavar="FILE"),
+        typer.Option(
+            help="A wheel of botschool, so that the platform compiles nothing.", metavar="FILE"
+        ),
     ] = None,
 ) -> None:
-    """For instructors: write what a platform needs to grade by itself."""
+    """For instructors: write the files with which a platform grades by itself."""
     from botschool.grading.classes.commands import export_command
 
     export_command(platform, exercises, output, wheel)
@@ -275,7 +298,7 @@ def export(
 @app.command(epilog="Example: botschool nbgrader results/nbgrader")
 def nbgrader(
     folder: Annotated[
-        Path, typer.Argument(help="The course folder to make or bring up to date.", metavar="DIR")
+        Path, typer.Argument(help="A new course folder, or one to update.", metavar="DIR")
     ] = Path("results/nbgrader"),
 ) -> None:
     """For instructors: make a course folder for nbgrader, with the exercises as notebooks."""
@@ -286,9 +309,9 @@ def nbgrader(
 
 @app.command()
 def skeletons() -> None:
-    """Generate the exercises' skeletons from the solutions (edited files are left alone)."""
+    """Generate the exercises' skeletons from the solutions; edited files stay as they are."""
     from botschool.grading.copies.skeleton import write_skeletons
     from botschool.paths import course_root
 
     for path in write_skeletons(course_root()):
-        print(f"left alone, because it was edited: {path}")
+        print(f"not changed, because it was edited: {path}")

@@ -1,4 +1,4 @@
-"""`botschool es`: evolve robots, or look at an evolved one."""
+"""Define `botschool es`, which evolves robots and shows evolved ones."""
 
 from __future__ import annotations
 
@@ -28,7 +28,11 @@ def es(
     replications: Annotated[
         int,
         typer.Option(
-            "-n", "--replications", min=1, max=100_000, help="Runs, with consecutive seeds."
+            "-n",
+            "--replications",
+            min=1,
+            max=100_000,
+            help="Number of runs, with consecutive seeds.",
         ),
     ] = 1,
     workers: Annotated[
@@ -36,7 +40,7 @@ def es(
         typer.Option("-w", "--workers", min=1, max=1024, help="Cores to use.", show_default="1"),
     ] = None,
     output: Annotated[
-        Path, typer.Option("-o", "--output", help="Folder of the run's files.", metavar="FOLDER")
+        Path, typer.Option("-o", "--output", help="Folder for the run's files.", metavar="FOLDER")
     ] = Path("."),
     post: Annotated[
         bool, typer.Option("-p", "--postevaluate", help="Evaluate and show a robot instead.")
@@ -46,7 +50,7 @@ def es(
         typer.Option(
             "-g",
             "--genotype",
-            help="With -p: a saved robot; of predators and prey also P-100-5 and the like.",
+            help="With -p: a saved robot; for predators and prey also P-100-5 and the like.",
             metavar="FILE",
         ),
     ] = None,
@@ -54,14 +58,16 @@ def es(
         bool, typer.Option("-d", "--neurons", help="With -p: show the neurons' activations.")
     ] = False,
     steps: Annotated[
-        int | None, typer.Option(min=1, help="Stop after so many steps (--resume goes on).")
+        int | None, typer.Option(min=1, help="Stop after this many steps (--resume goes on).")
     ] = None,
     generations: Annotated[
-        int | None, typer.Option(min=1, help="Stop after so many generations, likewise.")
+        int | None, typer.Option(min=1, help="Stop after this many generations (--resume goes on).")
     ] = None,
     keep_every: Annotated[
         int | None,
-        typer.Option(min=1, help="Keep the best so far of every N generations, too.", metavar="N"),
+        typer.Option(
+            min=1, help="Also save the best genotype so far every N generations.", metavar="N"
+        ),
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Continue interrupted runs.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing runs.")] = False,
@@ -74,37 +80,39 @@ def es(
     replay: Annotated[
         Path | None,
         typer.Option(
-            help="With -p: a page that plays the episodes in a browser, as "
-            "`es -f acrobot.ini -p -g bestgS1.npy --replay acrobot.html`.",
+            help="With -p: write a page that plays the episodes in a browser: `es -f acrobot.ini "
+            "-p -g bestgS1.npy --replay acrobot.html`.",
             metavar="FILE",
         ),
     ] = None,
     episodes: Annotated[
-        int | None, typer.Option(min=1, help="With -p: episodes to evaluate or show.")
+        int | None, typer.Option(min=1, help="With -p: number of episodes.")
     ] = None,
     page: Annotated[
         bool,
-        typer.Option("--page", help="Only write the run's page from its files, while it runs too."),
+        typer.Option(
+            "--page", help="Only write the run's page from its files; works during the run, too."
+        ),
     ] = False,
     cluster: across.Cluster = None,
     no_tls: across.NoTLS = False,
     patience: across.Patience = None,
 ) -> None:
-    """Evolve robots, or look at an evolved one (-p). Without -f: list all hyperparameters.
+    """Evolve robots, or show an evolved one (-p). Without -f: list all hyperparameters.
 
-    For predators and prey -g may also be, with -o naming the folder of their run:
+    For predators and prey, -g also takes one of these (-o names the folder of the run):
 
     - `P-100-5`: watch the 5 best predators of generation 100 chase its 5 best prey;
       `p-100-5`: only measure them
-    - `m-100-20`: measure generation 100 against those of generations 100, 80, 60 ... (the
-      nearest that are saved); `M-100-20`: measure all of these against each other
+    - `m-100-20`: measure generation 100 against generations 100, 80, 60 ... (the nearest saved
+      ones); `M-100-20`: measure all of these against each other
     - `c-FILE1-FILE2`: measure the populations of two runs against each other
 
-    As in: botschool es -f predprey.ini -s 12 -o results -p -g m-100-20
+    Example: botschool es -f predprey.ini -s 12 -o results -p -g m-100-20
     """
     if file is None:
         if post or genotype or video or replay or resume or force:
-            raise BotschoolError("Say which experiment: add -f FILE.ini.")
+            raise BotschoolError("Name the experiment: add -f FILE.ini.")
         _list_hyperparameters()
         return
     from botschool import config
@@ -119,10 +127,12 @@ def es(
             print(f"page: {write_page(experiment, number, output)}")
         return
     if replay and not (post or genotype):
-        raise BotschoolError("--replay shows a robot: add -p, and -g FILE for a saved one.")
+        raise BotschoolError("--replay shows a robot: add -p, and -g FILE for a saved robot.")
     if post or genotype or video or render or neurons:
         if machines:
-            raise BotschoolError("--cluster is for evolving and for tournaments: leave it out.")
+            raise BotschoolError(
+                "--cluster works with evolution and tournaments only: leave it out."
+            )
         from botschool.render.watch import Watching
 
         watching = Watching(neurons, render, video, replay, episodes)
@@ -134,7 +144,9 @@ def es(
     from botschool.evolution.run import Options
 
     if resume and force:
-        raise BotschoolError("--resume continues a run and --force replaces it: give one of them.")
+        raise BotschoolError(
+            "--resume continues a run and --force replaces it: give only one of them."
+        )
     seeds = list(range(seed, seed + replications))
     options = Options(
         workers=workers,
@@ -146,9 +158,9 @@ def es(
         terminal=sys.stdout.isatty(),
         cluster=machines,
     )
-    gc.freeze()  # modules stay to the end: nothing to collect among them
+    gc.freeze()  # modules live until the end: spare the garbage collector a look at them
     collecting = gc.get_threshold()
-    gc.set_threshold(100_000)  # a run's own objects are hardly ever in circles
+    gc.set_threshold(100_000)  # a run's own objects rarely form cycles
     try:
         finished = replicate(experiment, seeds, output, options)
     finally:
@@ -160,7 +172,7 @@ def es(
 
 
 def _write_pages(experiment: Experiment, seeds: list[int], folder: Path, say: bool) -> None:
-    """A page about each run; it plays the robot where that takes no time, in native problems."""
+    """Write a page about each run; for native problems, the page plays the robot."""
     from botschool import problems
     from botschool.analysis.run_page import has_begun, write_page
 

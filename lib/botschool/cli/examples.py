@@ -1,4 +1,4 @@
-"""`botschool examples`: the experiments and robots that come with botschool."""
+"""Define `botschool examples`, which lists and copies experiments and robots of botschool."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ app = typer.Typer()
 @app.command(epilog="Example: botschool examples acrobot.ini acrobot.npy -o my-folder")
 def examples(
     names: Annotated[
-        list[str] | None, typer.Argument(help="Those to copy.", metavar="NAME")
+        list[str] | None, typer.Argument(help="Files to copy.", metavar="NAME")
     ] = None,
     folder: Annotated[
-        Path, typer.Option("-o", "--output", help="Where to copy them.", metavar="FOLDER")
+        Path, typer.Option("-o", "--output", help="Folder to copy them to.", metavar="FOLDER")
     ] = Path("."),
 ) -> None:
-    """List the experiments, robots and agents that come with botschool, or copy some."""
+    """List the experiments, robots and agents of botschool, or copy some."""
     from botschool import examples as ours
 
     if names:

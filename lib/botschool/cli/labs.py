@@ -1,4 +1,4 @@
-"""`botschool lab N`: experiments of one's own, checked by doing them again."""
+"""Define `botschool lab N`, for students' own experiments, and the league's commands."""
 
 from __future__ import annotations
 
@@ -17,26 +17,28 @@ def lab(
         str, typer.Argument(help="start, run, check or report.", metavar="ACTION")
     ] = "check",
     name: Annotated[
-        str | None, typer.Option(help="start: your name; asked for once otherwise.")
+        str | None, typer.Option(help="start: your name; the command asks if you leave it out.")
     ] = None,
     course: Annotated[
         str | None, typer.Option(help="start: your course's name.", show_default="botschool")
     ] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="run: short runs, for a look.")] = False,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="run: make short runs, for a first look.")
+    ] = False,
     workers: Annotated[
         int, typer.Option("-w", "--workers", min=1, max=1024, help="run: cores to use.")
     ] = 1,
     submission: Annotated[
         Path | None,
-        typer.Option(help="check: somebody else's folder or zip file.", metavar="FOLDER"),
+        typer.Option(help="check: another person's folder or zip file.", metavar="FOLDER"),
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="check: print the result as JSON.")] = False,
 ) -> None:
     """Do a laboratory: predict, run, measure, draw, conclude; the evidence earns the points.
 
     - `start` makes its folder with sheet.md, measure.py and figure.py
-    - `run` makes the runs, once the prediction is written; it goes on where it stopped
-    - `check` gives points, part by part
+    - `run` makes the runs after you have written the prediction; it continues where it stopped
+    - `check` gives points for each part
     - `report` checks and writes report.html
     """
     from botschool.errors import BotschoolError
@@ -53,32 +55,34 @@ def lab(
     elif action == "report":
         commands.report_command(number)
     else:
-        raise BotschoolError(f"lab has no action {action}: write start, run, check or report.")
+        raise BotschoolError(
+            f"The laboratory has no action {action}: use start, run, check or report."
+        )
 
 
 @app.command(epilog="Example: botschool enter 'lab09/runs/bonus 0/bestgS7.npy' --name Ada")
 def enter(
     genotype: Annotated[
-        Path, typer.Argument(help="A bestgS*.npy that a run has saved.", metavar="GENOTYPE")
+        Path, typer.Argument(help="A bestgS*.npy file of a run.", metavar="GENOTYPE")
     ],
     file: Annotated[
         Path | None,
         typer.Option(
             "-f",
             "--file",
-            help="Its experiment (.ini).",
+            help="The run's experiment (.ini).",
             metavar="FILE",
-            show_default="that of the laboratory whose run it is",
+            show_default="the experiment of the laboratory",
         ),
     ] = None,
     name: Annotated[
-        str, typer.Option(help="Shown on the league's page; without it you stay anonymous.")
+        str, typer.Option(help="Your name on the league's page; without it you stay anonymous.")
     ] = "",
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="The entry.", metavar="FILE")
     ] = None,
 ) -> None:
-    """Make an entry for the league: one file of some KB with your robot."""
+    """Make an entry for the league: one small file with your robot."""
     from botschool.labs.entries import write_entry
 
     path = write_entry(genotype, file, name, output)
@@ -89,14 +93,17 @@ def enter(
 def league(
     folder: Annotated[Path, typer.Argument(help="Folder of entries.", metavar="FOLDER")],
     output: Annotated[
-        Path, typer.Option("-o", "--output", help="The page; a .csv beside it.", metavar="FILE")
+        Path,
+        typer.Option(
+            "-o", "--output", help="Page to write, with a .csv beside it.", metavar="FILE"
+        ),
     ] = Path("results/league.html"),
     title: Annotated[str, typer.Option(help="The page's heading.")] = "The league",
 ) -> None:
-    """For instructors: let everybody's robots compete, and make a page of the results.
+    """For instructors: let all robots compete, and write a page of the results.
 
     Hoppers, walkers and cheetahs run for metres, cart-poles balance longer and longer poles, and
-    all predators chase all prey. Everything is measured here.
+    all predators chase all prey. The command measures every robot itself.
     """
     from botschool.grading.run.temporary import temporary_folder
     from botschool.labs.league import compete, results_csv

@@ -1,4 +1,4 @@
-"""`botschool page`: an experiment as a page that evolves in the browser."""
+"""Define `botschool page`, which writes a page that evolves robots in the browser."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ def page(
     ] = None,
     seed: Annotated[int, typer.Option("-s", "--seed", min=0, max=2**53 - 1, help="Seed.")] = 1,
     output: Annotated[
-        Path, typer.Option("-o", "--output", help="The page (.html).", metavar="FILE")
+        Path, typer.Option("-o", "--output", help="Page to write (.html).", metavar="FILE")
     ] = Path("page.html"),
 ) -> None:
-    """Write a page that evolves robots in any browser, and takes them apart.
+    """Write a page that evolves robots in any browser and takes them apart.
 
-    The page needs nothing but itself: open it from a folder, a USB stick or a website.
+    The page is one file: open it from a folder, a USB stick or a website.
     """
     from botschool.config import load
     from botschool.page import write_page

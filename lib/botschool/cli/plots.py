@@ -1,4 +1,4 @@
-"""`botschool plotstat`, `plotave` and `showrobot`: pictures of runs and robots."""
+"""Define `botschool plotstat`, `plotave` and `showrobot`: pictures of runs and robots."""
 
 from __future__ import annotations
 
@@ -11,11 +11,15 @@ app = typer.Typer()
 
 Picture = Annotated[
     Path | None,
-    typer.Option("-o", "--output", help="Write a picture instead of a window.", metavar="FILE"),
+    typer.Option(
+        "-o", "--output", help="Write a picture instead of opening a window.", metavar="FILE"
+    ),
 ]
 Folders = Annotated[
     list[Path] | None,
-    typer.Argument(help="Folders of runs, or stat files; default: here.", show_default=False),
+    typer.Argument(
+        help="Folders of runs, or stat files; default: this folder.", show_default=False
+    ),
 ]
 
 
@@ -29,7 +33,7 @@ def plotstat(folders: Folders = None, output: Picture = None) -> None:
 
 @app.command(epilog="Example: botschool plotave results/acrobot results/pendulum -o average.png")
 def plotave(folders: Folders = None, output: Picture = None) -> None:
-    """Mean, standard deviation and number of runs of the best post-evaluated fitness."""
+    """Print mean, standard deviation and number of runs of the best post-evaluated fitness."""
     from botschool.analysis.plots import plot_ave
 
     plot_ave(folders or [Path(".")], output)
@@ -46,10 +50,10 @@ def showrobot(
         ),
     ],
     video: Annotated[
-        Path | None, typer.Option(help="A film of each joint's range.", metavar="FILE")
+        Path | None, typer.Option(help="Write a film of each joint's range.", metavar="FILE")
     ] = None,
     sheet: Annotated[
-        Path | None, typer.Option(help="A picture of each joint's range.", metavar="FILE")
+        Path | None, typer.Option(help="Write a picture of each joint's range.", metavar="FILE")
     ] = None,
 ) -> None:
     """Show a robot: a window with a slider for each joint and for gravity, a film or a sheet."""

@@ -1,4 +1,4 @@
-"""`botschool rl`: one short function per subcommand, see app.py."""
+"""Define `botschool rl`: one short function per subcommand."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-UsageError: Any = typer.BadParameter.__base__  # of the click that typer has, its own or another
+UsageError: Any = typer.BadParameter.__base__  # from Typer's own click or the installed one
 app = typer.Typer(
     help="Train agents by reinforcement learning (Stable-Baselines3), and watch them.",
     no_args_is_help=True,
@@ -24,13 +24,14 @@ RlFolderF = Annotated[
 ]
 RlAlgo = Annotated[
     str | None,
-    typer.Option(help="With --env: the training of this algorithm on it.", metavar="NAME"),
+    typer.Option(help="With --env: choose the training of this algorithm on it.", metavar="NAME"),
 ]
 RlNumber = Annotated[
-    int, typer.Option("--exp-id", min=0, help="With --algo: its number; 0 is the newest.")
+    int,
+    typer.Option("--exp-id", min=0, help="With --algo: the training's number; 0 is the newest."),
 ]
 RlBest = Annotated[
-    bool, typer.Option("--load-best", help="The best model: what is taken anyway.", hidden=True)
+    bool, typer.Option("--load-best", help="Use the best model, as by default.", hidden=True)
 ]
 RlRun = Annotated[
     Path | None,
@@ -40,15 +41,15 @@ RlRun = Annotated[
         metavar="RUN",
     ),
 ]
-RlEnv = Annotated[str | None, typer.Option(help="Another environment for the agent.", metavar="ID")]
+RlEnv = Annotated[str | None, typer.Option(help="Play in another environment.", metavar="ID")]
 RlEpisodes = Annotated[int, typer.Option(min=1, max=1_000_000, help="Episodes to play.")]
 RlSeed = Annotated[int, typer.Option("-s", "--seed", min=0, max=2**31, help="Seed.")]
-RlLast = Annotated[bool, typer.Option("--last", help="The last model instead of the best one.")]
+RlLast = Annotated[bool, typer.Option("--last", help="Use the last model instead of the best one.")]
 
 RlPolicy = Annotated[
     str | None,
     typer.Option(
-        help="The agent's policy, if it is a class of your own: its code is run.",
+        help="The agent's policy, if it is a class of your own; the command runs its code.",
         metavar="MODULE:CLASS",
     ),
 ]
@@ -91,20 +92,22 @@ def rl_train(
     ] = None,
     steps: Annotated[
         int | None,
-        typer.Option("--steps", "-n", "--n-timesteps", min=1, max=10**12, help="Length."),
+        typer.Option("--steps", "-n", "--n-timesteps", min=1, max=10**12, help="Steps to train."),
     ] = None,
     wrapper: Annotated[
         list[str] | None,
         typer.Option(
-            help="A wrapper around the environment, as FlattenObservation or module:Class; may be "
-            "given several times (none: not those that Atari's games have by default).",
+            help="A wrapper around the environment, such as FlattenObservation or module:Class; "
+            "repeat the option for several (none: without the default wrappers of Atari "
+            "games).",
             metavar="NAME",
         ),
     ] = None,
     vec_env: Annotated[
         str,
         typer.Option(
-            help="Where environments run: dummy (all in one process) or subproc (one each).",
+            help="Where the environments run: dummy (all in one process) or subproc (one process "
+            "each).",
             metavar="KIND",
         ),
     ] = "dummy",
@@ -113,7 +116,7 @@ def rl_train(
         int, typer.Option(min=1, max=100_000, help="Post-evaluations during the training.")
     ] = 20,
     episodes: Annotated[
-        int, typer.Option(min=1, max=10_000, help="Episodes of a post-evaluation.")
+        int, typer.Option(min=1, max=10_000, help="Episodes of each post-evaluation.")
     ] = 20,
     output: RlFolderF = Path("results/rl"),
     events: Annotated[
@@ -121,24 +124,31 @@ def rl_train(
         typer.Option(
             "-tb",
             "--tensorboard-log",
-            help="Write the curves for TensorBoard there, too.",
+            help="Also write the curves for TensorBoard to this folder.",
             metavar="FOLDER",
         ),
     ] = None,
     settings: Annotated[
         Path | None,
-        typer.Option(help="A file of hyperparameters, as `rl tune` writes.", metavar="FILE"),
+        typer.Option(help="A file of hyperparameters that `rl tune` has written.", metavar="FILE"),
     ] = None,
     engine: Annotated[
         str,
         typer.Option(
-            help="native (C++: ppo on native problems), sb3 (Stable-Baselines3), or auto: native "
-            "where it can.",
+            help="native (C++, for ppo on native problems), sb3 (Stable-Baselines3), or auto: "
+            "native where possible.",
             metavar="NAME",
         ),
     ] = "auto",
     replications: Annotated[
-        int, typer.Option("-r", "--replications", min=1, max=1000, help="Trainings, seed by seed.")
+        int,
+        typer.Option(
+            "-r",
+            "--replications",
+            min=1,
+            max=1000,
+            help="Number of trainings, with consecutive seeds.",
+        ),
     ] = 1,
     workers: Annotated[
         int,
@@ -146,7 +156,7 @@ def rl_train(
     ] = 1,
     resume: Annotated[
         Path | None,
-        typer.Option(help="Go on with a training of the native engine.", metavar="FOLDER"),
+        typer.Option(help="Continue a training of the native engine.", metavar="FOLDER"),
     ] = None,
 ) -> None:
     """Train an agent in a new folder; defaults depend on algorithm and environment."""
@@ -178,7 +188,7 @@ def rl_tune(
     trials: Annotated[int, typer.Option(min=1, max=100_000, help="Trainings to try.")] = 20,
     steps: Annotated[
         int | None,
-        typer.Option("--steps", "-n", "--n-timesteps", min=1, help="Length of each training."),
+        typer.Option("--steps", "-n", "--n-timesteps", min=1, help="Steps of each training."),
     ] = None,
     envs: Annotated[
         int | None, typer.Option(min=1, max=1024, help="Environments side by side.")
@@ -189,17 +199,23 @@ def rl_tune(
     seed: RlSeed = 1,
     seeds: Annotated[
         int,
-        typer.Option(min=1, max=1000, help="Trainings of each trial, from --seed on; their mean."),
+        typer.Option(
+            min=1,
+            max=1000,
+            help="Trainings per trial, with seeds from --seed on; their mean counts.",
+        ),
     ] = 1,
     evaluations: Annotated[
         int, typer.Option(min=1, max=1000, help="Post-evaluations of each training.")
     ] = 8,
     episodes: Annotated[
-        int, typer.Option(min=1, max=10_000, help="Episodes of a post-evaluation.")
+        int, typer.Option(min=1, max=10_000, help="Episodes of each post-evaluation.")
     ] = 20,
     output: RlFolderF = Path("results/rl"),
 ) -> None:
-    """Look for better hyperparameters by many trainings (Optuna); the same command goes on."""
+    """Search for better hyperparameters by many trainings (Optuna); repeat the command to
+    continue.
+    """
     from botschool.rl.settings import check_algorithm
     from botschool.rl.tuning import Plan, tune_command
 
@@ -227,7 +243,7 @@ def rl_enjoy(
 ) -> None:
     """Play new episodes with a trained agent: returns, mean and standard deviation.
 
-    With --algo and --env one that comes with botschool is taken where you have trained none.
+    With --algo and --env, the command plays your newest such agent, or else one of botschool's own.
     """
     from botschool.rl.watch import Asked, enjoy_command
 
@@ -239,7 +255,8 @@ def rl_enjoy(
 def rl_video(
     run: RlRun = None,
     file: Annotated[
-        Path, typer.Option("-f", "--file", help="The film (.mp4, .webm, .gif).", metavar="FILE")
+        Path,
+        typer.Option("-f", "--file", help="Film to write (.mp4, .webm, .gif).", metavar="FILE"),
     ] = Path("agent.mp4"),
     env: RlEnv = None,
     episodes: RlEpisodes = 3,
@@ -250,14 +267,14 @@ def rl_video(
     exp_id: RlNumber = 0,
     load_best: RlBest = False,
     steps: Annotated[
-        int | None, typer.Option("--steps", "-n", min=1, help="Steps to film at most.")
+        int | None, typer.Option("--steps", "-n", min=1, help="Film at most this many steps.")
     ] = None,
     policy: RlPolicy = None,
 ) -> None:
     """Film new episodes of a trained agent."""
     from botschool.rl.watch import Asked, video_command
 
-    if algo is not None and file.is_dir():  # as the chapter has it: -f logs
+    if algo is not None and file.is_dir():  # the chapter's spelling: -f logs
         output, file = file, Path("agent.mp4")
     asked = Asked(run, output, env, algo, exp_id, last and not load_best, policy)
     video_command(asked, episodes, seed, file, steps)
@@ -267,7 +284,7 @@ def rl_video(
 def rl_list(
     folder: Annotated[Path, typer.Argument(metavar="FOLDER")] = Path("results/rl"),
     ours: Annotated[
-        bool, typer.Option("--ours", help="The trained agents that come with botschool.")
+        bool, typer.Option("--ours", help="List the trained agents of botschool.")
     ] = False,
 ) -> None:
     """Show the trainings in a folder and what they reached."""

@@ -1,4 +1,4 @@
-"""`botschool tournament`, and what `botschool es -p` does: robots that are evolved meet."""
+"""Define `botschool tournament`, and show evolved robots for `botschool es -p`."""
 
 from __future__ import annotations
 
@@ -25,26 +25,37 @@ def tournament(
         Path, typer.Argument(help="Folder of a run of predators and prey.", metavar="FOLDER")
     ] = Path("."),
     file: Annotated[
-        Path | None, typer.Option("-f", "--file", help="Its experiment (.ini).", metavar="FILE")
+        Path | None,
+        typer.Option("-f", "--file", help="The run's experiment (.ini).", metavar="FILE"),
     ] = None,
     seed: Annotated[
         int | None,
         typer.Option(
-            "-s", "--seed", min=0, max=2**62, help="Its seed.", show_default="the only one there"
+            "-s",
+            "--seed",
+            min=0,
+            max=2**62,
+            help="The run's seed.",
+            show_default="the only one there",
         ),
     ] = None,
     generations: Annotated[
         str | None,
         typer.Option(
-            help="Which take part.", metavar="0,100,200", show_default="11, evenly spaced"
+            help="Generations that take part.",
+            metavar="0,100,200",
+            show_default="11, evenly spaced",
         ),
     ] = None,
     every: Annotated[
-        int | None, typer.Option(min=1, help="Instead: those that this number divides.")
+        int | None,
+        typer.Option(min=1, help="Instead: generations that are multiples of this number."),
     ] = None,
     best: Annotated[
         int | None,
-        typer.Option(min=2, help="How many of each population.", show_default="the 10 best"),
+        typer.Option(
+            min=2, help="Number of robots of each population.", show_default="the 10 best"
+        ),
     ] = None,
     workers: Annotated[
         int | None,
@@ -60,12 +71,13 @@ def tournament(
     no_tls: options.NoTLS = False,
     patience: options.Patience = None,
 ) -> None:
-    """Let predators and prey of all generations meet, and tell whether they made progress.
+    """Let predators and prey of all generations meet, and report whether they made progress.
 
-    Prints the mean fitness of each generation against each, with 95 % intervals, and draws it.
+    The command prints the mean fitness of each generation against each other one, with 95 %
+    intervals, and draws it.
     """
     if file is None:
-        raise BotschoolError("Say which experiment the run is of: add -f FILE.ini.")
+        raise BotschoolError("Name the experiment of the run: add -f FILE.ini.")
     from botschool import config
     from botschool.analysis import coevolution
     from botschool.terminal import has_display
@@ -86,7 +98,7 @@ def post_evaluate(
     workers: int,
     watching: Watching,
 ) -> None:
-    """Shows a robot, by chance or from a file; or lets the populations of a folder meet."""
+    """Show a robot, random or from a file; or let the populations of a folder meet."""
     from botschool.analysis import coevolution
     from botschool.render.pairs import PairEpisodes
     from botschool.render.watch import PostEvaluation, read_genotype
@@ -100,8 +112,8 @@ def post_evaluate(
         request = coevolution.parse(genotype, folder)
         if watching.asked and request.kind != "P":
             raise BotschoolError(
-                f"-g {genotype} only measures: to see robots use P, as -g P-100-5 (n best of a "
-                "generation), or leave the options of pictures out."
+                f"-g {genotype} only measures. To see robots, use P, such as -g P-100-5 (the "
+                "5 best of generation 100); to measure, leave out the options for pictures."
             )
 
         def show(population) -> None:
