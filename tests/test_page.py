@@ -14,8 +14,10 @@ import numpy as np
 import pytest
 
 from botschool import config, page
+from botschool.analysis.tournament import Contest
 from botschool.config import from_dict, to_dict
 from botschool.errors import BotschoolError
+from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.run import Run, evolve
 from botschool.problems.native import NativeProblem
 from botschool.render.scenes import make_scene
@@ -45,6 +47,19 @@ def experiment_of(problem, algo, **policy):
             "exp": {"environment": problem, "algo": algo},
             "policy": given,
             "algo": {"maxmsteps": 0.02} | evolving,
+        }
+    )
+
+
+def predators_and_prey(**options):
+    """A small arms race."""
+    policy = {"nrobots": 2, "heterogeneous": 1, "maxsteps": 60, "nhiddens": 5, "pepisodes": 2}
+    rules = {"ngenerations": 4, "popsize": 5, "selsize": 2, "samplesize": 3, "saveeach": 3}
+    return from_dict(
+        {
+            "exp": {"environment": "ErPredprey", "algo": "coevo2"},
+            "policy": policy | {"out_type": 2, "winit": 0},
+            "algo": rules | {"wdecay": 1, "noiseStdDev": 0.3, "stepsize": 0.2} | options,
         }
     )
 
@@ -81,13 +96,18 @@ import { createHash } from "crypto";
 const { core: place, experiment, seed } = JSON.parse(readFileSync(0));
 const core = await Core.load(readFileSync(place));
 const run = core.run(core.task(experiment.problem, experiment.spec), experiment, seed);
-let [generation, steps] = [0, 0];
-while (steps < experiment.steps) {
+const kept = [];
+let steps = 0;
+const { generations } = experiment;
+while (generations ? run.generation < generations : steps < experiment.steps) {
   steps = run.advance();
-  generation += 1;
+  if (!generations || run.part > 0) continue;
+  const last = run.generation === generations;
+  if (last || run.generation % experiment.saveeach === 0)
+    kept.push([run.generation, run.individuals, run.meetings]);
 }
-const { rows, best, bestg } = run;
-const files = runFiles(seed, { rows, best, bestg, generation, steps });
+const { rows, best, bestg, generation } = run;
+const files = runFiles(seed, { rows, best, bestg, generation, kept });
 const digest = (bytes) => createHash("sha256").update(bytes).digest("hex");
 console.log(JSON.stringify(Object.fromEntries(
   Object.entries(files).map(([name, bytes]) => [name, digest(bytes)]))));
@@ -96,9 +116,9 @@ console.log(JSON.stringify(Object.fromEntries(
 
 def digests_of_the_command(experiment, seed, folder):
     folder.mkdir()
-    evolve(Run(experiment, seed), folder)
-    names = (f"statS{seed}.npy", f"bestS{seed}.npy", f"bestgS{seed}.npy", f"S{seed}.fit")
-    return {name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in names}
+    evolve((Coevolution if experiment.competitive else Run)(experiment, seed), folder)
+    files = [path for path in folder.glob("*S*.*") if not path.name.startswith("checkpoint")]
+    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
 
 
 def evolved_by_node(experiment, seed, tmp_path):
@@ -123,6 +143,15 @@ def test_run_files_are_the_command_s(problem, algo, tmp_path):
     }
     experiment = experiment_of(problem, algo, **kinds.get(problem, {}))
     expected = digests_of_the_command(experiment, 3, tmp_path / "run")
+    assert evolved_by_node(experiment, 3, tmp_path) == expected
+
+
+@built
+@pytest.mark.parametrize("evolving", ["best", "random"])
+def test_arms_races_are_the_command_s(evolving, tmp_path):
+    experiment = predators_and_prey(evolving=evolving)
+    expected = digests_of_the_command(experiment, 3, tmp_path / "run")
+    assert {"S3G0.npy", "S3FitG3.npy", "S3G4.npy", "statS3.npy", "bestgS3.npy"} <= expected.keys()
     assert evolved_by_node(experiment, 3, tmp_path) == expected
 
 
@@ -368,18 +397,56 @@ def test_runs_in_a_browser_are_the_command_s(browser, problem, algo, tmp_path):
     assert browser.run(HASH) == expected
 
 
+ROWS = (
+    "[...byId('rows').querySelectorAll('tr')].slice(1)"
+    ".map((row) => [...row.querySelectorAll('button')]"
+)
+
+
 @built
-def test_predators_and_prey_can_be_watched(browser, tmp_path):
+def test_predators_and_prey_in_a_browser(browser, tmp_path):
     experiment = config.load(ROOT / "data/experiments/predprey.ini")
     saved = np.load(ROOT / "data/genotypes/predprey/S12G300.npy")
     path, _ = written(experiment, tmp_path, saved=saved, name="generation 300")
     browser.errors.clear()
     browser.open(path)
     browser.wait("bench && game.step > 3")
-    both = np.concatenate([saved[0], saved[10]]).astype(float)
-    assert browser.run("[...bench.genotype]") == both.tolist()
-    assert browser.run("byId('evolution').hidden")
+    both = np.stack([saved[0], saved[10]]).astype(float)
+    assert browser.run("[...bench.genotype]") == both.ravel().tolist()
+
+    # against the random robots that seed 3 begins with, as `botschool tournament` lets them meet
+    contest = Contest(experiment, seed=3)
+    rivals = np.stack([contest.policy.initial(3, i).reshape(2, -1) for i in range(10)], axis=1)
+    expected = [contest.meet(both[:1], rivals[1])[0], 1 - contest.meet(rivals[0], both[1:])[:, 0]]
+    browser.wait(f"{ROWS}.length).join() === '10,10'")
+    browser.run("setPlaying(false)")
+    np.testing.assert_array_equal(np.array(browser.run("meetings()")), expected)
+    shown = browser.run(f"{ROWS}.map((cell) => +cell.textContent))")
+    np.testing.assert_allclose(shown, expected, atol=0.0051)
+    browser.run("document.querySelectorAll('.meeting')[3].click()")
+    assert browser.run("[...bench.genotype]") == [*both[0], *rivals[1][3]]
+    browser.run("document.querySelectorAll('.meeting')[14].click()")
+    assert browser.run("[...bench.genotype]") == [*rivals[0][4], *both[1]]
+    browser.run("byId('home').click()")
+    assert browser.run("[...bench.genotype]") == both.ravel().tolist()
     assert browser.errors == []
+
+
+@built
+def test_an_arms_race_in_a_browser(browser, tmp_path):
+    experiment = predators_and_prey()
+    expected = digests_of_the_command(experiment, 3, tmp_path / "run")
+    path, _ = written(experiment, tmp_path)
+    browser.open(path)
+    browser.wait("bench && game.step > 0")
+    browser.run("byId('field-selsize').value = 6; byId('evolve').click()")
+    assert "selsize = 6 is more than popsize = 5" in browser.run("byId('said').textContent")
+    browser.run("byId('field-selsize').value = 2; byId('evolve').click()")
+    browser.wait("!byId('downloads').hidden")
+    assert browser.run(HASH) == expected
+    last = np.load(tmp_path / "run/S3G4.npy")
+    assert browser.run("[...bench.genotype]") == [*last[0], *last[5]]
+    assert browser.run("rivals.at(-1).generation") == 4
 
 
 @built

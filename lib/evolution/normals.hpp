@@ -1,9 +1,13 @@
-// Normal numbers as numpy's Generator(Philox(key)) gives them: Philox4x64-10 (Salmon et al. 2011) and
-// the ziggurat method with 256 layers (Marsaglia and Tsang 2000). docs/page.md.
+// Random numbers as numpy's Generator(Philox(key)) gives them: Philox4x64-10 (Salmon et al. 2011), the
+// ziggurat method with 256 layers (Marsaglia and Tsang 2000), whole numbers by multiplication (Lemire
+// 2019). docs/page.md.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "ziggurat.hpp"
 
@@ -27,7 +31,34 @@ class Normals {
     }
   }
 
+  /// A whole number from 0 to before `count`: numpy's integers(count).
+  std::uint32_t below(std::uint32_t count) {
+    if (count < 2) return 0;
+    const std::uint32_t uneven = (0u - count) % count;  // so many words would be too much
+    for (;;) {
+      const std::uint64_t scaled = std::uint64_t(half()) * count;
+      if (static_cast<std::uint32_t>(scaled) >= uneven)
+        return static_cast<std::uint32_t>(scaled >> 32);
+    }
+  }
+
+  /// The numbers from 0 to before `count` in a random order (Fisher and Yates 1938).
+  std::vector<std::size_t> permutation(std::uint32_t count) {
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), 0);
+    for (std::uint32_t i = count; i-- > 1;) std::swap(order[i], order[up_to(i)]);
+    return order;
+  }
+
  private:
+  /// From 0 to `most`: as many bits as that has, until they are not above it.
+  std::uint32_t up_to(std::uint32_t most) {
+    std::uint32_t bits = most;
+    for (int shift = 1; shift < 32; shift *= 2) bits |= bits >> shift;
+    for (;;)
+      if (const std::uint32_t value = half() & bits; value <= most) return value;
+  }
+
   /// Beyond the last layer (Marsaglia 1964).
   double tail(bool negative) {
     for (;;) {
@@ -46,6 +77,15 @@ class Normals {
   std::uint64_t bits() {
     if (used_ == 4) fill();
     return block_[used_++];
+  }
+
+  /// 32 bits: the low half of a word, then the high one, whatever is drawn in between.
+  std::uint32_t half() {
+    if (kept_) return kept_ = false, high_;
+    const std::uint64_t word = bits();
+    kept_ = true;
+    high_ = static_cast<std::uint32_t>(word >> 32);
+    return static_cast<std::uint32_t>(word);
   }
 
   void fill() {
@@ -79,6 +119,8 @@ class Normals {
 
   std::uint64_t key_[2], counter_[4] = {}, block_[4] = {};
   int used_ = 4;
+  bool kept_ = false;
+  std::uint32_t high_ = 0;
 };
 
 }  // namespace botschool

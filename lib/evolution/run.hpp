@@ -23,18 +23,30 @@ struct Evaluation {
   double alive;  ///< paid for each step that does not end its episode early
 };
 
+using Play = std::function<void(const Jobs&)>;
+
+/// What a run has reached, as its files say.
 class Run {
  public:
-  using Play = std::function<void(const Jobs&)>;
-
   static constexpr int kColumns = 6;
   std::vector<double> rows;  ///< kColumns numbers a generation, as in the stat file
   std::int64_t steps = 0;
   double best_fitness = -std::numeric_limits<double>::infinity(), bestg_fitness = best_fitness;
   Values best, bestg;  ///< as they are saved: a genotype, and its normalisation where there is one
+  Values individuals, meetings;  ///< of two sides: both populations, and their fitness
+  int part = 0;                  ///< of the present generation, how many parts are done
 
-  Run(const Info& info, const Layout& layout, const Evaluation& evaluation,
-      const Hyperparameters& hyperparameters, bool steady_state, std::uint64_t seed, Play play)
+  virtual ~Run() = default;
+  /// A generation, or the next part of it.
+  virtual void advance() = 0;
+};
+
+/// A run of a population with one fitness each.
+class Evolution final : public Run {
+ public:
+  Evolution(const Info& info, const Layout& layout, const Evaluation& evaluation,
+            const Hyperparameters& hyperparameters, bool steady_state, std::uint64_t seed,
+            Play play)
       : info_(info),
         layout_(layout),
         evaluation_(evaluation),
@@ -52,8 +64,7 @@ class Run {
     }
   }
 
-  /// One generation.
-  void advance() {
+  void advance() override {
     Values candidates;
     std::vector<std::uint64_t> seeds;
     strategy_->ask(candidates, seeds);

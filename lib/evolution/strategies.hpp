@@ -1,5 +1,5 @@
-// The tested twins of botschool/evolution/algorithms/openaies.py and sss.py, for a page: the same
-// numbers, bit by bit.
+// The tested twins of botschool/evolution/algorithms/openaies.py and sss.py: the same numbers, bit by
+// bit.
 #pragma once
 
 #include <algorithm>
@@ -27,6 +27,70 @@ struct Hyperparameters {
   bool symseed = true;  ///< of OpenAI-ES
 };
 
+/// Indices from the greatest value to the least, or with `rising` the reverse; of equals, the earlier
+/// first.
+inline std::vector<std::size_t> ranking(const double* values, std::size_t count,
+                                        bool rising = false) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [=](std::size_t a, std::size_t b) {
+    return rising ? values[a] < values[b] : values[a] > values[b];
+  });
+  return order;
+}
+
+/// Parameters that climb, and Adam's first and second moment (Kingma and Ba 2015).
+struct Centre {
+  Values x, m, v;
+};
+
+/// Writes candidates on both sides of a centre along each direction: + and - by turns.
+inline void mirror(const Values& centre, const Values& samples, double deviation,
+                   double* candidates) {
+  const std::size_t n = centre.size();
+  for (std::size_t s = 0; s < samples.size() / n; ++s) {
+    double *plus = candidates + 2 * s * n, *minus = plus + n;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double change = deviation * samples[s * n + i];
+      plus[i] = centre[i] + change;
+      minus[i] = centre[i] - change;
+    }
+  }
+}
+
+/// In which direction fitness rises, by the ranks of the candidates that `mirror` wrote.
+inline Values gradient(const double* fitness, std::size_t count, const Values& samples) {
+  const auto order = ranking(fitness, count, true);
+  Values utilities(count);  // from -0.5, the worst, to 0.5
+  for (std::size_t i = 0; i < count; ++i)
+    utilities[order[i]] = i + 1 == count ? 0.5 : i * (1.0 / (count - 1)) + -0.5;
+  const std::size_t n = 2 * samples.size() / count;
+  Values rising(n);
+  for (std::size_t s = 0; s < count / 2; ++s) {
+    const double weight = utilities[2 * s] - utilities[2 * s + 1];
+    for (std::size_t i = 0; i < n; ++i) {
+      const double part = weight * samples[s * n + i];
+      rising[i] = s == 0 ? part : rising[i] + part;
+    }
+  }
+  for (double& each : rising) each /= static_cast<double>(count);
+  return rising;
+}
+
+constexpr double kBeta1 = 0.9, kBeta2 = 0.999, kEpsilon = 1e-8, kDecay = 0.005;
+
+/// A step of Adam, of this size, in the direction that rises.
+inline void climb(Centre& centre, const Values& rising, int wdecay, double step) {
+  for (std::size_t i = 0; i < centre.x.size(); ++i) {
+    double &x = centre.x[i], &m = centre.m[i], &v = centre.v[i], descent = -rising[i];
+    if (wdecay == 1) descent += kDecay * x;
+    if (wdecay == 2) descent += kDecay * ((x > 0) - (x < 0));
+    m = kBeta1 * m + (1 - kBeta1) * descent;
+    v = kBeta2 * v + (1 - kBeta2) * (descent * descent);
+    x = x - step * m / (std::sqrt(v) + kEpsilon);
+  }
+}
+
 /// A population: ask for candidates, measure them, tell their fitness; and again.
 class Strategy {
  public:
@@ -40,71 +104,39 @@ class Strategy {
 class OpenAIES final : public Strategy {
  public:
   OpenAIES(const Hyperparameters& given, const Initial& initial, std::uint64_t seed)
-      : given_(given), seed_(seed), centre_(initial(0)) {
-    m_.assign(centre_.size(), 0.0);
-    v_.assign(centre_.size(), 0.0);
-    const int count = 2 * given.size;
-    for (int i = 0; i < count; ++i) utility_.push_back(i * (1.0 / (count - 1)) + -0.5);
-    utility_.back() = 0.5;
+      : given_(given), seed_(seed), centre_{initial(0), {}, {}} {
+    centre_.m.assign(centre_.x.size(), 0.0);
+    centre_.v.assign(centre_.x.size(), 0.0);
   }
 
   void ask(Values& candidates, std::vector<std::uint64_t>& seeds) override {
-    const std::size_t n = centre_.size(), directions = given_.size;
+    const std::size_t n = centre_.x.size(), directions = given_.size;
     Normals numbers(seed_, generation_);
     samples_.resize(directions * n);
     for (double& sample : samples_) sample = numbers.next();
     candidates.resize(2 * directions * n);
+    mirror(centre_.x, samples_, given_.deviation, candidates.data());
     seeds.resize(2 * directions);
     const std::uint64_t used = given_.symseed ? directions : 2 * directions;
-    for (std::size_t s = 0; s < directions; ++s) {
-      double *plus = &candidates[2 * s * n], *minus = plus + n;
-      for (std::size_t i = 0; i < n; ++i) {
-        const double change = given_.deviation * samples_[s * n + i];
-        plus[i] = centre_[i] + change;
-        minus[i] = centre_[i] - change;
-      }
-      for (int side = 0; side < 2; ++side)
-        seeds[2 * s + side] = seed_ + generation_ * used + (given_.symseed ? s : 2 * s + side);
-    }
+    for (std::size_t c = 0; c < seeds.size(); ++c)
+      seeds[c] = seed_ + generation_ * used + (given_.symseed ? c / 2 : c);
   }
 
   void tell(const Values& fitness) override {
-    const std::size_t n = centre_.size(), count = fitness.size();
-    std::vector<std::size_t> order(count);
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return fitness[a] < fitness[b]; });
-    Values utilities(count);
-    for (std::size_t i = 0; i < count; ++i) utilities[order[i]] = utility_[i];
-    Values rising(n);
-    for (std::size_t s = 0; s < count / 2; ++s) {
-      const double weight = utilities[2 * s] - utilities[2 * s + 1];
-      for (std::size_t i = 0; i < n; ++i) {
-        const double part = weight * samples_[s * n + i];
-        rising[i] = s == 0 ? part : rising[i] + part;
-      }
-    }
-    constexpr double beta1 = 0.9, beta2 = 0.999, epsilon = 1e-8, decay = 0.005;
     const unsigned t = static_cast<unsigned>(++generation_);
-    const double step = given_.stepsize * std::sqrt(1 - power(beta2, t)) / (1 - power(beta1, t));
-    for (std::size_t i = 0; i < n; ++i) {
-      double descent = -(rising[i] / static_cast<double>(count));
-      if (given_.wdecay == 1) descent += decay * centre_[i];
-      if (given_.wdecay == 2) descent += decay * ((centre_[i] > 0) - (centre_[i] < 0));
-      m_[i] = beta1 * m_[i] + (1 - beta1) * descent;
-      v_[i] = beta2 * v_[i] + (1 - beta2) * (descent * descent);
-      centre_[i] = centre_[i] - step * m_[i] / (std::sqrt(v_[i]) + epsilon);
-    }
+    const double step = given_.stepsize * std::sqrt(1 - power(kBeta2, t)) / (1 - power(kBeta1, t));
+    climb(centre_, gradient(fitness.data(), fitness.size(), samples_), given_.wdecay, step);
   }
 
   double average_parameter() const override {
-    return sum_of_sizes(centre_.data(), centre_.size()) / static_cast<double>(centre_.size());
+    return sum_of_sizes(centre_.x.data(), centre_.x.size()) / static_cast<double>(centre_.x.size());
   }
 
  private:
   Hyperparameters given_;
   std::uint64_t seed_, generation_ = 0;
-  Values centre_, m_, v_, samples_, utility_;
+  Centre centre_;
+  Values samples_;
 };
 
 class SSS final : public Strategy {
@@ -124,14 +156,11 @@ class SSS final : public Strategy {
 
   void tell(const Values& fitness) override {
     const std::size_t n = population_.size() / fitness.size(), half = fitness.size() / 2;
-    std::vector<std::size_t> ranking(fitness.size());
-    std::iota(ranking.begin(), ranking.end(), 0);
-    std::stable_sort(ranking.begin(), ranking.end(),
-                     [&](std::size_t a, std::size_t b) { return fitness[a] > fitness[b]; });
+    const auto order = ranking(fitness.data(), fitness.size());
     Normals numbers(seed_, generation_++);
     for (std::size_t i = 0; i < half; ++i) {
-      const double* parent = &population_[ranking[i] * n];
-      double* child = &population_[ranking[half + i] * n];
+      const double* parent = &population_[order[i] * n];
+      double* child = &population_[order[half + i] * n];
       for (std::size_t k = 0; k < n; ++k) child[k] = parent[k] + given_.deviation * numbers.next();
     }
   }

@@ -1,5 +1,6 @@
 // The core for a page: problems, networks and evolution behind functions that JavaScript calls with
 // numbers and addresses (core.js). One thread; nothing here throws on input that page.py has checked.
+#include <cstdarg>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -8,7 +9,7 @@
 
 #include "arena/engine/kernel.hpp"
 #include "arena/engine/stepper.hpp"
-#include "evolution/run.hpp"
+#include "evolution/coevolution.hpp"
 #include "generated/problem_list.hpp"
 
 #ifdef __wasm__
@@ -17,6 +18,12 @@
 extern "C" void* __cxa_allocate_exception(std::size_t size) { return std::malloc(size); }
 extern "C" void __cxa_throw(void*, void*, void (*)(void*)) { std::abort(); }
 extern "C" void __cxa_free_exception(void* exception) { std::free(exception); }
+// Sentences that nobody reads would bring the C library's printing with them.
+extern "C" int snprintf(char*, std::size_t, const char*, ...) { return 0; }
+extern "C" int vsnprintf(char*, std::size_t, const char*, std::va_list) { return 0; }
+namespace std::__1 {
+[[noreturn]] void __libcpp_verbose_abort(const char*, ...) noexcept { std::abort(); }
+}  // namespace std::__1
 #else
 #define EXPORT(name) extern "C"
 #endif
@@ -87,6 +94,12 @@ struct Bench {
     return ended;
   }
 
+  Values& values(int which) {
+    Values* all[] = {
+        &genotype, &blind, &state, &observation, &taken, &activation, &network.normalisation};
+    return *all[which];
+  }
+
   std::unique_ptr<Stepper> stepper;
   Evonet network;
   Values genotype, blind, observation, action, activation, state, taken;
@@ -95,6 +108,11 @@ struct Bench {
   bool discrete;
   int outputs;
 };
+
+const Values& values_of(const Run& run, int which) {
+  const Values* all[] = {&run.rows, &run.best, &run.bestg, &run.individuals, &run.meetings};
+  return *all[which];
+}
 
 template <template <int> class... Problem>
 std::unique_ptr<Stepper> stepper_of(const Task& task, ProblemList<Problem...>) {
@@ -134,29 +152,39 @@ EXPORT(task) Task* task(const char* problem, const double* spec) {
   return nullptr;
 }
 
-/// evaluation: episodes, pepisodes, limit, post_limit, heterogeneous, alive. algorithm: steady state?,
-/// size, stepsize, deviation, wdecay, symseed.
+/// evaluation: episodes, pepisodes, limit, post_limit, heterogeneous, alive. algorithm: 0 and samplesize,
+/// stepsize, noiseStdDev, wdecay, symseed of OpenAI-ES; 1 and popsize, -, mutrate of SSS; 2 and popsize,
+/// stepsize, noiseStdDev, wdecay, random?, selsize, samplesize of coevo2.
 EXPORT(run)
-Run* run(const Task* task, const double* evaluation, const double* algorithm, double seed) {
+Run* run(const Task* task, const double* evaluation, const double* algorithm, double given) {
   const auto integer = [](double value) { return static_cast<int>(value); };
   const Evaluation e{integer(evaluation[0]), integer(evaluation[1]), integer(evaluation[2]),
                      integer(evaluation[3]), evaluation[4] != 0,     evaluation[5]};
+  const auto seed = static_cast<std::uint64_t>(given);
+  const Play play = [task](const Jobs& jobs) { task->play(jobs); };
+  if (algorithm[0] == 2) {
+    const CoevolutionRules rules{
+        integer(algorithm[1]), integer(algorithm[6]), integer(algorithm[7]), algorithm[2],
+        algorithm[3],          integer(algorithm[4]), algorithm[5] != 0};
+    return new Coevolution(task->info, task->layout, e, rules, seed, play);
+  }
   const Hyperparameters h{integer(algorithm[1]), algorithm[2], algorithm[3], integer(algorithm[4]),
                           algorithm[5] != 0};
-  return new Run(task->info, task->layout, e, h, algorithm[0] != 0,
-                 static_cast<std::uint64_t>(seed), [task](const Jobs& jobs) { task->play(jobs); });
+  return new Evolution(task->info, task->layout, e, h, algorithm[0] != 0, seed, play);
 }
 EXPORT(advance) double advance(Run* run) {
   run->advance();
   return static_cast<double>(run->steps);
 }
 EXPORT(run_end) void run_end(Run* run) { delete run; }
-/// What a run has: 0 rows, 1 best, 2 bestg; `values` gives the address, `count` how many.
+/// Of the present generation, how many parts are done.
+EXPORT(run_part) int run_part(const Run* run) { return run->part; }
+/// 0 rows, 1 best, 2 bestg, 3 individuals of both sides, 4 their fitness.
 EXPORT(run_values) const double* run_values(const Run* run, int which) {
-  return (which == 0 ? run->rows : which == 1 ? run->best : run->bestg).data();
+  return values_of(*run, which).data();
 }
 EXPORT(run_count) int run_count(const Run* run, int which) {
-  return static_cast<int>((which == 0 ? run->rows : which == 1 ? run->best : run->bestg).size());
+  return static_cast<int>(values_of(*run, which).size());
 }
 
 /// Plays episodes: the return of each. candidate: a row of numbers of networks for each robot.
@@ -237,22 +265,8 @@ EXPORT(bench_move) void bench_move(Bench* bench) { bench->stepper->set_state(ben
 /// 0 genotype, 1 blind (1 where a sensor is), 2 state, 3 observation, 4 action taken, 5 activations,
 /// 6 normalisation.
 EXPORT(bench_values) double* bench_values(Bench* bench, int which) {
-  Values* all[] = {&bench->genotype,
-                   &bench->blind,
-                   &bench->state,
-                   &bench->observation,
-                   &bench->taken,
-                   &bench->activation,
-                   &bench->network.normalisation};
-  return all[which]->data();
+  return bench->values(which).data();
 }
-EXPORT(bench_count) int bench_count(const Bench* bench, int which) {
-  const Values* all[] = {&bench->genotype,
-                         &bench->blind,
-                         &bench->state,
-                         &bench->observation,
-                         &bench->taken,
-                         &bench->activation,
-                         &bench->network.normalisation};
-  return static_cast<int>(all[which]->size());
+EXPORT(bench_count) int bench_count(Bench* bench, int which) {
+  return static_cast<int>(bench->values(which).size());
 }

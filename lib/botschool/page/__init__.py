@@ -28,8 +28,8 @@ from botschool.render.replay import palette, scene_description
 from botschool.render.scenes import make_scene
 from botschool.seeds import POST_EVALUATION_SEED
 
-SCRIPTS = ("scenes.js", "core.js", "files.js", "hands.js", "page.js")
-ALGORITHMS = ("OpenAI-ES", "SSS")
+SCRIPTS = ("scenes.js", "core.js", "files.js", "hands.js", "tournament.js", "evolve.js", "page.js")
+ALGORITHMS = ("OpenAI-ES", "SSS", "coevo2")
 """Those that a page can evolve with."""
 
 
@@ -101,7 +101,7 @@ def _checked(experiment: Experiment) -> NativeProblem:
         )
     if not experiment.competitive and experiment.exp.algo not in ALGORITHMS:
         raise BotschoolError(
-            f"{experiment.exp.algo} cannot evolve in a page: set algo = {' or '.join(ALGORITHMS)}."
+            f"{experiment.exp.algo} cannot evolve in a page: set algo = OpenAI-ES or SSS."
         )
     return problem
 
@@ -122,6 +122,7 @@ def _data(experiment: Experiment, problem: NativeProblem, policy: Any) -> dict:
         "fps": scene.fps,
         "groups": [[label, size] for label, size in groups],
         "networks": policy.networks,
+        "sides": experiment.competitive,
         "neurons": neurons,
         "inputs": inputs,
         "normalized": bool(spec.normalize),
@@ -139,12 +140,14 @@ def _data(experiment: Experiment, problem: NativeProblem, policy: Any) -> dict:
                 p.heterogeneous,
                 problem.alive,
             ],
-            "algorithm": None if experiment.competitive else _algorithm(experiment),
+            "algorithm": _algorithm(experiment),
             "steps": max(1, round(getattr(experiment.algo, "maxmsteps", 1) * 1e6)),
+            "generations": getattr(experiment.algo, "ngenerations", 0),
+            "saveeach": getattr(experiment.algo, "saveeach", 0),
             "limit": limit,
             "heterogeneous": p.heterogeneous,
         },
-        "fields": [] if experiment.competitive else _fields(experiment, problem),
+        "fields": _fields(experiment, problem),
         "ini": {name.upper(): values for name, values in _written(experiment).items()},
     }
 
@@ -167,12 +170,27 @@ def _packed(content: bytes) -> str:
     return b64encode(gzip.compress(content, 9, mtime=0)).decode()
 
 
-def _algorithm(experiment: Experiment) -> list[float]:
-    """What core.cpp's `run` reads: steady state?, size, stepsize, deviation, wdecay, symseed."""
+def _algorithm(experiment: Experiment) -> list[float] | None:
+    """Return what core.cpp's `run` reads; None for one that it does not have."""
     a = experiment.algo
-    if experiment.exp.algo == "SSS":
-        return [1, a.popsize, 0, a.mutrate, 0, 0]
-    return [0, a.samplesize, a.stepsize, a.noiseStdDev, a.wdecay, a.symseed]
+    match experiment.exp.algo:
+        case "OpenAI-ES":
+            return [0, a.samplesize, a.stepsize, a.noiseStdDev, a.wdecay, a.symseed]
+        case "SSS":
+            return [1, a.popsize, 0, a.mutrate, 0, 0]
+        case "coevo2":
+            drawn = a.evolving == "random"
+            steps = [a.stepsize, a.noiseStdDev, a.wdecay]
+            return [2, a.popsize, *steps, drawn, a.selsize, a.samplesize]
+    return None
+
+
+PLACES = {
+    "OpenAI-ES": ("samplesize", "stepsize", "noiseStdDev", "wdecay", "symseed"),
+    "SSS": ("popsize", "", "mutrate"),
+    "coevo2": ("popsize", "stepsize", "noiseStdDev", "wdecay", "evolving", "selsize", "samplesize"),
+}
+"""Where `_algorithm` puts hyperparameters, from place 1 on."""
 
 
 def _written(experiment: Experiment) -> dict[str, dict[str, Any]]:
@@ -185,7 +203,7 @@ def _written(experiment: Experiment) -> dict[str, dict[str, Any]]:
 
 
 def _fields(experiment: Experiment, problem: NativeProblem) -> list[dict]:
-    """What may be changed in the page, and where it goes: [array, index, factor, most]."""
+    """Return what may be changed in the page, and where it goes: [array, index, factor, most]."""
     most = problem.limit
     post = [] if experiment.policy.pmaxsteps else [["evaluation", 3, 1, most]]
     places: dict[str, list] = {
@@ -193,13 +211,13 @@ def _fields(experiment: Experiment, problem: NativeProblem) -> list[dict]:
         "pepisodes": [["evaluation", 1, 1, None]],
         "maxsteps": [["evaluation", 2, 1, most], *post],
         "maxmsteps": [["steps", 0, 1e6, None]],
+        "ngenerations": [["generations", 0, 1, None]],
     }
     places |= {name: [["spec", i, 1, None]] for i, name in enumerate(NETWORK)}
-    if experiment.exp.algo == "SSS":
-        places |= {"popsize": [["algorithm", 1, 1, None]], "mutrate": [["algorithm", 3, 1, None]]}
-    else:
-        names = ("samplesize", "stepsize", "noiseStdDev", "wdecay", "symseed")
-        places |= {name: [["algorithm", i + 1, 1, None]] for i, name in enumerate(names)}
+    if experiment.exp.algo not in PLACES:
+        return []
+    names = PLACES[experiment.exp.algo]
+    places |= {name: [["algorithm", i, 1, None]] for i, name in enumerate(names, 1) if name}
     found = []
     for section, config in (("POLICY", experiment.policy), ("ALGO", experiment.algo)):
         for f in fields(config):
@@ -227,6 +245,7 @@ def _fields(experiment: Experiment, problem: NativeProblem) -> list[dict]:
 
 
 def _needs(limits: Any, whole: bool) -> str:
+    """Return what a field needs, in words."""
     if "choices" in limits:
         return "one of " + ", ".join(f"{v} ({text})" for v, text in limits["choices"].items())
     kind = "a whole number" if whole else "a number"

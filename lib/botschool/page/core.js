@@ -86,7 +86,7 @@ class Core {
   }
 }
 
-// An evolutionary run; each advance() is a generation.
+// An evolutionary run; each advance() is a generation, or a part of it.
 class Run {
   constructor(core, task, { evaluation, algorithm }, seed) {
     this.core = core;
@@ -108,6 +108,11 @@ class Run {
   get rows() { return this.values(0); }
   get best() { return this.values(1); }
   get bestg() { return this.values(2); }
+  // Of two sides: both populations, and their fitness.
+  get individuals() { return this.values(3); }
+  get meetings() { return this.values(4); }
+  get generation() { return this.core.c.run_count(this.place, 0) / 6; }
+  get part() { return this.core.c.run_part(this.place); }
 }
 
 // A robot step by step, to take it apart.

@@ -1,8 +1,9 @@
 // The run files of botschool, byte by byte as the command writes them.
 
-// An array of float64 as numpy's .npy file.
-function npy(values) {
-  const text = `{'descr': '<f8', 'fortran_order': False, 'shape': (${values.length},), }`;
+// An array of float64 as numpy's .npy file; of two dimensions if it has columns.
+function npy(values, columns = 0) {
+  const shape = columns ? `${values.length / columns}, ${columns}` : `${values.length},`;
+  const text = `{'descr': '<f8', 'fortran_order': False, 'shape': (${shape}), }`;
   const length = Math.ceil((10 + text.length + 1) / 64) * 64 - 10;
   const head = `\x93NUMPY\x01\x00${String.fromCharCode(length & 255, length >> 8)}${text.padEnd(length - 1)}\n`;
   const file = new Uint8Array(head.length + 8 * values.length);
@@ -12,7 +13,7 @@ function npy(values) {
   return file;
 }
 
-// The reverse, for files of float64 and float32 with one dimension.
+// The reverse, for files of float64 and float32, row by row.
 function fromNpy(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const letters = (first, count) => String.fromCharCode(...bytes.subarray(first, first + count));
@@ -37,14 +38,17 @@ function python(value) {
   return `${digits}e${power[0]}${power.slice(1).padStart(2, "0")}`;
 }
 
-// Name -> contents of the files of a run.
-function runFiles(seed, { rows, best, bestg, generation, steps }) {
-  const last = rows.length - 6;
-  const fit = `seed ${seed} gen ${generation} steps ${steps} bestfit ${python(rows[last + 1])} bestgfit ${python(rows[last + 2])}\n`;
-  return {
-    [`statS${seed}.npy`]: npy(rows),
-    [`bestS${seed}.npy`]: npy(best),
-    [`bestgS${seed}.npy`]: npy(bestg),
-    [`S${seed}.fit`]: new TextEncoder().encode(fit),
-  };
+// Name -> contents of the files of a run. kept: of two sides, [generation, individuals, meetings].
+function runFiles(seed, { rows, best, bestg, generation, kept = [] }) {
+  const [steps, reached, bestgfit] = rows.slice(-6);
+  const fit = `seed ${seed} gen ${generation} steps ${steps} bestfit ${python(reached)} bestgfit ${python(bestgfit)}\n`;
+  const files = { [`statS${seed}.npy`]: npy(rows) };
+  if (best.length) files[`bestS${seed}.npy`] = npy(best);
+  files[`bestgS${seed}.npy`] = npy(bestg);
+  files[`S${seed}.fit`] = new TextEncoder().encode(fit);
+  for (const [number, individuals, meetings] of kept) {
+    files[`S${seed}G${number}.npy`] = npy(individuals, bestg.length / 2);
+    files[`S${seed}FitG${number}.npy`] = npy(meetings, Math.sqrt(meetings.length / 2));
+  }
+  return files;
 }

@@ -75,7 +75,8 @@ function load(chosen) {
   robot = chosen;
   byId("who").textContent = chosen.name;
   byId("who").title = chosen.name;
-  if (chosen.normalisation.length) bench.normalisation.set(chosen.normalisation);
+  if (data.sides) compete(chosen);
+  if (chosen.normalisation?.length) bench.normalisation.set(chosen.normalisation);
   applyCuts();
 }
 
@@ -240,173 +241,6 @@ function buildHands() {
   for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => { held = null; });
 }
 
-// Evolution
-
-let worker = null;
-let result = null;
-
-function evolve() {
-  if (worker) return worker.postMessage({ stop: true });
-  const seed = +byId("seed").value;
-  if (!Number.isSafeInteger(seed) || seed < 0) return say("The seed must be a whole number from 0 on.");
-  const chosen = readFields();
-  if (!chosen) return undefined;
-  const code = byId("background").textContent;
-  worker = new Worker(URL.createObjectURL(new Blob([code], { type: "text/javascript" })));
-  worker.onmessage = ({ data: message }) => hear(message, seed, chosen);
-  worker.onerror = (event) => hear({ trouble: event.message }, seed, chosen);
-  worker.postMessage({ core: byId("core").textContent, experiment: chosen, seed });
-  byId("evolve").textContent = "Stop";
-  byId("downloads").hidden = true;
-  say("The first generations …");
-  for (const id of ["progress", "curve"]) byId(id).hidden = false;
-  return undefined;
-}
-
-const say = (text) => { byId("said").textContent = text; };
-
-function hear(message, seed, chosen) {
-  if (message.trouble) {
-    finish();
-    return say(`The run has stopped: ${message.trouble}.`);
-  }
-  result = { ...message, seed };
-  const { rows, generation, steps: done, seconds } = message;
-  const best = rows[rows.length - 4];
-  say(`${message.ended ? "Done: " : ""}generation ${generation}, ${(done / 1e6).toFixed(2)} million steps in ` +
-    `${seconds.toFixed(1)} s; best post-evaluated ${show(best)}.`);
-  byId("progress").value = done / chosen.steps;
-  drawCurve(chosen);
-  if (sameNetwork(chosen)) {
-    const own = message.bestg.length - (data.normalized ? 2 * data.inputs : 0);
-    next = {
-      evolved: true, name: `the best robot until generation ${generation}`,
-      genotype: message.bestg.slice(0, own), normalisation: message.bestg.slice(own),
-    };
-    // the first one, and the last, come at once; others when an episode has ended
-    if (message.ended || !robot.evolved) start(0);
-  }
-  if (message.ended) {
-    finish();
-    offer(chosen);
-  }
-  return undefined;
-}
-
-function finish() {
-  worker?.terminate();
-  worker = null;
-  byId("evolve").textContent = "Evolve";
-}
-
-// Whether the robot on the stage has the network that evolves.
-const sameNetwork = (chosen) => chosen.spec.every((value, i) => value === experiment.spec[i]);
-
-function offer(chosen) {
-  byId("downloads").hidden = false;
-  byId("downloads").replaceChildren();
-  const files = runFiles(result.seed, result);
-  files[`${data.name}.ini`] = new TextEncoder().encode(iniText(chosen));
-  for (const [name, bytes] of Object.entries(files)) {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([bytes]));
-    link.download = link.textContent = name;
-    byId("downloads").append(link);
-  }
-}
-
-function drawCurve(chosen) {
-  const { pen, width, height } = fitted(byId("curve"));
-  const { rows } = result;
-  const count = rows.length / 6;
-  const points = (column) => Array.from({ length: count }, (_, i) => [rows[6 * i], rows[6 * i + column]]);
-  const lines = [["muted", points(4)], ["orange", points(2)]];
-  const all = lines.flatMap(([, line]) => line.map(([, fitness]) => fitness));
-  const low = all.reduce((a, b) => Math.min(a, b));
-  const high = Math.max(all.reduce((a, b) => Math.max(a, b)), low + 1e-9);
-  const x = (done) => 52 + (done / chosen.steps) * (width - 62);
-  const y = (fitness) => height - 22 - ((fitness - low) / (high - low)) * (height - 46);
-  pen.font = "12px system-ui, sans-serif";
-  pen.textBaseline = "middle";
-  for (const value of [low, (low + high) / 2, high]) {
-    pen.fillStyle = colour("muted");
-    pen.textAlign = "right";
-    pen.fillText(show(value), 46, y(value));
-    pen.globalAlpha = 0.35;
-    pen.fillRect(52, y(value), width - 62, 1);
-    pen.globalAlpha = 1;
-  }
-  pen.textAlign = "center";
-  for (const share of [0, 0.5, 1]) {
-    const text = `${+((share * chosen.steps) / 1e6).toFixed(2)} M steps`;
-    pen.fillText(text, Math.min(x(share * chosen.steps), width - 36), height - 8);
-  }
-  for (const [name, line] of lines) {
-    pen.strokeStyle = colour(name);
-    pen.lineWidth = 2;
-    pen.beginPath();
-    line.forEach(([done, fitness]) => pen.lineTo(x(done), y(fitness)));
-    pen.stroke();
-  }
-  pen.textAlign = "left";
-  pen.fillStyle = colour("orange");
-  pen.fillText("best post-evaluated", 58, 9);
-  pen.fillStyle = colour("muted");
-  pen.fillText("mean of the generation", 190, 9);
-}
-
-// The experiment file
-
-function buildFields() {
-  for (const field of data.fields) {
-    const row = byId("fields").insertRow();
-    row.insertCell().innerHTML = `${field.key}<small>${field.help}</small>`;
-    const cell = row.insertCell();
-    const input = document.createElement("input");
-    Object.assign(input, { type: "text", value: field.value, id: `field-${field.key}` });
-    input.setAttribute("aria-label", field.key);
-    input.inputMode = "decimal";
-    cell.append(input);
-  }
-}
-
-// The experiment with the fields' values; null, and a sentence, if one cannot be.
-function readFields() {
-  const chosen = structuredClone(experiment);
-  for (const field of data.fields) {
-    const input = byId(`field-${field.key}`);
-    const value = Number(input.value);
-    const wrong = !input.value.trim() || !Number.isFinite(value) ||
-      (field.whole && !Number.isInteger(value)) || value < field.low || value > field.high ||
-      (field.above !== null && value <= field.above) || (field.allowed && !field.allowed.includes(value));
-    if (wrong) {
-      say(`${field.key} = ${input.value} is not possible: it needs ${field.needs}.`);
-      input.focus();
-      return null;
-    }
-    field.value = value;
-    for (const [array, index, factor, most] of field.into) {
-      const scaled = Math.min(value * factor, most ?? Infinity);
-      if (array === "steps") chosen.steps = Math.max(1, Math.round(scaled));
-      else chosen[array][index] = scaled;
-    }
-  }
-  return chosen;
-}
-
-function iniText() {
-  const lines = [];
-  for (const [section, pairs] of Object.entries(data.ini)) {
-    lines.push(`[${section}]`);
-    for (const [key, value] of Object.entries(pairs)) {
-      const field = data.fields.find((one) => one.section === section && one.key === key);
-      lines.push(`${key} = ${field ? field.value : value}`);
-    }
-    lines.push("");
-  }
-  return lines.join("\n");
-}
-
 // The beginning
 
 function pressed(event) {
@@ -434,23 +268,27 @@ function view(index) {
 async function loadFile(event) {
   const [file] = event.target.files;
   event.target.value = "";
-  if (!file) return;
+  if (!file) return undefined;
+  complain("");
   try {
     const values = fromNpy(new Uint8Array(await file.arrayBuffer()));
     const own = bench.genotype.length;
     const needed = own + (data.normalized ? 2 * data.inputs : 0);
-    if (values.length !== needed) {
+    const several = data.sides && values.length > own && values.length % own === 0;
+    if (values.length !== needed && !several) {
       throw new Error(`it has ${values.length} values, and this experiment's robots have ${needed}`);
     }
+    if (several) return loadPopulations(file.name, values);
     load({ name: file.name, genotype: values.slice(0, own), normalisation: values.slice(own) });
     start(0);
   } catch (error) {
     complain(`${file.name} cannot be loaded: ${error.message}.`);
   }
+  return undefined;
 }
 
 function complain(text) {
-  byId("trouble").hidden = false;
+  byId("trouble").hidden = !text;
   byId("trouble").textContent = text;
 }
 
@@ -469,6 +307,8 @@ function connect() {
   };
   byId("load").onchange = loadFile;
   byId("evolution").hidden = !experiment.algorithm;
+  byId("tournament").hidden = !data.sides;
+  byId("home").onclick = () => { load(ours); start(0); };
   const closeups = data.scene.closeups;
   if (closeups.length) {
     ["everything", ...closeups.map(([name]) => name)].forEach((name, i) => {
@@ -502,6 +342,7 @@ async function begin() {
   if (data.exact) values = new Float64Array((await unzipped(data.exact)).buffer);
   load({ name: data.who, genotype: values.slice(0, own), normalisation: values.slice(own) });
   start(0);
+  if (data.sides) randomRivals();
   setPlaying(!matchMedia("(prefers-reduced-motion: reduce)").matches);
   requestAnimationFrame(animate);
 }

@@ -19,18 +19,22 @@ async function evolve({ core: packed, experiment, seed }) {
   const task = core.task(experiment.problem, experiment.spec);
   const run = core.run(task, experiment, seed);
   const began = performance.now();
-  let [told, steps, generation] = [0, 0, 0];
-  while (going && steps < experiment.steps) {
+  let [told, steps] = [0, 0];
+  const state = (more) => {
+    const { rows, bestg, generation, part } = run;
+    const seconds = (performance.now() - began) / 1000;
+    return { generation, part, steps, seconds, rows, bestg, ...more };
+  };
+  const both = () => ({ individuals: run.individuals, meetings: run.meetings });
+  const over = () => (experiment.generations ? run.generation >= experiment.generations : steps >= experiment.steps);
+  while (going && !over()) {
     steps = run.advance();
-    generation += 1;
-    const now = performance.now();
-    if (now - told < 100) continue;
-    told = now;
-    postMessage({ generation, steps, seconds: (now - began) / 1000, rows: run.rows, bestg: run.bestg });
+    // the command keeps both populations of these generations
+    const kept = experiment.generations && run.part === 0 && run.generation % experiment.saveeach === 0;
+    if (!kept && performance.now() - told < 100) continue;
+    told = performance.now();
+    postMessage(state(kept ? both() : {}));
     await new Promise((resume) => setTimeout(resume)); // so that a message to stop is heard
   }
-  postMessage({
-    ended: true, generation, steps, seconds: (performance.now() - began) / 1000,
-    rows: run.rows, best: run.best, bestg: run.bestg,
-  });
+  postMessage(state({ ended: true, best: run.best, ...(experiment.generations ? both() : {}) }));
 }
