@@ -159,7 +159,7 @@ def test_a_hard_link_to_a_file_of_another_user_is_left_out(course, tmp_path, pre
     assert SECRET not in str(result) and "taken.py'" not in result.tasks[0].printed
     file.unlink()
     os.link(precious, file)
-    assert "somebody else's file" in str(grade(load_exercise(3, course), file))
+    assert "another user's file" in str(grade(load_exercise(3, course), file))
 
 
 def test_a_hard_link_of_ones_own_is_a_file(tmp_path):

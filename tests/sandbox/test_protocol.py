@@ -162,7 +162,7 @@ def test_large_messages_pass():
 
 
 def test_too_many_arrays():
-    with pytest.raises(protocol.NotPlain, match="arrays, which is too much"):
+    with pytest.raises(protocol.NotPlain, match="arrays, which are too many"):
         protocol.pack([np.zeros(0)] * 60_000)
     text = json.dumps([{"__array__": ["|u1", [0]]}] * 60_000).encode()
     with pytest.raises(ValueError, match="damaged"):

@@ -1,6 +1,6 @@
-"""Runs untrusted Python code in confined child processes and exchanges plain data with it.
+"""Run untrusted Python code in confined child processes and exchange plain data with it.
 
-Imports nothing of botschool outside this package. README.md states the threat model.
+The package imports nothing of botschool outside itself. README.md states the threat model.
 """
 
 from botschool.sandbox.allowance import Allowance

@@ -1,4 +1,4 @@
-"""The time that the answers of untrusted code may take."""
+"""Limit the time that untrusted code may take for its answers."""
 
 from __future__ import annotations
 
@@ -10,30 +10,32 @@ from botschool.sandbox import usage
 
 
 class Allowance:
-    """Limits processor time, and generously what passes besides, over any number of answers.
+    """Limit the processor time of any number of answers, and more generously the time that passes.
 
-    A child that has to wait for a processor, because others use it, is charged nothing for that.
-    A sleeping one is: after 2 * seconds + 2, in which it need not compute, it is enough; after
-    10 * seconds + 60 it is in any case. Where processor time cannot be known, the time that
-    passes is charged in its place. A pause in which nobody asked what is left, since the whole
-    machine or this process was stopped, counts PAUSE seconds at most.
+    Waiting for a processor that others use costs nothing. Sleeping is limited to 2 * seconds + 2,
+    and
+    all time that passes to 10 * seconds + 60. Where the system does not tell processor time, the
+    time
+    that passes counts instead. While the machine or this process is stopped, nobody asks what is
+    left:
+    such a pause counts PAUSE seconds at most.
     """
 
     PAUSE = 2.0
 
     def __init__(self, seconds: float) -> None:
-        """seconds: of processor time."""
+        """Allow `seconds` of processor time."""
         self.seconds = seconds
         self.processor = 0.0
-        """Seconds of processor time that were used."""
+        """Seconds of processor time used."""
         self.active = 0.0
-        """Seconds that passed, without waiting for a processor."""
+        """Seconds passed, without those spent waiting for a processor."""
         self.passed = 0.0
-        """Seconds that passed."""
+        """Seconds passed."""
 
     @property
     def left(self) -> float:
-        """Seconds until the first of the limits, 0 or less when there is no time left."""
+        """Return the seconds until the first limit; 0 or less when no time is left."""
         return min(
             self.seconds - self.processor,
             2 * self.seconds + 2 - self.active,
@@ -42,12 +44,14 @@ class Allowance:
 
     @property
     def slept(self) -> bool:
-        """Whether most of the time passed without computing."""
+        """Return whether the code spent most of the time without computing."""
         return self.processor < self.active / 2
 
     @contextmanager
     def charged(self, pid: int) -> Iterator[Callable[[], float]]:
-        """Charges what a process uses in the block; gives a function that tells what is left."""
+        """Charge what a process uses in the block; yield a function that returns the seconds
+        left.
+        """
         before = self.processor, self.active, self.passed
         asked, elapsed = time.monotonic(), 0.0
         processor, delayed = usage.processor_seconds(pid), usage.delayed_seconds(pid)
@@ -59,7 +63,7 @@ class Allowance:
             asked = now
             used = elapsed if processor is None else usage.processor_seconds(pid)
             self.passed = before[2] + elapsed
-            if used is not None:  # else it has ended
+            if used is not None:  # else the process has ended
                 delay = max(0.0, usage.delayed_seconds(pid) - delayed)
                 self.processor = before[0] + used - (processor or 0.0)
                 self.active = before[1] + max(0.0, elapsed - delay)

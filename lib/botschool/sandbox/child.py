@@ -1,4 +1,4 @@
-"""The confined process: forked by server.py, answers the requests of process.py.
+"""Run the confined process: server.py forks it, and it answers the requests of process.py.
 
 The untrusted code runs in this very process, so the caller must not trust any answer.
 """
@@ -20,11 +20,11 @@ from botschool.sandbox import confine, protocol
 from botschool.sandbox.exceptions import Missing, explain
 
 WAIT = 24 * 3600
-"""Seconds for the next request; the caller kills this process long before."""
+"""Seconds to wait for the next request; the caller kills this process long before."""
 
 
 def load(path: Path) -> Any:
-    """Imports the untrusted file as a module named `student`; it may import files beside it."""
+    """Import the untrusted file as a module named `student`; it may import files beside it."""
     sys.path.append(str(path.parent))
     spec = importlib.util.spec_from_file_location("student", path)
     module = importlib.util.module_from_spec(spec)
@@ -34,7 +34,8 @@ def load(path: Path) -> Any:
 
 
 def run(module: Any, request: dict[str, Any]) -> Any:
-    """Calls a function of the untrusted module, or a driver function with that module.
+    """Call a function of the untrusted module, or a driver function with that module; return its
+    result.
 
     request: {"name", "arguments", "options"}, or {"driver": source, "name", "arguments"}.
     """
@@ -49,14 +50,19 @@ def run(module: Any, request: dict[str, Any]) -> Any:
 
 
 def run_twice(module: Any, message: bytes) -> dict[str, Any]:
-    """A request's answers to two equal copies of it, and what became of the first copy."""
+    """Return the answers to two equal copies of a request, and the first copy's arguments
+    afterwards.
+    """
     first, second = protocol.unpack(message), protocol.unpack(message)
     answers = [run(module, first)]
     return {"answers": [*answers, run(module, second)], "arguments": first["arguments"]}
 
 
 def changed_arguments(request: dict[str, Any], message: bytes) -> list[int]:
-    """The numbers, from 1, of the arguments that a function has changed; message: the request."""
+    """Return the numbers, from 1, of the arguments that a function has changed.
+
+    request: as the call left it; message: the packed request before the call.
+    """
     before, after = protocol.unpack(message), request
     pairs = zip(
         [*before["arguments"], *before["options"].values()],
@@ -76,7 +82,7 @@ def _differ(old: Any, new: Any) -> bool:
 
 
 def substitute(module: Any, references: dict[str, Any]) -> None:
-    """Puts other functions in the place of some of the untrusted module's.
+    """Replace functions of the untrusted module by others.
 
     references: {"source": text of a file, "names": of its functions}.
     """
@@ -87,7 +93,7 @@ def substitute(module: Any, references: dict[str, Any]) -> None:
 
 
 def answer_to(module: Any, message: bytes, file: Path) -> bytes:
-    """The packed answer to a packed request; exceptions of any kind become answers."""
+    """Return the packed answer to a packed request; any exception becomes an answer, too."""
     try:
         request = protocol.unpack(message)
         if request.get("twice"):
@@ -110,7 +116,7 @@ def _explained(error: BaseException, file: Path, module: Any = None, **more: boo
 
 
 def serve(requests: int, answers: int) -> None:
-    """Confines this process as the first request says, then answers requests until killed.
+    """Confine this process as the first request says, then answer requests until killed.
 
     requests, answers: file descriptors of pipes.
     """
@@ -126,7 +132,7 @@ def serve(requests: int, answers: int) -> None:
         [Path(path) for path in set_up["readable"]], [Path(path) for path in set_up["writable"]]
     )
     os.write(answers, protocol.pack({"missing": missing}))
-    # asked by a signal, this tells the caller where the program is: Child.where
+    # on this signal, Python writes where the program is, for Child.where
     faulthandler.register(signal.SIGUSR1, answers, all_threads=True)
     module = failure = None
     while (message := protocol.receive(requests, WAIT)) is not None:
@@ -141,7 +147,7 @@ def serve(requests: int, answers: int) -> None:
         for stream in (sys.stdout, sys.stderr):
             try:
                 stream.flush()
-            except BaseException:  # closed or replaced by the untrusted code
+            except BaseException:  # the untrusted code has closed or replaced the stream
                 continue
         while answer:
             answer = answer[os.write(answers, answer) :]

@@ -1,8 +1,8 @@
-"""Confines the present process, for good: resource limits, Landlock, seccomp, capabilities.
+"""Confine this process for good, by resource limits, Landlock, seccomp and capabilities.
 
-On Linux Landlock restricts files, a seccomp filter (seccomp.py) system calls, and capabilities are
-dropped. This takes no privileges. Resource limits hold wherever Python's `resource` does.
-See linux/landlock.h, capabilities(7), setrlimit(2).
+On Linux, Landlock restricts files, a seccomp filter (seccomp.py) restricts system calls, and the
+process drops its capabilities. This needs no privileges. Resource limits hold on every system that
+has Python's `resource`. See linux/landlock.h, capabilities(7), setrlimit(2).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from botschool.sandbox import seccomp
 # see linux/landlock.h
 _LANDLOCK_CREATE, _LANDLOCK_ADD, _LANDLOCK_RESTRICT = 444, 445, 446
 _READ = 0b1101  # execute, read file, read directory
-_ON_FILES = 0b1100_0000_0000_0111  # what can be allowed on a file
+_ON_FILES = 0b1100_0000_0000_0111  # rights that apply to a file
 _NEVER = 0b1000_1010_0100_0000  # device nodes, sockets, control of devices
 _RIGHTS_OF_VERSION = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16}
 
@@ -30,15 +30,17 @@ _CAP_DAC_READ_SEARCH = 2
 
 
 def limit(seconds: float, memory: int, file_size: int) -> None:
-    """Limits: seconds, bytes of address space beyond the present ones, bytes of a file."""
-    with contextlib.suppress(OSError):  # when memory runs out it is this process that goes
+    """Limit processor seconds, bytes of address space beyond the present ones, and bytes of a
+    file.
+    """
+    with contextlib.suppress(OSError):  # if memory runs out, Linux kills this process first
         Path("/proc/self/oom_score_adj").write_text("1000")
-    cpu = int(seconds) + 2  # the caller watches the time; this holds if it has gone
+    cpu = int(seconds) + 2  # the caller watches the time; this limit holds if the caller has ended
     for name, *values in (
-        ("RLIMIT_CPU", cpu, cpu + 2),  # a signal to say so, then the end
+        ("RLIMIT_CPU", cpu, cpu + 2),  # first a signal, then the end
         ("RLIMIT_AS", memory + _in_use()),
         ("RLIMIT_FSIZE", file_size),
-        ("RLIMIT_CORE", 1),  # with 0, a core dump still goes to a program that collects them
+        ("RLIMIT_CORE", 1),  # with 0, a core dump still goes to a program that collects core dumps
         ("RLIMIT_NOFILE", 256),
         ("RLIMIT_MEMLOCK", 0),
     ):
@@ -53,7 +55,7 @@ def _in_use() -> int:
 
 
 def _set(name: str, value: int, most: int | None = None) -> None:
-    """Sets a soft and a hard limit, neither above the present hard one."""
+    """Set a soft and a hard limit, both at most the present hard one."""
     try:
         import resource
 
@@ -68,15 +70,18 @@ def _set(name: str, value: int, most: int | None = None) -> None:
 
 
 def end_with(parent: int) -> None:
-    """Lets this process end with its parent, whose process id is given, on Linux."""
+    """End this process when its parent ends (Linux); parent: its process id."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
-        if os.getppid() != parent:  # it has ended before this could be asked for
+        if os.getppid() != parent:  # the parent ended before the call
             os._exit(1)
 
 
 def confine(readable: list[Path], writable: list[Path]) -> list[str]:
-    """Returns what this system cannot confine: some of "files", "processes", "network"."""
+    """Confine files and system calls; return what this system cannot confine.
+
+    That is a list of some of "files", "processes", "network".
+    """
     everything = ["files", "processes", "network"]
     if sys.platform != "linux":
         _set("RLIMIT_NPROC", 0)
@@ -95,7 +100,7 @@ def confine(readable: list[Path], writable: list[Path]) -> list[str]:
 
 
 def _drop_capabilities(libc: ctypes.CDLL) -> None:
-    """Drops all that root may do beyond others, except reading; does nothing for others."""
+    """Drop all privileges of root except reading; other users have none to drop."""
     header = struct.pack("Ii", 0x20080522, 0)  # version 3, this thread
     held = ctypes.create_string_buffer(24)
     if libc.capget(header, held) != 0:

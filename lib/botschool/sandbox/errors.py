@@ -1,13 +1,13 @@
-"""The exceptions of this package; their messages are sentences."""
+"""Define the exceptions of this package; their messages are sentences."""
 
 
 class SandboxError(Exception):
-    """A confined process cannot be had on this machine, which is no fault of the untrusted code."""
+    """This machine cannot run confined processes; the untrusted code is not at fault."""
 
 
 class Refused(Exception):
-    """Files that are not copied into a sandbox: too many, too large, links, or unreadable."""
+    """The sandbox copies no files that are too many, too large, links, or unreadable."""
 
 
 class CannotRead(Refused):
-    """The caller may not read the files, or cannot at this time."""
+    """The caller may not read the files, or cannot read them now."""

@@ -1,4 +1,4 @@
-"""What a child tells of an exception: plain data, with the place in the untrusted files."""
+"""Describe an exception as plain data, with its place in the untrusted files."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from typing import Any
 
 MAX_TEXT = 500
 MAX_NAMES, MAX_NAME = 5000, 60
-"""Among which the nearest is looked for; characters of each."""
+"""Number of names to compare; characters of each name."""
 ALIKE = 0.7
-"""Ratio of difflib."""
+"""Smallest similarity of two names, as difflib's ratio."""
 _WRONG_CALL = re.compile(r"(?:\w+\.)*(\w+)\(\) (?:missing|takes|got an unexpected|got multiple)")
 
 
 class Missing(Exception):
-    """There is no function of this name in the module."""
+    """The module has no function of this name."""
 
     def __init__(self, name: str, module: Any) -> None:
         super().__init__(name)
@@ -31,13 +31,12 @@ class Missing(Exception):
 
 
 def explain(error: BaseException, file: Path, module: Any = None) -> dict[str, Any]:
-    """An exception as plain data.
+    """Return an exception as plain data.
 
-    error, text: its type and what it says; file, line: the innermost place in the untrusted files
-    (the file's name in its folder), or None; column: of an error of syntax; near: a name that is
-    there and resembles one that is not; call: of what a call with other arguments than the grader's
-    should have looked like. A function that is not there is an error "Missing", and a call that
-    does not fit its parameters one "Signature"; the text of these is the function's name.
+    error, text: its type and message. file, line: the innermost place in the untrusted files (the
+    file's name in its folder), or None. column: of a syntax error. near: an existing name that
+    resembles the unknown one. call: the function's signature, if the grader's call does not fit it.
+    A missing function is an error "Missing", and a call that does not fit a "Signature".
     """
     folder = file.parent
     frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
@@ -65,13 +64,13 @@ def explain(error: BaseException, file: Path, module: Any = None) -> dict[str, A
 
 
 def _inside(filename: str, folder: Path) -> str | None:
-    """The name of a file in the folder, or below it."""
+    """Return the name of a file relative to the folder; None if it lies elsewhere."""
     top = f"{folder}/"
     return filename[len(top) :] if filename.startswith(top) else None
 
 
 def _missing(error: BaseException, module: Any) -> str | None:
-    """The name of what should be in the module: of a function called, or looked up by a driver."""
+    """Return the name of a function that the module lacks; None for any other error."""
     if isinstance(error, Missing):
         return error.name
     if isinstance(error, AttributeError) and module is not None and error.obj is module:
@@ -99,14 +98,14 @@ def _near(error: BaseException, frame: FrameType | None) -> str | None:
 
 
 def nearest(name: str, names: Iterable[str]) -> str | None:
-    """The one of the names that resembles another one most, or None."""
+    """Return the name that most resembles another one; None if none does."""
     known = [each for each in names if len(each) <= MAX_NAME and each != name][:MAX_NAMES]
     if len(name) > MAX_NAME:
         return None
     if alike := [each for each in known if _plain(each) == _plain(name)]:
         return alike[0]
     found = difflib.get_close_matches(name, known, 1, ALIKE)
-    if not found:  # rank for rank_individuals, and the other way round
+    if not found:  # rank for rank_individuals, or the reverse
         found = [each for each in known if min(len(each), len(name)) > 3 and (
             each.startswith(name) or name.startswith(each))]  # fmt: skip
     return found[0] if found else None

@@ -1,4 +1,4 @@
-"""Files below a folder, read without a link anywhere on the way."""
+"""Read files below a folder without following a link."""
 
 from __future__ import annotations
 
@@ -16,21 +16,22 @@ def read_inside(top: Path | int, name: str | Path, most: int) -> bytes:
 
     top: the folder's path, or a descriptor of it.
 
-    Each part of `name` is opened from the folder before it, so a folder that becomes a link
-    meanwhile leads nowhere. Raises OSError for a name that leaves `top`, for a link, for what is
-    no regular file, and for another user's file (`is_foreign`).
+    The function opens each part of `name` from the folder before it, so a folder that becomes a
+    link
+    meanwhile leads nowhere. Raises OSError for a name that leaves `top`, a link, anything but a
+    regular file, and another user's file (`is_foreign`).
     """
     parts = Path(name).parts
     if not parts or Path(name).is_absolute() or ".." in parts:
         raise OSError(f"{name} is not below the folder")
     try:
         descriptor = _opened(top, parts)
-    except ValueError:  # a null character, or one that no file name has
-        raise OSError("no file has such a name") from None
+    except ValueError:  # a null character, or one that file names cannot have
+        raise OSError("no file can have this name") from None
     try:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode) or is_foreign(status, os.stat(top)):
-            raise OSError(f"{parts[-1]} is no regular file of the folder's owner")
+            raise OSError(f"{parts[-1]} is not a regular file of the folder's owner")
         with open(descriptor, "rb", closefd=False) as file:
             return file.read(most + 1)
     finally:
@@ -43,7 +44,7 @@ def is_foreign(status: os.stat_result, top: os.stat_result) -> bool:
 
 
 def _opened(top: Path | int, parts: tuple[str, ...]) -> int:
-    # Windows, which confines nothing in any case
+    # Windows; the sandbox does not work there anyway
     if isinstance(top, Path) and os.open not in os.supports_dir_fd:
         path = top.joinpath(*parts)
         if path.resolve() != top.resolve().joinpath(*parts):

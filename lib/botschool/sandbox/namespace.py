@@ -1,7 +1,7 @@
-"""A mount namespace for the fork server: its scratch folders lie in memory, of limited sizes.
+"""Give the fork server a mount namespace, so that scratch folders lie in memory and are limited.
 
-The kernel then holds the limits, whatever the untrusted code does with files. Root enters a mount
-namespace as it is; others enter a user namespace, too, where the system allows that. See
+The kernel then enforces the limits, whatever the untrusted code does with files. Root enters a
+mount namespace directly; other users also enter a user namespace, if the system allows it. See
 mount_namespaces(7), user_namespaces(7), tmpfs(5).
 """
 
@@ -17,9 +17,10 @@ _NO_SET_UID, _NO_DEVICES, _RECURSIVE, _PRIVATE = 2, 4, 0x4000, 1 << 18  # MS_...
 
 
 def enter(folder: str) -> bool:
-    """Move this process, which must have one thread, into a mount namespace of its own.
+    """Move this process into a mount namespace of its own; return whether that worked.
 
-    folder: an empty one, for a try in another process: nothing changes here unless all works.
+    The process must have one thread. folder: an empty one. Another process tries everything there
+    first, so a failure changes nothing in this process.
     """
     if sys.platform != "linux":
         return False
@@ -34,7 +35,10 @@ def enter(folder: str) -> bool:
 
 
 def mount(folder: str, size: int, files: int) -> bool:
-    """Put a file system in memory on a folder: bytes, and number of files and folders."""
+    """Mount a file system in memory on a folder; return whether that worked.
+
+    size, files: its bytes, and its number of files and folders.
+    """
     options = f"size={size},nr_inodes={files},mode=0700".encode()
     place, flags = os.fsencode(folder), _NO_SET_UID | _NO_DEVICES
     return _libc().mount(b"tmpfs", place, b"tmpfs", ctypes.c_ulong(flags), options) == 0
@@ -52,7 +56,7 @@ def _enter() -> bool:
             Path("/proc/self/gid_map").write_text(f"{group} {group} 1")
         except OSError:
             return False
-    # what is mounted here stays here
+    # mounts made here stay in this namespace
     return libc.mount(None, b"/", None, ctypes.c_ulong(_RECURSIVE | _PRIVATE), None) == 0
 
 

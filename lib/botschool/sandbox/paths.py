@@ -1,4 +1,4 @@
-"""What code in the sandbox may read beside its own copy: Python, its packages, system libraries."""
+"""List what sandboxed code may read beside its own copy: Python, packages, system libraries."""
 
 from __future__ import annotations
 
@@ -13,27 +13,30 @@ SYSTEM = (
     "/sys/devices/system/cpu",
 )  # fmt: skip
 IMPORT_ROOT = Path(__file__).parents[2]
-"""The folder that this package is imported from."""
+"""The folder that this package was imported from."""
 
 
 def is_packages(path: str) -> bool:
-    """Whether an entry of sys.path holds installed packages."""
+    """Return whether an entry of sys.path holds installed packages."""
     return Path(path).name in ("site-packages", "dist-packages")
 
 
 def interpreter_paths() -> list[Path]:
-    """The folders of this interpreter and of its installed packages."""
+    """Return the folders of this interpreter and of its installed packages."""
     packages = [Path(path).resolve() for path in sys.path if path and is_packages(path)]
     return [*packages, Path(sys.prefix).resolve(), Path(sys.base_prefix).resolve()]
 
 
 def system_paths() -> list[Path]:
-    """The places of the operating system's libraries, fonts and devices."""
+    """Return the places of the operating system's libraries, fonts and devices."""
     return [Path(place).resolve() for place in SYSTEM]
 
 
 def without(places: Iterable[Path], closed: Iterable[Path]) -> list[Path]:
-    """The places that exist, where needed cut into parts that hold none of the closed ones."""
+    """Return the places that exist, without the closed ones.
+
+    A place that contains a closed one is replaced by those of its parts that contain none.
+    """
     closed = list(closed)
     parts = {part for place in places for part in _open_parts(place, closed)}
     return sorted(part for part in parts if part.exists())

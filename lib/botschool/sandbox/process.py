@@ -1,4 +1,4 @@
-"""The confined process from the side of the caller: start, ask, watch, kill."""
+"""Start a confined process, ask it, watch it and kill it."""
 
 from __future__ import annotations
 
@@ -19,32 +19,32 @@ from botschool.sandbox.scratch import Scratch
 from botschool.sandbox.server import START_SECONDS, ForkServer, homes
 
 OUTPUT_KEPT = 4000
-"""Characters of what the code prints that are kept."""
+"""Characters to keep of what the code prints."""
 MAX_OUTPUT = 16 * 2**20
-"""Bytes that it may print."""
+"""Bytes that the code may print."""
 MAX_FILE = 64 * 2**20
 """Bytes of a written file."""
 MAX_WRITTEN_IN_ALL = 2**30
-"""Bytes that it may write to the disk, removed and overwritten ones too."""
+"""Bytes that the code may write to the disk, including removed and overwritten ones."""
 MAX_THREADS = 64
 WHERE_SECONDS, MAX_TRACE = 1.0, 2**16
-"""For an answer to where it is; bytes of it."""
+"""Seconds to wait for an answer to `where`; bytes of that answer."""
 POLL_SECONDS = 0.1
-"""Seconds between two looks at what the child uses."""
+"""Seconds between two checks of what the child uses."""
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What a child may use."""
+    """Limits of what a child may use."""
 
     seconds: float = 20
-    """Of processor time; past them the system ends it, if the caller has not."""
+    """Seconds of processor time; after them the system ends the child, if the caller has not."""
     memory: int = 4 * 2**30
     """Bytes of address space beyond those of the imports."""
 
 
 class Child:
-    """A confined process, ready for requests; it loads the untrusted file at the first one."""
+    """A confined process that answers requests; it loads the untrusted file at the first one."""
 
     def __init__(
         self,
@@ -55,9 +55,11 @@ class Child:
         readable: Iterable[Path] = (),
         references: dict[str, Any] | None = None,
     ) -> None:
-        """file: the name of the untrusted file in the scratch folder; readable: what it may read.
+        """Start the process.
 
-        references: {"source", "names"}: functions that take the place of the file's own ones.
+        file: the name of the untrusted file in the scratch folder.
+        readable: what it may read.
+        references: {"source", "names"}: functions that replace the file's own ones.
         Raises SandboxError.
         """
         self._server = server
@@ -107,14 +109,15 @@ class Child:
             message = None
         if message is None:
             self.kill()
-            lines = self.printed().strip().splitlines() or ["no reason was given"]
+            lines = self.printed().strip().splitlines() or ["the process gave no reason"]
             raise SandboxError(f"The confined child process did not start: {lines[-1]}.")
         return protocol.unpack(message)["missing"]
 
     def ask(self, request: dict[str, Any], allowance: Allowance) -> dict[str, Any] | None:
-        """The answer to a request; None if the child has ended.
+        """Return the answer to a request; None if the child has ended.
 
-        Raises TimeoutError when nothing is left of the allowance, ValueError for what is no answer.
+        Raises TimeoutError when the allowance is used up, ValueError for anything that is not an
+        answer.
         """
         with allowance.charged(self._pid) as left:
             with contextlib.suppress(BrokenPipeError):
@@ -129,10 +132,11 @@ class Child:
         return answer
 
     def where(self) -> list[tuple[str, int]]:
-        """(file, line) of the untrusted code that runs just now, the innermost call first.
+        """Return (file, line) of the untrusted code that runs now, the innermost call first.
 
-        File is a name in the scratch folder. The answer of a process that does not tell is []; one
-        that has been asked can answer nothing else any more. Like all it says, it may be a lie.
+        File is a name in the scratch folder. Return [] if the process does not tell. After this
+        call the
+        process can answer no other request. The answer may be a lie.
         """
         with self._ending:
             if self._code is not None:
@@ -152,12 +156,12 @@ class Child:
         return []
 
     def printed(self) -> str:
-        """The beginning of what the child has printed."""
+        """Return the beginning of what the child has printed."""
         text = bytes(self._kept).decode(errors="replace")
         return text if len(text) <= OUTPUT_KEPT else text[:OUTPUT_KEPT] + "\n[... cut]\n"
 
     def ending(self) -> str:
-        """Why the process ended, in words."""
+        """Return why the process ended, in words."""
         code = self._wait(1)
         if code is None:
             return "it closed its connection"
@@ -172,15 +176,17 @@ class Child:
         return "it called exit, so nothing came back"
 
     def was_killed(self) -> bool:
-        """Whether something else than this object has killed it: the system, a user, or itself."""
+        """Return whether the process was killed by the system, a user or itself, not by this
+        object.
+        """
         return self._wait(1) == -signal.SIGKILL and not self._reason and not self._closed.is_set()
 
     def memory_ran_out(self) -> bool:
-        """Whether Linux has killed a process for lack of memory since this one was started."""
+        """Return whether Linux has killed a process for lack of memory since this one started."""
         return usage.memory_kills() > self._memory_kills
 
     def kill(self) -> None:
-        """Ends the process, with all its threads and what it started."""
+        """End the process with all its threads and everything it started."""
         self._closed.set()
         self._kill_group()
         self._wait(5)
@@ -225,19 +231,19 @@ class Child:
         while not self._closed.wait(POLL_SECONDS) and self._code is None:
             try:
                 reason = self._trouble()
-            except BaseException as error:  # what cannot be watched does not run
+            except BaseException as error:  # a child that cannot be watched must not run
                 reason = f"it could not be watched ({type(error).__name__})"
             if reason:
                 self._end(reason)
                 return
 
     def _trouble(self) -> str:
-        """Return which limit it exceeds, in words; "" if none."""
+        """Return the limit that the child exceeds, in words; "" if none."""
         if usage.threads(self._pid) > MAX_THREADS:
             return f"it started more than {MAX_THREADS} threads"
         if usage.has_lost_its_leader(self._pid):
             return "it ended its first thread while others ran on"
-        if self._scratch.in_memory:  # the kernel counts
+        if self._scratch.in_memory:  # the kernel counts what the child writes
             return self._scratch.is_full()
         if usage.written_bytes(self._pid) > MAX_WRITTEN_IN_ALL:
             return f"it wrote more than {MAX_WRITTEN_IN_ALL // 2**20} MB to the disk in all"

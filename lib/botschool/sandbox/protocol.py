@@ -1,9 +1,9 @@
-"""Messages of plain data between the caller and untrusted code: no pickles, no live objects.
+"""Exchange plain data between the caller and untrusted code: no pickles, no live objects.
 
 A message is two lengths of 8 bytes, UTF-8 JSON, and the bytes of the arrays one after another.
-Numbers, strings, booleans, None, lists (tuples become lists), dicts with string keys and numpy
-arrays of numbers can be sent; in the JSON an array is {"__array__": [type, shape]}. What arrives
-may have been forged: it is bounded, and nothing but plain data comes of it.
+It can hold numbers, strings, booleans, None, lists (tuples become lists), dicts with string keys
+and numpy arrays of numbers; in the JSON an array is {"__array__": [type, shape]}. An incoming
+message may be forged, so its size is bounded and it yields nothing but plain data.
 """
 
 from __future__ import annotations
@@ -20,40 +20,40 @@ from typing import Any
 import numpy as np
 
 MAX_TEXT = 4 * 2**20
-"""Bytes of JSON in a message; Python objects made of it take some ten times as much."""
+"""Bytes of JSON in a message; the Python objects take about ten times as much."""
 MAX_ARRAYS = 50_000
-"""In a message."""
+"""Arrays in a message."""
 MAX_DATA = 64 * 2**20
 """Bytes of the arrays in a message."""
 MAX_DEPTH = 50
-"""Levels of lists in lists."""
+"""Levels of nested lists."""
 MAX_DIGITS = 300
-"""Digits."""
+"""Digits of an integer."""
 POLL_SECONDS = 0.05
-"""Between two looks at how much time is left."""
+"""Seconds between two checks of the time left."""
 Left = Callable[[], float]
 _HEAD = 16
 _KIND = re.compile(r"[<>|=]?[biuf][1248]")
 
 
 class NotPlain(Exception):
-    """Something that cannot be sent; the message says what it is."""
+    """The value holds something that a message cannot; the text says what."""
 
 
 def pack(value: Any) -> bytes:
-    """A message. Raises NotPlain."""
+    """Return the message of a value. Raises NotPlain."""
     blobs: list[bytes] = []
     text = json.dumps(_simple(value, blobs, 0)).encode()
     data = b"".join(blobs)
     if len(blobs) > MAX_ARRAYS:
-        raise NotPlain(f"{len(blobs)} arrays, which is too much")
+        raise NotPlain(f"{len(blobs)} arrays, which are too many")
     if len(text) > MAX_TEXT or len(data) > MAX_DATA:
         raise NotPlain(f"{(len(text) + len(data)) / 2**20:.0f} MB of data, which is too much")
     return len(text).to_bytes(8, "little") + len(data).to_bytes(8, "little") + text + data
 
 
 def unpack(message: bytes) -> Any:
-    """The value of a message. Raises ValueError if it is damaged."""
+    """Return the value of a message. Raises ValueError if the message is damaged."""
     try:
         length = int.from_bytes(message[:8], "little")
         text, data = message[_HEAD : _HEAD + length], message[_HEAD + length :]
@@ -67,9 +67,9 @@ def unpack(message: bytes) -> Any:
 
 
 def receive(fd: int, seconds: float | Left) -> bytes | None:
-    """The next message from a pipe; None at its end. Raises TimeoutError and ValueError.
+    """Return the next message from a pipe; None at its end. Raises TimeoutError and ValueError.
 
-    seconds: or a function that tells how many are left.
+    seconds: to wait, or a function that returns the seconds left.
     """
     left = _left(seconds)
     head = _read(fd, _HEAD, left)
@@ -77,13 +77,16 @@ def receive(fd: int, seconds: float | Left) -> bytes | None:
         return None
     text, data = int.from_bytes(head[:8], "little"), int.from_bytes(head[8:], "little")
     if text > MAX_TEXT or data > MAX_DATA:
-        raise ValueError("a message is too long")
+        raise ValueError("message too long")
     rest = _read(fd, text + data, left)
     return None if rest is None else head + rest
 
 
 def read_some(fd: int, most: int, seconds: float) -> bytes:
-    """What arrives from a pipe within some seconds, until nothing has come for a while."""
+    """Return up to about `most` bytes that arrive from a pipe within some seconds.
+
+    The function stops early when nothing has come for 2 * POLL_SECONDS.
+    """
     parts, deadline = bytearray(), time.monotonic() + seconds
     with selectors.DefaultSelector() as selector:
         selector.register(fd, selectors.EVENT_READ)
@@ -98,9 +101,9 @@ def read_some(fd: int, most: int, seconds: float) -> bytes:
 
 
 def send(fd: int, message: bytes, seconds: float | Left) -> None:
-    """Writes to a pipe that does not block. Raises TimeoutError and BrokenPipeError.
+    """Write to a pipe that does not block. Raises TimeoutError and BrokenPipeError.
 
-    seconds: or a function that tells how many are left.
+    seconds: to wait, or a function that returns the seconds left.
     """
     left = _left(seconds)
     rest = memoryview(message)
@@ -122,7 +125,7 @@ def _left(seconds: float | Left) -> Left:
 
 
 def _wait(selector: selectors.BaseSelector, left: Left) -> None:
-    """Until the pipe is ready. Raises TimeoutError."""
+    """Wait until the pipe is ready. Raises TimeoutError."""
     while True:
         seconds = left()
         if seconds <= 0:
@@ -173,7 +176,7 @@ def _simple(value: Any, blobs: list[bytes], depth: int) -> Any:
 
 
 class _Restored:
-    """Values from JSON and the arrays' bytes."""
+    """Rebuild values from JSON and the arrays' bytes."""
 
     def __init__(self, data: bytes) -> None:
         self._data = data
@@ -195,7 +198,7 @@ class _Restored:
 
     def _array(self, kind: str, shape: list[int]) -> np.ndarray:
         if not _KIND.fullmatch(kind) or any(type(n) is not int or n < 0 for n in shape):
-            raise ValueError("an array that is not numbers")
+            raise ValueError("an array of something other than numbers")
         self._arrays += 1
         if self._arrays > MAX_ARRAYS:
             raise ValueError("too many arrays")
@@ -203,11 +206,11 @@ class _Restored:
         start = self.used
         self.used += math.prod(shape) * dtype.itemsize
         if self.used > len(self._data):
-            raise ValueError("an array without its numbers")
+            raise ValueError("an array with missing numbers")
         return np.frombuffer(self._data[start : self.used], dtype).reshape(shape).copy()
 
 
 def _integer(digits: str) -> int:
     if len(digits) > MAX_DIGITS + 1:
-        raise ValueError("too long a number")
+        raise ValueError("a number with too many digits")
     return int(digits)

@@ -1,6 +1,6 @@
-"""The folder that untrusted code works in: a copy of its files, bounded, removed at the end.
+"""Copy untrusted files into a bounded folder that they work in and that is removed at the end.
 
-Nothing here follows a symbolic link or trusts a name, a mode or a depth found in the folder.
+No function here follows a symbolic link, or trusts a name, a mode or a depth found in the folder.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from botschool.sandbox.server import ForkServer
 
 MAX_COPIED, MAX_COPIED_FILES = 50 * 2**20, 2000
-"""Bytes and files that are copied."""
+"""Bytes and files that may be copied."""
 MAX_WRITTEN, MAX_WRITTEN_FILES = 256 * 2**20, 10_000
-"""Bytes and files that may be in the writable folder."""
+"""Bytes and files that the writable folder may hold."""
 MAX_DEPTH = 20
 """Levels of folders."""
 MAX_PICTURES, MAX_PICTURE, MAX_PICTURE_SIDE = 4, 600_000, 4000
-"""Number; bytes and pixels of each."""
+"""Number of pictures; bytes and pixels of each."""
 _FILE = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
 _FOLDER = _FILE | getattr(os, "O_DIRECTORY", 0)
 _PNG = b"\x89PNG\r\n\x1a\n"
@@ -37,17 +37,17 @@ def _keep_all(name: str, depth: int) -> bool:
 
 
 class Scratch:
-    """A temporary folder: `folder` holds the copy, `root` is all that may be written to."""
+    """A temporary folder: `folder` holds the copy, and the code may write only below `root`."""
 
     def __init__(self, file: Path, skip: Callable[[str, int], bool] = _keep_all) -> None:
-        """Copies a file and what lies beside it and below, as `regular_files`. Raises Refused."""
+        """Copy a file with its `regular_files`. Raises Refused."""
         self._base = Path(tempfile.mkdtemp(prefix="botschool-"))
         self.root = self._base / "scratch"
         self.folder = self.root / "submission"
         self._own = Path(self.folder.name)  # below `root`
-        self._safe = self._base / "safe"  # where the untrusted code cannot write
+        self._safe = self._base / "safe"  # the untrusted code cannot write here
         self.in_memory = False
-        """Whether `root` is a file system in memory, which only the children see by this name."""
+        """Whether `root` is a file system in memory; then only the children see it by this name."""
         self._server: ForkServer | None = None
         self._top: int | None = None  # a descriptor of `root`
         try:
@@ -64,7 +64,7 @@ class Scratch:
             raise
 
     def enter(self, server: ForkServer) -> None:
-        """Put the copy into memory, for children of this server, where the system allows it."""
+        """Move the copy into memory for this server's children, if the system allows that."""
         if self._server is server:
             return
         self._server = server
@@ -76,7 +76,7 @@ class Scratch:
         shutil.copytree(self.root, f"/proc/self/fd/{top}", dirs_exist_ok=True)
 
     def is_full(self) -> str:
-        """Return which limit of the memory is reached, in words; "" if none."""
+        """Return the memory limit that is reached, in words; "" if none."""
         if not self.in_memory:
             return ""
         status = os.statvfs(self._top)
@@ -85,14 +85,14 @@ class Scratch:
         return _too_many() if status.f_files - status.f_ffree > MAX_WRITTEN_FILES else ""
 
     def trouble(self, size: int = 0, count: int = 0) -> str:
-        """Return which limit the written files exceed, in words; "" if none.
+        """Return the limit that the written files exceed, in words; "" if none.
 
-        size, count: of files that were removed and are still on the disk.
+        size, count: bytes and number of removed files that are still on the disk.
         """
         try:
             for _, entry, depth in _entries(self.root, vanishing=True):
                 count += 1
-                # a file that vanishes meanwhile counts nothing
+                # a file that vanishes meanwhile does not count
                 with contextlib.suppress(FileNotFoundError):
                     size += entry.stat(follow_symlinks=False).st_blocks * 512
                 if count > MAX_WRITTEN_FILES:
@@ -106,9 +106,9 @@ class Scratch:
         return _too_much() if size > MAX_WRITTEN else ""
 
     def copy(self, name: str) -> Path:
-        """A copy of a file in `folder`, out of the untrusted code's reach.
+        """Copy a file in `folder` to where the untrusted code cannot write; return the copy's path.
 
-        Raises OSError when there is none, or no regular one of a reasonable size.
+        Raises OSError if there is no regular file of that name and of a reasonable size.
         """
         content = _content(self._top, self._own / name, MAX_WRITTEN)
         place = self._safe / name
@@ -117,7 +117,7 @@ class Scratch:
         return place
 
     def pictures(self) -> list[tuple[str, bytes]]:
-        """(name, content) of PNG files in `folder`, at most MAX_PICTURES."""
+        """Return (name, content) of the PNG files in `folder`, at most MAX_PICTURES."""
         found = []
         with contextlib.suppress(OSError):
             names = sorted(self._names())
@@ -129,7 +129,7 @@ class Scratch:
         return found
 
     def remove(self) -> None:
-        """Removes everything; the untrusted code must no longer run."""
+        """Remove everything; the untrusted code must have ended."""
         if self._top is not None:
             os.close(self._top)
             self._top = None
@@ -153,20 +153,20 @@ def _too_many() -> str:
 
 
 def regular_files(file: Path, skip: Callable[[str, int], bool] = _keep_all) -> list[Path]:
-    """A file, those beside it and in sub-folders; links, hidden files and caches are left out.
+    """Return a file and those beside it and in sub-folders.
 
-    So are hard links to files of others than the folder's owner.
+    Links, hidden files, caches and hard links to other users' files are left out.
     skip(name, depth): whether to leave out a file, too; depth is 1 beside `file`.
-    Raises Refused when there are more than MAX_COPIED bytes or MAX_COPIED_FILES, CannotRead.
+    Raises Refused for more than MAX_COPIED bytes or MAX_COPIED_FILES, and CannotRead.
     """
     if file.is_symlink() or not file.is_file():
-        raise Refused(f"{file.name} is a link or no file: hand in the file itself.")
+        raise Refused(f"{file.name} is a link or not a file: hand in the file itself.")
     found, total, top = [], 0, file.parent.stat()
     if is_foreign(file.stat(), top):
-        raise Refused(f"{file.name} is a link to somebody else's file: hand in the file itself.")
+        raise Refused(f"{file.name} is a link to another user's file: hand in the file itself.")
     too_large = Refused(
         f"The folder of {file.name} holds more than {MAX_COPIED // 2**20} MB or "
-        f"{MAX_COPIED_FILES} files: remove what does not belong to the exercise."
+        f"{MAX_COPIED_FILES} files: remove files that do not belong to the exercise."
     )
     try:
         for path, entry, depth in _entries(file.parent, hidden=False):
@@ -181,16 +181,18 @@ def regular_files(file: Path, skip: Callable[[str, int], bool] = _keep_all) -> l
                 if total > MAX_COPIED:
                     raise too_large
     except OSError as error:
-        raise CannotRead(f"The folder of {file.name} cannot be read ({error.strerror}).") from None
+        raise CannotRead(
+            f"Cannot read the folder of {file.name} ({error.strerror}): change its permissions."
+        ) from None
     return sorted(found)
 
 
 def _entries(
     root: Path, hidden: bool = True, vanishing: bool = False
 ) -> Iterator[tuple[str, os.DirEntry, int]]:
-    """Give (path, entry, depth) of everything below a folder; links are not followed.
+    """Yield (path, entry, depth) of everything below a folder; links are not followed.
 
-    vanishing: whether folders that are gone by the time they are read are passed over.
+    vanishing: whether to pass over folders that vanish before they are read.
     """
     folders = [(str(root), 1)]
     while folders:
@@ -211,7 +213,9 @@ def _entries(
 
 
 def _content(top: Path | int, name: str | Path, most: int) -> bytes:
-    """Return the bytes of a regular file below a folder. Raises OSError for a link, or too much."""
+    """Return the bytes of a regular file below a folder. Raises OSError for a link or a large
+    file.
+    """
     content = read_inside(top, name, most)
     if len(content) > most:
         raise OSError(f"{name} is too large")
@@ -224,9 +228,9 @@ def _is_picture(content: bytes) -> bool:
 
 
 def remove_tree(base: Path) -> None:
-    """Removes a folder with folders of any depth, number and mode.
+    """Remove a folder with sub-folders of any depth, number and mode.
 
-    Sub-folders are moved up beside each other first, so that no path grows long.
+    Sub-folders first move up beside each other, so that no path becomes long.
     """
     with contextlib.suppress(OSError, RecursionError):
         shutil.rmtree(base)

@@ -1,6 +1,6 @@
-"""The fork server: a process that has made its imports and forks confined children.
+"""Serve confined children: a process imports modules once, then forks children.
 
-`ForkServer` is the side of the caller, `main` the process; they speak JSON lines over a socket.
+`ForkServer` is the caller's side, `main` the process; they exchange JSON lines over a socket.
 """
 
 from __future__ import annotations
@@ -26,18 +26,21 @@ from botschool.sandbox.errors import SandboxError
 from botschool.sandbox.paths import IMPORT_ROOT, is_packages
 
 START_SECONDS = 180
-"""Limit for the imports, and for the start of a child."""
+"""Seconds for the imports, and for the start of a child."""
 POLL_SECONDS = 0.005
-"""Between two looks at whether a child has ended."""
+"""Seconds between two checks whether a child has ended."""
 _CLOSE_ON_EXEC = getattr(socket, "MSG_CMSG_CLOEXEC", 0)
-_FORK_AFTER_IMPORTS = sys.platform == "linux"  # elsewhere libraries may not survive a fork
+_FORK_AFTER_IMPORTS = sys.platform == "linux"  # on other systems, libraries may not survive a fork
 
 
 class ForkServer:
-    """Starts children and reports how they ended; a context manager."""
+    """Start children and report how they ended; a context manager."""
 
     def __init__(self, imports: Iterable[str] = ()) -> None:
-        """imports: names of modules that children have imported already. Raises SandboxError."""
+        """Start the server. Raises SandboxError.
+
+        imports: names of modules that every child has imported from the beginning.
+        """
         if not hasattr(os, "killpg"):
             raise SandboxError(
                 "Submissions run on Linux or macOS only: on Windows, install WSL with "
@@ -62,14 +65,14 @@ class ForkServer:
             )
         except OSError as error:
             raise SandboxError(
-                f"No process can be started for a submission ({error.strerror}): close other "
+                f"Cannot start a process for the submission ({error.strerror}): close other "
                 "programs, or use fewer workers (-w)."
             ) from None
         finally:
             theirs.close()
 
     def start(self, requests: int, answers: int, output: int, folder: Path) -> int:
-        """Forks a child in a folder, with copies of three file descriptors; returns its process id.
+        """Fork a child in a folder, with copies of three file descriptors; return its process id.
 
         Raises SandboxError.
         """
@@ -79,10 +82,11 @@ class ForkServer:
             return json.loads(self._answers.readline())
 
     def mount(self, folder: Path, size: int, files: int) -> int | None:
-        """Put a file system in memory on a folder, as this server and its children see it.
+        """Mount a file system in memory on a folder, which this server and its children see.
 
-        size, files: its bytes, and number of files and folders. Return a descriptor of it for this
-        process; None where that is not allowed. It ends when the folder is removed. Raises
+        size, files: its bytes, and its number of files and folders. Return a descriptor of it for
+        this
+        process, or None if the system forbids the mount. Removing the folder ends it. Raises
         SandboxError.
         """
         with self._lock, self._asked():
@@ -93,7 +97,7 @@ class ForkServer:
 
     @contextlib.contextmanager
     def _asked(self) -> Iterator[None]:
-        """Wait until the imports are made; raises SandboxError for an answer that does not come."""
+        """Wait for the end of the imports; raise SandboxError if no answer comes."""
         self._link.settimeout(START_SECONDS)
         try:
             if not self._ready:
@@ -105,9 +109,9 @@ class ForkServer:
             ) from None
 
     def ended(self, pid: int, seconds: float) -> int | None:
-        """Waits until a child has ended; its exit code as of Popen.returncode, None if it runs.
+        """Wait until a child has ended; return its exit code as Popen.returncode, None if it runs.
 
-        Its process id belongs to no other process before this has returned a code.
+        No other process gets its process id before this function has returned a code.
         """
         with self._lock, contextlib.suppress(OSError, ValueError):
             self._link.settimeout(seconds + START_SECONDS)
@@ -116,7 +120,7 @@ class ForkServer:
         return -signal.SIGKILL
 
     def close(self) -> None:
-        """Ends the server and all its children."""
+        """End the server and all its children."""
         self._answers.close()
         self._link.close()
         try:
@@ -136,13 +140,15 @@ class ForkServer:
     def _last_line(self) -> str:
         self._log.seek(0)
         lines = self._log.read()[-2000:].decode(errors="replace").strip().splitlines()
-        return lines[-1] if lines else "no reason was given"
+        return lines[-1] if lines else "the process gave no reason"
 
 
 def interpreter(module: str, *arguments: str) -> list[str]:
-    """The command that runs a module's `main` in another interpreter.
+    """Return the command that runs a module's `main` in another interpreter.
 
-    It finds botschool and the installed packages, and imports nothing from the working folder.
+    That interpreter finds botschool and the installed packages, and imports nothing from the
+    working
+    folder.
     """
     places = [str(IMPORT_ROOT), *(path for path in sys.path if is_packages(path))]
     start = (
@@ -153,7 +159,7 @@ def interpreter(module: str, *arguments: str) -> list[str]:
 
 
 def homes(folder: Path | str) -> dict[str, str]:
-    """Environment variables that make a folder the place for caches and temporary files."""
+    """Return environment variables that put caches and temporary files into a folder."""
     return dict.fromkeys(("HOME", "TMPDIR", "MPLCONFIGDIR"), str(folder))
 
 
@@ -172,9 +178,9 @@ def _environment(home: str) -> dict[str, str]:
 
 # ------------------------------------------------------------------- the process
 def main() -> None:
-    """Argument 1: the socket's descriptor; the others: modules to import.
+    """Fork children as the caller asks, until the caller closes its end of the socket.
 
-    Ends when the other end of the socket is closed.
+    Argument 1 is the socket's descriptor; the others are modules to import.
     """
     link, modules = socket.socket(fileno=int(sys.argv[1])), sys.argv[2:]
     enclosed = namespace.enter(os.environ["HOME"])  # before a library starts threads
@@ -205,11 +211,11 @@ def _import(modules: list[str]) -> None:
     for name in modules:
         importlib.import_module(name)
     sys.stdout.flush()
-    ctypes.CDLL(None).fflush(None)  # what C libraries have printed belongs to no child
+    ctypes.CDLL(None).fflush(None)  # what C libraries have printed must not reach a child's output
 
 
 def _mount(link: socket.socket, request: dict, enclosed: bool) -> None:
-    """Answer with a descriptor of the folder that is mounted, or none."""
+    """Send a descriptor of the newly mounted folder, or none."""
     folder = request["mount"]
     if not enclosed or not namespace.mount(folder, request["size"], request["files"]):
         link.sendall(b"false\n")
@@ -231,15 +237,15 @@ def _ended(pid: int, seconds: float) -> int | None:
 
 
 def _close_all_but(kept: set[int]) -> None:
-    """Close all descriptors but these, whatever their numbers."""
+    """Close all descriptors except these, whatever their numbers."""
     for name in os.listdir("/dev/fd"):
         if int(name) not in kept:
-            with contextlib.suppress(OSError):  # the one that listed them
+            with contextlib.suppress(OSError):  # the descriptor that listed the others
                 os.close(int(name))
 
 
 def _become_child(modules: list[str], descriptors: list[int], folder: str) -> None:
-    """In the forked process: closes what belongs to the server and serves requests."""
+    """Close what belongs to the server, then serve requests; runs in the forked process."""
     code = 1
     try:
         os.setsid()

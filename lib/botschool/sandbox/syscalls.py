@@ -1,13 +1,13 @@
-"""The system calls that untrusted code may make; seccomp.py refuses all others.
+"""List the system calls that untrusted code may make; seccomp.py refuses all others.
 
-name: (number on x86-64, number on aarch64); None where there is no such call. A new call of a newer
-Linux is refused until it stands here. See syscalls(2).
+name: (number on x86-64, number on aarch64); None where the machine lacks the call. The filter
+refuses new calls of a newer Linux until they are added here. See syscalls(2).
 """
 
 Numbers = dict[str, tuple[int | None, int | None]]
 
 ALLOWED: Numbers = {
-    # files: Landlock says which
+    # files: Landlock decides which
     "read": (0, 63), "write": (1, 64), "pread64": (17, 67), "pwrite64": (18, 68), "readv": (19, 65),
     "writev": (20, 66), "preadv": (295, 69), "pwritev": (296, 70), "preadv2": (327, 286),
     "pwritev2": (328, 287), "lseek": (8, 62), "sendfile": (40, 71), "copy_file_range": (326, 285),
@@ -27,12 +27,12 @@ ALLOWED: Numbers = {
     "epoll_create": (213, None), "epoll_create1": (291, 20), "epoll_ctl": (233, 21),
     "epoll_wait": (232, None), "epoll_pwait": (281, 22), "epoll_pwait2": (441, 441),
     "pipe": (22, None), "pipe2": (293, 59), "eventfd2": (290, 19),
-    # memory of its own
+    # memory of the process
     "brk": (12, 214), "mmap": (9, 222), "munmap": (11, 215), "mprotect": (10, 226),
     "mremap": (25, 216), "madvise": (28, 233), "mincore": (27, 232), "msync": (26, 227),
     "pkey_alloc": (330, 289), "pkey_free": (331, 290), "pkey_mprotect": (329, 288),
     "get_mempolicy": (239, 236), "set_mempolicy": (238, 237), "mbind": (237, 235),
-    # its own threads and signals
+    # threads and signals of the process
     "futex": (202, 98), "futex_waitv": (449, 449), "set_robust_list": (273, 99),
     "get_robust_list": (274, 100), "rseq": (334, 293), "set_tid_address": (218, 96),
     "membarrier": (324, 283), "exit": (60, 93), "exit_group": (231, 94),
@@ -41,7 +41,7 @@ ALLOWED: Numbers = {
     "rt_sigtimedwait": (128, 137), "sigaltstack": (131, 132), "pause": (34, None),
     "alarm": (37, None), "setitimer": (38, 103), "getitimer": (36, 102), "wait4": (61, 260),
     "waitid": (247, 95), "arch_prctl": (158, None), "sched_yield": (24, 124),
-    # time, chance, and what it is
+    # time, random numbers, and facts about the process
     "time": (201, None), "gettimeofday": (96, 169), "clock_gettime": (228, 113),
     "clock_getres": (229, 114), "clock_nanosleep": (230, 115), "nanosleep": (35, 101),
     "times": (100, 153), "getrusage": (98, 165), "getrandom": (318, 278), "uname": (63, 160),
@@ -54,8 +54,8 @@ ALLOWED: Numbers = {
     "sched_get_priority_max": (146, 125), "sched_get_priority_min": (147, 126),
     "sched_rr_get_interval": (148, 127),
 }  # fmt: skip
-# These would change files or lock them for others, which Landlock does not prevent: they seem to
-# succeed, and do nothing.
+# These would change or lock files, which Landlock does not prevent: they seem to succeed and
+# do nothing.
 PRETENDED: Numbers = {
     "chmod": (90, None), "fchmod": (91, 52), "fchmodat": (268, 53), "fchmodat2": (452, 452),
     "chown": (92, None), "fchown": (93, 55), "lchown": (94, None), "fchownat": (260, 54),
@@ -65,19 +65,19 @@ PRETENDED: Numbers = {
     "setxattrat": (463, 463), "removexattrat": (466, 466), "file_setattr": (469, 469),
     "flock": (73, 32),
 }  # fmt: skip
-# Not supported, as on a file system without them: Landlock does not say of which files they tell.
+# Reported as not supported, because Landlock does not restrict them to certain files.
 ABSENT: Numbers = {
     "getxattr": (191, 8), "lgetxattr": (192, 9), "fgetxattr": (193, 10), "listxattr": (194, 11),
     "llistxattr": (195, 12), "flistxattr": (196, 13), "getxattrat": (464, 464),
     "listxattrat": (465, 465),
-    # it fills the disk at once: the C library then writes, which takes its time
+    # would fill the disk at once: the C library then writes zeros, which takes time
     "fallocate": (285, 47),
 }  # fmt: skip
-# Allowed with some arguments: seccomp.py says with which.
+# Allowed with certain arguments, which seccomp.py names.
 CONDITIONAL: Numbers = {
     "clone": (56, 220), "clone3": (435, 435), "kill": (62, 129), "tgkill": (234, 131),
     "ioctl": (16, 29), "fcntl": (72, 25), "prctl": (157, 167), "prlimit64": (302, 261),
     "close_range": (436, 436),
 }  # fmt: skip
 NEWEST = 469
-"""The highest number that was known when this was written, on both machines."""
+"""The highest number known at the time of writing, on both machines."""

@@ -1,4 +1,4 @@
-"""What a running process uses, as Linux tells in /proc; elsewhere nothing is known (zeros)."""
+"""Read what a running process uses from Linux's /proc; on other systems, return zeros."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 MIN_FREE, MIN_FREE_FILES = 16 * 2**20, 100
-"""Bytes and files below which a file system counts as full."""
+"""Free bytes and files below which a file system counts as full."""
 
 
 class Unseen(Exception):
-    """A running process cannot be watched."""
+    """Linux does not let this process watch another one."""
 
 
 @dataclass(frozen=True)
 class Removed:
-    """Files and folders that have no name any more, and are still on the disk."""
+    """Files and folders that have lost their name but are still on the disk."""
 
     size: int = 0
     """Bytes on the disk."""
@@ -27,7 +27,7 @@ class Removed:
 
 
 def threads(pid: int) -> int:
-    """Return the number of its threads; 0 when it has ended."""
+    """Return the process's number of threads; 0 when it has ended."""
     with _while_it_runs(pid):
         return os.stat(f"/proc/{pid}/task").st_nlink - 2
     return 0
@@ -40,7 +40,7 @@ def has_lost_its_leader(pid: int) -> bool:
 
 
 def written_bytes(pid: int) -> int:
-    """Return the bytes that it has written to disks so far; 0 where Linux does not tell."""
+    """Return the bytes that the process has written to disks so far; 0 if Linux does not tell."""
     with contextlib.suppress(OSError):
         told = dict(line.split(": ") for line in Path(f"/proc/{pid}/io").read_text().splitlines())
         return int(told["write_bytes"]) - int(told["cancelled_write_bytes"])
@@ -48,10 +48,10 @@ def written_bytes(pid: int) -> int:
 
 
 def removed(pid: int, root: Path, unknown: int) -> Removed:
-    """Return what it holds of files and folders that have no name any more: open or mapped ones.
+    """Return the open or mapped files and folders of a process that have no name any more.
 
-    root: only mapped files that lay below it count.
-    unknown: what a mapped file counts for whose size this process may not see.
+    root: mapped files count only if they lay below it.
+    unknown: bytes to count for a mapped file whose size this process may not see.
     Raises Unseen.
     """
     found = {}
@@ -67,19 +67,19 @@ def removed(pid: int, root: Path, unknown: int) -> Removed:
 
 @contextlib.contextmanager
 def _while_it_runs(pid: int) -> Iterator[None]:
-    """Ignore what has ended; raises Unseen for what runs and may not be seen."""
+    """Ignore errors of processes that have ended; raise Unseen for a running one that is hidden."""
     try:
         yield
     except (FileNotFoundError, ProcessLookupError):
         pass
-    except PermissionError:  # of a process that has ended, too
+    except PermissionError:  # also raised for a process that has ended
         fields = _stat(pid)
         if fields and fields[0] not in "ZX":
             raise Unseen from None
 
 
 def _open_files(task: str) -> Iterator[tuple[tuple[int, int], int]]:
-    """Give (device and inode, bytes) of removed files and folders that a thread holds."""
+    """Yield (device and inode, bytes) of the removed files and folders that a thread holds."""
     for name in ["cwd", *(f"fd/{number}" for number in os.listdir(f"{task}/fd"))]:
         with contextlib.suppress(FileNotFoundError, ProcessLookupError):
             status = os.stat(f"{task}/{name}")
@@ -89,7 +89,7 @@ def _open_files(task: str) -> Iterator[tuple[tuple[int, int], int]]:
 
 
 def _mapped_files(pid: int, root: bytes) -> Iterator[tuple[tuple[int, int], int | None]]:
-    """Give (device and inode, bytes or None) of removed files that are mapped."""
+    """Yield (device and inode, bytes or None) of removed files that are mapped."""
     with open(f"/proc/{pid}/maps", "rb") as lines:  # a name may hold any byte; newlines are escaped
         for line in lines:
             if not line.endswith(b" (deleted)\n"):
@@ -114,7 +114,7 @@ def _stat(pid: int) -> list[str]:
 
 
 def processor_seconds(pid: int) -> float | None:
-    """Processor time of all its threads, ended ones too; None if it cannot be known."""
+    """Return the processor seconds of all threads, ended ones too; None if unknown."""
     fields = _stat(pid)
     if not fields:
         return None
@@ -122,14 +122,14 @@ def processor_seconds(pid: int) -> float | None:
 
 
 def delayed_seconds(pid: int) -> float:
-    """How long its first thread was ready to run and had to wait for a processor."""
+    """Return the seconds in which the first thread was ready but had to wait for a processor."""
     with contextlib.suppress(OSError, IndexError):
         return int(Path(f"/proc/{pid}/schedstat").read_text().split()[1]) / 1e9
     return 0.0
 
 
 def memory_kills() -> int:
-    """How many processes Linux has killed for lack of memory since it was started."""
+    """Return how many processes Linux has killed for lack of memory since it started."""
     with contextlib.suppress(OSError):
         for line in Path("/proc/vmstat").read_text().splitlines():
             if line.startswith("oom_kill "):
@@ -138,7 +138,7 @@ def memory_kills() -> int:
 
 
 def is_full(folder: Path) -> bool:
-    """Whether hardly anything can be written to a folder's file system any more."""
+    """Return whether a folder's file system is nearly full."""
     try:
         status = os.statvfs(folder)
     except OSError:
