@@ -1,6 +1,6 @@
-"""What exercises are given ready-made: robots to evaluate, pictures, films.
+"""Give exercises what they need ready-made: robots to evaluate, pictures, films.
 
-What one exercise alone needs is in a module of its own, as botschool.course.foraging.
+What only one exercise needs is in a module of its own, such as botschool.course.foraging.
 """
 
 from botschool.course.evaluation import Robot, SavedRobot, controller_of

@@ -1,4 +1,4 @@
-"""What exercise 15 is given ready-made: populations, robots, many chases at once, pictures."""
+"""Give exercise 15 populations, robots, many chases at once, and pictures."""
 
 from __future__ import annotations
 
@@ -21,18 +21,19 @@ PROBLEM = "ErPredprey"
 POLICY = PolicyConfig(nrobots=2, heterogeneous=1, nhiddens=25, bias=1, architecture=3)
 """The networks of data/experiments/predprey.ini."""
 PRE_EVOLVED = "data/genotypes/predprey"
-"""Inside the course."""
+"""A folder inside the course."""
 COLOURS = {"predators": "#d55e00", "prey": "#0072b2"}
 
 
 def load_run(
     folder: str, most: int = 11, best: int = 5
 ) -> dict[int, tuple[np.ndarray, np.ndarray]]:
-    """Generation -> (predators, prey), each (individuals, nparameters), the best first.
+    """Return generation -> (predators, prey), each (individuals, nparameters), the best first.
 
-    folder: of a run of predprey.ini with a single seed, inside the course; if it holds less than
-    two generations, the pre-evolved run. most: generations at most, evenly spaced over those that
-    were saved. best: individuals of each population. Raises BotschoolError.
+    folder: a run of predprey.ini with a single seed, inside the course; if it holds fewer than two
+    generations, the function loads the pre-evolved run.
+    most: number of generations at most, evenly spaced over the saved ones.
+    best: individuals of each population. Raises BotschoolError.
     """
     from botschool.analysis.populations import Populations, seeds_of
 
@@ -40,13 +41,14 @@ def load_run(
     found = seeds_of(own) if own.is_dir() else {}
     if len(found) > 1:
         raise BotschoolError(
-            f"{own} holds runs of several seeds ({', '.join(map(str, found))}): one is needed."
+            f"{own} holds runs of several seeds ({', '.join(map(str, found))}): keep the run "
+            "of one seed there."
         )
     if not found or len(next(iter(found.values()))) < 2:
         own = course_root() / PRE_EVOLVED
         found = seeds_of(own)
     if not found:
-        raise BotschoolError(f"{own} holds no populations: evolve some, as README.md says.")
+        raise BotschoolError(f"{own} holds no populations: evolve some, as README.md explains.")
     saved = Populations(own, next(iter(found)), _contest()[1])
     places = np.linspace(0, len(saved.generations) - 1, min(most, len(saved.generations)))
     chosen = {}
@@ -65,7 +67,7 @@ def _contest() -> tuple[Problem, Policy]:
 
 
 def robot(genotype: np.ndarray) -> Network:
-    """The network of one predator or prey, 4977 parameters, at the start of an episode."""
+    """Return the network of one predator or prey (4977 parameters) at the start of an episode."""
     network = Network(_contest()[1].spec)
     network.parameters = genotype
     network.reset()
@@ -75,28 +77,27 @@ def robot(genotype: np.ndarray) -> Network:
 def play(
     predators: np.ndarray, prey: np.ndarray, pairs: np.ndarray, maxsteps: int = 2000
 ) -> np.ndarray:
-    """The predator's fitness in the chase of each pair, shape (chases,).
+    """Return the predator's fitness in the chase of each pair, shape (chases,).
 
-    predators, prey: shapes (p, nparameters) and (q, nparameters). pairs: whole numbers, shape
-    (chases, 2): the row of the predator, and that of the prey. Raises BotschoolError.
+    predators, prey: shapes (p, nparameters) and (q, nparameters). pairs: integers, shape (chases,
+    2): the predator's row and the prey's row. Raises BotschoolError.
     """
     problem, policy = _contest()
     predators, prey, pairs = np.asarray(predators), np.asarray(prey), np.asarray(pairs)
     for name, group in (("predators", predators), ("prey", prey)):
         if group.ndim != 2 or group.shape[1] != policy.nparameters:
             raise BotschoolError(
-                f"The {name} have the shape {group.shape}, but (individuals, {policy.nparameters}) "
-                "is needed."
+                f"The {name} have the shape {group.shape}: use (individuals, {policy.nparameters})."
             )
     if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iu":
         raise BotschoolError(
-            f"The pairs have the shape {pairs.shape} and the type {pairs.dtype}, but whole numbers "
-            "of the shape (chases, 2) are needed."
+            f"The pairs have the shape {pairs.shape} and the type {pairs.dtype}: use whole "
+            "numbers of the shape (chases, 2)."
         )
     if len(pairs) and (pairs.min() < 0 or (pairs.max(axis=0) >= (len(predators), len(prey))).any()):
         raise BotschoolError(
-            f"A pair names somebody who is not there: there are {len(predators)} predators and "
-            f"{len(prey)} prey, counted from 0."
+            f"A pair contains an index that does not exist: there are {len(predators)} "
+            f"predators and {len(prey)} prey, counted from 0."
         )
     chases = len(pairs)
     episodes = Episodes(
@@ -114,9 +115,9 @@ def draw_tournament(
     profiles: dict[str, dict],
     generations: list[int],
 ) -> None:
-    """Heat maps of both sides; below, fitness against ancient, present and future competitors.
+    """Draw heat maps of both sides, and fitness against competitors of other times.
 
-    matrices: "predators" and "prey" -> (G, G); profiles: the same names -> "ancient" (G - 1,),
+    matrices: "predators" and "prey" -> (G, G). profiles: the same names -> "ancient" (G - 1,),
     "present" (G,) and "future" (G - 1,).
     """
     from matplotlib.figure import Figure
@@ -155,10 +156,10 @@ def _draw_profile(axes, profile: dict, generations: list[int], colour: str) -> N
 
 
 def draw_red_queen(file: str | Path, found: dict[str, dict], generations: list[int]) -> None:
-    """What contemporary fitness shows and what it hides, since the first generation.
+    """Draw what contemporary fitness shows and hides since the first generation.
 
-    found: "predators" and "prey" -> "change", "own" and "others", each (G - 1,), of all
-    generations but the first.
+    found: "predators" and "prey" -> "change", "own" and "others", each (G - 1,), for all
+    generations except the first.
     """
     from matplotlib.figure import Figure
 
@@ -184,10 +185,10 @@ def draw_red_queen(file: str | Path, found: dict[str, dict], generations: list[i
 
 
 def draw_chases(file: str | Path, chases: dict[tuple[int, int], dict]) -> None:
-    """Chases seen from above, predators of a generation in a row, prey of one in a column.
+    """Draw chases seen from above: a row for each generation of predators, a column for prey.
 
     chases: (generation of the predator, generation of the prey) -> "poses" (T + 1, 2, 3) and
-    "caught". Rings are starts; a cross is where the prey was caught, a disc where it was not.
+    "caught". Rings mark starts; a cross marks where the prey was caught, a disc where it was not.
     """
     from matplotlib.figure import Figure
 
@@ -209,7 +210,7 @@ def draw_chases(file: str | Path, chases: dict[tuple[int, int], dict]) -> None:
 
 
 def replay_chases(file: str | Path, pairs: dict[int, tuple[np.ndarray, np.ndarray]]) -> None:
-    """A page that plays the chase of each pair: generation -> (predator, prey)."""
+    """Write a page that plays the chase of each pair: generation -> (predator, prey)."""
     from botschool.render.canvas import draw_offscreen
     from botschool.render.replay import write_replay
     from botschool.render.scenes import scene_of
@@ -258,7 +259,7 @@ def _draw_chase(axes, chase: dict) -> None:
 
 
 def _touching(places: np.ndarray, apart: float) -> np.ndarray:
-    """Places in mm, (T + 1, 2, 2), with the predator led up to the prey that it has caught."""
+    """Return places in mm, (T + 1, 2, 2), with the predator moved up to the caught prey."""
     from botschool.render.scenes.arenas import touching
 
     led = places.copy()

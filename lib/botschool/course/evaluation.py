@@ -1,4 +1,4 @@
-"""Robots that exercises evaluate: a network in an environment, and what the tool has saved."""
+"""Give exercises robots to evaluate: a network in an environment, and saved robots."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from botschool.problems import Episodes
 class Robot:
     """A network with tanh hidden neurons in an environment, ready to be evaluated.
 
-    The parameters are the biases, then the weights (docs/specification.md, "Policy network").
+    The parameters are first the biases, then the weights (docs/specification.md, "Policy network").
     """
 
     def __init__(self, environment: str, nhiddens: int = 10, out_type: int = 3) -> None:
-        """out_type: activation of the outputs, 2 tanh, 3 linear."""
+        """Make the robot; out_type: activation of the outputs, 2 tanh, 3 linear."""
         self.environment = environment
         self._problem = problems.make(environment)
         config = PolicyConfig(nhiddens=nhiddens, bias=1, out_type=out_type)
@@ -31,11 +31,11 @@ class Robot:
     def evaluate(
         self, population: np.ndarray, seed: int, episodes: int = 5, maxsteps: int = 1000
     ) -> np.ndarray:
-        """Mean return of each row over the same `episodes` episodes; shape (individuals,)."""
+        """Return each row's mean return over the same `episodes` episodes, (individuals,)."""
         population = np.ascontiguousarray(population, dtype=np.float64)
         if population.ndim != 2 or population.shape[1] != self.policy.genotype_size:
             raise ValueError(
-                f"population has shape {population.shape}, but needs (individuals, "
+                f"population has shape {population.shape}, but must have (individuals, "
                 f"{self.policy.genotype_size})."
             )
         batch = Episodes.of(np.full(len(population), seed, dtype=np.uint64), episodes)
@@ -43,16 +43,16 @@ class Robot:
         return outcome.fitness.reshape(-1, episodes).mean(axis=1)
 
     def play(self, parameters: np.ndarray, seed: int, maxsteps: int = 1000):
-        """One episode, step by step: yields botschool.problems.transition.Transition objects."""
+        """Play one episode and yield its steps as Transition objects."""
         parameters = np.ascontiguousarray(parameters, dtype=np.float64)
         return self._problem.play(self.policy, parameters, None, seed, 0, maxsteps)
 
 
 class SavedRobot:
-    """A robot that the tool has evolved and saved, ready to be evaluated."""
+    """A robot that `botschool es` has evolved and saved, ready to be evaluated."""
 
     def __init__(self, experiment_file: str | Path, genotype: np.ndarray) -> None:
-        """genotype: what np.load gives of a file bestS<seed>.npy or bestgS<seed>.npy."""
+        """Make the robot; genotype: content of bestS<seed>.npy or bestgS<seed>.npy."""
         experiment = load_experiment(experiment_file)
         self.environment = experiment.exp.environment
         self._problem = problems.make(self.environment)
@@ -60,7 +60,7 @@ class SavedRobot:
         self._genotype, self._normalisation = self._policy.split(genotype)
 
     def evaluate(self, seed: int, episodes: int) -> np.ndarray:
-        """The return of each of `episodes` episodes; shape (episodes,). The seed decides them."""
+        """Return the return of each episode, (episodes,); the seed determines them."""
         batch = Episodes.of(np.array([seed], dtype=np.uint64), episodes)
         maxsteps = self._policy.config.maxsteps
         return self._problem.evaluate(
@@ -68,7 +68,7 @@ class SavedRobot:
         ).fitness
 
     def film(self, file: str | Path, seed: int = 1, episodes: int = 1) -> None:
-        """A film of some episodes."""
+        """Film some episodes."""
         from botschool.render.canvas import draw_offscreen
         from botschool.render.scenes import scene_of
         from botschool.render.video import write_video
@@ -94,7 +94,7 @@ class SavedRobot:
 
 
 def controller_of(robot: Robot, parameters: np.ndarray):
-    """The controller with these parameters: a function from an observation to the action."""
+    """Return the controller with these parameters: a function from an observation to the action."""
     policy = Policy(robot.environment, robot.policy.interface, robot.policy.config)
     policy.load(np.asarray(parameters, dtype=np.float64), None)
     policy.reset(0, 0)

@@ -1,4 +1,4 @@
-"""Films of robots and agents, and the first picture of an environment."""
+"""Film robots and agents, and draw the first picture of an environment."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from botschool.course.evaluation import Robot
 
 
 def film(file: str | Path, environment: str, parameters: np.ndarray, seed: int = 1) -> None:
-    """A film of one episode of a `Robot` in a native environment."""
+    """Film one episode of a `Robot` in a native environment."""
     from botschool.render.canvas import draw_offscreen
     from botschool.render.panel import with_caption
     from botschool.render.scenes import make_scene
@@ -29,7 +29,7 @@ def film(file: str | Path, environment: str, parameters: np.ndarray, seed: int =
 def film_agent(
     file: str | Path, environment: str, act, episodes: int = 1, seed: int = 1, maxsteps: int = 200
 ) -> None:
-    """A film of episodes in any Gymnasium environment; act(observation) returns the action."""
+    """Film episodes in any Gymnasium environment; act(observation) returns the action."""
     from botschool.problems.gym import make_env
     from botschool.render.canvas import draw_offscreen
     from botschool.render.video import write_video

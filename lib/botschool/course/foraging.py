@@ -1,4 +1,4 @@
-"""What exercise 6 is given ready-made: evolved robots, and pictures of their ways and minds."""
+"""Give exercise 6 evolved robots, and pictures of their paths and memories."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from botschool.render.shapes import PALETTE
 
 
 def replications(folder: str) -> dict[str, np.ndarray]:
-    """Name -> genotype of the best robot of each run in the folder, in the order of seeds.
+    """Return name -> genotype of the best robot of each run in the folder, ordered by seed.
 
-    folder: inside the course. Where there are no runs, the three that come with the course. Raises
-    BotschoolError.
+    folder: inside the course; without runs in it, the function loads the course's three robots.
+    Raises BotschoolError.
     """
     files = list((course_root() / folder).glob("bestgS*.npy"))
     if not files:
@@ -28,10 +28,10 @@ def replications(folder: str) -> dict[str, np.ndarray]:
 def draw_trajectories(
     file: str | Path, panels: dict[str, list[dict]], cylinder: tuple[float, float], columns: int
 ) -> None:
-    """The ways of a robot in the arena, seen from above; redder where its infrared sees more.
+    """Draw a robot's paths in the arena from above, redder where its infrared reads more.
 
     panels: title -> recorded episodes, dicts with "poses" (T + 1, 3), "observations" (T, 8) and
-    "rewards" (T,). A ring is a start, a disc an end, a cross a collision.
+    "rewards" (T,). A ring marks a start, a disc an end, a cross a collision.
     """
     from matplotlib.figure import Figure
 
@@ -100,10 +100,10 @@ def _draw_way(axes, episode: dict):
 
 
 def draw_mind(file: str | Path, title: str, episode: dict, reactions: np.ndarray) -> None:
-    """One episode over time: infrared, memory cells, wheels, and what nothing to see would bring.
+    """Draw one episode over time: infrared, memory cells, wheels, and reactions to seeing nothing.
 
-    episode: as in draw_trajectories, with "memories" (T, 2, units) and "actions" (T, 2);
-    reactions: (T, 2), the actions to the same observation with the memory of each step.
+    episode: as in draw_trajectories, with "memories" (T, 2, units) and "actions" (T, 2).
+    reactions: (T, 2), the actions if the robot saw nothing, with the memory of each step.
     """
     from matplotlib.figure import Figure
 

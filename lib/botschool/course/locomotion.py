@@ -1,4 +1,4 @@
-"""What exercise 9 is given ready-made: runners to evolve, recorded episodes, pictures of gaits."""
+"""Give exercise 9 runners to evolve, recorded episodes, and pictures of gaits."""
 
 from __future__ import annotations
 
@@ -28,29 +28,32 @@ POLICY = {
     "clip": 1,
 }
 ALGO: dict[str, Any] = {"samplesize": 20, "stepsize": 0.01, "noiseStdDev": 0.02, "wdecay": 1}
-"""The settings of data/experiments/planarhopper.ini, but for fewer post-evaluations."""
+"""The settings of data/experiments/planarhopper.ini, with fewer post-evaluations."""
 TARGET = 1000.0
-"""Where the runners are to go, in metres ahead."""
+"""The runners' target, in metres ahead."""
 FILM_STEPS = 4
-"""Steps of a hopper between two pictures of a film, which has 31 a second."""
+"""Steps of a hopper between two pictures of a film, which shows 31 pictures a second."""
 
 
 class Runner:
     """A planar runner with its network, for example Runner("PlanarHopper-v5").
 
     Its genotypes hold `size` numbers: the parameters, then means and standard deviations of the
-    observations. They are those that `botschool es` saves with planarhopper.ini's settings.
+    observations, as `botschool es` saves them with planarhopper.ini's settings.
     """
 
     def __init__(self, environment: str) -> None:
-        """environment: PlanarHopper, PlanarWalker2D or PlanarHalfCheetah, with -v0 or -v5."""
+        """Make the runner.
+
+        environment: PlanarHopper, PlanarWalker2D or PlanarHalfCheetah, with -v0 or -v5.
+        """
         self.environment = environment
         self.robot = environment.partition("-")[0]
         self._problem: Any = problems.make(environment)
         self.policy = Policy(environment, self._problem.interface, PolicyConfig(**POLICY))
         self.size = self.policy.genotype_size + 2 * self.policy.spec.inputs
         self.duration = 1 / self._problem.fps
-        """Seconds that a step lasts."""
+        """Seconds of a step."""
         table = _core.PlanarBody(self.robot.removeprefix("Planar").lower()).table
         segments = [contact[0] for contact in table["contacts"]]
         self._contacts = len(segments)
@@ -61,7 +64,7 @@ class Runner:
         ]
 
     def evolve(self, steps: int, seed: int) -> np.ndarray:
-        """OpenAI-ES until so many steps are done; the best post-evaluated genotype."""
+        """Evolve by OpenAI-ES until `steps`; return the best post-evaluated genotype."""
         from botschool.evolution.limit import Limit
         from botschool.evolution.run import Run
 
@@ -74,12 +77,12 @@ class Runner:
         return np.array(run.record.bestg)
 
     def record(self, genotype: np.ndarray, seed: int, maxsteps: int = 1000) -> dict:
-        """Plays one episode and records it, as a dict of plain data for its T steps.
+        """Play one episode of T steps and return its record, a dict of plain data.
 
-        "robot" is its name and "duration" how many seconds a step lasts; "distance", shape
-        (T + 1,), the metres to the target at the start and after each step; "height" (m) and
-        "pitch" (rad), shape (T,), are those after each step; "actions" has the shape (T, joints),
-        "feet" (T, feet): 1 where a foot has touched the ground in the step, else 0.
+        "robot": its name; "duration": seconds of a step; "distance" (T + 1,): metres to the target
+        at the start and after each step; "height" (m) and "pitch" (rad), each (T,): after each
+        step; "actions" (T, joints); "feet" (T, feet): 1 if a foot has touched the ground in the
+        step, else 0.
         """
         parameters, normalisation = self.policy.split(genotype)
         tape = self._problem.engine(self.policy).record(
@@ -99,12 +102,12 @@ class Runner:
         }
 
     def play(self, genotype: np.ndarray, seed: int, maxsteps: int = 1000) -> Iterator[Transition]:
-        """The steps of the episode that `record` records."""
+        """Yield the steps of the episode that `record` records."""
         robot = self.policy.split(genotype)
         return self._problem.play(self.policy, *robot, seed, 0, maxsteps)
 
     def film(self, file: str | Path, genotype: np.ndarray, seed: int, maxsteps: int = 1000) -> None:
-        """A film of one episode, in real time."""
+        """Film one episode in real time."""
         from botschool.render.panel import with_caption
         from botschool.render.video import write_video
 
@@ -117,7 +120,7 @@ class Runner:
     def replay(
         self, file: str | Path, genotype: np.ndarray, seed: int, about: str, maxsteps: int = 1000
     ) -> None:
-        """A page that plays one episode in a browser; about: a line on the robot."""
+        """Write a page that plays one episode in a browser; about: a line about the robot."""
         from botschool.render.replay import write_replay
 
         neurons = self.policy.spec.inputs, self.policy.spec.outputs
@@ -128,9 +131,9 @@ class Runner:
     def strip(
         self, genotype: np.ndarray, seed: int, steps: int = 320, pictures: int = 8
     ) -> np.ndarray:
-        """Pictures of an episode's first steps side by side, equally far apart in time.
+        """Return pictures of an episode's first steps side by side, evenly spaced in time.
 
-        After the end of an episode they are white.
+        Pictures after the end of the episode are white.
         """
         scene, found = self._scene(), []
         wanted = set(np.linspace(1, steps, pictures).astype(int).tolist())
@@ -152,7 +155,7 @@ class Runner:
 
 COLOURS = ("#d55e00", "#0072b2", "#009e73", "#cc79a7")
 GAIT_SECONDS = 3.0
-"""How much of an episode a gait diagram shows."""
+"""Seconds of an episode in a gait diagram."""
 
 
 def draw_gaits(
@@ -162,11 +165,11 @@ def draw_gaits(
     examples: dict[str, dict],
     strips: dict[str, np.ndarray],
 ) -> None:
-    """A picture of how the robots of two or more rewards live and move.
+    """Draw how the robots of two or more rewards move, and what they earn.
 
-    For every label: an episode of each of its robots (their way over time); the components of an
-    income; the trajectory of one robot, whose height and feet on the ground are drawn; and
-    pictures of it in a row, (height, width, 3).
+    All dicts have the rewards' labels as keys. trajectories: an episode of each robot (distance
+    over time). incomes: the components of an income. examples: the episode of one robot, for its
+    height and the contacts of its feet. strips: pictures of it in a row, (height, width, 3).
     """
     from matplotlib.figure import Figure
 
@@ -208,7 +211,7 @@ def draw_gaits(
 
 
 def _draw_gait(axes, trajectory: dict, colour: str) -> None:
-    """The height of the torso, and below it a bar while a foot is on the ground."""
+    """Draw the height of the torso, and below it a bar while a foot is on the ground."""
     steps = round(GAIT_SECONDS / trajectory["duration"])
     height, feet = trajectory["height"][:steps], trajectory["feet"][:steps]
     seconds = trajectory["duration"] * np.arange(1, len(height) + 1)

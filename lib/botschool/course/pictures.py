@@ -1,4 +1,4 @@
-"""Pictures that several exercises draw."""
+"""Draw pictures that several exercises need."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def draw_curves(
     title: str = "",
     labels: tuple[str, str] = ("generation", "fitness"),
 ) -> None:
-    """A mean curve with its band of one standard deviation, as a picture file."""
+    """Draw a mean curve with its band of one standard deviation."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(8, 5), layout="constrained")
@@ -35,9 +35,9 @@ def draw_curves(
 def draw_distributions(
     file: str | Path, values: dict[str, np.ndarray], title: str = "", label: str = "return"
 ) -> None:
-    """A row of histograms, one for each Gymnasium environment, with its picture on top.
+    """Draw a row of histograms, one for each Gymnasium environment, with its picture above.
 
-    values: environment id -> numbers, of any count.
+    values: environment id -> any number of values.
     """
     from matplotlib.figure import Figure
     from matplotlib.ticker import MaxNLocator
@@ -48,7 +48,7 @@ def draw_distributions(
         frame = first_frame(environment)
         picture.imshow(frame)
         height, width = frame.shape[:2]
-        margin = max(0.0, 0.75 * height - 0.5 * width)  # all as wide as 3 : 2
+        margin = max(0.0, 0.75 * height - 0.5 * width)  # all of the shape 3 : 2
         picture.set(xlim=(-margin, width + margin))
         picture.set_title(environment, fontsize=11)
         picture.axis("off")
@@ -72,10 +72,10 @@ def draw_verdicts(
     panels: dict[str, list[tuple[np.ndarray, dict]]],
     columns: int,
 ) -> None:
-    """Fitness curves, coloured by how stable they are, with the largest fall of each marked.
+    """Draw fitness curves, coloured by their stability, with the largest fall of each marked.
 
-    panels: title -> (curve, verdict) of each replication, where a verdict is a dict with "drop",
-    "peak", "bottom" and "verdict" ("monotonic", "mild regressions" or "severe regressions").
+    panels: title -> (curve, verdict) of each replication. A verdict is a dict with "drop", "peak",
+    "bottom" and "verdict" ("monotonic", "mild regressions" or "severe regressions").
     """
     from matplotlib.figure import Figure
 
@@ -126,9 +126,9 @@ def draw_bands(
     labels: tuple[str, str] = ("million steps", "fitness"),
     logarithmic: bool = False,
 ) -> None:
-    """Mean curves, each with its band of one standard deviation.
+    """Draw mean curves, each with its band of one standard deviation.
 
-    curves: name -> (mean, deviation), arrays as long as x. logarithmic: the x axis.
+    curves: name -> (mean, deviation), arrays as long as x. logarithmic: whether the x axis is.
     """
     from matplotlib.figure import Figure
 
@@ -152,11 +152,11 @@ def draw_bands(
 def draw_features(
     file: str | Path, rows: dict[str, tuple], low: float, high: float, most: int = 8
 ) -> None:
-    """What networks with two inputs make of the input plane, from low to high in both directions.
+    """Draw the outputs and hidden neurons of networks over a plane of two inputs in [low, high].
 
     rows: title -> (inputs (n, 2), targets (n,), output (k, k), features (hiddens, k, k), weights
     (hiddens,)): the training set, the network's output and its hidden neurons over the plane (rows
-    are the second input), and the output weights. The neurons that weigh most come first.
+    are the second input), and the output weights. The neurons with the largest weights come first.
     """
     from matplotlib.figure import Figure
 

@@ -1,8 +1,9 @@
-"""A PPO for CartPole that takes every number between two rollouts from the student's functions.
+"""Train CartPole by PPO, with the student's functions between two rollouts.
 
-These are NumPy, and torch cannot differentiate them. So their derivatives with respect to what the
-network says (log-probability, value and scores of each step) are measured, by making one of these
-numbers a little larger; from there on back through the network the chain rule is torch's.
+The functions use NumPy, so torch cannot differentiate them. The module measures their derivatives
+with respect to each step's log-probability, value and scores: it makes one of these numbers a
+little larger and calls the function again. torch applies the chain rule from there back through
+the network.
 """
 
 from __future__ import annotations
@@ -14,17 +15,17 @@ import numpy as np
 
 ENVIRONMENT = "CartPole-v1"
 STEPS, ENVS, EPOCHS, BATCH = 128, 4, 4, 128
-"""Of a rollout in each environment; environments; passes over a rollout; steps of an update."""
+"""Steps of a rollout in each environment; environments; epochs; steps of an update."""
 GAMMA, LAMBDA, CLIP, TARGET_KL = 0.99, 0.95, 0.2, 0.02
 ENTROPY, CRITIC, LEARNING_RATE = 0.01, 0.5, 0.002
 SMALL = 1e-6
-"""By how much a number is made larger to see what becomes of the loss."""
+"""How much to add to a number to measure its effect on the loss."""
 
 
 def train_own(functions: dict[str, Callable], seed: int, steps: int = 30_000) -> dict:
-    """Trains on CartPole-v1 with the functions of exercise 13, by their names.
+    """Train on CartPole-v1 with the functions of exercise 13, by their names.
 
-    Returns "steps" and "returns" of the episodes in the order of their ends, and "layers": the
+    Return "steps" and "returns" of the episodes in the order of their ends, and "layers": the
     (weights, biases) of the trained policy, float64.
     """
     import torch
@@ -65,7 +66,7 @@ def _network(outputs: int):
 
 
 class _World:
-    """Some environments, stepped together, and the episodes that ended in them."""
+    """Environments that step together, and the episodes that have ended in them."""
 
     def __init__(self, seed: int) -> None:
         import gymnasium
@@ -78,7 +79,7 @@ class _World:
         self.returns: list[float] = []
 
     def collect(self, policy, critic, rng: np.random.Generator, functions: dict) -> dict:
-        """A rollout, flattened to (STEPS * ENVS, ...)."""
+        """Return a rollout, flattened to (STEPS * ENVS, ...)."""
         import torch
 
         rows = []
@@ -107,7 +108,7 @@ class _World:
         }
 
     def _step(self, actions: np.ndarray, critic) -> dict[str, np.ndarray]:
-        """Return rewards, ends, and the critic's values of what was observed before a reset."""
+        """Return rewards, ends, and the critic's values of the observations before resets."""
         import torch
 
         rewards, ended, cut = np.zeros((3, ENVS))
@@ -136,7 +137,7 @@ def _batches(rollout: dict, rng: np.random.Generator):
 
 
 def _loss(functions: dict[str, Callable], policy, critic, batch: dict):
-    """Something whose gradient is that of the student's loss; None if it is time to stop."""
+    """Return a value with the gradient of the student's loss; None if it is time to stop."""
     import torch
 
     seen = torch.as_tensor(batch["seen"])
@@ -169,7 +170,7 @@ def _loss(functions: dict[str, Callable], policy, critic, batch: dict):
         slopes["log_prob"][place] = (total(of_policy=loss) - here) / SMALL
         loss = loss_of_critic(_larger(said["values"], place))
         slopes["values"][place] = (total(of_critic=loss) - here) / SMALL
-    for action in range(said["scores"].shape[1]):  # each step's entropy is its own
+    for action in range(said["scores"].shape[1]):  # a step's entropy depends on that step only
         more = said["scores"].copy()
         more[:, action] += SMALL
         rise = (functions["entropy_of_choices"](more) - entropies) / SMALL
@@ -185,7 +186,7 @@ def _larger(array: np.ndarray, place) -> np.ndarray:
 
 
 def act_greedily(layers: list[tuple[np.ndarray, np.ndarray]]) -> Callable[[np.ndarray], int]:
-    """The action with the highest score, for a policy as train_own returns it."""
+    """Return a function that takes the action with the highest score; layers: from train_own."""
 
     def act(observation: np.ndarray) -> int:
         for weights, biases in layers[:-1]:
@@ -197,7 +198,7 @@ def act_greedily(layers: list[tuple[np.ndarray, np.ndarray]]) -> Callable[[np.nd
 
 
 def draw_own_training(file: str | Path, runs: dict[int, dict]) -> None:
-    """Every episode of some trainings as a dot, and their running means.
+    """Draw every episode of some trainings as a dot, and their running means.
 
     runs: seed -> "steps" and "returns" of its episodes.
     """

@@ -1,4 +1,4 @@
-"""Short episodes of PyBullet's locomotors and what they were paid, simulated or as recorded."""
+"""Give short episodes of PyBullet's locomotors and their rewards, simulated or recorded."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from botschool.course.files import episode_file
 
 RECORDED = "locomotors.npz"
-"""Episodes with the seed 1, for where PyBullet is missing; `tools/studies record_locomotors`."""
+"""Episodes with seed 1, for use without PyBullet; made by `tools/studies record_locomotors`."""
 STEPS = 30
 
 
@@ -19,7 +19,7 @@ class Paid(NamedTuple):
     """An episode with random actions."""
 
     trajectory: dict
-    """As exercise 9 describes it."""
+    """The trajectory, as exercise 9 describes it."""
     v0: dict[str, np.ndarray]
     """The components of the reward of version 0, each of shape (T,)."""
     v5: np.ndarray
@@ -27,15 +27,15 @@ class Paid(NamedTuple):
 
 
 def paid_episode(robot: str, seed: int) -> Paid:
-    """An episode of Hopper, HalfCheetah, Ant, Walker2D or Humanoid, in version 5.
+    """Return an episode of Hopper, HalfCheetah, Ant, Walker2D or Humanoid, in version 5.
 
-    Where PyBullet is not installed it is the recorded one, whatever the seed.
+    Without PyBullet, return the recorded episode, whatever the seed.
     """
     return simulated(robot, seed) if find_spec("pybullet") else recorded(robot)
 
 
 def simulated(robot: str, seed: int) -> Paid:
-    """Of PyBullet. Raises BotschoolError if it is not installed."""
+    """Simulate an episode with PyBullet. Raises BotschoolError if it is not installed."""
     from botschool.envs.locomotors import STEP, Locomotor
 
     env, rng = Locomotor(robot, 5), np.random.default_rng(seed)
@@ -57,7 +57,7 @@ def simulated(robot: str, seed: int) -> Paid:
 
 
 def recorded(robot: str) -> Paid:
-    """The one in data/episodes. Raises BotschoolError if there is no course here."""
+    """Return the episode from data/episodes. Raises BotschoolError outside a course."""
     from botschool.envs.locomotors import STEP
 
     parts: dict[str, dict[str, np.ndarray]] = {"trajectory": {}, "v0": {}, "v5": {}}
@@ -71,7 +71,7 @@ def recorded(robot: str) -> Paid:
 
 
 def write_recordings(file: str | Path, seed: int = 1) -> None:
-    """Simulates an episode of each robot and writes all of them."""
+    """Simulate an episode of each robot and write all of them to a file."""
     from botschool.envs.locomotor_bodies import BODIES
 
     arrays: dict[str, Any] = {}

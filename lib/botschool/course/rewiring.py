@@ -1,8 +1,8 @@
-"""Robots whose parameters count with other gains: evolution masters them, known parameters do not.
+"""Change the gains of a robot's parameters: evolution masters this, known parameters do not.
 
-A grader lets a submission train such a robot. To evolution, which begins with parameters that are
-as often negative as positive, nothing has changed; parameters that were written down, or computed
-without evaluating any, mean something else.
+A grader lets a submission train such a robot. Evolution starts from parameters of random signs, so
+the change makes no difference to it. Parameters that the student wrote down, or computed without
+evaluating any, act differently.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from botschool.problems.native import NativeProblem
 
 @contextmanager
 def rewired(gains: np.ndarray) -> Iterator[None]:
-    """While it lasts, parameter i of a network of len(gains) ones counts as gains[i] times it.
+    """Multiply parameter i by gains[i] within the block, in networks of len(gains) parameters.
 
-    It holds for whatever turns parameters into behaviour: Robot, controller_of, SavedRobot.
-    gains: shape (parameters,), of either sign. Other problems than native ones stay as they are.
+    This applies wherever parameters become behaviour: Robot, controller_of, SavedRobot.
+    gains: shape (parameters,), of either sign. Only native problems change.
     """
     gains = np.asarray(gains, dtype=np.float64)
 
@@ -44,7 +44,7 @@ def rewired(gains: np.ndarray) -> Iterator[None]:
 
 
 class Evaluated:
-    """The candidates that were evaluated, in single precision."""
+    """The evaluated candidates, in single precision."""
 
     def __init__(self) -> None:
         self._rows: list[np.ndarray] = []
@@ -53,11 +53,11 @@ class Evaluated:
         return sum(map(len, self._rows))
 
     def add(self, genotypes: np.ndarray) -> None:
-        """Note a batch, shape (candidates, parameters)."""
+        """Add a batch, shape (candidates, parameters)."""
         self._rows.append(np.array(genotypes, dtype=np.float32))
 
     def nearest(self, parameters: np.ndarray) -> np.ndarray | None:
-        """Return the candidate nearest to these parameters; None if none has their number."""
+        """Return the candidate nearest to these parameters; None if none has their size."""
         size = np.shape(parameters)[-1:]
         rows = [each for each in self._rows if each.shape[1:] == size]
         if not rows:
@@ -68,7 +68,7 @@ class Evaluated:
 
 @contextmanager
 def recorded() -> Iterator[Evaluated]:
-    """Note, while it lasts, all candidates that native problems evaluate, as they were given."""
+    """Record all candidates that native problems evaluate within the block."""
     evaluated, evaluate = Evaluated(), NativeProblem.evaluate
 
     def noting(self, policy, genotypes, *rest, **options):

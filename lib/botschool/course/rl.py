@@ -1,4 +1,4 @@
-"""What the exercises on reinforcement learning are given ready-made: their pictures."""
+"""Draw the pictures of the exercises on reinforcement learning."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ def draw_learning(
     runs: dict[str, tuple[list[list[float]], float]],
     maps: dict[str, tuple[np.ndarray, tuple[str, str], tuple[float, ...], str]],
 ) -> None:
-    """Every episode of some trainings as a dot, those of the elite coloured; policies below.
+    """Draw every episode of some trainings as a dot, with the elite coloured; policies below.
 
     runs: title -> (for each iteration the returns of its episodes, percentile of the elite).
-    maps: title -> what the policy does over two of the observed numbers, shape (rows, columns), the
-    first row at the bottom; the names of the two; their limits (left, right, bottom, top); and what
-    the colours mean.
+    maps: title -> (what the policy does over two observed numbers, shape (rows, columns), the first
+    row at the bottom; the names of the two; their limits (left, right, bottom, top); the meaning of
+    the colours).
     """
     from matplotlib.figure import Figure
 
@@ -58,14 +58,14 @@ def draw_hidden_layer(
     hidden: Callable[[list, np.ndarray], list[np.ndarray]],
     shown: int = 5,
 ) -> None:
-    """What the last hidden layer of a policy responds to, at some stages of training.
+    """Draw what the last hidden layer of a policy responds to, at some stages of training.
 
     stages: title -> (layers, observations (N, observed), activations (N, neurons), responses
-    (neurons, observed)). Left the responses of all neurons, sorted; right the activations of
-    `shown` neurons over the two observed numbers `axes`, the others 0, with the observations as
-    dots: the neuron that follows each observed number best, then those whose activation varies
-    most. hidden(layers, observations) gives the activations of each layer; names: of the observed
-    numbers.
+    (neurons, observed)). On the left are the sorted responses of all neurons. On the right are the
+    activations of `shown` neurons over the two observed numbers `axes`, with the others 0 and the
+    observations as dots: first the neuron that follows each observed number best, then those whose
+    activation varies most. hidden(layers, observations) returns the activations of each layer.
+    names: of the observed numbers.
     """
     from matplotlib.figure import Figure
 
@@ -95,7 +95,7 @@ def draw_hidden_layer(
 
 
 def _telling(activations: np.ndarray, responses: np.ndarray, count: int) -> list[int]:
-    """Neurons worth a look: the best follower of each observed number, then the liveliest."""
+    """Return the best follower of each observed number, then the neurons that vary most."""
     chosen = list(dict.fromkeys(np.abs(responses).argmax(axis=0).tolist()))
     lively = np.argsort(-activations.std(axis=0)).tolist()
     return [*chosen, *(each for each in lively if each not in chosen)][:count]
@@ -124,7 +124,7 @@ def draw_indicators(
     trainings: dict[str, tuple[list[dict], list[dict]]],
     names: tuple[str, ...],
 ) -> None:
-    """What trainings have logged: some panels for each problem, a colour for each variation.
+    """Draw what trainings have logged: panels for each problem, a colour for each variation.
 
     trainings: problem -> (runs, each with its "variant"; for each run name of the indicator ->
     {"steps", "values"}). names: of the indicators.
@@ -166,11 +166,11 @@ def draw_trainings(
     together: dict[str, np.ndarray],
     curves: dict[str, list[dict]],
 ) -> None:
-    """How trainings have ended, a panel for each problem; then learning curves of several kinds.
+    """Draw how trainings ended, a panel for each problem; then learning curves of several kinds.
 
     trainings: as for draw_indicators, runs with their "return". curves: name -> for each run
-    {"steps", "best"}; together: the "steps" that all have in common, and for each name what its
-    runs had reached then, shape (runs, steps).
+    {"steps", "best"}. together: the "steps" that all runs share, and for each name the best of its
+    runs at these steps, shape (runs, steps).
     """
     from matplotlib.figure import Figure
 
@@ -206,7 +206,7 @@ def draw_trainings(
 
 
 def film_training(file: str | Path, folder: str | Path) -> None:
-    """A film of an episode of the best model in a training's folder."""
+    """Film an episode of the best model in a training's folder."""
     from botschool.course.films import film_agent
     from botschool.rl.agent import Agent
     from botschool.rl.folder import RunFolder
@@ -218,6 +218,6 @@ def film_training(file: str | Path, folder: str | Path) -> None:
 
 
 def _colours(trainings: dict[str, tuple[list[dict], list[dict]]]) -> dict[str, str]:
-    """Variant -> colour, the same in all problems."""
+    """Return variant -> colour, the same for all problems."""
     variants = dict.fromkeys(run["variant"] for runs, _ in trainings.values() for run in runs)
     return dict(zip(variants, itertools.cycle(VARIANTS), strict=False))

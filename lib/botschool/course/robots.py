@@ -1,4 +1,4 @@
-"""What exercise 10 is given ready-made: the robot, its package, and pictures of balance."""
+"""Give exercise 10 the robot, its package, and pictures of balance."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ def robot_file(name):
 
 
 def write_package(folder: str | Path, files: dict[str, str], parts: list) -> None:
-    """An installable package of the balancing robot.
+    """Write an installable package of the balancing robot.
 
-    files: path -> text; parts: the functions and classes that make up balance_bot/env.py.
+    files: path -> text. parts: the functions and classes that make up balance_bot/env.py.
     """
     folder = Path(folder)
     source = "\n\n".join([_HEADER, *(inspect.getsource(part) for part in parts)])
@@ -45,7 +45,7 @@ def write_package(folder: str | Path, files: dict[str, str], parts: list) -> Non
 
 
 def draw_balance(file: str | Path, panels: dict[str, list[np.ndarray]]) -> None:
-    """How far the robot leans in some episodes of each controller.
+    """Draw how far the robot leans in some episodes of each controller.
 
     panels: title -> inclinations (rad) at every hundredth of a second, an array for each episode.
     """
@@ -68,9 +68,9 @@ def draw_balance(file: str | Path, panels: dict[str, list[np.ndarray]]) -> None:
 
 
 def film_balance(file: str | Path, env, act, seeds: list[int], every: int = 4) -> None:
-    """A film of an episode for each seed, in real time; every 4th step is a picture.
+    """Film an episode for each seed, in real time; every 4th step is a picture.
 
-    env: made with render_mode="rgb_array"; act(observation) returns the action.
+    env: made with render_mode="rgb_array". act(observation) returns the action.
     """
     from botschool.render.video import write_video
 
