@@ -1,8 +1,10 @@
 """Exports of learning platforms for tests: the same submissions as each platform writes them."""
 
+import gzip
 import html
 import io
 import json
+import tarfile
 import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -40,6 +42,23 @@ def zipped(files: dict[str, bytes], top: str = "") -> bytes:
         for name, content in files.items():
             archive.writestr(top + name, content)
     return buffer.getvalue()
+
+
+def of_tar(files: dict[str, bytes]) -> bytes:
+    """A .tar.gz with these files."""
+    buffer = io.BytesIO()
+    with tarfile.open(fileobj=buffer, mode="w:gz") as archive:
+        for name, content in files.items():
+            info = tarfile.TarInfo(name)
+            info.size = len(content)
+            archive.addfile(info, io.BytesIO(content))
+    return buffer.getvalue()
+
+
+def old_notebook(*cells: str) -> bytes:
+    """A notebook as Jupyter 1 and 2 wrote them."""
+    made = [{"cell_type": "code", "input": cell, "outputs": []} for cell in cells]
+    return json.dumps({"worksheets": [{"cells": made}], "metadata": {}, "nbformat": 3}).encode()
 
 
 def variations(file: str, solution: str, skeleton: str) -> dict[str, dict[str, bytes]]:
@@ -80,6 +99,24 @@ def variations(file: str, solution: str, skeleton: str) -> dict[str, dict[str, b
             file: text, ".DS_Store": b"x", "__pycache__/tiny.cpython-311.pyc": b"x",
             "__MACOSX/._tiny.py": b"x", "Thumbs.db": b"x",
         },
+        "UTF-16 without a mark": {file: solution.encode("utf-16-be")},
+        "zero bytes at its end": {file: text + bytes(9)},
+        "a notebook of old": {f"{stem}.ipynb": old_notebook(*solution.split("\n\n\n"))},
+        "a notebook called script": {file: notebook(solution)},
+        "a notebook called json": {f"{stem}.ipynb.json": notebook(solution)},
+        "a script called notebook": {f"{stem}.ipynb": text},
+        "a script called zip": {f"{stem}.zip": text},
+        "in Markdown": {f"{stem}.md": b"My work:\n```python\n" + text + b"```\n"},
+        "a zip file called script": {file: zipped({file: text})},
+        "a zip file without suffix": {"work": zipped({file: text})},
+        "roots and drives": {"work.zip": zipped({f"/home/ada/C:\\work\\{file}": text})},
+        "a name too long": {"work.zip": zipped({f"{'x' * 250}/{file}": text})},
+        "five zip files deep": {"a.zip": zipped({"b.zip": zipped({"c.zip": zipped({
+            "d.zip": zipped({"e.zip": zipped({file: text})})})})})},
+        "a tar file": {"work.tar.gz": of_tar({f"a/{file}": text})},
+        "compressed": {f"{file}.gz": gzip.compress(text)},
+        "empty beside it": {file: b"", f"{stem}_final.py": text},
+        "a virtual environment": {"env/pyvenv.cfg": b"x", f"env/lib/{file}": b"x", file: text},
         "with a report": {file: text, "report/report.pdf": b"%PDF"},
     }  # fmt: skip
 

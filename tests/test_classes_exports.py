@@ -1,7 +1,10 @@
 """Exports of learning platforms: who is in them, and which file of each is graded."""
 
+import gzip
+import io
 import os
 import shutil
+import tarfile
 import warnings
 import zipfile
 from pathlib import Path
@@ -24,6 +27,7 @@ from exports import (
     gradescope,
     moodle,
     notebook,
+    of_tar,
     saved,
     variations,
     written,
@@ -34,7 +38,8 @@ from tiny_course import FILE, FOLDER, SOLUTION, make_course, submit
 
 SKELETON = skeleton(SOLUTION)
 WAYS = variations(FILE, SOLUTION, SKELETON)
-PLAIN = {"plain", "in the exercise's folder", "line ends of Windows", "with what systems leave"}
+PLAIN = {"plain", "in the exercise's folder", "line ends of Windows", "with what systems leave",
+         "a virtual environment"}  # fmt: skip
 """Ways of which nothing need be said, wherever they are handed in."""
 
 
@@ -235,7 +240,10 @@ def test_zip_files_stay_within_their_folder_and_limits(find, tmp_path):
     before = set(tmp_path.iterdir())
     target = tmp_path / "target"
     left_out = unpack(path, target, Room(10**6, 100))
-    assert len(left_out) == 6 and (target / "ada" / "tiny.py").read_text() == SOLUTION
+    assert left_out == ["ada/link.py", "ada/tiny.py/inside"]  # others lose what leads elsewhere
+    inside = {path.relative_to(target).as_posix() for path in target.rglob("*.py")}
+    assert inside == {"outside.py", "absolute.py", "a/b.py", "windows.py", "ada/tiny.py"}
+    assert (target / "ada" / "tiny.py").read_text() == SOLUTION
     assert set(tmp_path.iterdir()) == before | {target}
     assert [p for p in target.rglob("*") if p.is_symlink()] == []
     bomb = zipped({"zeros.py": b"0" * 10**7})
@@ -248,6 +256,102 @@ def test_zip_files_stay_within_their_folder_and_limits(find, tmp_path):
     found, _ = find(written(tmp_path / "class", {"ada/z.zip": quine, "bob/b.zip": b"PK"}))
     assert "too many zip files" in found["ada"].notes[0]
     assert "b.zip is damaged, or no zip file, so it stays packed." in found["bob"].notes
+
+
+def test_tar_files_stay_within_their_folder_and_limits(find, tmp_path):
+    evil = io.BytesIO()
+    with tarfile.open(fileobj=evil, mode="w:gz") as archive:
+        for name, kind in (("../a.py", tarfile.REGTYPE), ("b.py", tarfile.SYMTYPE),
+                           ("c.py", tarfile.LNKTYPE), ("d", tarfile.FIFOTYPE)):  # fmt: skip
+            info = tarfile.TarInfo(name)
+            info.type, info.linkname = kind, "/etc/passwd"
+            archive.addfile(info, io.BytesIO())
+    target = tmp_path / "target"
+    assert unpack(evil.getvalue(), target, Room(10**6, 100)) == ["b.py", "c.py", "d"]
+    assert [path.name for path in target.rglob("*")] == ["a.py"]
+    for bomb in (gzip.compress(bytes(10**7)), of_tar({"zeros.py": bytes(10**7)})):
+        with pytest.raises(Unpackable, match="too many or too large"):
+            unpack(bomb, tmp_path / "bomb", Room(10**6, 10), "x.py.gz")
+    half = of_tar({FILE: SOLUTION.encode()})[:-40]
+    found, _ = find(written(tmp_path / "class", {"ada/z.tar.gz": half, "bob/x.rar": b"Rar!"}))
+    assert found["ada"].notes == ["z.tar.gz is damaged, or no zip file, so it stays packed."]
+
+
+def of_students(way, names=("ada", "bob")):
+    """A file for each, at the place that a way gives for a name."""
+    return {way.format(name): SOLUTION.encode() for name in names}
+
+
+GIT = {f"org/week3/ex03/ex03-{name}/.git/HEAD": b"x" for name in ("ada", "bob")}
+CLASSES = {
+    "zipped once more": {
+        "Ex 3.zip": zipped({f"A_1_assignsubmission_file_/{FILE}": SOLUTION.encode(),
+                            f"B_2_assignsubmission_file_/{FILE}": SOLUTION.encode()}),
+        "grades.csv": b"x,y"},
+    "differ in capitals": of_students("{}/" + FILE, ("ada", "Ada")),
+    "a folder around folders": of_students("Submitted files/{}/Exercise 3/Version 1/" + FILE),
+    "nbgrader's folder": of_students("submitted/{}/ex03/" + FILE),
+    "clones deep down": GIT | of_students("org/week3/ex03/ex03-{}/exercises/" + f"{FOLDER}/{FILE}"),
+    "Canvas without names": {f"anon_x7Gh2_90_{FILE}": SOLUTION.encode(),
+                             f"anon_LATE_k2Lp9_91_{FILE}": SOLUTION.encode()},
+    "Canvas, a name with _": {f"li_anna_LATE_4_90_{FILE}": SOLUTION.encode(),
+                              f"o'hara_5_91_{FILE}": SOLUTION.encode()},
+    "feedback beside": {f"A_1_assignsubmission_file_/{FILE}": SOLUTION.encode(),
+                        f"B_2_assignsubmission_file_/{FILE}": SOLUTION.encode(),
+                        "B_2_assignfeedback_file_/feedback.html": b"x"},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("as_zip", [False, True], ids=["folder", "zip"])
+@pytest.mark.parametrize("kind", CLASSES)
+def test_two_people_are_two(find, tmp_path, kind, as_zip):
+    files, target = CLASSES[kind], tmp_path / "download"
+    found, _ = find(saved(target, files) if as_zip else written(target, files))
+    assert len(found) == 2 and all(is_solution(one.choices[3].file) for one in found.values())
+
+
+def test_versions_of_one_person_are_no_people(find, tmp_path):
+    files = {"ada/v1/tiny.py": SKELETON.encode(), "ada/v2/tiny.py": SOLUTION.encode()}
+    found, _ = find(written(tmp_path / "class", files))
+    assert list(found) == ["ada"] and is_solution(found["ada"].choices[3].file)
+    found, _ = find(written(tmp_path / "one", {"ada.zip": zipped({"a/x.txt": b"", "b/y": b""})}))
+    assert list(found) == ["ada"]
+
+
+def test_who_handed_in_nothing_does_not_vanish(find, tmp_path):
+    with zipfile.ZipFile(tmp_path / "x.zip", "w") as archive:
+        archive.writestr("Ada_1_assignsubmission_file_/", b"")
+        archive.writestr(f"Bob_2_assignsubmission_file_/{FILE}", SOLUTION)
+    found, _ = find(tmp_path / "x.zip")
+    assert found["Ada"].choices[3].problem == f"There is no {FILE}."
+    files = gradescope(class_of(FILE, SOLUTION, SKELETON)[:2])
+    found, _ = find(
+        written(tmp_path / "two", {k: v for k, v in files.items() if "300001" not in k})
+    )
+    assert len(found) == 2
+
+
+def test_an_empty_file_and_lines_for_jupyter_are_said(find, tmp_path):
+    exported = "# In[1]:\nget_ipython().run_line_magic('matplotlib', 'inline')\n%pip install x\n"
+    files = {f"ada/{FILE}": b"\n", f"bob/{FILE}": (exported + SOLUTION).encode()}
+    found, _ = find(written(tmp_path / "class", files))
+    assert found["ada"].choices[3].notes == [f"{FILE} is empty."]
+    bob = found["bob"].choices[3]
+    assert bob.notes == ["Left out: lines that only Jupyter understands."]
+    compile(bob.file.read_text(), FILE, "exec")
+    assert "pass  # get_ipython" in bob.file.read_text()
+
+
+def test_one_persons_canvas_files_are_attempts(course, tmp_path):
+    wrong = SOLUTION.replace("2 *", "3 *").encode()
+    files = {f"la_4_8_{FILE}": wrong, f"la_LATE_4_9_{Path(FILE).stem}-1.py": SOLUTION.encode()}
+    place, new_folder = written(tmp_path / "ada", files), numbered_folders(tmp_path / "unpacked")
+    person = one_person(place, new_folder)
+    wanted = [Wanted(3, FILE, course)]
+    (one,) = find_submissions([person], wanted, course, new_folder)
+    assert is_solution(one.choices[3].file) and person.late
+    person = one_person(place / f"la_4_8_{FILE}", new_folder)
+    assert [file.name for file in person.handed.files] == [FILE]
 
 
 def test_many_files_of_one_name_are_unpacked_in_a_moment(tmp_path, monkeypatch):

@@ -2,6 +2,8 @@
 
 import csv
 import io
+import shutil
+import subprocess
 import zipfile
 from datetime import datetime, timedelta
 
@@ -170,7 +172,11 @@ def test_deadlines_extensions_and_adjustments(tmp_path):
     assert points("eve@x.org", at(22, 20)) == (80, "") and points("eve@x.org", at(24))[0] == 60
     assert points("ada@x.org", at(20)) == (85.5, "Adjusted by +5.5 points: A good question.")
     assert points("bob", None, graded=False) == (50, "Set to 50 points: by hand.")
-    assert "no points are taken off" in points("x", None, marked=True)[1]
+    marked = "The platform marks it late, but not how late. "
+    off = f"{marked}Counted as one day: 10 points off."
+    assert points("x", None, marked=True) == (70, off)
+    found = points("eve@x.org", None, marked=True)
+    assert found == (80, f"{marked}The extension until 2026-11-22 23:59 counts: nothing is off.")
     assert points("x", at(21), given=0, graded=False) == (0, "")
 
 
@@ -285,6 +291,45 @@ def test_gradescopes_times_count(course, tmp_path):
     assert call("grade-all", download, "-o", tmp_path / "out")[0] == 0
     (row,) = rows_of(tmp_path / "out" / "grades.csv")
     assert row["exercise 3"] in ("94", "95") and float(row["total"]) == float(row["exercise 3"]) / 2
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="there is no git")
+def test_commits_and_nbgraders_times_count(course, tmp_path, monkeypatch):
+    ran, class_ = tmp_path / "ran", tmp_path / "class"
+    gpg = tmp_path / "gpg"
+    gpg.write_text(f"#!/bin/sh\ntouch {ran}\n")
+    gpg.chmod(0o755)
+    for name, day in (("ada", 21), ("bob", 19)):
+        home = written(class_ / f"ex03-{name}", {f"work/{FILE}": SOLUTION.encode()})
+        for day_of, file in ((day, FILE), (28, "later.txt")):  # another exercise, weeks later
+            (home / "work" / file).touch()
+            when = f"2026-11-{day_of}T12:00:00"
+            for command in (["init", "-q"], ["add", "-A"], ["commit", "-qm", "x"]):
+                monkeypatch.setenv("GIT_COMMITTER_DATE", when)
+                git = ["git", "-c", "user.name=x", "-c", "user.email=x@x", *command]
+                subprocess.run(git, cwd=home, check=True)
+        for setting in (["log.showSignature", "true"], ["gpg.program", str(gpg)]):
+            subprocess.run(["git", "config", *setting], cwd=home, check=True)
+    subprocess.run(["git", "gc", "-q"], cwd=home, check=True)
+    written(
+        class_, {f"eve/{FILE}": SOLUTION.encode(), "eve/timestamp.txt": b"2026-11-22 10:00:00.5"}
+    )
+    settings(
+        tmp_path, "due: {3: 2026-11-20}\nlate: 10 per day\nextensions: {ada: {3: 2026-11-21}}\n"
+    )
+    people = roster(tmp_path, "name,username\nAda,ada\nBob,bob\nEve,eve\n")
+    arguments = ("grade-all", class_, "-o", tmp_path / "out", "--roster", people, "-w", "1")
+    assert call(*arguments)[::2] == (0, "")
+
+    def found():
+        rows = rows_of(tmp_path / "out" / "grades.csv")
+        return {row["student"]: row["total"] for row in rows}
+
+    assert found() == {"Ada": "100", "Bob": "100", "Eve": "80"} and not ran.exists()
+    settings(tmp_path, "due: {3: 2026-11-20}\nlate: 10 per day\n")
+    assert call(*arguments)[0] == 0
+    assert found() == {"Ada": "90", "Bob": "100", "Eve": "80"}
+    assert "timestamp" not in (tmp_path / "out" / "grades.csv").read_text()
 
 
 def test_gradebooks_that_do_not_fit(tmp_path):

@@ -12,10 +12,14 @@ from pathlib import Path
 from botschool.errors import BotschoolError
 from botschool.grading.classes.files import File, Handed
 from botschool.grading.classes.texts import (
+    code_of_fences,
     code_of_notebook,
     decoded,
+    is_notebook,
     text_of_page,
+    today,
     without_cookie,
+    without_jupyter,
 )
 from botschool.grading.copies.starting import original
 from botschool.grading.declare.checks import plain
@@ -26,7 +30,8 @@ MAX_TEXT = 4 * 2**20
 """Bytes of a file that may be an exercise's."""
 MAX_LISTED = 30
 """Names in a list of files."""
-SUFFIXES = (".py", ".ipynb", ".txt", ".pyw", ".html", ".htm", "")
+SUFFIXES = (".py", ".ipynb", ".txt", ".pyw", ".html", ".htm", ".md", ".json", ".zip", "")
+"""Of files that may hold an exercise, under a wrong name, too."""
 DATA = (
     ".npy", ".npz", ".csv", ".json", ".ini", ".png", ".jpg", ".jpeg", ".gif", ".svg", ".dat", ".pt",
     ".pth", ".onnx", ".yaml", ".yml", ".toml", ".xml", ".urdf", ".stl", ".obj", ".mp4",
@@ -101,15 +106,19 @@ class Candidate:
     def text(self) -> str:
         """Its code, or the notebook as it is."""
         text = decoded(self.content)[0]
+        if self.suffix == ".md":
+            return code_of_fences(text)
         return text_of_page(text) if self.suffix in (".html", ".htm") else text
 
     @cached_property
     def code(self) -> str:
         return code_of_notebook(self.text) if self.is_notebook else self.text
 
-    @property
+    @cached_property
     def is_notebook(self) -> bool:
-        return self.suffix == ".ipynb"
+        """By what it holds: a script may be called a notebook, and a notebook a script."""
+        named = self.suffix == ".ipynb" and self.text.lstrip().startswith("{")
+        return named or is_notebook(self.text)
 
     @cached_property
     def is_named(self) -> bool:
@@ -138,7 +147,7 @@ class Candidate:
         if self.suffix not in SUFFIXES or name.startswith("test_"):
             return False
         if self.is_named:
-            python = self.suffix in (".py", ".ipynb", ".pyw")
+            python = self.suffix in (".py", ".ipynb", ".pyw") or self.is_notebook
             return python or (self.shared > 0 and "def " in self.code)
         others = any(other in squashed(name) for other in self.wanted.others)
         return not others and self.shared >= 0.6 and len(self.wanted.names) > 1
@@ -218,7 +227,9 @@ def choose(
             names = listed([each.file.shown for each in given])
             choice.notes.append(f"Not used, since nothing was changed in it: {names}.")
         choice.used |= {each.file for each in others}
-    if not best.differs:
+    if not best.content.strip():
+        choice.notes.append(f"{plain(best.file.name)} is empty.")
+    elif not best.differs and best.code.strip():
         choice.notes.append(f"Nothing was changed in {plain(best.file.name)}.")
     _settle(choice, best, handed, wanted, new_folder)
     return choice
@@ -293,12 +304,18 @@ def _settle(
     new_folder: Callable[[], Path],
 ) -> None:
     """Let the file stand under its name, in UTF-8, with the files that lie beside it."""
-    text, encoding = decoded(best.content)
+    encoding = decoded(best.content)[1]
     if best.is_notebook and not best.code:
         choice.problem = f"{plain(best.file.shown)} is no notebook that can be read."
         return
     if encoding:
         choice.notes.append(f"{plain(best.file.name)} was stored as {encoding}.")
+    if best.is_notebook != (best.suffix == ".ipynb"):
+        what = "a notebook" if best.is_notebook else "no notebook"
+        choice.notes += [f"{plain(best.file.name)} is {what}."] * (best.suffix in (".py", ".ipynb"))
+    content = today(best.text) if best.is_notebook else without_jupyter(best.text)
+    if content != best.text and not best.is_notebook:
+        choice.notes.append("Left out: lines that only Jupyter understands.")
     beside = [
         file
         for file in handed.files
@@ -307,14 +324,13 @@ def _settle(
     suffix = ".ipynb" if best.is_notebook else ".py"
     name = Path(wanted.file).with_suffix(suffix).name
     own = best.file.path.name == name and best.file.place.endswith(best.file.shown)
-    if own and not encoding and not best.file.shown.count(".zip/"):
+    if own and not encoding and content == best.text:
         choice.file = best.file.path.absolute()
         choice.used |= _needed(best, [file for file in beside if file.top == best.file.top])
         return
     candidates = choice.used - {best.file}
     choice.used |= _needed(best, beside)
     folder = new_folder()
-    content = best.text if best.suffix in (".html", ".htm") else text
     content = content if best.is_notebook else without_cookie(content)
     room = MAX_COPIED
     for file in beside[:MAX_COPIED_FILES]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from datetime import datetime
@@ -17,19 +18,25 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.classes.choice import Wanted
 from botschool.grading.classes.files import Collector, Handed, is_junk
-from botschool.grading.classes.texts import is_larger
+from botschool.grading.classes.times import METADATA, moment_of, read_metadata
 from botschool.grading.classes.unpack import Unpackable, room_of_download, unpack
 from botschool.grading.declare.checks import plain
 
-MAX_METADATA, MAX_VALUES = 20 * 2**20, 5_000_000
+MAXMETADATA, MAX_VALUES = 20 * 2**20, 5_000_000
 _MOODLE = re.compile(
     r"(?P<name>.+?)_(?P<id>\d+)_assignsubmission_(?P<kind>[a-z]+)(?:_(?P<rest>.*))?", re.DOTALL
 )
 _CANVAS = re.compile(
-    r"(?P<name>[^_]+)_(?P<late>LATE_)?(?P<id>\d+)_(?P<submission>\d+)_(?P<rest>.+)", re.DOTALL
+    r"(?P<name>.+?)_(?P<late>LATE_)?(?P<id>\d+|(?<=anon_)[^\W_]{5}|(?<=anonymous_)[^\W_]{5})"
+    r"_(?P<submission>\d+)_(?P<rest>.+)",
+    re.DOTALL,
 )
+_VERSION = re.compile(
+    r"(?i)(v|ver|version|attempt|try|old|new|backup|copy|final|draft|week|ex|exercise|task"
+    r"|submission)?[\W_]*\d*"
+)
+"""Names of folders in which one person keeps several versions, or several exercises."""
 _GRADESCOPE = re.compile(r"submission_(?P<id>\d+)")
-_METADATA = ("submission_metadata.yml", "submission_metadata.yaml")
 CODE = (".py", ".ipynb", ".pyw", ".zip")
 """Suffixes of a file that is a submission by itself."""
 
@@ -79,10 +86,14 @@ def read_export(download: Path, wanted: Iterable[Wanted], new_folder: Callable[[
         notes = [f"{plain(name)} is a link or leads elsewhere: left out." for name in left_out]
     else:
         top = download
-    top = _descend(top, wanted, is_zip=top != download)
+    is_zip = top != download
+    top = _descend(top, wanted, is_zip)
+    for _ in range(2):  # a download that was zipped once more, or lies in a folder as it came
+        if (inner := _only_zip(top)) and (found := _unpacked(inner, wanted, new_folder)):
+            top, is_zip = found, True
     people = _People(new_folder)
     if _is_copy(top, wanted):
-        people.folder(download.stem if top != download else download.resolve().name, top)
+        people.folder(download.stem if is_zip else download.resolve().name, top)
     else:
         people.entries(top)
     if not people.found:
@@ -95,6 +106,12 @@ def read_export(download: Path, wanted: Iterable[Wanted], new_folder: Callable[[
 
 def one_person(place: Path, new_folder: Callable[[], Path]) -> Person:
     """Return what lies in a folder, a zip file, or is a single file, as somebody's submission."""
+    people = _People(new_folder)
+    names = [place.name] if place.is_file() else [entry.name for entry in _visible(place)]
+    if any(_is_of_platform(name) for name in names):
+        people.entries(place.parent if place.is_file() else place, only=names)
+        if len(people.found) == 1:
+            return next(iter(people.found.values()))
     person = Person(plain(place.name), place.name)
     collector = Collector(new_folder)
     if place.is_dir():
@@ -104,6 +121,36 @@ def one_person(place: Path, new_folder: Callable[[], Path]) -> Person:
         collector.add_file(place.parent, place.name, place.name)
     person.handed = collector.handed
     return person
+
+
+def _only_zip(top: Path) -> Path | None:
+    """Return the zip file that is all there is in a folder, but for tables of the class."""
+    for _ in range(5):
+        tables = (".csv", ".yaml", ".yml")
+        entries = [e for e in _visible(top) if not e.name.lower().endswith(tables)]
+        if len(entries) != 1 or entries[0].is_symlink():
+            break
+        if not _is_folder(entries[0]):
+            is_zip = entries[0].name.lower().endswith(".zip")
+            return Path(entries[0].path) if is_zip else None
+        if _is_of_platform(entries[0].name):
+            break
+        top = Path(entries[0].path)
+    return None
+
+
+def _unpacked(archive: Path, wanted: list[Wanted], new_folder: Callable[[], Path]) -> Path | None:
+    """Return the folder of a platform's zip file in another one; None if it is a submission."""
+    if _is_of_platform(archive.name):
+        return None
+    top = new_folder()
+    try:
+        unpack(archive, top, room_of_download())
+    except (Unpackable, OSError):
+        return None
+    top = _descend(top, wanted, is_zip=True)
+    is_class = any(_is_of_platform(entry.name) for entry in _visible(top))
+    return top if is_class or _only_zip(top) else None
 
 
 def _visible(folder: Path) -> list[os.DirEntry]:
@@ -134,25 +181,46 @@ def _is_copy(folder: Path, wanted: list[Wanted]) -> bool:
 
 
 def _descend(top: Path, wanted: list[Wanted], is_zip: bool) -> Path:
-    """Return the folder that holds the people: `top`, or one that is alone in it."""
-    for _ in range(5):
-        entries = _visible(top)
-        if (top / "nbgrader_config.py").is_file() and (top / "submitted").is_dir():
-            return top / "submitted"
-        if len(entries) != 1 or not _is_folder(entries[0]) or _is_of_platform(entries[0].name):
-            return top
+    """Return the folder that holds the people: `top`, or one that is alone in it, at any depth."""
+    inner = top
+    for _ in range(8):
+        if (inner / "nbgrader_config.py").is_file() and (inner / "submitted").is_dir():
+            return inner / "submitted"
+        entries = _visible(inner)
+        alone = len(entries) == 1 and _is_folder(entries[0])
+        if not alone or _is_of_platform(entries[0].name) or _is_copy(inner, wanted):
+            break
         inner = Path(entries[0].path)
-        if _is_copy(inner, wanted):
-            return top
-        within = _visible(inner)
-        folders = [entry for entry in within if _is_folder(entry)]
-        platform = any(_is_of_platform(entry.name) for entry in within)
-        clones = sum((Path(entry.path) / ".git").exists() for entry in folders)
-        single = is_zip and len(within) == 1 and len(folders) == 1
-        if not (platform or clones > 1 or single or (is_zip and len(folders) > 1)):
-            return top
-        top = inner
-    return top
+    if inner == top or _is_copy(inner, wanted):
+        return top
+    folders = [entry for entry in _visible(inner) if _is_folder(entry)]
+    platform = any(_is_of_platform(entry.name) for entry in _visible(inner))
+    clones = sum((Path(entry.path) / ".git").exists() for entry in folders)
+    named = inner.name == "submitted" and bool(folders)
+    several = len(folders) > 1 and (is_zip or _are_people(folders, wanted))
+    return inner if platform or clones > 1 or named or several else top
+
+
+def _are_people(folders: list[os.DirEntry], wanted: list[Wanted]) -> bool:
+    """Return whether two folders or more hold an exercise, which are no versions of one."""
+    holding = [
+        entry
+        for entry in folders
+        if not _VERSION.fullmatch(entry.name)
+        and any(_holds(Path(entry.path), one.file) for one in wanted)
+    ]
+    return len(holding) > 1
+
+
+def _holds(folder: Path, name: str) -> bool:
+    """Return whether a file of the exercise's name is somewhere in a folder."""
+    stem = Path(name).stem.casefold()
+    for number, (_, _, files) in enumerate(os.walk(folder)):
+        if any(stem in file.casefold() for file in files):
+            return True
+        if number > 200:
+            break
+    return False
 
 
 class _People:
@@ -163,14 +231,22 @@ class _People:
         self.nobodys: list[str] = []
         self._new_folder = new_folder
         self._collectors: dict[tuple[str, str], Collector] = {}
+        self._alike: set[str] = set()
+        """Names of several folders that differ in capitals only, in lower case."""
 
-    def entries(self, top: Path) -> None:
-        metadata = _read_metadata(top)
-        for entry in _visible(top):
+    def entries(self, top: Path, only: list[str] | None = None) -> None:
+        """Add those of a folder. only: names of its entries, else all."""
+        metadata = read_metadata(top)
+        entries = [entry for entry in _visible(top) if only is None or entry.name in only]
+        folders = Counter(entry.name.casefold() for entry in entries if _is_folder(entry))
+        self._alike = {name for name, count in folders.items() if count > 1}
+        for entry in entries:
             name, path = entry.name, Path(entry.path)
             if entry.is_symlink():
                 person = self._person(("folder", name.casefold()), plain(_shown(name)), name)
                 person.problem = "The submission is a link to another place."
+            elif "_assignfeedback_" in name:
+                self.nobodys.append(_shown(name))
             elif found := _MOODLE.fullmatch(name):
                 self._moodle(entry, found)
             elif (found := _GRADESCOPE.fullmatch(name)) and _is_folder(entry):
@@ -183,13 +259,19 @@ class _People:
                     self.folder(each.name, each)
             elif path.suffix.lower() in CODE or re.search(r"(?i)\.(py|ipynb)\.txt$", name):
                 self._loose(path)
-            elif name not in _METADATA:
+            elif name not in METADATA:
                 self.nobodys.append(_shown(name))
+        there = {entry.name for entry in entries}
+        for name, about in metadata.items():
+            if (found := _GRADESCOPE.fullmatch(name)) and name not in there and only is None:
+                self._gradescope(top / name, found["id"], about)
 
     def folder(self, name: str, path: Path) -> None:
         """Somebody whose folder has his name."""
-        self._person(("folder", name.casefold()), plain(_shown(name)), name)
-        self._collectors["folder", name.casefold()].add_folder(path)
+        folded = name.casefold()
+        key = ("folder", name if folded in self._alike else folded)
+        self._person(key, plain(_shown(name)), name)
+        self._collectors[key].add_folder(path)
 
     def _loose(self, path: Path) -> None:
         key = ("folder", path.stem.casefold())
@@ -217,7 +299,8 @@ class _People:
     def _canvas(self, entry: os.DirEntry, found: re.Match) -> None:
         key, path = ("canvas", found["id"]), Path(entry.path)
         folder = f"{found['name']}_{found['id']}"
-        person = self._person(key, plain(_shown(found["name"])), folder, "canvas")
+        name = folder if found["name"] in ("anon", "anonymous") else found["name"]
+        person = self._person(key, plain(_shown(name)), folder, "canvas")
         person.ids |= {"user": found["id"], "submission": found["submission"]}
         person.late = person.late or bool(found["late"])
         person.upload.append(entry.name)
@@ -231,8 +314,9 @@ class _People:
             person = self._person(key, plain(name), f"{path.name}-{index}", "gradescope")
             named = {name: str(submitter.get(name) or "") for name in ("sid", "email")}
             person.ids |= named | {"submission": number}
-            person.submitted = _moment(metadata.get("created_at"))
-            self._collectors[key].add_folder(path)
+            person.submitted = moment_of(metadata.get("created_at"))
+            if path.is_dir():
+                self._collectors[key].add_folder(path)
 
     def _person(
         self, key: tuple[str, str], student: str, folder: str, platform: str = ""
@@ -274,50 +358,3 @@ def _clones(folder: Path) -> list[Path]:
         return []
     clones = [path for path in inner if (path / ".git").exists()]
     return clones if len(clones) > 1 and len(clones) == len(inner) else []
-
-
-def _read_metadata(folder: Path) -> dict[str, dict[str, Any]]:
-    """Return what Gradescope says of each submission, without the colons of its keys."""
-    import yaml
-
-    class Loader(yaml.SafeLoader):
-        """Reads what other languages mark as objects as plain data."""
-
-    def unmarked(loader: Any, suffix: str, node: Any) -> Any:
-        if isinstance(node, yaml.MappingNode):
-            return loader.construct_mapping(node, deep=True)
-        if isinstance(node, yaml.SequenceNode):
-            return loader.construct_sequence(node, deep=True)
-        return loader.construct_scalar(node)
-
-    Loader.add_multi_constructor("!", unmarked)
-    Loader.add_multi_constructor("tag:", unmarked)
-    for name in _METADATA:
-        path = folder / name
-        if path.is_symlink() or not path.is_file() or path.stat().st_size > MAX_METADATA:
-            continue
-        try:
-            found = yaml.load(path.read_text(encoding="utf-8-sig", errors="replace"), Loader)
-        except (yaml.YAMLError, OSError, RecursionError, ValueError):
-            raise BotschoolError(f"{path} is damaged: download it again.") from None
-        if is_larger(found, MAX_VALUES):
-            raise BotschoolError(f"{path} holds too many values: download it again.")
-        plain_keys = _plain_keys(found, 0)
-        return {k: v for k, v in plain_keys.items() if isinstance(v, dict)} if found else {}
-    return {}
-
-
-def _plain_keys(value: Any, depth: int) -> Any:
-    if isinstance(value, dict) and depth < 6:
-        return {str(k).lstrip(":"): _plain_keys(v, depth + 1) for k, v in value.items()}
-    if isinstance(value, list) and depth < 6:
-        return [_plain_keys(each, depth + 1) for each in value]
-    return value
-
-
-def _moment(value: Any) -> datetime | None:
-    try:
-        moment = value if isinstance(value, datetime) else datetime.fromisoformat(str(value))
-    except ValueError:
-        return None
-    return moment if moment.tzinfo is None else moment.astimezone().replace(tzinfo=None)

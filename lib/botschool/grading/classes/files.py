@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,6 +11,7 @@ from pathlib import Path
 from botschool.grading.classes.unpack import (
     ARCHIVES,
     MAX_LEVELS,
+    PACKED,
     Unpackable,
     room_of_submission,
     unpack,
@@ -23,15 +25,25 @@ MAX_FILES, MAX_DEPTH = 20_000, 30
 JUNK = {
     "__macosx", "__pycache__", ".git", ".ipynb_checkpoints", ".venv", "venv", ".idea", ".vscode",
     ".ds_store", "thumbs.db", "desktop.ini", ".botschool", ".pytest_cache", ".ruff_cache",
-    "node_modules", ".trash",
+    "node_modules", ".trash", "site-packages",
 }  # fmt: skip
 """What systems and tools leave, in lower case; it belongs to nobody."""
+
+
+OF_VENV = {"lib", "lib64", "bin", "scripts", "include", "share", "pyvenv.cfg"}
+"""What a virtual environment brings, in lower case, in a folder of any name."""
+_MAY_BE_ZIP = (".py", ".txt", ".ipynb")
+"""Suffixes that students give to zip files, beside none."""
 
 
 def is_junk(name: str) -> bool:
     """Return whether a file or folder of this name is nobody's work."""
     lower = name.lower()
     return lower in JUNK or lower.startswith("._") or lower.endswith((".pyc", ".pyo"))
+
+
+TIMESTAMP = "timestamp.txt"
+"""In which nbgrader writes when something was handed in."""
 
 
 @dataclass(frozen=True)
@@ -102,9 +114,10 @@ class Collector:
                     f"The folder {shown + inner or folder.name} is unreadable."
                 )
                 continue
+            is_venv = any(entry.name == "pyvenv.cfg" for entry in found)
             for entry in found:
                 name = inner + entry.name
-                if is_junk(entry.name):
+                if is_junk(entry.name) or (is_venv and entry.name.lower() in OF_VENV):
                     continue
                 if entry.is_symlink():
                     self.handed.links.append(shown + name)
@@ -121,15 +134,15 @@ class Collector:
             return False
         file = File(top, place, shown)
         lower = shown.lower()
-        if lower.endswith(".zip"):
-            self._add_zip(file, level)
+        if lower.endswith(ARCHIVES) or _is_zip(file):
+            self._add_archive(file, level)
         else:
-            if lower.endswith(ARCHIVES):
+            if lower.endswith(PACKED):
                 self.handed.notes.append(f"{shown} is no zip file, so it stays packed.")
             self.handed.files.append(file)
         return True
 
-    def _add_zip(self, file: File, level: int) -> None:
+    def _add_archive(self, file: File, level: int) -> None:
         if level >= MAX_LEVELS:
             self.handed.notes.append(f"{file.shown} is in too many zip files, so it stays packed.")
             return
@@ -137,8 +150,11 @@ class Collector:
             content = file.read(MAX_ZIP)
             if len(content) > MAX_ZIP:
                 raise Unpackable("is too large")
+            if content[:2] != b"PK" and content and content.isascii():  # a text by another name
+                self.handed.files.append(file)
+                return
             target = self._new_folder()
-            for name in unpack(content, target, self._room):
+            for name in unpack(content, target, self._room, file.name):
                 self.handed.links.append(f"{file.shown}/{name}")
         except OSError:
             self.handed.notes.append(f"{file.shown} cannot be read.")
@@ -147,3 +163,13 @@ class Collector:
             self.handed.notes.append(f"{file.shown} {error}, so it stays packed.")
         else:
             self.add_folder(target, f"{file.shown}/", level + 1)
+
+
+def _is_zip(file: File) -> bool:
+    """Return whether a file of another name is a zip file."""
+    if not re.search(r"\.\w+$", file.name) or file.name.lower().endswith(_MAY_BE_ZIP):
+        try:
+            return file.read(3) == b"PK\x03\x04"
+        except OSError:
+            return False
+    return False

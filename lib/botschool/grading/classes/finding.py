@@ -11,6 +11,7 @@ from pathlib import Path
 from botschool.errors import BotschoolError
 from botschool.grading.classes.choice import Choice, Wanted, listed
 from botschool.grading.classes.export import Person, one_person
+from botschool.grading.classes.files import TIMESTAMP
 from botschool.grading.declare.exercise import Exercise, Number
 
 
@@ -61,7 +62,7 @@ def _left(one: Submission, root: Path) -> list[str]:
     copies = len(tops) > 1 or any(f.shown.startswith("exercises/") for f in one.person.handed.files)
     names, given = [], 0
     for file in one.person.handed.files:
-        if file in used:
+        if file in used or file.name == TIMESTAMP:
             continue
         inner = [file.shown[len(top) :] for top in tops if file.shown.startswith(top)]
         if any(_is_given(name, root, copies) for name in inner):

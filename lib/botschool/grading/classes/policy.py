@@ -79,6 +79,10 @@ class Policy:
         keys = sorted(student.keys()) if student else []
         return [*keys, words(student.name if student else shown), shown.casefold()]
 
+    def has_deadline(self, number: Number) -> bool:
+        """Return whether it matters when an exercise was handed in."""
+        return number in self.due or any(number in each for each in self.extensions.values())
+
     def apply(
         self, result: dict[str, Any], names: list[str], moment: datetime | None, marked: bool
     ) -> dict[str, Any]:
@@ -91,7 +95,7 @@ class Policy:
         for name in names:
             times = self.submitted.get(name, {})
             moment = times.get(number, times.get(0, moment))
-        due = self.due.get(number)
+        due = general = self.due.get(number)
         for name in names:
             due = self.extensions.get(name, {}).get(number, due)
         if moment:
@@ -102,7 +106,14 @@ class Policy:
             points -= off
             notes.append(f"Late by {_duration(moment - due)}: {tidy(off)} points off.")
         elif result["graded"] and due and marked and moment is None:
-            notes.append("The platform marks it late, but not how late: no points are taken off.")
+            notes.append("The platform marks it late, but not how late.")
+            if due != general:
+                notes[-1] += f" The extension until {due:%Y-%m-%d %H:%M} counts: nothing is off."
+            elif self.late:
+                off = self.late.points(_UNITS[self.late.unit]) * result["max_points"] / 100
+                off = min(points, off)
+                points -= off
+                notes[-1] += f" Counted as one {self.late.unit}: {tidy(off)} points off."
         for each in (a for name in dict.fromkeys(names) for a in self.adjustments.get(name, ())):
             if each.exercise == number and (result["graded"] or each.sets):
                 if each.task:

@@ -13,6 +13,8 @@ from botschool.grading.classes.export import Person
 from botschool.grading.classes.finding import Submission
 from botschool.grading.classes.policy import Policy, moodle_moment, tidy, unknown_names
 from botschool.grading.classes.roster import Roster, Student
+from botschool.grading.classes.times import told_by
+from botschool.grading.declare.exercise import Number
 
 MISSING = "Nothing was handed in."
 
@@ -78,6 +80,7 @@ class Register:
             self.policy.names(student, one.student)
             for one, student in zip(self.submissions, self.students, strict=True)
         ]
+        self._told: dict[tuple[int, Number], datetime | None] = {}
         self._check_names()
         self._mark_doubles()
 
@@ -90,9 +93,15 @@ class Register:
         """Return whether a row stands for a student who handed in nothing."""
         return index >= self._handed_in
 
-    def moment(self, index: int) -> datetime | None:
-        """Return when a submission was handed in, if the platform says so."""
+    def moment(self, index: int, number: Number) -> datetime | None:
+        """Return when an exercise was handed in, as far as the platform or the files say so."""
         person, student = self.submissions[index].person, self.students[index]
+        if not person.platform and self.policy.has_deadline(number):
+            origin = self.submissions[index].choices[number].origin
+            key = (index, number)
+            if origin and key not in self._told:
+                self._told[key] = told_by(origin)
+            return self._told.get(key)
         if person.submitted is None and student and self.roster.kind == "moodle":
             row = self.roster.table.rows[student.row]
             return moodle_moment(self.roster.table.get(row, "submitted"))
@@ -101,7 +110,8 @@ class Register:
     def apply(self, index: int, result: dict[str, Any]) -> dict[str, Any]:
         """Return a result with deadlines and adjustments."""
         late = self.submissions[index].person.late
-        return self.policy.apply(result, self._names[index], self.moment(index), late)
+        moment = self.moment(index, result["exercise"])
+        return self.policy.apply(result, self._names[index], moment, late)
 
     def total(self, results: list[dict[str, Any]]) -> float | None:
         """Return the weighted points of all exercises; None if one of them was not graded."""

@@ -75,12 +75,19 @@ class Roster:
         names = [person.ids.get("email", ""), person.ids.get("sid", ""), person.student]
         if not person.platform:
             names.append(person.folder)
-            # ASSIGNMENT-USER; the longest user name wins, as it may hold hyphens itself
-            parts = person.folder.split("-")
+        if person.platform in ("", "moodle"):
+            # ASSIGNMENT-USER or GROUP-NAME; the longest user name wins, as it may hold hyphens
+            whole = person.student if person.platform else person.folder
+            parts = re.sub(r"-(main|master)$", "", whole).split("-")
             names += ["-".join(parts[at:]) for at in range(1, len(parts))]
         for name in names:
             if name and (student := self.find(name)):
                 return student
+        if not person.platform:  # NAME - FILE, TITLE_USER_attempt_TIME_FILE
+            pieces = re.split(r"\s+-\s+|_", person.folder)
+            found = list(filter(None, map(self.find, filter(None, pieces))))
+            if len(set(found)) == 1:
+                return found[0]
         if person.platform == "canvas":
             return self._of_squashed(person.student)
         return None

@@ -16,6 +16,10 @@ MARKS = (
     (codecs.BOM_UTF16_BE, "utf-16", "UTF-16"),
 )
 COOKIE = re.compile(r"^([ \t\f]*#.*?coding[:=][ \t]*)([-\w.]+)", re.ASCII)
+_JUPYTER = re.compile(
+    r"^([ \t]*)(get_ipython\(\)|(?<![ \t])(?:%(?:matplotlib|load_ext|autoreload|pip)\b|!\w))",
+    re.MULTILINE,
+)
 _BLOCKS = {"p", "div", "br", "li", "tr", "pre", "h1", "h2", "h3", "h4", "table", "ul", "ol"}
 
 
@@ -24,8 +28,12 @@ def decoded(content: bytes) -> tuple[str, str]:
     for mark, codec, name in MARKS:
         if content.startswith(mark):
             return content.decode(codec, "replace"), name
-    if content[1:100:2].count(0) > 20 and len(content) % 2 == 0:
-        return content.decode("utf-16-le", "replace"), "UTF-16 without a mark"
+    for codec, first in (("utf-16-le", 1), ("utf-16-be", 0)):
+        if content[first:100:2].count(0) > 20 and len(content) % 2 == 0:
+            return content.decode(codec, "replace"), "UTF-16 without a mark"
+    if b"\0" in content:  # which no program may hold; they fill up a damaged file
+        text, name = decoded(content.replace(b"\0", b""))
+        return text, f"{name or 'UTF-8'} with zero bytes"
     if content.isascii():
         return content.decode("ascii"), ""
     for line in content.split(b"\n", 2)[:2]:
@@ -71,14 +79,47 @@ def without_cookie(text: str) -> str:
     )
 
 
+def is_notebook(text: str) -> bool:
+    """Return whether a text looks like a saved notebook, whatever its name."""
+    return text.lstrip().startswith("{") and ('"cells"' in text or '"worksheets"' in text)
+
+
+def today(notebook: str) -> str:
+    """Return a notebook in the form that is read today; Jupyter 1 to 2 had another."""
+    try:
+        found = json.loads(notebook)
+        if "worksheets" not in found:
+            return notebook
+        cells = [cell for sheet in found["worksheets"] for cell in sheet["cells"]]
+        made = [
+            {"cell_type": "code", "metadata": {}, "source": cell["input"], "outputs": []}
+            for cell in cells
+            if cell["cell_type"] == "code"
+        ]
+    except (ValueError, LookupError, TypeError, RecursionError):
+        return notebook
+    return json.dumps({"cells": made, "metadata": {}, "nbformat": 4, "nbformat_minor": 5})
+
+
 def code_of_notebook(text: str) -> str:
     """Return the code of a notebook; "" if it cannot be read."""
     try:
-        cells = json.loads(text)["cells"]
+        cells = json.loads(today(text))["cells"]
         sources = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
     except (ValueError, LookupError, TypeError, RecursionError):
         return ""
     return "\n".join(sources)
+
+
+def code_of_fences(text: str) -> str:
+    """Return what stands between ``` and ``` in a Markdown text, else all of it."""
+    blocks = re.findall(r"^```.*\n([\s\S]*?)^```", text, re.MULTILINE)
+    return "\n".join(blocks) or text
+
+
+def without_jupyter(text: str) -> str:
+    """Return a script without the lines that only a notebook understands."""
+    return _JUPYTER.sub(r"\1pass  # \2", text)
 
 
 def text_of_page(page: str) -> str:

@@ -1,21 +1,36 @@
-"""Zip files of submissions, unpacked within limits; nothing in them is trusted."""
+"""Zip and tar files of submissions, unpacked within limits; nothing in them is trusted."""
 
 from __future__ import annotations
 
+import bz2
 import contextlib
+import gzip
 import io
+import lzma
+import re
 import stat
+import tarfile
 import zipfile
 import zlib
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path, PurePosixPath
+from typing import IO, Any
 
-MAX_LEVELS = 3
+MAX_LEVELS = 5
 """Zip files within zip files."""
 MAX_PARTS, MAX_NAME = 30, 240
 """Folders in the name of a file, and bytes of each of its parts."""
-ARCHIVES = (".rar", ".7z", ".tar", ".tgz", ".gz", ".bz2", ".xz")
-"""Suffixes of archives that are not unpacked."""
+ARCHIVES = (".zip", ".tar", ".tgz", ".tar.gz", ".tar.bz2", ".tar.xz", ".py.gz", ".ipynb.gz")
+"""Suffixes of archives that are unpacked."""
+PACKED = (".rar", ".7z", ".gz", ".bz2", ".xz")
+"""Suffixes of archives that are not."""
+_COMPRESSED: tuple[tuple[bytes, Callable[[IO[bytes]], Any]], ...] = (
+    (b"\x1f\x8b", gzip.open),
+    (b"BZh", bz2.open),
+    (b"\xfd7zXZ", lzma.open),
+)
 
 
 _TOO_MUCH = "holds too many or too large files"
@@ -43,33 +58,84 @@ class Unpackable(Exception):
     """A zip file that stays packed; the message ends the sentence "NAME ...": the reason."""
 
 
-def unpack(archive: Path | bytes, target: Path, room: Room) -> list[str]:
-    """Unpack the regular files into the folder `target`; return names that are left out.
+@dataclass(frozen=True)
+class _Member:
+    """A file or folder in an archive."""
 
-    Links, names that lead out of the folder, and names that no file can have are left out. Of two
-    files with one name the second gets another. Raises Unpackable, after which `target` may hold
-    a part.
+    name: str
+    size: int
+    is_folder: bool
+    is_file: bool
+    open: Callable[[], Any]
+
+
+def unpack(archive: Path | bytes, target: Path, room: Room, name: str = "") -> list[str]:
+    """Unpack regular files and folders into the folder `target`; return names that are left out.
+
+    name: of the archive; a file that is only compressed gets it, without its last suffix.
+
+    Links are left out. Names that lead elsewhere lose what leads there: drives, roots and "..". Of
+    two files with one name the second gets another. Raises Unpackable, after which `target` may
+    hold a part.
     """
     left_out: list[str] = []
     numbers: dict[Path, int] = {}
     try:
-        with zipfile.ZipFile(io.BytesIO(archive) if isinstance(archive, bytes) else archive) as zip:
-            entries = zip.infolist()
-            if len(entries) > 2 * room.files:
-                raise Unpackable(_TOO_MUCH)
-            for entry in entries:
-                name = _readable(entry)
-                if name.endswith("/"):
-                    continue
-                place = _inside(target, name, numbers)
-                link = stat.S_ISLNK(entry.external_attr >> 16)
-                if place is None or link or not _write(zip, entry, place, room):
-                    left_out.append(name)
+        for member in _members(archive, room, name):
+            place = _inside(target, member, numbers)
+            if place is None or not _write(member, place, room):
+                left_out.append(member.name)
     except RuntimeError:
         raise Unpackable("needs a password") from None
-    except (zipfile.BadZipFile, zlib.error, EOFError, ValueError, NotImplementedError):
+    except (
+        zipfile.BadZipFile, zlib.error, EOFError, ValueError, NotImplementedError,
+        tarfile.TarError, lzma.LZMAError, gzip.BadGzipFile,
+    ):  # fmt: skip
         raise Unpackable("is damaged, or no zip file") from None
     return left_out
+
+
+def _members(archive: Path | bytes, room: Room, name: str) -> Iterator[_Member]:
+    if isinstance(archive, bytes):
+        content = _decompressed(archive, room)
+        if content[257:262] == b"ustar":
+            yield from _of_tar(content)
+            return
+        if content is not archive:
+            file = io.BytesIO(content)
+            yield _Member(name.rpartition(".")[0], len(content), False, True, lambda: file)
+            return
+    with zipfile.ZipFile(io.BytesIO(archive) if isinstance(archive, bytes) else archive) as zip:
+        entries = zip.infolist()
+        if len(entries) > 2 * room.files:
+            raise Unpackable(_TOO_MUCH)
+        for entry in entries:
+            shown, is_link = _readable(entry), stat.S_ISLNK(entry.external_attr >> 16)
+            folder = shown.endswith("/")
+            yield _Member(shown, entry.file_size, folder, not is_link, partial(zip.open, entry))
+
+
+def _decompressed(content: bytes, room: Room) -> bytes:
+    for sign, opener in _COMPRESSED:
+        if content.startswith(sign):
+            with opener(io.BytesIO(content)) as file:
+                plain = file.read(room.size + 1)
+            if len(plain) > room.size:
+                raise Unpackable(_TOO_MUCH)
+            return plain
+    return content
+
+
+def _of_tar(archive: bytes) -> Iterator[_Member]:
+    with tarfile.open(fileobj=io.BytesIO(archive), mode="r:") as tar:
+        for info in tar:
+            yield _Member(
+                info.name.encode("utf-8", "surrogateescape").decode("utf-8", "replace"),
+                info.size,
+                info.isdir(),
+                info.isreg() and not info.issparse(),
+                partial(tar.extractfile, info),
+            )
 
 
 def _readable(entry: zipfile.ZipInfo) -> str:
@@ -81,38 +147,46 @@ def _readable(entry: zipfile.ZipInfo) -> str:
     return name.replace("\\", "/")
 
 
-def _inside(target: Path, name: str, numbers: dict[Path, int]) -> Path | None:
-    """Return a new place for a file below a folder; None if the name leads out of it.
+def _inside(target: Path, member: _Member, numbers: dict[Path, int]) -> Path | None:
+    """Return a new place for a file below a folder; None if it can have none.
 
     numbers: of each name that was there twice, the last number it got.
     """
-    parts = PurePosixPath(name).parts
-    if not parts or len(parts) > MAX_PARTS or name.startswith("/") or ":" in parts[0]:
+    name = re.sub(r"^[A-Za-z]:", "", member.name)
+    parts = [_short(part) for part in PurePosixPath(name).parts if part not in ("/", "//", "..")]
+    if len(parts) > MAX_PARTS or not (member.is_file or member.is_folder):
         return None
-    for part in parts:
-        try:
-            too_long = len(part.encode()) > MAX_NAME
-        except UnicodeError:
-            return None
-        if part == ".." or too_long or any(ord(letter) < 32 for letter in part):
-            return None
+    if not parts:
+        return target if member.is_folder else None
     wanted = place = target.joinpath(*parts)
+    if member.is_folder:
+        return place
     while place.exists():
         number = numbers[wanted] = numbers.get(wanted, 1) + 1
-        place = place.with_name(f"{PurePosixPath(name).stem} ({number}){place.suffix}")
+        place = place.with_name(f"{wanted.stem} ({number}){place.suffix}")
     return place
 
 
-def _write(zip: zipfile.ZipFile, entry: zipfile.ZipInfo, place: Path, room: Room) -> bool:
+def _short(part: str) -> str:
+    """Return a part of a name that every file system takes; the end, with the suffix, stays."""
+    part = re.sub(r"[\x00-\x1f\x7f]", "_", part.encode("utf-8", "replace").decode())
+    while len(part.encode()) > MAX_NAME:
+        part = part[len(part.encode()) - MAX_NAME :]
+    return part
+
+
+def _write(member: _Member, place: Path, room: Room) -> bool:
     """Unpack a file; return False where the name of one of its folders is that of a file."""
     room.files -= 1
-    if room.files < 0 or entry.file_size > room.size:
+    if room.files < 0 or (member.is_file and member.size > room.size):
         raise Unpackable(_TOO_MUCH)
     try:
-        place.parent.mkdir(parents=True, exist_ok=True)
+        (place if member.is_folder else place.parent).mkdir(parents=True, exist_ok=True)
     except (FileExistsError, NotADirectoryError):
         return False
-    with zip.open(entry) as source, place.open("xb") as file:
+    if member.is_folder:
+        return True
+    with member.open() as source, place.open("xb") as file:
         while part := source.read(2**20):
             room.size -= len(part)
             if room.size < 0:
