@@ -216,7 +216,7 @@ def test_damaged_checkpoints_that_fuzzers_found(tmp_path, damage):
         arrays = dict(file)
     np.savez(run.path / "checkpoint.npz", **(arrays | damage))
     before = (run.path / "progress.csv").read_bytes()
-    with pytest.raises(BotschoolError, match=r"damaged|no checkpoint of this training"):
+    with pytest.raises(BotschoolError, match=r"damaged|not a checkpoint of this training"):
         training.resume(run, lambda steps, found: None)
     assert (run.path / "progress.csv").read_bytes() == before
 

@@ -88,8 +88,8 @@ def test_one_is_taken_where_the_user_has_none(command, tmp_path, monkeypatch):
     code, out, errors = command(*watch, "--episodes", 2)
     assert (code, errors) == (0, "")
     assert out.splitlines()[0] == (
-        "agent: the one that comes with botschool, as results/rl has none: ppo on CartPole-v1, "
-        f"{ours.steps} steps ({ours.told})"
+        "agent: the one that comes with botschool, because results/rl has none: "
+        f"ppo on CartPole-v1, {ours.steps} steps ({ours.told})"
     )
     assert "mean 500.0 " in out.splitlines()[-1]
     film = ("rl", "video", "--algo", "ppo", "--env", "CartPole-v1", "-f", "pole.gif", "-n", 3)
@@ -224,7 +224,9 @@ def test_nothing_that_could_run_is_loaded(tmp_path):
     )
     for damage in damages:
         damage()
-        with pytest.raises(BotschoolError, match="is damaged, or no model of this training"):
+        with pytest.raises(
+            BotschoolError, match="is damaged, or it is not a model of this training"
+        ):
             Agent.load(copy)
     np.savez(copy, **good)
     Agent.load(copy)

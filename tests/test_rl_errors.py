@@ -150,7 +150,7 @@ def test_a_model_with_other_layers_is_refused(copy, refused):
     changed = Settings.load(copy.config)
     changed.parameters["net_arch"] = [8]
     changed.save(copy.config)
-    refused("rl", "enjoy", copy.path, says="no model of this training")
+    refused("rl", "enjoy", copy.path, says="not a model of this training")
 
 
 def test_no_object_in_a_model_is_ever_loaded(copy):

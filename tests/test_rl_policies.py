@@ -90,7 +90,7 @@ def test_what_an_agent_names_is_not_imported(trained, tmp_path, refused, monkeyp
     text = copy.config.read_text()
     assert OWN in text
     copy.config.write_text(text.replace(OWN, "bomb:Policy"))
-    refused("rl", "enjoy", copy.path, says="bomb:Policy, a class that is no part of botschool")
+    refused("rl", "enjoy", copy.path, says="bomb:Policy, a class that is not part of botschool")
 
 
 @pytest.mark.parametrize(
@@ -98,8 +98,11 @@ def test_what_an_agent_names_is_not_imported(trained, tmp_path, refused, monkeyp
     [
         ("own_policis:Narrow", ["no module own_policis", "take the policy Narrow from"]),
         ("own_policies:Narow", ["has no policy 'Narow'", "did you mean Narrow?"]),
-        ("own_policies:Thing", ["own_policies:Thing is no policy of Stable-Baselines3", "derive"]),
-        ("own_policies:number", ["is no policy of Stable-Baselines3"]),
+        (
+            "own_policies:Thing",
+            ["own_policies:Thing is not a policy of Stable-Baselines3", "derive"],
+        ),
+        ("own_policies:number", ["is not a policy of Stable-Baselines3"]),
         ("own_policies:", ["names no class", "my_policy:MyPolicy"]),
         (":Narrow", ["names no class"]),
         ("os.system('x'):A", ["names no class"]),

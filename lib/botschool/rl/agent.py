@@ -1,4 +1,4 @@
-"""A trained model that acts: saving, loading, and playing episodes with it."""
+"""Save and load trained models, and play episodes with them."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ NORMALISATION = "normalisation.npz"
 
 
 def save_model(model: BaseAlgorithm, path: Path) -> None:
-    """Writes a model, whole or not at all. Raises BotschoolError."""
+    """Write a model to a file atomically. Raises BotschoolError."""
     content = BytesIO()
     model.save(content)
     scaling = model.get_vec_normalize_env()
@@ -45,15 +45,15 @@ def save_model(model: BaseAlgorithm, path: Path) -> None:
 
 
 def save_weights(model: Path, path: Path) -> None:
-    """Writes the weights alone of a training's model. Raises BotschoolError."""
+    """Write only the weights of a training's model. Raises BotschoolError."""
     agent = Agent.load(model)
     if not isinstance(agent, Agent):
-        raise BotschoolError(f"{model} holds weights alone already: copy it.")
+        raise BotschoolError(f"{model} already holds only weights: copy it.")
     weights.save(path, agent.model.policy, agent.scaling)
 
 
 class Agent:
-    """A model with the scaling of observations that it was trained with."""
+    """A model and the observation scaling that it was trained with."""
 
     def __init__(self, model: BaseAlgorithm, normalise: Normalise | None = None) -> None:
         self.model = model
@@ -64,12 +64,13 @@ class Agent:
     def load(
         cls, path: Path | str, env: str | None = None, policy: str | None = None
     ) -> Agent | NativeAgent:
-        """The model in a file of a run's folder, for its environment or for `env`.
+        """Return the model in a file of a run's folder, for its environment or for `env`.
 
-        The file is a model of Stable-Baselines3 (.zip) or weights alone (.npz). Only weights are
-        read: no Python object in the file is ever loaded, and a class of one's own that the
-        settings name is imported only if `policy` names it, too. Raises BotschoolError for a file
-        that is missing or damaged, or a model of another environment or policy.
+        The file is a model of Stable-Baselines3 (.zip) or holds only weights (.npz). Only weights
+        are read, and no Python object in the file is loaded. If the settings name a policy class of
+        the user's own, its module is imported only if `policy` names the same class. Raises
+        BotschoolError if the file is missing or damaged, or if the model belongs to another
+        environment or policy.
         """
         path = Path(path)
         settings = RunFolder(path.parent).settings()
@@ -86,8 +87,8 @@ class Agent:
             scaling = _fill(model, path, settings.normalize)
         except Exception as error:  # a damaged file can fail in any way
             raise BotschoolError(
-                f"{path} is damaged, or no model of this training: take the other model of its "
-                "folder, or train again."
+                f"{path} is damaged, or it is not a model of this training: take the other "
+                "model of its folder, or train again."
             ) from error
         agent = cls(model, None if scaling is None else weights.normaliser(scaling))
         agent.scaling = scaling
@@ -96,9 +97,9 @@ class Agent:
     def act(
         self, observations: Any, state: Any = None, starts: np.ndarray | None = None
     ) -> tuple[np.ndarray, Any]:
-        """The most likely actions for (n, ...) observations, and the state of an lstm.
+        """Return the most likely actions for observations (n, ...), and the new state of an lstm.
 
-        starts: bool, shape (n,): where an episode begins.
+        starts: bool, shape (n,), true where an episode begins.
         """
         if self._normalise is not None:
             observations = self._normalise(observations)
@@ -131,7 +132,7 @@ def _n(space: spaces.Space) -> Any:
 
 
 def _fill(model: BaseAlgorithm, path: Path, normalised: bool) -> dict[str, np.ndarray] | None:
-    """Puts the weights of a file into the model; gives the scaling of observations."""
+    """Load a file's weights into the model. Return the scaling of observations, if any."""
     if path.suffix == ".npz":
         return weights.fill(path, model.policy, normalised)
     model.set_parameters(str(path), device=model.device)
@@ -145,7 +146,10 @@ def _fill(model: BaseAlgorithm, path: Path, normalised: bool) -> dict[str, np.nd
 def play(
     agent: Agent | NativeAgent, envs: Sequence[gymnasium.Env], seeds: Sequence[int]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """One episode in each environment, all in step: returns (n,) float64 and lengths (n,) int64."""
+    """Play one episode in each environment, in lockstep.
+
+    Return the returns (n,), float64, and the lengths (n,), int64.
+    """
     n = len(envs)
     observations = [env.reset(seed=seed)[0] for env, seed in zip(envs, seeds, strict=True)]
     returns, lengths = np.zeros(n), np.zeros(n, dtype=np.int64)
@@ -162,7 +166,7 @@ def play(
 
 
 def stacked(observations: Sequence[Any]) -> Any:
-    """One batch of the observations, also if each is a dictionary of arrays."""
+    """Return the observations as one batch, or as a dictionary of batches."""
     if isinstance(observations[0], dict):
         return {key: np.stack([one[key] for one in observations]) for key in observations[0]}
     return np.stack(observations)

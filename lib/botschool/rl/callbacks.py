@@ -1,4 +1,4 @@
-"""What happens beside the learning: post-evaluation, saving, more indicators, stopping."""
+"""Callbacks for training: post-evaluate, save, log more indicators, stop."""
 
 from __future__ import annotations
 
@@ -18,25 +18,25 @@ from botschool.rl.settings import Settings
 from botschool.seeds import POST_EVALUATION_SEED
 
 SAVE_SECONDS = 60.0
-"""The last model is saved this often, and after every post-evaluation."""
+"""Seconds between two saves of the last model; each post-evaluation saves it, too."""
 
 REPORT_SECONDS = 0.2
 RECENT = 100
-"""Episodes and, times the environments, steps that the additional indicators look back on."""
+"""Number of recent episodes (and of steps of each environment) that the indicators cover."""
 
 Report = Callable[[int, Evaluations], None]
-"""Called with the steps so far and the evaluations so far."""
+"""A function that is called with the steps and the evaluations so far."""
 
 
 class Stopped(Exception):
-    """Ends a training with an algorithm that does not look at what callbacks return."""
+    """Raised to end a training whose algorithm ignores what callbacks return."""
 
 
 class PostEvaluation(BaseCallback):
-    """Measures the policy on fixed fresh seeds, keeps the best one, and saves the last one.
+    """Measure the policy on fixed fresh seeds, keep the best one, and save the last one.
 
-    The episodes are those of an evolutionary run with the same seed: seed + 100000 + t. Neither
-    they nor the saving change what is learned.
+    The episodes have the seeds of an evolutionary run with the same seed: seed + 100000 + t.
+    Neither post-evaluating nor saving changes what is learned.
     """
 
     def __init__(
@@ -74,12 +74,12 @@ class PostEvaluation(BaseCallback):
         self.logger.dump(self.num_timesteps)
 
     def save(self) -> None:
-        """Saves the last model."""
+        """Save the last model."""
         save_model(self.model, self.run.last)
         self._saved = time.monotonic()
 
     def close(self) -> None:
-        """Closes the environments."""
+        """Close the environments."""
         for env in self._envs:
             env.close()
 
@@ -89,7 +89,7 @@ class PostEvaluation(BaseCallback):
         returns, lengths = play(agent, self._envs, self._seeds)
         best = -np.inf if self.found is None else self.found.best
         self._append(returns, lengths)
-        if returns.mean() >= best:  # of two that did equally well, the one that learned longer
+        if returns.mean() >= best:  # of two equal ones, keep the one that was trained longer
             save_model(self.model, self.run.best)
         self.save()
         self.run.save_evaluations(self.found)
@@ -111,11 +111,11 @@ class PostEvaluation(BaseCallback):
 
 
 class Indicators(BaseCallback):
-    """Logs what Stable-Baselines3 does not: discounted return, advantages, chosen actions.
+    """Log what Stable-Baselines3 does not: discounted return, advantages, chosen actions.
 
-    `rollout/discounted_return` is the mean over the last episodes, without normalisation;
-    `rollout/advantage` and `actions/...` are histograms with mean and standard deviation of the
-    advantages and of each action, or the frequency of each discrete one, in the last rollout.
+    `rollout/discounted_return` is the mean over the last episodes, without normalisation.
+    `rollout/advantage` and `actions/...` are histograms over the last rollout, with mean and
+    standard deviation. A discrete action is logged as the frequency of each choice.
     """
 
     def _on_training_start(self) -> None:

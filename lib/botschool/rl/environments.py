@@ -1,4 +1,4 @@
-"""Environments to train and evaluate on: any Gymnasium id, with errors for learners."""
+"""Make environments for training and evaluation from any Gymnasium id, with clear errors."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from botschool.problems.making import make_env, skipping
 from botschool.wrappers import parse
 
 LONGEST_EPISODE = 10_000
-"""Steps after which an episode of an environment without a limit of its own ends."""
+"""Episodes end after this many steps if the environment sets no limit itself."""
 
 
 def make(name: str, wrapped: str = "", **options: Any) -> gymnasium.Env:
-    """The environment of that id, guarded; wrapped: wrappers (botschool.wrappers).
+    """Return the guarded environment of an id; wrapped: wrappers (botschool.wrappers).
 
     Raises BotschoolError.
     """
@@ -32,14 +32,14 @@ def make(name: str, wrapped: str = "", **options: Any) -> gymnasium.Env:
 
 
 def described(space: spaces.Space) -> str:
-    """A space in few words."""
+    """Return a short description of a space."""
     if isinstance(space, spaces.Box):
         return f"{space.dtype} numbers of shape {space.shape}"
     return shown(space)
 
 
 class Guard(gymnasium.Wrapper):
-    """Turns what an environment does wrong into one sentence; numbers discrete actions from 0."""
+    """Report an environment's mistakes as one sentence, and number discrete actions from 0."""
 
     def __init__(self, env: gymnasium.Env, name: str) -> None:
         super().__init__(env)

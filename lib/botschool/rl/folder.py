@@ -1,17 +1,17 @@
-"""The folder of a training, and reading it. Needs no torch.
+"""Find, make and read the folders of trainings. Needs no torch.
 
-    ppo/CartPole-v1_1/
-        config.yaml        what was trained, and how (settings.py)
-        best_model.zip     the model with the best post-evaluation, in Stable-Baselines3's format
-        last_model.zip     the newest model, saved while the training goes on
-                           (both .npz, weights alone, if the native engine trained)
-        checkpoint.npz     what a native training goes on from with --resume
-        evaluations.npz    timesteps (n,), results (n, episodes), ep_lengths (n, episodes)
-        progress.csv       the indicators, a row for each time they were logged
-        events.out.*       the same for TensorBoard
+ppo/CartPole-v1_1/
+  config.yaml        what was trained, and how (settings.py)
+  best_model.zip     the model with the best post-evaluation, in Stable-Baselines3's format
+  last_model.zip     the newest model, saved during the training
+                     (both end in .npz and hold only weights if the native engine trained)
+  checkpoint.npz     the state from which --resume continues a native training
+  evaluations.npz    timesteps (n,), results (n, episodes), ep_lengths (n, episodes)
+  progress.csv       the indicators, one row each time they were logged
+  events.out.*       the same for TensorBoard
 
-The number at the end is the next free one. `.zip` files hold the running means of a normalised
-training too, so a model is always whole.
+The number at the end is the next free one. A `.zip` file also holds the running means of a
+normalised training, so a model is always complete.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 CONFIG, EVALUATIONS = "config.yaml", "evaluations.npz"
 
 DEPTH = 3
-"""Folders below one that trainings are looked for in, as results/rl/ppo/CartPole-v1_1."""
+"""Levels below a folder that are searched for trainings, as in results/rl/ppo/CartPole-v1_1."""
 
 
 @dataclass
@@ -53,12 +53,12 @@ class Evaluations:
 
     @property
     def best(self) -> float:
-        """The mean return of the best one, which best_model.zip reached."""
+        """Return the mean return of the best post-evaluation, which best_model.zip reached."""
         return float(self.returns.mean(axis=1).max())
 
     @property
     def last(self) -> float:
-        """The mean return of the last one."""
+        """Return the mean return of the last post-evaluation."""
         return float(self.returns[-1].mean())
 
 
@@ -89,31 +89,31 @@ class RunFolder:
 
     @property
     def number(self) -> int:
-        """The number at the end of the name; 0 if there is none."""
+        """Return the number at the end of the folder's name, 0 if it has none."""
         match = re.search(r"_(\d+)$", self.path.name)
         return int(match[1]) if match else 0
 
     def settings(self) -> Settings:
-        """What was trained, and how. Raises BotschoolError."""
+        """Return the settings of the training. Raises BotschoolError."""
         from botschool.rl.settings import Settings
 
         return Settings.load(self.config)
 
     def make_env(self, **options: object) -> gymnasium.Env:
-        """A new environment of the kind that was trained on."""
+        """Return a new environment of the kind that the agent was trained on."""
         from botschool.rl.environments import make
 
         settings = self.settings()
         return make(settings.env, settings.wrappers, **options)
 
     def save_evaluations(self, evaluations: Evaluations) -> None:
-        """Writes evaluations.npz. Raises BotschoolError."""
+        """Write evaluations.npz. Raises BotschoolError."""
         names = ("timesteps", "results", "ep_lengths")
         arrays = (evaluations.steps, evaluations.returns, evaluations.lengths)
         save_npz(self.path / EVALUATIONS, dict(zip(names, arrays, strict=True)))
 
     def evaluations(self) -> Evaluations:
-        """Reads evaluations.npz. Raises BotschoolError."""
+        """Read evaluations.npz. Raises BotschoolError."""
         path = self.path / EVALUATIONS
         try:
             arrays = numbers(path)
@@ -122,7 +122,8 @@ class RunFolder:
             )
         except FileNotFoundError:
             raise BotschoolError(
-                f"{self.path} is no folder of a training with results: it has no {EVALUATIONS}."
+                f"{self.path} is not the folder of a training with results: it has no "
+                f"{EVALUATIONS}."
             ) from None
         except Exception:  # a damaged file can fail in any way
             raise BotschoolError(f"{path} is damaged: train again.") from None
@@ -133,9 +134,9 @@ class RunFolder:
         return Evaluations(steps, returns, lengths)
 
     def log(self) -> dict[str, np.ndarray]:
-        """Reads progress.csv: name of the indicator -> float64, shape (rows,), NaN where absent.
+        """Read progress.csv: name of the indicator -> float64, shape (rows,), NaN where absent.
 
-        `steps` counts those of the training. Raises BotschoolError.
+        `steps` counts the steps of the training. Raises BotschoolError.
         """
         path = self.path / "progress.csv"
         try:
@@ -159,12 +160,12 @@ def _number(text: object) -> float:
 
 
 def name_of(env: str) -> str:
-    """An id as a part of a folder's name."""
+    """Return an environment's id as part of a folder's name."""
     return re.sub(r"[^\w.-]+", "-", env)
 
 
 def next_folder(base: Path, algo: str, env: str) -> RunFolder:
-    """Makes base/algo/env_N with the next free number N. Raises BotschoolError."""
+    """Make the folder base/algo/env_N with the next free number N. Raises BotschoolError."""
     name = name_of(env)
     parent = base / algo
     try:
@@ -176,14 +177,14 @@ def next_folder(base: Path, algo: str, env: str) -> RunFolder:
             try:
                 path.mkdir()
                 return RunFolder(path)
-            except FileExistsError:  # another training was quicker
+            except FileExistsError:  # another training took this number first
                 number += 1
     except OSError as error:
         raise cannot_write(parent, error.strerror or str(error)) from error
 
 
 def runs_of(folder: Path | str, algo: str, env: str) -> dict[int, RunFolder]:
-    """The trainings of an algorithm on an environment, by their numbers."""
+    """Return the trainings of an algorithm on an environment, by their numbers."""
     parent, name = Path(folder) / algo, name_of(env)
     return {
         run.number: run
@@ -193,9 +194,9 @@ def runs_of(folder: Path | str, algo: str, env: str) -> dict[int, RunFolder]:
 
 
 def run_of(folder: Path | str, algo: str, env: str, number: int = 0, hint: str = "") -> RunFolder:
-    """The training `number` of an algorithm on an environment; 0 is the newest one.
+    """Return the training `number` of an algorithm on an environment; 0 means the newest one.
 
-    hint: what else one can do where there is none at all. Raises BotschoolError.
+    hint: added to the error if there is no training at all. Raises BotschoolError.
     """
     numbered = runs_of(folder, algo, env)
     if not numbered or number not in (0, *numbered):
@@ -212,7 +213,9 @@ def run_of(folder: Path | str, algo: str, env: str, number: int = 0, hint: str =
 
 
 def find_runs(folder: Path | str) -> list[RunFolder]:
-    """The trainings in a folder, by name and number: itself, or up to DEPTH levels below."""
+    """Return the trainings in a folder, by name and number: the folder itself, or folders up to
+    DEPTH levels below it.
+    """
     return sorted(
         (RunFolder(path) for path in _folders(Path(folder))),
         key=lambda run: (run.path.parent, re.sub(r"_\d+$", "", run.path.name), run.number),
@@ -229,7 +232,7 @@ def _folders(folder: Path) -> Iterator[Path]:
 
 
 def is_run(folder: Path) -> bool:
-    """Whether the folder is that of a training."""
+    """Return whether the folder holds a training."""
     return (folder / CONFIG).is_file() and any(
         (folder / name).is_file()
         for name in (EVALUATIONS, "last_model.zip", "last_model.npz", "progress.csv")

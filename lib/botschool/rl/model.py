@@ -1,4 +1,4 @@
-"""Stable-Baselines3's algorithms: their classes, and models made of settings."""
+"""Choose the settings of a training and build Stable-Baselines3's models from them."""
 
 from __future__ import annotations
 
@@ -43,16 +43,16 @@ GOAL_PARTS = {"observation", "achieved_goal", "desired_goal"}
 
 
 def require(*packages: str) -> None:
-    """Raises BotschoolError unless the packages can be imported."""
+    """Raise BotschoolError unless the packages can be imported."""
     for package in packages:
         try:
             importlib.import_module(package)
         except ImportError as error:
             missing = (error.name or package).partition(".")[0]
             raise BotschoolError(
-                f"botschool rl needs the package {missing}: install it with `pip install torch "
-                "stable-baselines3 sb3-contrib optuna`, or all that botschool can use with `pip "
-                "install 'botschool[rl]'`."
+                f"botschool rl needs the package {missing}: install it with `pip install "
+                "torch stable-baselines3 sb3-contrib optuna`, or all packages that botschool "
+                "can use with `pip install 'botschool[rl]'`."
             ) from None
 
 
@@ -70,10 +70,11 @@ def choose(
     vec_env: str = "dummy",
     engine: str = "auto",
 ) -> Settings:
-    """Settings of a training: what is given, then defaults.yaml and benchmarks.yaml.
+    """Return the settings of a training: the arguments, completed from defaults.yaml and
+    benchmarks.yaml.
 
-    wrappers: in place of those that the files have for the environment; "none" for none at all.
-    engine: native (botschool.rl.native), sb3 (Stable-Baselines3), or auto: native where it can.
+    wrappers: replace those that the files name for the environment; "none" means no wrappers.
+    engine: native (botschool.rl.native), sb3 (Stable-Baselines3), or auto (native where possible).
     Raises BotschoolError.
     """
     algo = check_algorithm(algo)
@@ -147,12 +148,12 @@ def choose(
 
 
 def _share_batches(entry: dict[str, Any], model_class: type[BaseAlgorithm], envs: int) -> None:
-    """Puts batch_size into the place of nminibatches."""
+    """Replace nminibatches by the batch_size that it means."""
     known = inspect.signature(model_class.__init__).parameters
     if not {"n_steps", "n_epochs", "batch_size"} <= known.keys():
         raise BotschoolError(f"nminibatches is for ppo, not for {model_class.__name__}.")
     n_steps = entry.get("n_steps", known["n_steps"].default)
-    if isinstance(n_steps, int):  # what else it is, its own check says
+    if isinstance(n_steps, int):  # other values are refused by their own check
         entry["batch_size"] = spellings.batch_size(entry.pop("nminibatches"), n_steps, envs)
 
 
@@ -211,9 +212,9 @@ def _sees_images(env: gymnasium.Env) -> bool:
 
 
 def algorithm_class(algo: str, policy: str, discrete: bool = False) -> type[BaseAlgorithm]:
-    """The library's class for an algorithm. Raises BotschoolError where it is not installed.
+    """Return the library's class for an algorithm. Raises BotschoolError if it is not installed.
 
-    Hindsight experience replay is SAC with goals, or DQN where actions are discrete.
+    Hindsight experience replay is SAC with goals, or DQN for discrete actions.
     """
     require("torch", "stable_baselines3")
     if algo in CONTRIB or (algo == "ppo" and has_memory(policy)):
@@ -225,7 +226,7 @@ def algorithm_class(algo: str, policy: str, discrete: bool = False) -> type[Base
 
 
 def build(settings: Settings, env: VecEnv | gymnasium.Env, small: bool = False) -> BaseAlgorithm:
-    """An untrained model. `small`: one that only acts. Raises BotschoolError."""
+    """Return an untrained model; `small`: one that only acts. Raises BotschoolError."""
     require("torch", "stable_baselines3")
     import torch
 
@@ -244,7 +245,7 @@ def build(settings: Settings, env: VecEnv | gymnasium.Env, small: bool = False) 
     chosen.setdefault("device", "auto" if settings.policy in WITH_IMAGES else "cpu")
     discrete = isinstance(env.action_space, spaces.Discrete)
     model_class = algorithm_class(settings.algo, settings.policy, discrete)
-    if small:  # it may be of another version of the library, whose learning has other parameters
+    if small:  # another version of the library may have other learning parameters
         known = inspect.signature(model_class.__init__).parameters
         chosen = {name: value for name, value in chosen.items() if name in known}
         chosen["device"] = "cpu"
@@ -275,7 +276,7 @@ def _pass_on(caught: Sequence[warnings.WarningMessage]) -> None:
 
 
 def _live(name: str, value: Any, env: VecEnv | gymnasium.Env) -> Any:
-    """What the library wants in place of plain data."""
+    """Return the object that the library expects in place of plain data."""
     from stable_baselines3.common.noise import NormalActionNoise
     from stable_baselines3.common.utils import LinearSchedule
 

@@ -1,4 +1,4 @@
-"""Hyperparameters: read from `key=value`, checked against what the algorithm's class accepts."""
+"""Read hyperparameters from `key=value` and check them against the algorithm's class."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ NOT_HERE = {
     "verbose": "leave it out",
     "_init_setup_model": "leave it out",
 }
-"""Names that users of Stable-Baselines3 know, and what stands for them here."""
+"""Hyperparameters of Stable-Baselines3 that are not set here, and what to do instead."""
 
 OBJECTS = ("buffer_class", "buffer_kwargs")
-"""Ends of names whose values are Python objects, which cannot be written in a file."""
+"""Endings of names whose values are Python objects, which a file cannot hold."""
 
 OF_POLICY = {
     "net_arch": "a list of whole numbers, as [64, 64]",
@@ -46,13 +46,13 @@ OF_POLICY = {
     "with_bias": "true or false",
     "n_quantiles": "a whole number",
 }
-"""Parameters of the policy's class; which of them exist depends on the algorithm."""
+"""Parameters of the policy's class; the algorithm decides which of them exist."""
 
 OF_GOALS = {"n_sampled_goal": 4, "goal_selection_strategy": "future"}
 """Parameters of hindsight experience replay, with their defaults."""
 
 GOALS = ("future", "final", "episode")
-"""Where the goals in hindsight are taken from."""
+"""Strategies that choose the goals of hindsight experience replay."""
 
 ACTIVATIONS = {"tanh": "Tanh", "relu": "ReLU", "elu": "ELU", "gelu": "GELU"}
 
@@ -69,11 +69,11 @@ RANGES = {
     **dict.fromkeys(("n_sampled_goal", "cg_max_steps", "n_critic_updates"), (1, None)),
     **dict.fromkeys(("delta_std", "target_kl"), (0, None)),
 }
-"""Smallest and largest value, or None."""
+"""Smallest and largest value, None for no limit."""
 
 
 def parse(items: Iterable[str]) -> dict[str, Any]:
-    """["gamma=0.9", "net_arch=[32,32]"] -> {"gamma": 0.9, ...}; a colon is as good as the first =.
+    """Read ["gamma=0.9", "net_arch=[32,32]"] as {"gamma": 0.9, ...}; name:value works, too.
 
     Raises BotschoolError.
     """
@@ -82,7 +82,7 @@ def parse(items: Iterable[str]) -> dict[str, Any]:
         name, equals, text = re.match(r"([^=:]*)([=:]?)(.*)", item, re.DOTALL).groups()
         if not equals or not name.strip() or not text.strip():
             raise BotschoolError(
-                f"'{shown(item)}' is no hyperparameter: write --params name=value, as "
+                f"'{shown(item)}' is not a hyperparameter: write --params name=value, as in "
                 "--params learning_rate=0.001 gamma=0.98."
             )
         try:
@@ -97,21 +97,23 @@ def parse(items: Iterable[str]) -> dict[str, Any]:
 
 
 def read_settings(path: Path) -> dict[str, Any]:
-    """The hyperparameters in a YAML file of `name: value`. Raises BotschoolError."""
+    """Read the hyperparameters in a YAML file of `name: value`. Raises BotschoolError."""
     try:
         found = yaml.safe_load(path.read_text(encoding="utf-8")) or {}
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        reason = getattr(error, "strerror", None) or "it is no YAML"
+        reason = getattr(error, "strerror", None) or "it is not YAML"
         raise BotschoolError(
-            f"{path} cannot be read ({reason}): give a file of name: value."
+            f"{path} cannot be read ({reason}): give a file with lines of name: value."
         ) from (None)
     if not isinstance(found, dict) or not all(isinstance(name, str) for name in found):
-        raise BotschoolError(f"{path} holds no hyperparameters: give a file of name: value.")
+        raise BotschoolError(
+            f"{path} holds no hyperparameters: give a file with lines of name: value."
+        )
     return {name: _number_if_possible(value) for name, value in found.items()}
 
 
 def _number_if_possible(value: Any) -> Any:
-    """YAML takes 1e-3 for a word."""
+    """Convert a word such as 1e-3, which YAML reads as a string, to a number."""
     if isinstance(value, str):
         try:
             return float(value)
@@ -121,9 +123,9 @@ def _number_if_possible(value: Any) -> Any:
 
 
 def accepted(model_class: Any, policy_class: Any, goals: bool = False) -> dict[str, Any]:
-    """Name -> the annotation of its type, or for the policy's own ones the words for it.
+    """Return name -> its type annotation, or the words for it if it belongs to the policy.
 
-    goals: those of hindsight experience replay, too.
+    goals: include the parameters of hindsight experience replay.
     """
     found: dict[str, Any] = {name: type(value) for name, value in OF_GOALS.items()} if goals else {}
     for name, parameter in inspect.signature(model_class.__init__).parameters.items():
@@ -132,7 +134,7 @@ def accepted(model_class: Any, policy_class: Any, goals: bool = False) -> dict[s
     if "action_noise" in found:
         found["action_noise"] = float | None
     of_policy = set()
-    for each in policy_class.__mro__:  # a class of one's own may hand what is named to its base
+    for each in policy_class.__mro__:  # a user's class may pass keyword arguments on to its base
         of_each = inspect.signature(each.__init__).parameters.values()
         of_policy |= {parameter.name for parameter in of_each}
         if not any(parameter.kind is parameter.VAR_KEYWORD for parameter in of_each):
@@ -143,9 +145,9 @@ def accepted(model_class: Any, policy_class: Any, goals: bool = False) -> dict[s
 def complete(
     model_class: Any, policy_class: Any, chosen: Mapping[str, Any], goals: bool = False
 ) -> dict[str, Any]:
-    """The chosen hyperparameters, checked, after the algorithm's own defaults for the others.
+    """Return the chosen hyperparameters, checked, completed by the algorithm's own defaults.
 
-    Raises BotschoolError with the nearest name, or with what a value can be.
+    Raises BotschoolError that suggests the nearest name or the values allowed.
     """
     known = accepted(model_class, policy_class, goals)
     signature = inspect.signature(model_class.__init__).parameters
@@ -175,7 +177,7 @@ def _plain(value: Any) -> bool:
 
 
 def _checked(name: str, value: Any, annotation: Any) -> Any:
-    """The value as the algorithm wants it. Raises BotschoolError."""
+    """Return the value in the type that the algorithm expects. Raises BotschoolError."""
     if value is None and not isinstance(annotation, str) and type(None) in _types(annotation):
         return None
     words = annotation if isinstance(annotation, str) else _words(annotation)
@@ -195,7 +197,7 @@ def _checked(name: str, value: Any, annotation: Any) -> Any:
 
 
 def linear(value: Any) -> float | None:
-    """0.001 for "linear 0.001", else None."""
+    """Return 0.001 for "linear 0.001", None for other values."""
     words = value.split() if isinstance(value, str) else []
     if len(words) == 2 and words[0] == "linear":
         try:
@@ -215,7 +217,7 @@ def _types(annotation: Any) -> set[Any]:
 
 
 def _of_type(value: Any, annotation: Any) -> Any:
-    """The value in the first type that fits, None if none does."""
+    """Return the value in the first type that fits, None if none does."""
     types = _types(annotation)
     if isinstance(value, bool):
         return value if bool in types else None
@@ -260,7 +262,7 @@ def _of_policy(name: str, value: Any) -> Any:
 
 
 def _is_pair(value: Any) -> bool:
-    """Whether it is {"pi": [...], "vf": [...]}, layers of actor and critic apart."""
+    """Return whether it is {"pi": [...], "vf": [...]}, separate layers for actor and critic."""
     return isinstance(value, dict) and all(isinstance(part, list) for part in value.values())
 
 

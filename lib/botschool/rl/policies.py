@@ -1,11 +1,10 @@
-"""Policies: those of the library by name, and a class of one's own as module:Class.
+"""Find policies: the library's by name, the user's own as module:Class.
 
     botschool rl train --algo ppo --env CartPole-v1 --policy my_policy:TwoSpeeds
     botschool rl enjoy --algo ppo --env CartPole-v1 --policy my_policy:TwoSpeeds
 
-The module is installed or lies in the present folder. It runs code of its own, so watching an agent
-imports it only when --policy names the same class again: what the settings of a saved agent name
-is never imported by itself.
+The module is installed or lies in the current folder. Importing it runs its code. So a saved agent
+never causes an import by itself: its class is imported only if --policy names it again.
 """
 
 from __future__ import annotations
@@ -32,20 +31,20 @@ WITH_IMAGES = ("cnn", "cnnlstm")
 
 
 def is_own(policy: str) -> bool:
-    """Whether it names a class as module:Class."""
+    """Return whether the name has the form module:Class."""
     return ":" in policy
 
 
 def check_policy(policy: str, algo: str) -> str:
-    """The name of a policy that the algorithm has, in lower case, or module:Class as it is.
+    """Return the policy's name in lower case if the algorithm has it; module:Class stays as it is.
 
     Raises BotschoolError.
     """
     if is_own(policy):
         if not re.fullmatch(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*", policy):
             raise BotschoolError(
-                f"The policy {shown(policy)} names no class: write module:Class, as "
-                "my_policy:MyPolicy."
+                f"The policy {shown(policy)} does not name a class: write module:Class, such "
+                "as my_policy:MyPolicy."
             )
         return policy
     policy = spellings.POLICIES.get(policy.lower(), policy)
@@ -65,7 +64,7 @@ def check_policy(policy: str, algo: str) -> str:
 
 
 def load(policy: str) -> type[BasePolicy]:
-    """The class that module:Class names; imports its module. Raises BotschoolError."""
+    """Import the module of module:Class and return the class. Raises BotschoolError."""
     from stable_baselines3.common.policies import BasePolicy
 
     name, _, own = policy.partition(":")
@@ -78,15 +77,15 @@ def load(policy: str) -> type[BasePolicy]:
         raise BotschoolError(f"The module {name} has no policy '{own}'; {hint}{end}")
     if not isinstance(found, type) or not issubclass(found, BasePolicy):
         raise BotschoolError(
-            f"{policy} is no policy of Stable-Baselines3: derive its class from "
-            "stable_baselines3.common.policies.ActorCriticPolicy (ppo, a2c, trpo), or from the "
-            "policy of your algorithm."
+            f"{policy} is not a policy of Stable-Baselines3: derive its class from "
+            "stable_baselines3.common.policies.ActorCriticPolicy (ppo, a2c, trpo), or from "
+            "the policy of your algorithm."
         )
     return found
 
 
 def has_memory(policy: str) -> bool:
-    """Whether it is a network with memory, which needs sb3-contrib's RecurrentPPO."""
+    """Return whether the policy has memory and needs sb3-contrib's RecurrentPPO."""
     if not is_own(policy):
         return policy in WITH_MEMORY
     return any(each.__name__ == "RecurrentActorCriticPolicy" for each in load(policy).__mro__)
@@ -95,9 +94,10 @@ def has_memory(policy: str) -> bool:
 def policy_of(
     model_class: type[BaseAlgorithm], policy: str, env: gymnasium.Env | VecEnv
 ) -> type[BasePolicy] | None:
-    """The class of a policy for that algorithm and these observations, None if it has none.
+    """Return the class of a policy for this algorithm and these observations, None if there is
+    none.
 
-    Raises BotschoolError for a class of one's own that is none for the algorithm.
+    Raises BotschoolError if the user's own class does not fit the algorithm.
     """
     aliases = model_class.policy_aliases
     if not is_own(policy):
@@ -119,14 +119,14 @@ def _name(policy: str, env: gymnasium.Env | VecEnv) -> str:
 
 
 def check_trusted(model: Any, saved: str, named: str | None) -> None:
-    """Raises BotschoolError unless code that a saved agent needs was named by the user.
+    """Raise BotschoolError if a saved agent needs code that the user has not named.
 
-    model: the agent's file; saved: the policy in its settings; named: the one of --policy.
+    model: the agent's file; saved: the policy in its settings; named: the value of --policy.
     """
     if named is None and is_own(saved):
         raise BotschoolError(
-            f"The policy of {model} is {shown(saved)}, a class that is no part of botschool: if "
-            f"you trust its code, add --policy {shown(saved)}."
+            f"The policy of {model} is {shown(saved)}, a class that is not part of botschool: "
+            f"if you trust its code, add --policy {shown(saved)}."
         )
     if named is not None and named != saved:
         raise BotschoolError(

@@ -1,4 +1,4 @@
-"""Environments that each run in a process of their own, with the same results as in one."""
+"""Run each environment in a process of its own, with the same results as in one process."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from stable_baselines3.common.vec_env import SubprocVecEnv
 from botschool.errors import BotschoolError
 
 ERROR = "botschool_error"
-"""Entry of an info: the sentence with which an environment broke down."""
+"""Key in an info dictionary: the error message of an environment."""
 
 
 class Relay(gymnasium.Wrapper):
-    """Sends a BotschoolError through the pipe, as an info; the process would die of it."""
+    """Send a BotschoolError through the pipe as an info; otherwise it would end the process."""
 
     def __init__(self, env: gymnasium.Env) -> None:
         super().__init__(env)
@@ -40,7 +40,7 @@ class Relay(gymnasium.Wrapper):
 
 
 class ProcessVecEnv(SubprocVecEnv):
-    """Stable-Baselines3's, which raises what its environments have relayed."""
+    """Stable-Baselines3's SubprocVecEnv that raises the errors of its environments."""
 
     def __init__(self, makers: Sequence[Callable[[], gymnasium.Env]]) -> None:
         try:
@@ -56,7 +56,7 @@ class ProcessVecEnv(SubprocVecEnv):
             raise self._died() from None
         self._raise_relayed(infos)
         self._raise_relayed(self.reset_infos)
-        return observations, rewards.astype(np.float32), dones, infos  # as DummyVecEnv has them
+        return observations, rewards.astype(np.float32), dones, infos  # the types of DummyVecEnv
 
     def reset(self):
         try:
@@ -69,7 +69,7 @@ class ProcessVecEnv(SubprocVecEnv):
     def close(self) -> None:
         try:
             super().close()
-        except (EOFError, OSError):  # one of them has died
+        except (EOFError, OSError):  # a process has ended
             for process in self.processes:
                 process.terminate()
                 process.join()
@@ -84,13 +84,13 @@ class ProcessVecEnv(SubprocVecEnv):
     def _died(self) -> BotschoolError:
         self.waiting = False
         return BotschoolError(
-            "A process with an environment ended unexpectedly: train with --vec-env dummy to see "
-            "why, or with fewer environments (--envs) if memory is short."
+            "A process with an environment ended unexpectedly: train with --vec-env dummy to "
+            "see why, or with fewer environments (--envs) if memory is short."
         )
 
 
 class _Relayed:
-    """Makes an environment inside a Relay; a class, so that it can be sent to a process."""
+    """Make an environment inside a Relay; a class, because processes receive it by pickle."""
 
     def __init__(self, make: Callable[[], gymnasium.Env]) -> None:
         self.make = make

@@ -1,4 +1,4 @@
-"""What a user sees during a training: a progress bar, or a line per post-evaluation."""
+"""Show the progress of a training: a progress bar, or a line per post-evaluation."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from botschool.terminal import progress_bar, readable
 def reporting(
     budget: int, seed: int, terminal: bool
 ) -> Iterator[Callable[[int, Evaluations], None]]:
-    """Gives a function to call with the steps and the post-evaluations so far."""
+    """Yield a function to call with the steps and the post-evaluations so far."""
     if terminal:
         with progress_bar(seed) as show:
             yield lambda steps, evaluations: show(steps / budget, steps, 3, _numbers(evaluations))

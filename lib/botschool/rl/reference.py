@@ -1,7 +1,7 @@
-"""What Stable-Baselines3's PPO computes, number by number, for comparison with one's own functions.
+"""Compute what Stable-Baselines3's PPO computes, to compare it with your own functions.
 
-Everything is computed by its own code (RolloutBuffer, PPO.train, its distributions), in float64,
-so that comparisons to 1e-6 do not fail by rounding.
+Stable-Baselines3's own code (RolloutBuffer, PPO.train, distributions) computes everything, in
+float64, so that rounding does not spoil comparisons to 1e-6.
 """
 
 from __future__ import annotations
@@ -17,16 +17,17 @@ KEPT = ("observations", "actions", "rewards", "values", "log_probs", "episode_st
 
 
 class Rollout:
-    """A rollout that Stable-Baselines3's PPO has collected, and what its code makes of it.
+    """A rollout collected by Stable-Baselines3's PPO, with the values that its code derives from
+    it.
 
-    Arrays have the shape (steps, envs), with one more axis for `observations` and `actions`;
-    `last_values` (the values of what was observed after the last step) and `dones` (whether that
-    step ended an episode, 1.0 or 0.0) have the shape (envs,). `advantages` and `returns` are those
-    of RolloutBuffer.compute_returns_and_advantage.
+    Arrays have the shape (steps, envs), with one more axis for `observations` and `actions`.
+    `last_values` (the values of the observations after the last step) and `dones` (1.0 if the last
+    step ended an episode, else 0.0) have the shape (envs,). `advantages` and `returns` come from
+    RolloutBuffer.compute_returns_and_advantage.
     """
 
     def __init__(self, model: PPO) -> None:
-        """Lets the model run its policy for n_steps steps in each of its environments."""
+        """Run the model's policy for n_steps steps in each of its environments."""
         import torch
 
         buffer = model.rollout_buffer
@@ -50,7 +51,9 @@ class Rollout:
         self.advantages, self.returns = buffer.advantages.copy(), buffer.returns.copy()
 
     def train(self, epochs: int) -> None:
-        """Lets the model train on the rollout, so that its policy is no longer the one that ran."""
+        """Train the model on the rollout, so that its policy differs from the one that collected
+        it.
+        """
         self._model.n_epochs = epochs
         self._model.train()
 
@@ -61,12 +64,12 @@ class Rollout:
         ent_coef: float = 0.0,
         vf_coef: float = 0.5,
     ) -> tuple[dict[str, np.ndarray], dict[str, float]]:
-        """One update of PPO.train on all steps as one batch: what went in, and what it logged.
+        """Run one update of PPO.train on all steps as one batch; return its inputs and its log.
 
-        In: `values`, `log_prob` and `entropy` of the policy of now, `old_values`, `old_log_prob`,
-        `advantages` and `returns` of the rollout, each of shape (steps * envs,), in the order in
-        which PPO has shuffled the steps. Logged: policy_gradient_loss, clip_fraction, value_loss,
-        entropy_loss, approx_kl, loss, explained_variance (of the whole rollout).
+        Inputs, each of shape (steps * envs,), in the order in which PPO shuffled the steps:
+        `values`, `log_prob` and `entropy` of the present policy; `old_values`, `old_log_prob`,
+        `advantages` and `returns` of the rollout. Log: policy_gradient_loss, clip_fraction,
+        value_loss, entropy_loss, approx_kl, loss, explained_variance (of the whole rollout).
         """
         model = self._model
         model.n_epochs = 1
@@ -104,7 +107,7 @@ class Rollout:
 
 
 def make_ppo(environment: str, seed: int, n_steps: int = 128, n_envs: int = 2, **options: Any):
-    """A PPO of Stable-Baselines3 with the usual MLP policy, on the CPU, that logs nowhere."""
+    """Return a PPO of Stable-Baselines3 with an MLP policy, on the CPU, without a log."""
     from stable_baselines3 import PPO
     from stable_baselines3.common.env_util import make_vec_env
     from stable_baselines3.common.logger import Logger
@@ -116,10 +119,10 @@ def make_ppo(environment: str, seed: int, n_steps: int = 128, n_envs: int = 2, *
 
 
 def updates_made(log_ratios: list[list[float]], target_kl: float) -> int:
-    """How many updates PPO.train makes before it stops early.
+    """Return how many updates PPO.train makes before it stops early.
 
-    log_ratios: for each epoch and batch, the logarithm of the ratio of new to old probability,
-    the same for all steps of the batch.
+    log_ratios: for each epoch and batch, the logarithm of the ratio of new to old probability, the
+    same for all steps of the batch.
     """
     import torch
 
@@ -146,7 +149,7 @@ def updates_made(log_ratios: list[list[float]], target_kl: float) -> int:
 
 
 def policy_layers(model: PPO) -> list[tuple[np.ndarray, np.ndarray]]:
-    """(weights, biases) of the hidden layers of the policy, float64; activations are tanh."""
+    """Return (weights, biases) of the policy's hidden layers, float64; activations are tanh."""
     layers = [each for each in model.policy.mlp_extractor.policy_net if hasattr(each, "weight")]
     return [
         (layer.weight.detach().double().numpy(), layer.bias.detach().double().numpy())

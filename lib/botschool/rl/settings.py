@@ -1,4 +1,4 @@
-"""What a training is made of: algorithm, problem, policy and hyperparameters."""
+"""Store the settings of a training: algorithm, problem, policy and hyperparameters."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ from botschool.rl.policies import WITH_MEMORY, is_own
 
 ALGORITHMS = ("ppo", "a2c", "trpo", "ars", "sac", "td3", "ddpg", "tqc", "her", "dqn", "qrdqn")
 VEC_ENVS = ("dummy", "subproc")
-"""Where environments side by side run: all in this process, or each in one of its own."""
+"""Where parallel environments run: all in this process, or each in a process of its own."""
 
 
 LATER = {"wrappers", "vec_env", "training_wrappers", "engine"}
-"""Settings that trainings of older versions did not have."""
+"""Settings that trainings of older versions lack."""
 
 
 COUNTS = {"seed": 0, "steps": 0, "envs": 1, "evaluations": 0, "episodes": 1}
-"""Settings that are whole numbers, and the smallest."""
+"""Settings that are whole numbers, each with its minimum."""
 
 
 @dataclass
 class Settings:
-    """A training; config.yaml holds the same."""
+    """The settings of a training, as config.yaml stores them."""
 
     algo: str
     """One of ALGORITHMS."""
@@ -43,33 +43,33 @@ class Settings:
     """One of policies.POLICIES, or module:Class."""
     seed: int
     steps: int
-    """Length of the training, post-evaluations not counted."""
+    """Length of the training without post-evaluations."""
     envs: int
-    """Environments that are stepped side by side."""
+    """Environments that step in parallel."""
     normalize: bool
     """Whether observations and rewards are scaled by their running mean and deviation."""
     evaluations: int
-    """Post-evaluations during the training, besides the one before it."""
+    """Post-evaluations during the training; one more comes before it."""
     episodes: int
     """Episodes of a post-evaluation."""
     parameters: dict[str, Any] = field(default_factory=dict)
-    """Hyperparameters of the algorithm and its policy, the library's own defaults among them."""
+    """Hyperparameters of the algorithm and its policy, including the library's own defaults."""
     given: dict[str, Any] = field(default_factory=dict)
-    """Those that were given in place of the entry in defaults.yaml."""
+    """Hyperparameters that the user set instead of the entry in defaults.yaml."""
     versions: dict[str, str] = field(default_factory=dict)
-    """Of the packages that trained."""
+    """Versions of the packages that trained."""
     wrappers: str = ""
-    """Around the environment, as botschool.wrappers reads them."""
+    """Wrappers around the environment, in the syntax of botschool.wrappers."""
     vec_env: str = "dummy"
-    """One of VEC_ENVS; the results are the same."""
+    """One of VEC_ENVS; both give the same results."""
     training_wrappers: str = ""
-    """Around these while it trains, but not when it is measured: rewards of Atari's games cut."""
+    """Wrappers for training only, not for evaluation, such as clipped rewards of Atari games."""
     engine: str = "sb3"
-    """Who trained: sb3 (Stable-Baselines3) or native (botschool.rl.native)."""
+    """The engine that trained: sb3 (Stable-Baselines3) or native (botschool.rl.native)."""
 
     @property
     def variant(self) -> str:
-        """What sets it apart from a training with defaults, as `lstm learning_rate=0.001`."""
+        """Return the difference from the defaults, such as `lstm learning_rate=0.001`."""
         policy = [self.policy] if self.policy in WITH_MEMORY or is_own(self.policy) else []
         given = [f"{name}={value}" for name, value in self.given.items()]
         usual = defaults(self.algo, self.env).get("wrappers") if self.algo in ALGORITHMS else ""
@@ -77,21 +77,21 @@ class Settings:
         return " ".join([*policy, *given, *filter(None, wrappers)])
 
     def save(self, path: Path) -> None:
-        """Writes a YAML file. Raises BotschoolError."""
+        """Write the settings as a YAML file. Raises BotschoolError."""
         text = yaml.safe_dump(asdict(self), sort_keys=False, default_flow_style=None)
         save_bytes(path, text.encode())
 
     @classmethod
     def load(cls, path: Path) -> Settings:
-        """The reverse of save. Raises BotschoolError."""
+        """Read the settings from a YAML file. Raises BotschoolError."""
         try:
             found = yaml.load(path.read_text(encoding="utf-8"), _PlainLoader)
         except FileNotFoundError:
             raise BotschoolError(
-                f"{path.parent} is no folder of a training (it has no {path.name}): name one that "
-                "`botschool rl list` shows."
+                f"{path.parent} is not the folder of a training (it has no {path.name}): name "
+                "one that `botschool rl list` shows."
             ) from None
-        except Exception as error:  # of a file that may hold anything
+        except Exception as error:  # the file may hold anything
             raise BotschoolError(
                 f"{path} cannot be read: {' '.join(str(error).split())}."
             ) from None
@@ -117,16 +117,18 @@ def _is_right(name: str, value: object) -> bool:
 
 
 class _PlainLoader(yaml.SafeLoader):
-    """Without aliases: `save` writes none, and a few lines of them make billions of values."""
+    """A YAML loader without aliases: `save` writes none, and a few lines of them make billions of
+    values.
+    """
 
     def compose_node(self, parent: object, index: object) -> yaml.Node:
         if self.check_event(yaml.AliasEvent):
-            raise yaml.YAMLError("it has an alias, as no training writes")
+            raise yaml.YAMLError("it has an alias, which no training writes")
         return super().compose_node(parent, index)
 
 
 def check_algorithm(algo: str) -> str:
-    """The name of a known algorithm in lower case. Raises BotschoolError."""
+    """Return the name of a known algorithm in lower case. Raises BotschoolError."""
     name = spellings.algorithm(algo)
     if name not in ALGORITHMS:
         hint = nearest(algo, ALGORITHMS)
@@ -135,12 +137,12 @@ def check_algorithm(algo: str) -> str:
 
 
 def defaults(algo: str, env: str) -> dict[str, Any]:
-    """The entry of defaults.yaml or benchmarks.yaml for an algorithm and a Gymnasium id."""
+    """Return the entry of defaults.yaml or benchmarks.yaml for an algorithm and a Gymnasium id."""
     return dict(_defaults()[algo][_key(algo, env) or "default"])
 
 
 def has_defaults(algo: str, env: str) -> bool:
-    """Whether an environment has an entry of its own."""
+    """Return whether the environment has an entry of its own."""
     return _key(algo, env) is not None
 
 

@@ -1,10 +1,10 @@
-"""The trained agents that come with botschool: data/agents, installed with the package.
+"""Find the trained agents that come with botschool: data/agents, installed with the package.
 
-    ppo/CartPole-v1/config.yaml     how it was trained
-    ppo/CartPole-v1/weights.npz     its weights, no more (weights.py)
-    agents.json                     what each has reached in new episodes, and how it was made
+ppo/CartPole-v1/config.yaml     how the agent was trained
+ppo/CartPole-v1/weights.npz     its weights, nothing else (weights.py)
+agents.json                     its returns in new episodes, and the command that trained it
 
-Their README.md is the same table for readers.
+The README.md there shows the same table.
 """
 
 from __future__ import annotations
@@ -22,36 +22,36 @@ TABLE = "agents.json"
 
 @dataclass(frozen=True)
 class Trained:
-    """An agent and what was measured of it."""
+    """A trained agent with its measured returns."""
 
     algo: str
     env: str
     steps: int
-    """Of its training."""
+    """Steps of the training."""
     mean: float
-    """Of the returns in new episodes."""
+    """Mean of the returns in new episodes."""
     deviation: float
     episodes: int
     command: str
-    """That trained it."""
+    """The command that trained the agent."""
     seconds: int
-    """That its training took, of one processor core."""
+    """Seconds of one processor core that the training took."""
     path: Path
-    """Of its weights."""
+    """File of the weights."""
 
     @property
     def told(self) -> str:
-        """What it has reached."""
+        """Return the agent's measured return as text."""
         return f"{self.mean:.1f} +- {self.deviation:.1f} in {self.episodes} new episodes"
 
 
 def folder() -> Path:
-    """Where they are."""
+    """Return the folder of the agents."""
     return material() / "data" / "agents"
 
 
 def agents() -> list[Trained]:
-    """All of them, in the order of the table; none where they are not installed."""
+    """Return all agents in the order of the table; none if they are not installed."""
     path = folder() / TABLE
     if not path.is_file():
         return []
@@ -60,10 +60,10 @@ def agents() -> list[Trained]:
 
 
 def place(base: Path, algo: str, env: str) -> Path:
-    """Where the weights of an agent are in the folder of all."""
+    """Return the path of an agent's weights in the folder `base`."""
     return base / algo / name_of(env) / WEIGHTS
 
 
 def find(algo: str, env: str) -> Trained | None:
-    """The agent of an algorithm on an environment, if one comes along."""
+    """Return the agent of an algorithm on an environment, None if there is none."""
     return next((each for each in agents() if (each.algo, each.env) == (algo, env)), None)

@@ -1,4 +1,4 @@
-"""How Stable Baselines 2 and its Zoo, and so the chapter, spell what is spelled otherwise here."""
+"""Translate the spellings of Stable Baselines 2 and its Zoo, which the chapter uses, to ours."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ GONE = {
     "acer": "use --algo a2c or ppo instead",
     "acktr": "use --algo trpo or ppo instead",
     "actkr": "use --algo trpo or ppo instead",
-    "gail": "it imitates an expert, as the package imitation does, and to learn from rewards there "
-    "is --algo ppo or sac",
+    "gail": "it imitates an expert, as the package imitation does; to learn from rewards, "
+    "use --algo ppo or sac",
 }
-"""Algorithms that Stable-Baselines3 no longer has, and what to do instead."""
+"""Algorithms that Stable-Baselines3 no longer has, and what to use instead."""
 
 POLICIES = {
     "mlppolicy": "mlp",
@@ -36,13 +36,13 @@ PARAMETERS = {
     "act_fun": "activation_fn",
 }
 OPTIONS = {"n_timesteps": "steps", "n_envs": "envs"}
-"""Hyperparameters there that are options of the command here."""
+"""Hyperparameters in the Zoo that are options of the command here."""
 
 KWARGS = "policy_kwargs"
 
 
 def algorithm(name: str) -> str:
-    """The name of the algorithm here. Raises BotschoolError for one that is gone."""
+    """Return the algorithm's name here. Raises BotschoolError if it no longer exists."""
     word = name.lower()
     if word in GONE:
         raise BotschoolError(f"Stable-Baselines3 has no {word} any more: {GONE[word]}.")
@@ -50,9 +50,9 @@ def algorithm(name: str) -> str:
 
 
 def translated(given: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """(hyperparameters, options of the command) by their names here.
+    """Return (hyperparameters, options of the command) by their names here.
 
-    Options are steps, envs and policy. Raises BotschoolError for what is given twice.
+    Options are steps, envs and policy. Raises BotschoolError for a value that is given twice.
     """
     parts = dict(given)
     if KWARGS in parts:
@@ -75,7 +75,7 @@ def translated(given: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]
 
 
 def batch_size(nminibatches: Any, n_steps: int, envs: int) -> int:
-    """The size of a batch where so many share what was collected. Raises BotschoolError."""
+    """Return the batch size that divides a rollout into `nminibatches`. Raises BotschoolError."""
     collected = n_steps * envs
     good = isinstance(nminibatches, int) and not isinstance(nminibatches, bool)
     if not good or nminibatches < 1 or collected % nminibatches:
@@ -109,7 +109,7 @@ def _value(name: str, value: Any) -> Any:
 
 
 def _policy_kwargs(value: Any) -> dict[str, Any]:
-    """{"net_arch": [32, 32]} of "dict(net_arch=[32, 32])"; a dictionary is taken as it is."""
+    """Return {"net_arch": [32, 32]} for "dict(net_arch=[32, 32])"; a dictionary stays as it is."""
     if isinstance(value, str):
         try:
             value = _literal(ast.parse(value, mode="eval").body)
@@ -117,14 +117,17 @@ def _policy_kwargs(value: Any) -> dict[str, Any]:
             value = None
     if not isinstance(value, dict):
         raise BotschoolError(
-            f"{KWARGS} must be written as dict(net_arch=[32, 32]); or give its parts themselves, "
-            "as net_arch=[32,32]."
+            f"{KWARGS} must be written as dict(net_arch=[32, 32]); or give its parts "
+            "themselves, as in net_arch=[32,32]."
         )
     return value
 
 
 def _literal(node: ast.expr) -> Any:
-    """Literals, dict(...), and nn.ReLU and the like as the word relu. Raises ValueError."""
+    """Evaluate literals and dict(...); nn.ReLU and the like become a word such as relu.
+
+    Raises ValueError for other code.
+    """
     if isinstance(node, ast.Call):
         if not isinstance(node.func, ast.Name) or node.func.id != "dict" or node.args:
             raise ValueError("no dict(...)")

@@ -1,4 +1,4 @@
-"""Training: one call from settings to a folder with models and logs."""
+"""Train: one call turns settings into a folder with models and logs."""
 
 from __future__ import annotations
 
@@ -46,16 +46,16 @@ def train(
     engine: str = "auto",
     report: Callable[[int, Evaluations], None] = lambda steps, evaluations: None,
 ) -> RunFolder:
-    """Trains an agent in folder/algo/env_N and gives that folder.
+    """Train an agent in folder/algo/env_N and return that folder.
 
-    algo: one of botschool.rl.settings.ALGORITHMS; env: a Gymnasium id; params: hyperparameters by
-    name; policy: mlp, lstm, cnn, cnnlstm or module:Class of one's own; wrappers: around the
-    environment (botschool.wrappers); vec_env: subproc for a process for
-    each environment (in a script then under `if __name__ == "__main__":`); engine: native, sb3, or
-    auto, which is native for ppo on a native problem (botschool.rl.native). What is None comes from
-    defaults.yaml. The policy is post-evaluated `evaluations` times, each time on the same
-    `episodes` fresh seeds; `report` is called with the steps and the post-evaluations so far. The
-    same arguments give the same results on the same machine. Raises BotschoolError.
+    algo: one of botschool.rl.settings.ALGORITHMS. env: a Gymnasium id. params: hyperparameters by
+    name. policy: mlp, lstm, cnn, cnnlstm or module:Class. wrappers: around the environment
+    (botschool.wrappers). vec_env: subproc gives each environment a process (a script must then call
+    this under `if __name__ == "__main__":`). engine: native, sb3, or auto, which is native for ppo
+    on a native problem (botschool.rl.native). defaults.yaml replaces each None. The policy is
+    post-evaluated `evaluations` times, each time on the same `episodes` fresh seeds; `report` is
+    called with the steps and the post-evaluations so far. The same arguments give the same results
+    on the same machine. Raises BotschoolError.
     """
     settings = choose(
         algo,
@@ -84,10 +84,10 @@ def learn(
     events: Path | None = None,
     threads: int = 1,
 ) -> tuple[RunFolder, Evaluations]:
-    """Trains with these settings in a new folder; `started` is told which as soon as it exists.
+    """Train with these settings in a new folder, and call `started` with it as soon as it exists.
 
-    Ends early, all saved, when `stopping()` is true. Curves for TensorBoard are in its folder, and
-    in `events` too if given. threads: of the native engine. Raises BotschoolError.
+    Saves everything and ends early when `stopping()` is true. Writes curves for TensorBoard to the
+    folder, and to `events` if given. threads: for the native engine. Raises BotschoolError.
     """
     if settings.engine == "native":
         return native.learn(settings, folder, report, started, stopping, events, threads)
@@ -117,7 +117,8 @@ def _learn(model: BaseAlgorithm, watching: PostEvaluation, events: Path | None) 
     from botschool.rl.callbacks import Indicators, Stopped
 
     folder = watching.run.path
-    steps = [] if watching.settings.algo == "ars" else [Indicators()]  # it tells of episodes only
+    # ars reports whole episodes only
+    steps = [] if watching.settings.algo == "ars" else [Indicators()]
     try:
         model.set_logger(configure(str(folder), ["csv", "tensorboard"]))
         if events is not None:
@@ -130,17 +131,19 @@ def _learn(model: BaseAlgorithm, watching: PostEvaluation, events: Path | None) 
     except OSError as error:
         raise cannot_write(folder, error.strerror or str(error)) from error
     except ValueError as error:
-        if "Expected parameter" not in str(error):  # of the action's distribution, by torch
+        # torch's message about the action's distribution
+        if "Expected parameter" not in str(error):
             raise
         raise BotschoolError(
-            f"The training in {folder} broke down after {model.num_timesteps} steps: the network's "
-            "outputs are no longer usable numbers, so lower learning_rate or max_grad_norm."
+            f"The training in {folder} broke down after {model.num_timesteps} steps: the "
+            "network's outputs are no longer usable numbers, so lower learning_rate or "
+            "max_grad_norm."
         ) from error
 
 
 @contextmanager
 def _training_env(settings: Settings) -> Iterator[VecEnv]:
-    """`envs` environments, seeded, with their returns monitored."""
+    """Yield `envs` seeded environments whose returns are recorded."""
     from stable_baselines3.common.vec_env import DummyVecEnv, VecNormalize
 
     from botschool.rl.processes import ProcessVecEnv
@@ -171,7 +174,7 @@ def _monitored(name: str, wrappers: str, training_wrappers: str) -> gymnasium.En
 
 @contextmanager
 def _one_thread(settings: Settings) -> Iterator[None]:
-    """Networks this small are trained fastest by one thread; images deserve more."""
+    """Use one torch thread: it is fastest for small networks. Images use more threads."""
     import torch
 
     before = torch.get_num_threads()
@@ -195,12 +198,12 @@ def train_command(
     workers: int = 1,
     **options: Any,
 ) -> bool:
-    """`botschool rl train`: prints progress and result; False when the user stopped it."""
+    """Run `botschool rl train`: print progress and result; return False if the user stopped it."""
     chosen = (read_settings(file) if file else {}) | parse(params)
     settings = choose(algo, env, params=chosen, **options)
     if workers > 1 and settings.engine != "native":
         raise BotschoolError(
-            "-w is for the native engine; Stable-Baselines3 takes --vec-env subproc."
+            "-w is for the native engine; with Stable-Baselines3, use --vec-env subproc."
         )
     several = [replace(settings, seed=settings.seed + i) for i in range(replications)]
     together = min(workers, replications)
@@ -228,12 +231,13 @@ def train_command(
 
 
 def resume_command(folder: Path, workers: int, terminal: bool) -> bool:
-    """`botschool rl train --resume`: goes on with a native training."""
+    """Run `botschool rl train --resume`: continue a native training."""
     run = RunFolder(folder)
     settings = run.settings()
     if settings.engine != "native":
         raise BotschoolError(
-            f"{folder} was trained by Stable-Baselines3, whose trainings cannot go on: train again."
+            f"{folder} was trained by Stable-Baselines3, whose trainings cannot continue: "
+            "train again."
         )
     with stoppable() as stopping:
         with reporting(settings.steps, settings.seed, terminal) as report:
@@ -244,7 +248,7 @@ def resume_command(folder: Path, workers: int, terminal: bool) -> bool:
 
 def _print_result(run: RunFolder, found: Evaluations, settings: Settings) -> None:
     stopped = found.steps[-1] < settings.steps
-    again = f"; to go on: botschool rl train --resume {run.path}"
+    again = f"; to continue: botschool rl train --resume {run.path}"
     print(
         f"{'stopped' if stopped else 'finished'} after {found.steps[-1]} steps: best "
         f"post-evaluated {readable(found.best)}, last {readable(found.last)}; best model: "

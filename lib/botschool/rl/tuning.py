@@ -1,12 +1,12 @@
-"""Tuning: many short trainings with other hyperparameters, which Optuna chooses (Akiba 2019).
+"""Tune hyperparameters: many short trainings with values that Optuna chooses (Akiba 2019).
 
-    FOLDER/tune/ppo/CartPole-v1/
-        study.log     Optuna's journal of the trials: what the same command goes on from
-        best.yaml     the hyperparameters of the best trial, for `botschool rl train --settings`
-        trials/       the trainings
+FOLDER/tune/ppo/CartPole-v1/
+  study.log     Optuna's journal of the trials, from which the same command continues
+  best.yaml     the hyperparameters of the best trial, for `botschool rl train --settings`
+  trials/       the trainings
 
-Trial 0 is the start: the entry of defaults.yaml. A trial's choices depend on the seed and on the
-trials before it alone, so an interrupted tuning ends as an uninterrupted one.
+Trial 0 is the starting point: the entry of defaults.yaml. A trial's choices depend only on the seed
+and on the trials before it, so an interrupted tuning ends like an uninterrupted one.
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ if TYPE_CHECKING:
     from optuna import Study, Trial
 
 STARTUP = 5
-"""Trials that are random and never broken off."""
+"""Random trials at the start, which are never pruned."""
 
 
 @dataclass(frozen=True)
 class Log:
-    """Any number between two, as likely in each power of ten."""
+    """Any number between two limits, uniform on a logarithmic scale."""
 
     low: float
     high: float
@@ -73,30 +73,30 @@ SPACES: Mapping[str, Mapping[str, Any]] = {
     "ars": {
         "learning_rate": Log(1e-3, 0.5), "delta_std": Log(0.005, 0.5), "n_delta": (2, 4, 8, 16)},
 }  # fmt: skip
-"""What is tried of each algorithm: one of several values, or a number of a range."""
+"""Search space of each algorithm: for each hyperparameter a list of values, or a range."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A tuning; all but `trials` stays as it is when it goes on."""
+    """A tuning; only `trials` may change when it continues."""
 
     algo: str
     env: str
     folder: Path
     trials: int
     options: Mapping[str, Any]
-    """steps, envs, seed, evaluations, episodes, wrappers of each training, as in `choose`."""
+    """steps, envs, seed, evaluations, episodes and wrappers of each training, as in `choose`."""
     seeds: int = 1
-    """Trainings of each trial, with `seed` and those after it; a trial is worth their mean."""
+    """Trainings per trial, with `seed` and the seeds after it; the trial's value is their mean."""
 
     @property
     def path(self) -> Path:
-        """Its folder."""
+        """Return the folder of the tuning."""
         return self.folder / "tune" / self.algo / name_of(self.env)
 
     @property
     def best(self) -> Path:
-        """The file with the best hyperparameters."""
+        """Return the file with the best hyperparameters."""
         return self.path / "best.yaml"
 
 
@@ -105,12 +105,14 @@ def tune(
     say: Callable[[str], None] = lambda line: None,
     stopping: Callable[[], bool] = lambda: False,
 ) -> bool:
-    """Tries until the plan has so many trials; False if it was stopped. Raises BotschoolError."""
+    """Run trials until the plan's number is reached; return False if stopped. Raises
+    BotschoolError.
+    """
     require("optuna")
     import optuna
 
     optuna.logging.set_verbosity(optuna.logging.ERROR)
-    choose(plan.algo, plan.env, **plan.options)  # refuses now what no trial can train
+    choose(plan.algo, plan.env, **plan.options)  # refuse now what no trial could train
     try:
         plan.path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -125,7 +127,7 @@ def _tune(plan: Plan, say: Callable[[str], None], stopping: Callable[[], bool]) 
     study = _study(plan, 0)
     _check_same(study, plan)
     for trial in study.get_trials(states=[optuna.trial.TrialState.RUNNING]):
-        study.tell(trial.number, state=optuna.trial.TrialState.FAIL)  # it was broken off
+        study.tell(trial.number, state=optuna.trial.TrialState.FAIL)  # it was interrupted
     while (number := len(_ended(study))) < plan.trials:
         study = _study(plan, number)
         trial = study.ask()
@@ -144,7 +146,7 @@ def _tune(plan: Plan, say: Callable[[str], None], stopping: Callable[[], bool]) 
 
 
 def _study(plan: Plan, number: int) -> Study:
-    """The study, with a sampler for its trial `number`."""
+    """Return the study, with a sampler for its trial `number`."""
     import optuna
     from optuna.storages.journal import JournalFileBackend
 
@@ -164,7 +166,7 @@ def _study(plan: Plan, number: int) -> Study:
 
 
 def _ended(study: Study) -> list:
-    """The trials that have a result."""
+    """Return the trials that have a result."""
     from optuna.trial import TrialState
 
     return study.get_trials(states=[TrialState.COMPLETE, TrialState.PRUNED])
@@ -177,7 +179,7 @@ def _check_same(study: Study, plan: Plan) -> None:
         if before.get(name) != value:
             raise BotschoolError(
                 f"{plan.path} is a tuning with {name} = {shown(before.get(name))}, not "
-                f"{shown(value)}: change it back to go on, or choose another folder (-o)."
+                f"{shown(value)}: change it back to continue, or choose another folder (-o)."
             )
     study.set_user_attr("options", now)
 
@@ -195,7 +197,7 @@ def _choices(algo: str, trial: Trial) -> dict[str, Any]:
 
 
 def _train(plan: Plan, trial: Trial, given: dict[str, Any], stopping: Callable[[], bool]):
-    """(mean return of the trainings' last post-evaluations, state of the trial)."""
+    """Return (mean return of the trainings' last post-evaluations, state of the trial)."""
     from optuna.trial import TrialState
 
     pruned, reports, ends = False, 0, []
@@ -223,7 +225,7 @@ def _train(plan: Plan, trial: Trial, given: dict[str, Any], stopping: Callable[[
         except BotschoolError as error:
             if "broke down" not in str(error):
                 raise
-            return -1e9, TrialState.PRUNED  # its numbers have overflown
+            return -1e9, TrialState.PRUNED  # its numbers have overflowed
         report(0, found)
         ends.append(found.last)
         if pruned or stopping():
@@ -251,12 +253,12 @@ def _short(value: Any) -> str:
 
 
 def tune_command(plan: Plan) -> bool:
-    """`botschool rl tune`: prints a line for each trial; False when the user stopped it."""
+    """Run `botschool rl tune`: print a line for each trial; return False if the user stopped it."""
     print(f"tuning {plan.algo} on {plan.env} in {plan.path}", flush=True)
     with stoppable() as stopping:
         done = tune(plan, lambda line: print(line, flush=True), stopping)
     if not done:
-        print("stopped: the same command goes on.", file=sys.stderr)
+        print("stopped: the same command continues.", file=sys.stderr)
     elif plan.best.exists():
         print(
             f"best hyperparameters: {plan.best} (botschool rl train --algo {plan.algo} --env "

@@ -1,4 +1,4 @@
-"""Looking at trained agents: episodes with numbers, a window, a film; and the table of runs."""
+"""Watch trained agents: episodes with numbers, in a window or as a film; and list trainings."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 NEW_EPISODES_SEED = 200_000
-"""Added to the seed: these episodes had no part in training, nor in choosing the best model."""
+"""Added to the seed: training and choosing the best model use no such episodes."""
 
 OURS = ", or watch one that comes with botschool (`botschool rl list --ours`)"
 
 BATCH = 16
-"""Episodes that are played side by side where none is shown."""
+"""Episodes that are played in parallel if no picture is shown."""
 
 
 class Player:
-    """Episodes of the agent in a model file, on new seeds; policy: its class of one's own."""
+    """Plays episodes of the agent in a model file on new seeds; policy: the user's own class."""
 
     def __init__(
         self, model: Path, seed: int = 1, env: str | None = None, policy: str | None = None
@@ -48,7 +48,7 @@ class Player:
         self.lengths: list[int] = []
 
     def play(self, episodes: int) -> None:
-        """Plays the first episodes, BATCH of them in step, and prints their returns."""
+        """Play the first episodes, BATCH of them in lockstep, and print their returns."""
         envs = [self._make() for _ in range(min(BATCH, episodes))]
         try:
             for first in range(0, episodes, BATCH):
@@ -61,7 +61,7 @@ class Player:
                 env.close()
 
     def transitions(self, number: int) -> Iterator[Transition]:
-        """Plays episode `number`, from 0, yielding each step with its picture."""
+        """Play episode `number` (from 0) and yield each step with its picture."""
         env = self._make(render_mode="rgb_array")
         try:
             observation, _ = env.reset(seed=self._seed(number))
@@ -89,7 +89,7 @@ class Player:
         print(f"episode {len(self.returns)}  return {readable(total)}  steps {steps}", flush=True)
 
     def frames(self, episodes: int) -> Iterator[np.ndarray]:
-        """Pictures of the first episodes, with a caption."""
+        """Yield pictures of the first episodes, with a caption."""
         from botschool.render.canvas import draw_offscreen
         from botschool.render.panel import with_caption
 
@@ -100,13 +100,13 @@ class Player:
 
     @property
     def fps(self) -> float:
-        """Of the environment's pictures."""
+        """Return the frame rate of the environment's pictures."""
         env = self._make()
         env.close()
         return float(env.metadata.get("render_fps") or 30)
 
     def print_summary(self) -> None:
-        """Mean and standard deviation over the episodes played."""
+        """Print mean and standard deviation over the episodes played."""
         if self.returns:
             print(
                 f"mean {readable(float(np.mean(self.returns)))}  "
@@ -127,42 +127,42 @@ def _picture(env, name: str) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Asked:
-    """How a user says which agent to look at, and where: the options of enjoy and video."""
+    """The options of enjoy and video that name an agent."""
 
     run: Path | None
-    """Folder of a training, or a model in it."""
+    """Folder of a training, or a model file in it."""
     folder: Path
-    """Of trainings; without `run` and `algo` the one that was started last."""
+    """Folder of trainings; without `run` and `algo` the training that started last."""
     env: str | None = None
-    """Another environment for the agent; with `algo` the one that it was trained on."""
+    """Another environment for the agent; with `algo` the environment of its training."""
     algo: str | None = None
     number: int = 0
-    """With `algo`: which training; 0 is the newest."""
+    """Number of the training, with `algo`; 0 is the newest."""
     last: bool = False
-    """The last model instead of the best one."""
+    """Use the last model instead of the best one."""
     policy: str | None = None
-    """The agent's policy, where it is a class of one's own (module:Class)."""
+    """The agent's policy as module:Class, if it is the user's own."""
 
     def player(self, seed: int) -> Player:
-        """Raises BotschoolError."""
+        """Return the player of this agent. Raises BotschoolError."""
         if self.algo is None:
             model = model_of(self.run, self.folder, self.last)
             return Player(model, seed, self.env, self.policy)
         if self.env is None or self.run is not None:
             raise BotschoolError(
-                "--algo says which training together with --env, as --algo ppo --env CartPole-v1; "
+                "--algo needs --env to name a training, as in --algo ppo --env CartPole-v1; "
                 "leave it out if you name the training's folder."
             )
         return Player(self._trained(), seed, policy=self.policy)
 
     def _trained(self) -> Path:
-        """The model of that algorithm on that environment: the user's own, else one of ours."""
+        """Return the model of that algorithm on that environment: the user's own, else ours."""
         algo = check_algorithm(self.algo)
         ours = shipped.find(algo, self.env)
         if ours is not None and not self.number and not runs_of(self.folder, algo, self.env):
             print(
-                f"agent: the one that comes with botschool, as {self.folder} has none: {algo} on "
-                f"{self.env}, {ours.steps} steps ({ours.told})"
+                f"agent: the one that comes with botschool, because {self.folder} has none: "
+                f"{algo} on {self.env}, {ours.steps} steps ({ours.told})"
             )
             return ours.path
         chosen = run_of(self.folder, algo, self.env, self.number, OURS)
@@ -171,9 +171,9 @@ class Asked:
 
 
 def model_of(run: Path | None, folder: Path, last: bool) -> Path:
-    """The model file that a user means: a file, or the best or last one of a folder.
+    """Return the model file that a user means: a file, or the best or last model of a folder.
 
-    Without `run`, the training of `folder` that was started last. Raises BotschoolError.
+    Without `run`, choose the training in `folder` that started last. Raises BotschoolError.
     """
     if run is not None and run.suffix in (".zip", ".npz"):
         return run
@@ -193,10 +193,10 @@ def model_of(run: Path | None, folder: Path, last: bool) -> Path:
 
 
 def enjoy_command(asked: Asked, episodes: int, seed: int, render: str | None) -> None:
-    """`botschool rl enjoy`."""
+    """Run `botschool rl enjoy`."""
     if render == "human" and not has_display():
         raise BotschoolError(
-            "There is no display to open a window on: add --render none, or make a film with "
+            "There is no display for a window: add --render none, or make a film with "
             "`botschool rl video`."
         )
     if render not in (None, "human", "none"):
@@ -214,7 +214,7 @@ def enjoy_command(asked: Asked, episodes: int, seed: int, render: str | None) ->
 def video_command(
     asked: Asked, episodes: int, seed: int, output: Path, steps: int | None = None
 ) -> None:
-    """`botschool rl video`; steps: pictures at most."""
+    """Run `botschool rl video`; steps: maximum number of pictures."""
     from botschool.output import check_output
     from botschool.render.video import VIDEO_SUFFIXES, write_video
 
@@ -226,7 +226,7 @@ def video_command(
 
 
 def list_command(folder: Path) -> None:
-    """`botschool rl list`: a table of the trainings in a folder."""
+    """Run `botschool rl list`: print a table of the trainings in a folder."""
     runs = find_runs(folder)
     if not runs:
         raise BotschoolError(
@@ -242,7 +242,7 @@ def list_command(folder: Path) -> None:
 
 
 def list_ours() -> None:
-    """`botschool rl list --ours`: a table of the trained agents that come with botschool."""
+    """Run `botschool rl list --ours`: print the trained agents that come with botschool."""
     table = _table(
         "trained agents that come with botschool", "agent", ("steps", "return", "sd", "episodes")
     )

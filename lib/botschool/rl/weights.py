@@ -1,10 +1,10 @@
-"""An agent as its weights alone: an .npz file of arrays of numbers, in which nothing can run.
+"""Store an agent as its weights only: an .npz file of numbers, which cannot contain code.
 
-    actor.mu.weight ...        the parts of the policy that act, by their names in its state_dict
-    normalisation.mean ...     where observations are normalised: mean, variance, clip, epsilon
+actor.mu.weight ...        the parts of the policy that act, by their names in its state_dict
+normalisation.mean ...     if observations are normalised: mean, variance, clip, epsilon
 
-What only learning needs (critics, target networks) is left out. `config.yaml` in the same folder
-says of which policy they are the weights.
+Parts that only learning needs (critics, target networks) are left out. `config.yaml` in the same
+folder names the policy of the weights.
 """
 
 from __future__ import annotations
@@ -28,20 +28,20 @@ LEARNING = (
     "value_net.", "mlp_extractor.value_net.", "vf_features_extractor.", "critic", "lstm_critic.",
     "actor_target.", "q_net_target.", "quantile_net_target.",
 )  # fmt: skip
-"""How the names begin of what only learning needs."""
+"""Beginnings of the names of parts that only learning needs."""
 
 NORMALISATION = "normalisation"
 SCALING = ("mean", "variance", "clip", "epsilon")
-"""Of the observations: mean and variance have their shape, the others are numbers."""
+"""Scaling of observations: mean and variance have their shape, the others are numbers."""
 
 MOST_BYTES = 2**28
-"""A file that would fill more memory is no agent."""
+"""Largest size in memory; larger files are refused."""
 
 Normalise = Callable[[np.ndarray], np.ndarray]
 
 
 def save(path: Path, policy: BasePolicy, scaling: Mapping[str, np.ndarray] | None) -> None:
-    """Writes the file. scaling: arrays by the names of SCALING. Raises BotschoolError."""
+    """Write the file; scaling: arrays by the names of SCALING. Raises BotschoolError."""
     arrays = {name: value.cpu().numpy() for name, value in acting(policy).items()}
     for name in SCALING if scaling is not None else ():
         arrays[f"{NORMALISATION}.{name}"] = np.asarray(scaling[name])
@@ -49,16 +49,16 @@ def save(path: Path, policy: BasePolicy, scaling: Mapping[str, np.ndarray] | Non
 
 
 def acting(policy: BasePolicy) -> dict:
-    """The tensors of a policy's state that acting needs."""
+    """Return the tensors of a policy's state that acting needs."""
     state = policy.state_dict()
     return {name: value for name, value in state.items() if not name.startswith(LEARNING)}
 
 
 def fill(path: Path, policy: BasePolicy, normalised: bool) -> dict[str, np.ndarray] | None:
-    """Puts the file's weights into the policy; the scaling of observations if it is normalised.
+    """Load the file's weights into the policy; return the scaling of observations if normalised.
 
-    Nothing in the file is ever unpickled. Raises ValueError unless it holds this policy's finite
-    numbers and nothing else.
+    Nothing in the file is unpickled. Raises ValueError unless the file holds exactly this policy's
+    weights and all numbers are finite.
     """
     import torch
 
@@ -79,18 +79,18 @@ def fill(path: Path, policy: BasePolicy, normalised: bool) -> dict[str, np.ndarr
 
 
 def checked(scaling: dict[str, np.ndarray], shape: tuple[int, ...]) -> dict[str, np.ndarray]:
-    """Return the scaling of observations of this shape. Raises ValueError for any other."""
+    """Return the scaling if it fits observations of this shape. Raises ValueError otherwise."""
     shapes = {"mean": shape, "variance": shape, "clip": (), "epsilon": ()}
     for name, array in scaling.items():
         if array.shape != shapes[name] or not np.isfinite(array).all():
             raise ValueError(f"{name} does not fit the observations")
     if (scaling["variance"] + scaling["epsilon"] <= 0).any() or scaling["clip"] <= 0:
-        raise ValueError("the observations cannot be scaled so")
+        raise ValueError("the scaling of observations is not usable")
     return scaling
 
 
 def numbers(path: Path) -> dict[str, np.ndarray]:
-    """The arrays of an .npz file. Raises ValueError or OSError if it holds anything else."""
+    """Return the arrays of an .npz file. Raises ValueError or OSError if it holds anything else."""
     with ZipFile(path) as archive:
         if sum(each.file_size for each in archive.infolist()) > MOST_BYTES:
             raise ValueError("it is too large")
@@ -105,7 +105,7 @@ def numbers(path: Path) -> dict[str, np.ndarray]:
 
 
 def scaling_bytes(scaling: Mapping[str, np.ndarray]) -> bytes:
-    """An .npz file of the arrays of SCALING."""
+    """Return the arrays of SCALING as the bytes of an .npz file."""
     content = BytesIO()
     arrays: dict[str, Any] = {name: scaling[name] for name in SCALING}
     np.savez(content, **arrays)
@@ -113,13 +113,13 @@ def scaling_bytes(scaling: Mapping[str, np.ndarray]) -> bytes:
 
 
 def read_scaling(content: bytes) -> dict[str, np.ndarray]:
-    """The reverse of scaling_bytes."""
+    """Read the arrays of scaling_bytes."""
     with np.load(BytesIO(content), allow_pickle=False) as arrays:
         return {name: arrays[name] for name in SCALING}
 
 
 def normaliser(scaling: Mapping[str, np.ndarray]) -> Normalise:
-    """The function that normalises observations (n, ...) as the training did."""
+    """Return the function that normalises observations (n, ...) as the training did."""
     mean, clip = scaling["mean"], scaling["clip"]
     deviation = np.sqrt(scaling["variance"] + scaling["epsilon"])
 

@@ -1,12 +1,12 @@
-"""Policy gradients on native problems, in C++ (lib/policy_gradient). Needs no torch.
+"""Train on native problems by policy gradients in C++ (lib/policy_gradient). Needs no torch.
 
     from botschool.rl.native import PPO
 
     ppo = PPO("CartPole-v1", seed=1, n_envs=16, n_steps=32, n_epochs=20, learning_rate=0.001)
     ppo.learn(50_000)
-    returns, lengths = ppo.play(range(20))          # new episodes, without exploring
+    returns, lengths = ppo.play(range(20))          # new episodes, without exploration
 
-The same training step by step, to look into:
+You can also run the same training step by step:
 
     rollout = ppo.collect()                         # arrays (n_steps, n_envs), see Rollout
     batch = ppo.minibatch(rows)                     # samples of the rollout, by number
@@ -14,9 +14,9 @@ The same training step by step, to look into:
     ppo.step(loss.gradient)                         # one step of Adam
     ppo.update()                                    # or all epochs and minibatches at once
 
-The result depends on problem, seed and hyperparameters alone: not on threads, instruction set or
-machine. docs/specification.md, "Policy gradients", has the rules; lib/walkthroughs/ppo.py is the
-same algorithm to read, in PyTorch.
+The result depends only on problem, seed and hyperparameters, not on threads, instruction set or
+machine. docs/specification.md, "Policy gradients", has the rules. lib/walkthroughs/ppo.py is the
+same algorithm in PyTorch, written to be read.
 """
 
 from botschool.rl.native.hyperparameters import Hyperparameters

@@ -1,4 +1,4 @@
-"""Whether the native engine trains what a user asks for, and with which settings."""
+"""Decide whether the native engine trains a problem, and with which settings."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ONLY_SB3 = ("use_sde", "sde_sample_freq", "stats_window_size", "device", "n_crit
 
 
 def check_engine(engine: str) -> str:
-    """Raises BotschoolError for another word."""
+    """Return the engine's name. Raises BotschoolError for an unknown one."""
     if engine not in ENGINES:
         raise BotschoolError(f"--engine is '{engine}', but must be {', '.join(ENGINES)}.")
     return engine
@@ -27,7 +27,7 @@ def check_engine(engine: str) -> str:
 def reason_against(
     algo: str, env: str, policy: str | None, entry: dict[str, Any], wrappers: str, vec_env: str
 ) -> str:
-    """Why the native engine cannot train this, "" if it can."""
+    """Return why the native engine cannot train this, "" if it can."""
     if algo != "ppo":
         return f"it has no {algo}"
     if native_problem(env) is None:
@@ -47,7 +47,7 @@ def reason_against(
 
 
 def entry_of(env: str) -> dict[str, Any]:
-    """The settings of an environment: those of the native engine, else those of ppo."""
+    """Return the settings of an environment: those of the native engine, else those of ppo."""
     return defaults("native" if has_defaults("native", env) else "ppo", env)
 
 
@@ -65,9 +65,9 @@ def choose(
     wrappers: str,
     vec_env: str,
 ) -> Settings | None:
-    """Settings of a native training, or None if Stable-Baselines3 is to do it.
+    """Return the settings of a native training, or None if Stable-Baselines3 must train.
 
-    Raises BotschoolError if the native engine is asked for and cannot.
+    Raises BotschoolError if the user asks for the native engine and it cannot train this.
     """
     check_engine(engine)
     if engine == "sb3":
@@ -76,7 +76,9 @@ def choose(
     against = reason_against(algo, env, policy, entry | given, wrappers, vec_env)
     if against:
         if engine == "native":
-            raise BotschoolError(f"The native engine cannot train this ({against}): use another.")
+            raise BotschoolError(
+                f"The native engine cannot train this ({against}): choose another --engine."
+            )
         return None
     length, width = entry.pop("steps"), entry.pop("envs")
     normalize = given.get("normalize", entry.pop("normalize", False))

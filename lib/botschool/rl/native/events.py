@@ -1,8 +1,8 @@
-"""Curves for TensorBoard: its event files, written without TensorFlow or torch.
+"""Write TensorBoard's event files without TensorFlow or torch.
 
 A file is a sequence of records: length (uint64), its checksum, the bytes of an Event, their
-checksum. The Event is a protocol buffer: wall_time = 1 (double), step = 2 (varint), file_version
-= 3 (string), summary = 5 of value = 1 of tag = 1 (string) and simple_value = 2 (float).
+checksum. The Event is a protocol buffer: wall_time = 1 (double), step = 2 (varint), file_version =
+3 (string), summary = 5 of value = 1 of tag = 1 (string) and simple_value = 2 (float).
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ from collections.abc import Mapping
 
 
 def version(wall_time: float) -> bytes:
-    """The record that a file begins with."""
+    """Return the record that a file begins with."""
     return _record(_double(1, wall_time) + _bytes(3, b"brain.Event:2"))
 
 
 def scalars(step: int, values: Mapping[str, float], wall_time: float) -> bytes:
-    """A record with the value of each tag after so many steps."""
+    """Return a record with the value of each tag after this many steps."""
     summary = b"".join(
         _bytes(1, _bytes(1, tag.encode()) + b"\x15" + struct.pack("<f", value))
         for tag, value in values.items()
@@ -59,7 +59,7 @@ _TABLE = _table()
 
 
 def _checksum(content: bytes) -> bytes:
-    """CRC-32C, masked as these files have it."""
+    """Return the CRC-32C, masked as TensorBoard's files require."""
     crc = 0xFFFFFFFF
     for byte in content:
         crc = crc >> 8 ^ _TABLE[(crc ^ byte) & 255]

@@ -1,4 +1,4 @@
-"""Files of a native training: weights by Stable-Baselines3's names, and the checkpoint."""
+"""Read and write the weights (by Stable-Baselines3's names) and checkpoint of a native training."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ CHECKPOINT = "checkpoint.npz"
 
 
 def make(settings: Settings, threads: int = 1) -> PPO:
-    """An untrained agent of these settings. Raises BotschoolError."""
+    """Return an untrained agent with these settings. Raises BotschoolError."""
     h = Hyperparameters.of(settings.parameters)
     return PPO(
         settings.env,
@@ -32,12 +32,12 @@ def make(settings: Settings, threads: int = 1) -> PPO:
 
 
 def save_model(ppo: PPO, path: Path) -> None:
-    """Writes weights, and how observations are normalised, whole or not at all."""
+    """Write the weights and the normalisation of observations atomically."""
     save_npz(path, sb3.weights(ppo) | scaling(ppo))
 
 
 def scaling(ppo: PPO) -> dict[str, np.ndarray]:
-    """The normalisation of observations by the names of weights.py."""
+    """Return the normalisation of observations by the names of weights.py."""
     if not ppo.normalize:
         return {}
     mean, variance = ppo.core.observed
@@ -46,7 +46,7 @@ def scaling(ppo: PPO) -> dict[str, np.ndarray]:
 
 
 def fill(ppo: PPO, path: Path) -> None:
-    """Puts a model's weights and normalisation in. Raises ValueError or OSError."""
+    """Load a model's weights and normalisation into the agent. Raises ValueError or OSError."""
     arrays = numbers(path)
     sb3.fill(ppo, arrays)
     if ppo.normalize:
@@ -57,19 +57,19 @@ def fill(ppo: PPO, path: Path) -> None:
 
 
 def save_checkpoint(folder: Path, arrays: dict[str, np.ndarray]) -> None:
-    """Writes what --resume goes on from. Raises BotschoolError."""
+    """Write the checkpoint that --resume continues from. Raises BotschoolError."""
     save_npz(folder / CHECKPOINT, arrays)
 
 
 def load_checkpoint(folder: Path) -> dict[str, np.ndarray]:
-    """The reverse. Raises BotschoolError."""
+    """Read the checkpoint. Raises BotschoolError."""
     path = folder / CHECKPOINT
     try:
         return numbers(path)
     except FileNotFoundError:
         raise BotschoolError(
-            f"{folder} has no {CHECKPOINT}, so that this training cannot go on: name the folder of "
-            "a training of the native engine."
+            f"{folder} has no {CHECKPOINT}, so this training cannot continue: name the folder "
+            "of a training of the native engine."
         ) from None
     except Exception:  # a damaged file can fail in any way
         raise BotschoolError(f"{path} is damaged: train again.") from None

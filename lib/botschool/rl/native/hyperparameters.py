@@ -1,4 +1,4 @@
-"""The hyperparameters of native PPO: names, defaults and meaning as in Stable-Baselines3."""
+"""Check the hyperparameters of native PPO; names and defaults are Stable-Baselines3's."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from botschool.inifile import nearest, shown
 from botschool.rl.parameters import OF_POLICY, RANGES, linear
 
 MOST_LAYERS = 7
-"""Hidden layers of a network."""
+"""Hidden layers of a network at most."""
 
 
 @dataclass
 class Hyperparameters:
-    """Checked when made: raises BotschoolError."""
+    """Hyperparameters, checked at construction. Raises BotschoolError."""
 
     learning_rate: float | str = 3e-4
     """Step size of Adam; "linear X" falls from X to 0."""
@@ -25,13 +25,13 @@ class Hyperparameters:
     batch_size: int = 64
     """Steps in a minibatch."""
     n_epochs: int = 10
-    """How often an update goes through its data."""
+    """Passes of an update through its data."""
     gamma: float = 0.99
     gae_lambda: float = 0.95
     clip_range: float | str | None = 0.2
-    """How far the ratio of probabilities may leave 1; None: it is not clipped (A2C, REINFORCE)."""
+    """How far the ratio of probabilities may leave 1; None: no clipping (A2C, REINFORCE)."""
     clip_range_vf: float | str | None = None
-    """How far the critic's prediction may move; None: as far as it likes."""
+    """How far the critic's prediction may move in an update; None: without limit."""
     normalize_advantage: bool = True
     ent_coef: float = 0.0
     vf_coef: float = 0.5
@@ -42,13 +42,13 @@ class Hyperparameters:
     net_arch: Any = field(default_factory=lambda: [64, 64])
     """Hidden neurons layer by layer, or {"pi": [...], "vf": [...]}."""
     share_layers: bool = False
-    """Whether policy and critic have the hidden layers of net_arch in common."""
+    """Whether policy and critic share the hidden layers of net_arch."""
     activation_fn: str = "tanh"
     """tanh or relu."""
     log_std_init: float = 0.0
-    """First logarithm of the Gaussian's deviations."""
+    """Initial logarithm of the Gaussian's standard deviations."""
     ortho_init: bool = True
-    """Orthogonal first weights in place of uniform ones."""
+    """Orthogonal initial weights instead of uniform ones."""
 
     def __post_init__(self) -> None:
         for name in ("n_steps", "batch_size", "n_epochs"):
@@ -64,7 +64,9 @@ class Hyperparameters:
 
     @classmethod
     def of(cls, chosen: dict[str, Any]) -> Hyperparameters:
-        """Of names and values. Raises BotschoolError with the nearest name."""
+        """Return the hyperparameters with these values. Raises BotschoolError that suggests the
+        nearest name.
+        """
         known = [each.name for each in fields(cls)]
         for name in chosen:
             if name not in known:
@@ -74,7 +76,7 @@ class Hyperparameters:
         return cls(**chosen)
 
     def layers(self) -> tuple[list[int], list[int], list[int]]:
-        """Hidden neurons of the common layers, of the policy's own and of the critic's own."""
+        """Return the sizes of the shared layers, of the policy's own and of the critic's own."""
         arch = self.net_arch
         pair = (arch.get("pi", []), arch.get("vf", [])) if isinstance(arch, dict) else (arch, arch)
         for part in pair:
@@ -90,7 +92,7 @@ class Hyperparameters:
     def core(
         self, seed: int, n_envs: int, normalize: bool, threads: int
     ) -> _core.PolicyGradientHyperparameters:
-        """What C++ takes."""
+        """Return the same hyperparameters as the C++ record."""
         h = _core.PolicyGradientHyperparameters()
         h.seed, h.n_envs, h.normalize, h.threads = seed, n_envs, normalize, threads
         h.shared, h.pi, h.vf = self.layers()
@@ -112,7 +114,9 @@ NUMBERS = (*SCHEDULED, "gamma", "gae_lambda", "ent_coef", "vf_coef", "max_grad_n
 
 
 def at(value: float | str | None, progress: float) -> float:
-    """A hyperparameter when `progress` of the training, 0 to 1, is over; None is 0."""
+    """Return a hyperparameter's value after the share `progress` (0 to 1) of the training; None is
+    0.
+    """
     falling = linear(value)
     return float(value or 0.0) if falling is None else falling * (1.0 - progress)
 

@@ -1,4 +1,4 @@
-"""The indicators of a training, with Stable-Baselines3's names: progress.csv and TensorBoard."""
+"""Log the indicators of a training by Stable-Baselines3's names: progress.csv and TensorBoard."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from botschool.rl.native import events
 from botschool.rl.native.ppo import PPO
 
 RECENT = 100
-"""Episodes that rollout/ep_rew_mean looks back on."""
+"""Number of recent episodes that rollout/ep_rew_mean covers."""
 
 TIME = ("time/fps", "time/time_elapsed")
 """Indicators that differ from run to run."""
@@ -26,7 +26,7 @@ TRAIN = (
 
 
 class Log:
-    """Files that grow by a row for each update; a checkpoint knows how long they were."""
+    """Files that grow by a row at each update; a checkpoint stores their length."""
 
     def __init__(self, folder: Path, ppo: PPO, more: Path | None = None, resumed: bool = False):
         self._ppo = ppo
@@ -39,7 +39,9 @@ class Log:
         self.lengths: deque[int] = deque(maxlen=RECENT)
 
     def indicators(self, found: dict[str, float]) -> dict[str, float]:
-        """What update() has found and what was collected, by Stable-Baselines3's names."""
+        """Return the indicators of update() and of the collected rollout, by Stable-Baselines3's
+        names.
+        """
         ppo = self._ppo
         _, returns, lengths = ppo.episodes
         self.returns.extend(returns.tolist())
@@ -72,7 +74,7 @@ class Log:
         return named
 
     def add(self, values: dict[str, float]) -> None:
-        """Writes a row. Raises BotschoolError."""
+        """Append a row. Raises BotschoolError."""
         step, now = self._ppo.steps, time.time()
         record = events.scalars(step, values, now)
         try:
@@ -91,7 +93,7 @@ class Log:
             writer.writerow(values)
 
     def state(self) -> dict[str, np.ndarray]:
-        """What a checkpoint keeps of the log."""
+        """Return the part of the log that a checkpoint stores."""
         sizes = [self._csv.stat().st_size if self._csv.exists() else 0]
         sizes += [file.stat().st_size for file in self._events]
         return {
@@ -102,7 +104,7 @@ class Log:
         }
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """Cuts off what came after the checkpoint."""
+        """Restore the log from a checkpoint and cut off all later rows."""
         returns, lengths = state["log_returns"], state["log_lengths"]
         sizes = [int(size) for size in state["log_sizes"]]
         if returns.ndim != 1 or returns.shape != lengths.shape or min(sizes, default=0) < 0:
@@ -130,12 +132,12 @@ class Log:
 
 
 def moments(name: str, values: np.ndarray) -> dict[str, float]:
-    """Mean and standard deviation."""
+    """Return mean and standard deviation."""
     return {f"{name}_mean": float(np.mean(values)), f"{name}_std": float(np.std(values))}
 
 
 def columns(ppo: PPO) -> list[str]:
-    """Of progress.csv."""
+    """Return the columns of progress.csv."""
     discrete = "log_std" not in ppo.weights
     actions = [f"actions/frequency_{i}" if discrete else f"actions/{i}" for i in range(ppo.outputs)]
     pairs = ["rollout/advantage", *([] if discrete else actions)]

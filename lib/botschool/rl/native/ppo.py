@@ -1,4 +1,4 @@
-"""Proximal policy optimisation on a native problem, whole or step by step (Schulman 2017)."""
+"""Train on native problems by proximal policy optimisation (Schulman 2017), whole or by steps."""
 
 from __future__ import annotations
 
@@ -17,30 +17,30 @@ from botschool.rl.native.hyperparameters import Hyperparameters, at
 
 @dataclass(frozen=True)
 class Rollout:
-    """What the environments experienced; arrays of shape (n_steps, n_envs), float32.
+    """The experience of the environments; arrays of shape (n_steps, n_envs), float32.
 
-    They are the training's own: what you write into advantages or returns, update() learns from;
-    collect() fills them anew.
+    The arrays are the training's own: update() learns from what you write into advantages or
+    returns. The next collect() overwrites them.
     """
 
     observations: np.ndarray
     """(n_steps, n_envs, inputs), normalised if the training normalises."""
     actions: np.ndarray
-    """(n_steps, n_envs, actuators); of a discrete problem (n_steps, n_envs, 1), the index."""
+    """(n_steps, n_envs, actuators); for a discrete problem (n_steps, n_envs, 1), the index."""
     log_probs: np.ndarray
-    """Logarithm of the probability (density) that the policy gave to the action."""
+    """Logarithm of the probability (density) with which the policy chose the action."""
     values: np.ndarray
     """The critic's prediction for the observation."""
     rewards: np.ndarray
-    """Where time ran out, with gamma times what the critic says would have followed."""
+    """Where time ran out, the reward includes gamma times the critic's prediction of the rest."""
     ended: np.ndarray
     """1 where the episode ended with this step, 2 where time ran out, else 0."""
     last_values: np.ndarray
-    """(n_envs,): the prediction for the observation after the last step."""
+    """(n_envs,): the critic's predictions for the observations after the last step."""
     advantages: np.ndarray
     """Generalised advantage estimates."""
     returns: np.ndarray
-    """What the critic learns: advantages + values."""
+    """Targets of the critic: advantages + values."""
 
 
 @dataclass(frozen=True)
@@ -66,23 +66,23 @@ class Loss:
     approx_kl: float
     clip_fraction: float
     log_probs: np.ndarray
-    """(n,): of the actions, by the present policy."""
+    """(n,): logarithm of the actions' probabilities under the present policy."""
     ratios: np.ndarray
-    """(n,): probability of the action now / when it was drawn."""
+    """(n,): probability of the action now, divided by its probability when it was chosen."""
     values: np.ndarray
     """(n,): the critic's present predictions."""
     gradient: np.ndarray
-    """(parameters,): of the loss, before it is shortened to max_grad_norm."""
+    """(parameters,): gradient of the loss, before max_grad_norm shortens it."""
     gradients: dict[str, np.ndarray]
-    """The same by the names of PPO.weights."""
+    """The same gradient by the names of PPO.weights."""
 
 
 class PPO:
     """A policy, a critic, environments to act in, and an optimiser.
 
-    env: a Gymnasium id of a native problem with one robot; normalize: observations and rewards are
-    scaled by their running mean and deviation; total_timesteps: what "linear X" falls along;
-    threads: change the speed, not the result. Hyperparameters as in Hyperparameters, with
+    env: a Gymnasium id of a native problem with one robot. normalize: scale observations and
+    rewards by their running mean and deviation. total_timesteps: the steps over which "linear X"
+    falls. threads: change the speed, not the result. The other arguments are Hyperparameters, with
     Stable-Baselines3's names and defaults. Raises BotschoolError.
     """
 
@@ -109,33 +109,35 @@ class PPO:
         info = INFOS[self.problem]
         self._discrete = info["discrete"]
         self.outputs: int = info["outputs"]
-        """Actuators, or actions to choose from."""
+        """Number of actuators, or of actions to choose from."""
 
     @property
     def steps(self) -> int:
-        """Steps of all environments so far."""
+        """Return the steps of all environments so far."""
         return self.core.steps
 
     @property
     def progress(self) -> float:
-        """Share of the training that is over, from 0 to 1."""
+        """Return the share of the training that is done, from 0 to 1."""
         return min(1.0, self.steps / self.total_timesteps)
 
     @property
     def parameters(self) -> np.ndarray:
-        """All parameters, float32; writing into them changes the agent."""
+        """Return all parameters, float32. Writing into them changes the agent."""
         return self.core.parameters
 
     @property
     def weights(self) -> dict[str, np.ndarray]:
-        """The same as matrices and vectors: actor.0.weight (outputs, inputs), actor.0.bias, ...
+        """Return views of the parameters by name: actor.0.weight (outputs, inputs), actor.0.bias,
+        ...
 
-        actor, critic, shared (if the layers are), and log_std of a Gaussian.
+        The names begin with actor, critic or shared (if layers are shared); a Gaussian adds
+        log_std.
         """
         return self.named(self.parameters)
 
     def named(self, vector: np.ndarray) -> dict[str, np.ndarray]:
-        """Views of the parts of a vector of parameters, or of a gradient."""
+        """Return views of the parts of a vector of parameters, or of a gradient, by name."""
         return {
             name: vector[place : place + int(np.prod(shape))].reshape(shape)
             for name, shape, place in self.core.parts
@@ -143,21 +145,23 @@ class PPO:
 
     @property
     def rollout(self) -> Rollout:
-        """The last one."""
+        """Return the last rollout."""
         return Rollout(**self.core.rollout)
 
     @property
     def episodes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Of the episodes that ended in the last rollout: steps so far, returns, lengths."""
+        """Return steps so far, returns and lengths of the episodes that the last rollout ended."""
         return self.core.episodes
 
     def collect(self) -> Rollout:
-        """Acts for n_steps steps in each environment; advantages and returns included."""
+        """Act for n_steps steps in each environment; compute advantages and returns."""
         self.core.collect()
         return self.rollout
 
     def minibatch(self, rows: Sequence[int] | np.ndarray | None = None) -> Minibatch:
-        """Samples of the rollout: number t * n_envs + e is step t of environment e; None: all."""
+        """Return samples of the rollout; row t * n_envs + e is step t of environment e. None: all
+        rows.
+        """
         chosen = slice(None) if rows is None else np.asarray(rows)
         columns = self.core.rollout
         names = ("observations", "actions", "log_probs", "values", "advantages", "returns")
@@ -166,7 +170,7 @@ class PPO:
         )
 
     def loss(self, batch: Minibatch, clip_range: float | None = None) -> Loss:
-        """The loss of a minibatch by the present parameters, and its gradient."""
+        """Return the loss of a minibatch under the present parameters, and its gradient."""
         h, n = self.hyperparameters, len(batch.observations)
         if clip_range is None:
             clip_range = at(h.clip_range, self.progress)
@@ -185,9 +189,9 @@ class PPO:
         )
 
     def step(self, gradient: np.ndarray, learning_rate: float | None = None) -> None:
-        """One step of Adam against a gradient, which max_grad_norm shortens.
+        """Make one step of Adam against a gradient, which max_grad_norm shortens.
 
-        Raises BotschoolError if it is not finite.
+        Raises BotschoolError if the gradient is not finite.
         """
         if learning_rate is None:
             learning_rate = at(self.hyperparameters.learning_rate, self.progress)
@@ -195,9 +199,9 @@ class PPO:
             raise self._broken()
 
     def update(self) -> dict[str, float]:
-        """n_epochs passes through the rollout in minibatches; means of the indicators.
+        """Go n_epochs times through the rollout in minibatches; return the means of the indicators.
 
-        Raises BotschoolError when numbers are no longer finite.
+        Raises BotschoolError if numbers are no longer finite.
         """
         h, progress = self.hyperparameters, self.progress
         rates = {
@@ -214,9 +218,9 @@ class PPO:
         total_timesteps: int,
         callback: Callable[[PPO, dict[str, float]], bool | None] | None = None,
     ) -> PPO:
-        """Collects and updates until so many steps are done; returns itself.
+        """Collect and update until this many steps are done; return the agent itself.
 
-        callback: called after each update with its indicators; False ends the training.
+        callback: called after each update with its indicators; returning False ends the training.
         """
         self.total_timesteps = total_timesteps
         while self.steps < total_timesteps:
@@ -227,7 +231,7 @@ class PPO:
         return self
 
     def normalised(self, observations: np.ndarray) -> np.ndarray:
-        """Observations (n, inputs) as the networks get them, float32."""
+        """Return observations (n, inputs) normalised as the networks receive them, float32."""
         x = np.asarray(observations, dtype=np.float32)
         if not self.normalize:
             return np.ascontiguousarray(x)
@@ -237,11 +241,13 @@ class PPO:
         return np.ascontiguousarray(np.clip(scaled, np.float32(-10), np.float32(10)))
 
     def forward(self, observations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The policy's outputs (n, outputs) and predictions (n,) for observations as they come."""
+        """Return the policy's outputs (n, outputs) and the critic's predictions (n,) for raw
+        observations.
+        """
         return self.core.forward(self.normalised(observations))
 
     def act(self, observations: np.ndarray) -> np.ndarray:
-        """The most probable actions for observations (n, inputs), as Gymnasium takes them."""
+        """Return the most probable actions for observations (n, inputs), in Gymnasium's format."""
         outputs, _ = self.forward(observations)
         if self._discrete:
             return outputs.argmax(axis=1)
@@ -249,20 +255,24 @@ class PPO:
         return np.clip(outputs, info["low"], info["high"]).astype(np.float32)
 
     def play(self, seeds: Sequence[int] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """One new episode for each seed without exploring: returns float64 and lengths, (n,)."""
+        """Play one new episode for each seed without exploration; return returns (float64) and
+        lengths, (n,).
+        """
         chosen = np.array(seeds, dtype=np.uint64)
         return self.core.play(chosen, np.zeros(len(chosen), dtype=np.uint32))
 
     def state(self) -> dict[str, np.ndarray]:
-        """Between updates: all that the rest of the training depends on, as arrays."""
+        """Return all that the rest of the training depends on, as arrays (between updates)."""
         return self.core.state()
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """Goes on from there, as if never interrupted. Raises ValueError if it does not fit."""
+        """Continue from a state, as if never interrupted. Raises ValueError if the state does not
+        fit.
+        """
         try:
             self.core.restore({name: np.ascontiguousarray(each) for name, each in state.items()})
         except (KeyError, RuntimeError, TypeError) as error:
-            raise ValueError(f"this is no state of such a training: {error}") from error
+            raise ValueError(f"this is not the state of such a training: {error}") from error
 
     def _broken(self) -> BotschoolError:
         return BotschoolError(

@@ -1,4 +1,4 @@
-"""A native agent as one of Stable-Baselines3: the same weights by its names."""
+"""Exchange weights with Stable-Baselines3 by its names."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 
 def names_of(parts: list[str]) -> dict[str, list[str]]:
-    """Our name of each part -> the names that its weights have in Stable-Baselines3's policy.
+    """Return our name of each part -> the names of its weights in Stable-Baselines3's policy.
 
-    Layers that policy and critic share are two there, with the same weights.
+    Stable-Baselines3 has two copies of layers that policy and critic share.
     """
     names: dict[str, list[str]] = {name: [] for name in parts}
     for net, body, head in (
@@ -38,13 +38,15 @@ def _weight(name: str) -> bool:
 
 
 def weights(ppo: PPO) -> dict[str, np.ndarray]:
-    """Copies of all weights by Stable-Baselines3's names."""
+    """Return copies of all weights by Stable-Baselines3's names."""
     names = names_of(list(ppo.weights))
     return {name: part.copy() for own, part in ppo.weights.items() for name in names[own]}
 
 
 def fill(ppo: PPO, arrays: dict[str, np.ndarray]) -> None:
-    """The reverse of weights. Raises ValueError if they are those of another network."""
+    """Load weights by Stable-Baselines3's names. Raises ValueError if they belong to another
+    network.
+    """
     wanted = weights(ppo)
     if not wanted.keys() <= arrays.keys():
         raise ValueError("these are weights of another policy")
@@ -56,9 +58,9 @@ def fill(ppo: PPO, arrays: dict[str, np.ndarray]) -> None:
 
 
 def to_sb3(ppo: PPO) -> stable_baselines3.PPO:
-    """A model of Stable-Baselines3 with the weights of the native one; needs torch.
+    """Return a model of Stable-Baselines3 with the native agent's weights. Needs torch.
 
-    If the native one normalises, the model expects normalised observations (PPO.normalised).
+    If the native agent normalises, the model expects normalised observations (PPO.normalised).
     """
     import gymnasium
     import stable_baselines3

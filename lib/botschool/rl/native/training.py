@@ -1,9 +1,9 @@
-"""A native training in a folder: post-evaluations, models, indicators, checkpoint.
+"""Run a native training in a folder: post-evaluations, models, indicators, checkpoint.
 
-    best_model.npz, last_model.npz    weights by Stable-Baselines3's names (files.py)
-    checkpoint.npz                    what --resume goes on from
+best_model.npz, last_model.npz    weights by Stable-Baselines3's names (files.py)
+checkpoint.npz                    the state from which --resume continues
 
-and config.yaml, evaluations.npz, progress.csv, events.out.* as rl/folder.py says.
+rl/folder.py describes config.yaml, evaluations.npz, progress.csv and events.out.*.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from botschool.rl.settings import Settings
 from botschool.seeds import POST_EVALUATION_SEED
 
 SAVE_SECONDS = 60.0
-"""A checkpoint is written this often, and with every post-evaluation."""
+"""Seconds between two checkpoints; each post-evaluation writes one, too."""
 
 REPORT_SECONDS = 0.2
 
@@ -38,7 +38,7 @@ def learn(
     events: Path | None = None,
     threads: int = 1,
 ) -> tuple[RunFolder, Evaluations]:
-    """Trains in a new folder; as botschool.rl.training.learn."""
+    """Train in a new folder, as botschool.rl.training.learn does."""
     ppo = files.make(settings, threads)
     run = next_folder(folder, settings.algo, settings.env)
     settings.save(run.config)
@@ -52,7 +52,7 @@ def resume(
     stopping: Callable[[], bool] = lambda: False,
     threads: int = 1,
 ) -> Evaluations:
-    """Goes on with a training from its checkpoint, as if never interrupted."""
+    """Continue a training from its checkpoint, as if never interrupted."""
     settings = run.settings()
     arrays = files.load_checkpoint(run.path)
     watched = _Watched(run, settings, files.make(settings, threads), report, stopping, None, True)
@@ -60,13 +60,13 @@ def resume(
         watched.restore(arrays)
     except (ValueError, KeyError, IndexError, TypeError) as error:
         raise BotschoolError(
-            f"{run.path / files.CHECKPOINT} is no checkpoint of this training: train again."
+            f"{run.path / files.CHECKPOINT} is not a checkpoint of this training: train again."
         ) from error
     return watched.learn()
 
 
 class _Watched:
-    """A training and what happens beside it."""
+    """A training with its post-evaluations, log and files."""
 
     def __init__(
         self, run, settings, ppo, report, stopping, events: Path | None, resumed: bool = False
@@ -85,11 +85,13 @@ class _Watched:
         while self.ppo.steps < self.settings.steps and not self.stopping():
             self._advance()
         if self.found.steps[-1] < self.ppo.steps and self.ppo.steps < self.settings.steps:
-            self._save()  # it was stopped
+            self._save()  # the user stopped it
         return self.found
 
     def restore(self, arrays: dict[str, np.ndarray]) -> None:
-        """Raises ValueError, KeyError, IndexError or TypeError, and has changed no file then."""
+        """Restore the training. Raises ValueError, KeyError, IndexError or TypeError before it
+        changes a file.
+        """
         steps, returns, lengths = (arrays[name] for name in ("steps", "returns", "lengths"))
         if returns.ndim != 2 or not returns.size or returns.shape != lengths.shape:
             raise ValueError("these are no post-evaluations")
@@ -121,7 +123,7 @@ class _Watched:
             self._reported = now
 
     def _evaluate(self) -> tuple[np.ndarray, np.ndarray]:
-        """Plays the episodes that the best of an evolutionary run with this seed plays."""
+        """Play the post-evaluation episodes of an evolutionary run with this seed."""
         episodes = np.arange(self.settings.episodes, dtype=np.uint32)
         seeds = np.full(len(episodes), self.settings.seed + POST_EVALUATION_SEED, dtype=np.uint64)
         returns, lengths = self.ppo.core.play(seeds, episodes)
@@ -133,7 +135,7 @@ class _Watched:
             self.found = Evaluations(*(np.concatenate(pair) for pair in both))
         else:
             self.found = Evaluations(*new)
-        if returns.mean() >= best:  # of two that did equally well, the one that learned longer
+        if returns.mean() >= best:  # of two equal ones, keep the one that was trained longer
             files.save_model(self.ppo, self.run.path / "best_model.npz")
         self.run.save_evaluations(self.found)
         self.report(self.ppo.steps, self.found)
