@@ -252,7 +252,7 @@ def test_ctrl_c_saves_and_does_not_show(environment, workers, number, whom, tmp_
         os.killpg(process.pid, number)
     code, out, errors = finish(process)
     assert (code, errors) == (130, "")
-    assert "all is saved, add --resume to the same command to go on" in out
+    assert "all is saved, add --resume to the same command to continue" in out
     stat = np.load(tmp_path / "stopped" / "statS3.npy").reshape(-1, 6)
     assert len(stat) >= 4 and stat[-1, 0] < 1e9
     assert f"stopped after {len(stat)} generations" in out

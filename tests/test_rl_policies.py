@@ -103,9 +103,9 @@ def test_what_an_agent_names_is_not_imported(trained, tmp_path, refused, monkeyp
             ["own_policies:Thing is not a policy of Stable-Baselines3", "derive"],
         ),
         ("own_policies:number", ["is not a policy of Stable-Baselines3"]),
-        ("own_policies:", ["names no class", "my_policy:MyPolicy"]),
-        (":Narrow", ["names no class"]),
-        ("os.system('x'):A", ["names no class"]),
+        ("own_policies:", ["does not name a class", "my_policy:MyPolicy"]),
+        (":Narrow", ["does not name a class"]),
+        ("os.system('x'):A", ["does not name a class"]),
         ("own_polices", ["no policy 'own_polices'", "or module:Class for one of your own"]),
     ],
 )

@@ -178,7 +178,7 @@ def test_a_run_that_fails_stops_the_others_and_all_is_saved(tmp_path):
     arguments = ["-n", 3, "-w", 2, "-o", tmp_path / "results", "--resume"]
     code, out, errors = call("es", "-f", ini, *arguments)
     assert code == 2
-    assert errors.count("\n") == 1 and "checkpointS2.npz is no complete checkpoint" in errors
+    assert errors.count("\n") == 1 and "checkpointS2.npz is not a complete checkpoint" in errors
     assert "seed 1: stopped after" in out and "seed 3" not in out
     assert np.load(tmp_path / "results" / "statS1.npy").size % 6 == 0
     assert not (tmp_path / "results" / "statS3.npy").exists()

@@ -1,7 +1,7 @@
-"""Evaluation on many machines by Dask (docs/specification.md, "On a cluster").
+"""Evaluate on many machines by Dask (docs/specification.md, "On a cluster").
 
-`Open(TEXT)` opens a Cluster, whose `problem(experiment)` evaluates on its workers. Dask is
-imported only then.
+`Open(TEXT)` opens a Cluster, whose `problem(experiment)` evaluates on its workers. Only then is
+Dask imported.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ if TYPE_CHECKING:
     from botschool.cluster.problem import Distributed
 
 PATIENCE = 300.0
-"""Seconds to wait for workers, or for a scheduler that is away, unless the user says otherwise."""
+"""Default for the seconds to wait for workers, or for a scheduler that does not answer."""
 
 
 class Cluster:
-    """A connection to a scheduler, and how to use it."""
+    """A connection to a scheduler, which makes problems that use it."""
 
     def __init__(self, connection: Connection, patience: float, say: Callable[[str], None]) -> None:
         self._connection, self._patience, self._say = connection, patience, say
 
     def problem(self, experiment: Experiment) -> Distributed:
-        """The experiment's problem, evaluated on the workers. Raises BotschoolError."""
+        """Return the experiment's problem, evaluated on the workers. Raises BotschoolError."""
         from botschool.cluster.problem import Distributed
 
         return Distributed(experiment, self._connection, self._patience, self._say)
@@ -37,15 +37,16 @@ class Cluster:
 
 @dataclass(frozen=True)
 class Open:
-    """A cluster as the user names it: called with `say`, which gets sentences for the user, it is
-    the context of the Cluster. Raises BotschoolError."""
+    """A cluster as the user names it. Calling it with `say`, a function that gets messages for the
+    user, returns the context of the Cluster. Raises BotschoolError.
+    """
 
     text: str
-    """What --cluster says."""
+    """The value of --cluster."""
     unsafe: bool = False
     """Allow addresses beyond this machine without TLS."""
     patience: float = PATIENCE
-    """Seconds to wait for workers, or for a scheduler that is away."""
+    """Seconds to wait for workers, or for a scheduler that does not answer."""
 
     @contextmanager
     def __call__(self, say: Callable[[str], None]) -> Iterator[Cluster]:

@@ -1,4 +1,4 @@
-"""Where a cluster is: what --cluster says, read and checked."""
+"""Read and check the value of --cluster: where a cluster is."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ from botschool.inifile import shown
 
 FORMS = "tcp://HOST:PORT, tls://HOST:PORT, a scheduler's file FILE.json or local:N"
 MOST = 1024
-"""Workers that local:N starts at most."""
+"""Largest number of workers for local:N."""
 
 
 @dataclass(frozen=True)
 class Place:
-    """A scheduler that exists, or one to be started here with so many workers."""
+    """An existing scheduler, or one to start here with `local` workers."""
 
     text: str
-    """As the user wrote it."""
+    """The user's text."""
     local: int = 0
-    """Workers to start on this machine; 0 for a scheduler that exists."""
+    """Workers to start on this machine; 0 for an existing scheduler."""
     unsafe: bool = False
     """Whether the user allows a network without TLS."""
 
     def address(self) -> str:
-        """The scheduler's address now: a scheduler's file may say another one tomorrow.
+        """Return the scheduler's present address; a scheduler's file may name another one tomorrow.
 
-        Raises BotschoolError for one that is unreadable, or beyond this machine and without TLS.
+        Raises BotschoolError if it is unreadable, or beyond this machine without TLS.
         """
         address = _of_file(Path(self.text)) if self.text.endswith(".json") else self.text
         address = address if "://" in address else f"tcp://{address}"
@@ -41,15 +41,16 @@ class Place:
         protocol, host = match[1], match[2].strip("[]")
         if protocol == "tcp" and not self.unsafe and not is_this_machine(host):
             raise BotschoolError(
-                f"{address} is not this machine's own address and has no TLS, so anyone on the "
-                "network could run programs on the workers and here: start the scheduler with "
-                "TLS and give tls://HOST:PORT, or add --no-tls in a network that you trust."
+                f"{address} is not this machine's own address and has no TLS, so anyone on "
+                "the network could run programs on the workers and here: start the scheduler "
+                "with TLS and give tls://HOST:PORT, or add --no-tls in a network that you "
+                "trust."
             )
         return address.rstrip("/")
 
 
 def place(text: str, unsafe: bool = False) -> Place:
-    """What --cluster says. Raises BotschoolError."""
+    """Return the place that --cluster names. Raises BotschoolError."""
     if text.startswith("local:"):
         count = text.removeprefix("local:")
         if not (count.isascii() and count.isdigit() and 1 <= int(count) <= MOST):
@@ -64,7 +65,7 @@ def place(text: str, unsafe: bool = False) -> Place:
 
 
 def is_this_machine(host: str) -> bool:
-    """Whether a host's name or number stands for this machine's loopback, and for nothing else."""
+    """Return whether a host's name or number means only this machine's loopback."""
     try:
         found = {str(entry[4][0]) for entry in socket.getaddrinfo(host, None)}
     except (OSError, UnicodeError):
@@ -77,7 +78,9 @@ def _loopback(number: str) -> bool:
 
 
 def _of_file(path: Path) -> str:
-    """The address in a scheduler's file, as `dask scheduler --scheduler-file FILE` writes it."""
+    """Return the address in a scheduler's file, which `dask scheduler --scheduler-file FILE`
+    writes.
+    """
     try:
         address = json.loads(path.read_text())["address"]
     except FileNotFoundError:
@@ -90,6 +93,7 @@ def _of_file(path: Path) -> str:
         address = None
     if not isinstance(address, str):
         raise BotschoolError(
-            f"{path} is no scheduler's file: 'dask scheduler --scheduler-file {path}' writes one."
+            f"{path} is not a scheduler's file: 'dask scheduler --scheduler-file {path}' "
+            "writes one."
         )
     return address

@@ -1,4 +1,4 @@
-"""Read what workers answer: any bytes become a known answer or a ValueError."""
+"""Read the answers of workers: any bytes become a known answer or a ValueError."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SHAPES: dict[str, dict[str, Any]] = {
 
 
 def read(data: bytes, kinds: Sequence[str] = tuple(SHAPES)) -> dict[str, Any]:
-    """Return an answer of one of these kinds, with all its fields and with values that can be.
+    """Return an answer of one of these kinds, with all its fields and possible values.
 
     Raises ValueError for everything else.
     """
@@ -38,7 +38,7 @@ def read(data: bytes, kinds: Sequence[str] = tuple(SHAPES)) -> dict[str, Any]:
         if not isinstance(answer.get(name), types):
             raise ValueError(f"the answer's {name} is of another type")
     if not all(CHECKS[kind](answer)):
-        raise ValueError(f"the answer's values cannot be: {kind}")
+        raise ValueError(f"the answer's values are impossible: {kind}")
     return answer
 
 
@@ -62,4 +62,4 @@ CHECKS = {
     ],
     "fitness": _outcome,
 }
-"""What must be true of the values of each kind."""
+"""Conditions on the values of each kind."""

@@ -1,4 +1,4 @@
-"""Where the time goes: what the workers of a cluster do, and what they wait for."""
+"""Measure how the workers of a cluster spend their time, and what they wait for."""
 
 from __future__ import annotations
 
@@ -6,41 +6,41 @@ import time
 
 
 class Bottleneck:
-    """Counts worker-seconds by what they are spent on, and bytes on the wire."""
+    """Counts worker-seconds by their use, and bytes sent and received."""
 
     def __init__(self) -> None:
         self.sent = self.received = 0
         """Bytes of messages, without what Dask adds."""
         self.candidates = 0
-        """Genotypes that were evaluated on workers."""
+        """Genotypes that workers evaluated."""
         self.here = 0.0
-        """Seconds of batches too short for the wire, evaluated on this machine."""
+        """Seconds of batches that this machine evaluated because they were too short to send."""
         self.busy = self._last = self._slowest = self._inside = self._outside = 0.0
         self._workers = 0
         self._began = self._ended = time.monotonic()
         self._idle: dict[str, float] = {}
 
     def begin(self) -> None:
-        """A batch begins."""
+        """Begin a batch."""
         self._began = time.monotonic()
         self._outside += (self._began - self._ended) * self._workers
         self._last = self.busy
         self._idle = {}
 
     def nobody(self) -> None:
-        """There are no workers: until now, this batch has taken no time of theirs."""
+        """Start the batch's time anew, because there are no workers."""
         self._began = time.monotonic()
 
     def evaluated(self, seconds: float) -> None:
-        """A worker has computed for so long."""
+        """Add seconds that a worker has computed."""
         self.busy += seconds
 
     def idle(self, worker: str, now: float) -> None:
-        """There is nothing left to give to a worker."""
+        """Note that there is nothing left to give to a worker."""
         self._idle[worker] = now
 
     def end(self, workers: int) -> float:
-        """The batch has ended, with so many workers; gives the seconds they have computed."""
+        """End the batch with this many workers; return the seconds they have computed."""
         self._ended = time.monotonic()
         self._workers = max(1, workers)
         self._inside += (self._ended - self._began) * self._workers
@@ -48,7 +48,7 @@ class Bottleneck:
         return self.busy - self._last
 
     def shares(self) -> dict[str, float]:
-        """Parts of the workers' time, which are 1 together; {} if they have done nothing."""
+        """Return shares of the workers' time, which add up to 1; {} if they have done nothing."""
         total = self._inside + self._outside
         if not total or not self.busy:
             return {}
@@ -62,7 +62,7 @@ class Bottleneck:
         return {name: seconds / sum(parts.values()) for name, seconds in parts.items()}
 
     def line(self) -> str:
-        """A sentence about it; "" if workers have done nothing."""
+        """Return a sentence about the shares; "" if workers have done nothing."""
         shares = self.shares()
         if not shares:
             return ""

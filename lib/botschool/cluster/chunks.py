@@ -1,4 +1,4 @@
-"""How a batch of episodes is cut into chunks for workers, and put together again."""
+"""Cut a batch of episodes into chunks for workers, and join their outcomes."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from botschool.evolution.algorithms.drawing import Drawn
 from botschool.problems import Episodes, Outcome
 
 SHARE = 0.65
-"""A worker's next chunk, as a part of what is left for it to get."""
+"""Size of a worker's next chunk, relative to its share of what is left."""
 LEAST = 0.05
-"""Seconds that a chunk takes at least, as far as is known."""
+"""Shortest duration of a chunk in seconds, as estimated."""
 FIRST = 0.1
 """Part of its share that a worker gets before its speed is known."""
 HALF = 1.0
-"""Seconds of evaluation after which a worker's speed counts half."""
+"""Age in seconds of evaluation at which a measured speed counts half."""
 LANES = 16
-"""Episodes that a thread computes side by side: natively, chunks are multiples of it."""
+"""Episodes that a thread computes in parallel; chunks of native problems are multiples of it."""
 
 
 class Batch:
-    """Episodes to be evaluated; chunks are slices of them, in any order."""
+    """Episodes to evaluate; chunks are slices of them, in any order."""
 
     def __init__(
         self,
@@ -34,7 +34,9 @@ class Batch:
         maxsteps: int,
         single: bool = False,
     ) -> None:
-        """parts: genotypes, one array after another; single: single precision is as good."""
+        """Start a batch; parts: genotypes, one array after another; single: single precision
+        suffices.
+        """
         met = episodes.candidate.ndim == 2
         self.parts = [_Part(part, met, single) for part in parts]
         self.episodes = episodes
@@ -54,11 +56,11 @@ class Batch:
 
     @property
     def waiting(self) -> bool:
-        """Whether there are episodes that nobody has been given."""
+        """Return whether there are episodes that no worker has."""
         return bool(self._again) or self._next < len(self.episodes)
 
     def take(self, count: int) -> slice:
-        """The next chunk, of about so many episodes; first those that were lost."""
+        """Return the next chunk, of about `count` episodes; lost chunks come first."""
         if self._again:
             return self._again.popleft()
         first, rest = self._next, len(self.episodes) - self._next
@@ -66,17 +68,17 @@ class Batch:
         return slice(first, self._next)
 
     def give_back(self, chunk: slice) -> int:
-        """Its worker is lost: another one must do it. Gives how often that was so."""
+        """Take back a chunk whose worker is lost; return how often that has happened to it."""
         self._again.append(chunk)
         self._losses[chunk.start] = self._losses.get(chunk.start, 0) + 1
         return self._losses[chunk.start]
 
     def done(self, chunk: slice) -> bool:
-        """Whether its outcome is known."""
+        """Return whether the chunk's outcome is known."""
         return chunk.start in self._entered
 
     def untaken(self) -> int:
-        """Episodes that were never given to anyone."""
+        """Return the number of episodes that no worker ever got."""
         return len(self.episodes) - self._next
 
     def enter(self, chunk: slice, answer: dict) -> None:
@@ -94,7 +96,7 @@ class Batch:
             or wanted != (moments is not None)
             or (wanted and moments.shape != (count, collected.shape[1]))
         ):
-            raise ValueError("the outcome is not that of its episodes")
+            raise ValueError("the outcome does not fit its episodes")
         self.fitness, self.moments = fitnesses, collected
         fitnesses[..., chunk], self.steps[chunk] = fitness, steps
         if wanted:
@@ -103,11 +105,11 @@ class Batch:
         self.left -= count
 
     def outcome(self) -> Outcome:
-        """Of the whole batch, in the order of its episodes."""
+        """Return the outcome of the whole batch, in the order of its episodes."""
         return Outcome(self.fitness, self.steps, self.moments)
 
     def message(self, chunk: slice) -> tuple[dict, dict[bytes, bytes]]:
-        """What a worker needs for a chunk: the request, and the tables that it refers to."""
+        """Return a worker's message for a chunk: the request, and the tables that it refers to."""
         chosen = self.episodes.select(chunk)
         used, places = np.unique(chosen.candidate, return_inverse=True)
         tables, parts = {}, []
@@ -136,10 +138,12 @@ class Batch:
 
 
 class _Part:
-    """Genotypes of a batch, and how they go over the wire."""
+    """Genotypes of a batch, with the way they are sent."""
 
     def __init__(self, genotypes: np.ndarray, met: bool, single: bool) -> None:
-        """met: whether each meets many; single: whether single precision is all that counts."""
+        """Prepare genotypes; met: each meets many opponents; single: only
+        single precision counts.
+        """
         self._genotypes = genotypes
         self._met, self._type = met, np.float32 if single else np.float64
         self._recipe = genotypes.recipe if isinstance(genotypes, Drawn) else None
@@ -150,10 +154,10 @@ class _Part:
         return len(self._genotypes)
 
     def rows(self, numbers: np.ndarray) -> tuple[dict, dict[bytes, bytes]]:
-        """Some of them, sorted: for a request, and the tables that this refers to.
+        """Return a request's genotypes with these sorted numbers, and the tables that it refers to.
 
-        What is drawn is drawn again; who meets many is a table, sent once to each worker and kept
-        there; all others are sent as they are.
+        Drawn candidates are sent as a recipe and drawn again. Networks that meet many others are
+        tables, which each worker gets once and keeps. All others are sent as they are.
         """
         if self._recipe is not None:
             (name, *told), tables = self._drawn = self._drawn or self._tables()
@@ -167,7 +171,7 @@ class _Part:
         return {"each": [name for name, _ in chosen]}, dict(chosen)
 
     def _tables(self) -> tuple[list[bytes], dict[bytes, bytes]]:
-        """The recipe as tables: their names in its order, and the tables."""
+        """Return the recipe as tables: their names in its order, and the tables."""
         first, *told = self._recipe
         tables = [wire.packed(first), *map(wire.pack, told)]
         names = [wire.digest(data) for data in tables]
@@ -176,18 +180,18 @@ class _Part:
 
 @dataclass
 class Pace:
-    """How fast a worker evaluates: measured, or guessed by its threads."""
+    """The speed of a worker: measured, or guessed from its threads."""
 
     threads: int
     episodes: float = 0.0
-    """A second; 0 if not known yet."""
+    """Episodes per second; 0 if not known yet."""
     steps: float = 0.0
-    """A second."""
+    """Steps per second."""
     _seconds: float = 0.0
-    """That they were measured in; old ones count less."""
+    """Seconds in which they were measured; old ones count less."""
 
     def measured(self, episodes: int, steps: int, seconds: float) -> None:
-        """Takes an answer into account."""
+        """Take an answer into account."""
         seconds = max(seconds, 1e-6)
         self._seconds = self._seconds * 0.5 ** (seconds / HALF) + seconds
         weight = seconds / self._seconds
@@ -203,10 +207,10 @@ def size(
     native: bool,
     least: float = LEAST,
 ) -> int:
-    """Episodes for the next chunk of a worker, so that all workers end together.
+    """Return the size of a worker's next chunk in episodes, so that all workers end together.
 
-    number: the worker's, in paces and ahead. ahead: episodes that each has been given and has yet
-    to evaluate. least: seconds that a chunk should take.
+    number: the worker's index in paces and ahead. ahead: episodes that each worker has yet to
+    evaluate. least: seconds that a chunk should take.
     """
     known = [pace for pace in paces if pace.episodes]
     thread = sum(p.episodes for p in known) / sum(p.threads for p in known) if known else 1.0

@@ -1,4 +1,4 @@
-"""The connection to Dask's scheduler: who is there, tasks out, answers in."""
+"""Connect to Dask's scheduler: list its workers, submit tasks, receive answers."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ except ImportError:
     ) from None
 
 ASKING = 0.5
-"""Seconds between two questions who is there."""
+"""Seconds between two requests for the list of workers."""
 SILENCE = 10.0
-"""Seconds after which a scheduler that does not answer is told of."""
+"""Seconds of silence after which the user is told that the scheduler does not answer."""
 ATTEMPT = 5.0
-"""Seconds that one attempt to connect may take."""
+"""Longest duration of an attempt to connect, in seconds."""
 QUIET = {
     "distributed.worker.profile.enabled": False,
     "distributed.admin.tick.interval": "1s",
@@ -45,14 +45,14 @@ QUIET = {
 }
 """Dask's settings without the measurements that cost each process a few hundredths of a core."""
 FROM_TERMINAL = [number for number in SIGNALS if number != signal.SIGTERM]
-"""What a terminal sends to all processes: Ctrl-C, and its end. SIGTERM must end workers."""
+"""Signals that a terminal sends to all processes: Ctrl-C, and its end. SIGTERM must end workers."""
 LOGGERS = ("distributed", "tornado", "asyncio", "bokeh")
 
 
 class Connection:
-    """To one scheduler, for as long as a command runs. Call everything from one thread.
+    """A connection to one scheduler while a command runs. Call all methods from one thread.
 
-    patience: seconds that the scheduler may be away. say: called with sentences for the user.
+    patience: seconds that the scheduler may stay silent. say: called with messages for the user.
     """
 
     def __init__(self, place: Place, patience: float, say: Callable[[str], None]) -> None:
@@ -68,12 +68,12 @@ class Connection:
         self.members: dict[str, int] = {}
         """Threads of each worker, by its address."""
         self.lost = False
-        """Whether the scheduler was away for too long; nothing is sent from then on."""
+        """Whether the scheduler was silent for too long; nothing is sent after that."""
         self._question: concurrent.futures.Future | None = None
         self._asked = 0.0
         self._answered = self._refreshed = time.monotonic()
         self._told = False
-        for name in list(logging.root.manager.loggerDict):  # what goes wrong is said in sentences
+        for name in list(logging.root.manager.loggerDict):  # botschool's own messages report errors
             if name.partition(".")[0] in LOGGERS:
                 logging.getLogger(name).setLevel(logging.CRITICAL + 1)
         warnings.filterwarnings("ignore", module="distributed")
@@ -83,7 +83,7 @@ class Connection:
         self._connect(first=True)
 
     def answer(self, timeout: float) -> tuple[int, bytes | BaseException] | None:
-        """Number of a task and what came of it; None if nothing comes within so many seconds."""
+        """Return a task's number and its answer; None if nothing arrives in `timeout` seconds."""
         try:
             number, answer = self._answers.get(timeout > 0, timeout)
         except queue.Empty:
@@ -93,38 +93,38 @@ class Connection:
 
     @property
     def answering(self) -> bool:
-        """Whether the scheduler has said lately who is there."""
+        """Return whether the scheduler has sent its list of workers recently."""
         return self._client.status == "running" and time.monotonic() - self._answered < SILENCE
 
     @property
     def place(self) -> str:
-        """What the user calls it."""
+        """Return the user's name for the cluster."""
         return self._place.text
 
     @property
     def address(self) -> str:
-        """The scheduler's."""
+        """Return the scheduler's address."""
         return self._cluster.scheduler_address if self._cluster else self._place.address()
 
     @property
     def dashboard(self) -> str:
         """Return the address of Dask's dashboard; "" if none answers there.
 
-        Dask names an address for each scheduler, also for one without a dashboard or without bokeh.
+        Dask names an address even for a scheduler without a dashboard or without bokeh.
         """
         with suppress(Exception):
             link = self._client.dashboard_link or ""
             direct = build_opener(ProxyHandler({}))
             with direct.open(link, timeout=ATTEMPT) as page:
-                if b"Dask needs" not in page.read(1000):  # of a scheduler without bokeh
+                if b"Dask needs" not in page.read(1000):  # a scheduler without bokeh says this
                     return link
         return ""
 
     def _start(self, workers: int) -> None:
-        """A scheduler and workers of our own; only this machine reaches them."""
+        """Start a scheduler and workers that only this machine can reach."""
         _track_processes()
         try:
-            with unheard(FROM_TERMINAL):  # they are the main process's affair
+            with unheard(FROM_TERMINAL):  # the main process handles these signals
                 self._cluster = distributed.LocalCluster(
                     n_workers=workers,
                     threads_per_worker=1,
@@ -141,7 +141,7 @@ class Connection:
             ) from None
 
     def _connect(self, first: bool = False) -> None:
-        """A new client; raises BotschoolError if there is none at first."""
+        """Connect a new client; raises BotschoolError if the first attempt fails."""
         address = self.address if first else ""
         if address.startswith("tls:") and not _has_certificates():
             raise BotschoolError(
@@ -171,7 +171,7 @@ class Connection:
         self._asked = 0.0
 
     def submit(self, function: Callable[[bytes], bytes], worker: str, message: bytes) -> int:
-        """Calls a function on that worker, and on no other; gives the task's number."""
+        """Call a function on this worker only; return the task's number."""
         number = next(self._numbers)
         key = f"{function.__name__}-{self._name}-{number}"
         task = self._on_loop(self._task(self._client, function, worker, message, key))
@@ -180,7 +180,7 @@ class Connection:
         return number
 
     def forget(self, number: int | None) -> None:
-        """Gives a task up: it need not begin any more, and its answer does not count."""
+        """Give a task up: it need not begin, and its answer does not count."""
         task = self._pending.pop(number, None)
         if task is not None:
             task.cancel()
@@ -199,9 +199,9 @@ class Connection:
             future.release()
 
     def refresh(self) -> None:
-        """Keeps `members` up to date; to be called again and again.
+        """Update `members`; call it repeatedly.
 
-        Raises BotschoolError when the scheduler has been away for longer than is allowed.
+        Raises BotschoolError when the scheduler has been silent for longer than `patience`.
         """
         try:
             self._refresh(time.monotonic())
@@ -209,7 +209,7 @@ class Connection:
             self._refreshed = time.monotonic()
 
     def _refresh(self, now: float) -> None:
-        if now - self._refreshed > ATTEMPT:  # nobody has asked: it was not the scheduler's silence
+        if now - self._refreshed > ATTEMPT:  # refresh was not called: the scheduler was not silent
             self._answered = now
         if self._question is not None and self._question.done():
             with suppress(Exception, asyncio.CancelledError, concurrent.futures.CancelledError):
@@ -223,8 +223,9 @@ class Connection:
         if away > self._patience:
             self.lost = True
             raise BotschoolError(
-                f"The scheduler at {self.place} has not answered for {away:.0f} seconds: start it "
-                "again, and add --resume to go on, with any --cluster or without one."
+                f"The scheduler at {self.place} has not answered for {away:.0f} seconds: "
+                "start it again, and add --resume to continue, with any --cluster or without "
+                "one."
             )
         if away > SILENCE and not self._told:
             self._told = True
@@ -249,20 +250,21 @@ class Connection:
             self._connect()
 
     def close(self) -> None:
-        """Leaves the scheduler; one of our own ends, with its workers."""
+        """Leave the scheduler; one that we started ends, with its workers."""
         with suppress(Exception):
             self._client.close(timeout=2)
         if self._cluster is not None:
             with suppress(Exception):
                 self._cluster.close(timeout=5)
             for process in multiprocessing.active_children():
-                if "Dask" in process.name:  # it would be waited for
+                if "Dask" in process.name:  # Python would wait for it
                     process.kill()
 
 
 def _track_processes() -> None:
-    """Starts what tidies up after worker processes: it would let their signals through again, and
-    complain when this process is ended at once."""
+    """Start Python's resource tracker now: later it would unblock the workers' signals, and
+    complain when this process is killed.
+    """
     if os.name == "posix":
         before = os.environ.get("PYTHONWARNINGS")
         os.environ["PYTHONWARNINGS"] = "ignore"
@@ -273,7 +275,7 @@ def _track_processes() -> None:
 
 
 def _has_certificates() -> bool:
-    """Whether Dask's settings name those that a client needs."""
+    """Return whether Dask's settings name the certificates that a client needs."""
     try:
         return distributed.Security().get_connection_args("client").get("ssl_context") is not None
     except Exception as error:

@@ -1,4 +1,4 @@
-"""How work is assigned to workers: chunks out, answers in, what to do when one is lost or late."""
+"""Assign work to workers: send chunks, receive answers, replace lost and late workers."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ from botschool.problems import Interrupted
 DEPTH = 2
 """Chunks that a worker has at a time, so that it need not wait for the next one."""
 TICK = 0.2
-"""Seconds between looks at who is there and who is late."""
+"""Seconds between two checks for new, lost and late workers."""
 LATE = 3.0
-"""A chunk is late after so many times the time that it should take ..."""
+"""A chunk is late after this many times its expected duration ..."""
 SOONEST = 1.0
-"""... and this many seconds; then another worker without work does it too."""
+"""... and this many seconds; then an idle worker gets it, too."""
 FAILURES = 5
-"""Failures of a worker in a row after which it is left out."""
+"""Failures in a row after which a worker is left out."""
 UNREADABLE = "its answer cannot be read"
 HELLO = ("sentence", "failure", "version")
 OUTCOME = ("sentence", "failure", "lacks", "fitness")
 """Kinds of answers to a greeting, and to a chunk."""
 LOSSES = 10
-"""Times that a chunk may be lost with its worker; then evaluation stops."""
+"""Losses of a chunk with its worker after which evaluation stops."""
 
 
 class Crew:
@@ -50,8 +50,10 @@ class Crew:
         say: Callable[[str], None],
         watch: Bottleneck,
     ) -> None:
-        """setup: the experiment as a table; files: those that each must have; bits: what each must
-        compute, None if unknown; least: seconds that a chunk should take."""
+        """Prepare workers; setup: the experiment as a table; files: those that each worker must
+        have; bits: what each must compute, None if unknown; least: seconds that a chunk should
+        take.
+        """
         self._connection = connection
         self._setup, self._name = setup, wire.digest(setup)
         self._files, self._bits, self._native, self._least = files, bits, native, least
@@ -63,11 +65,11 @@ class Crew:
 
     @property
     def ready(self) -> list[Worker]:
-        """Who takes part."""
+        """Return the workers that take part."""
         return [worker for worker in self.workers.values() if worker.ready]
 
     def evaluate(self, batch: Batch, stopping: Callable[[], bool]) -> None:
-        """Has every episode of a batch evaluated. Raises Interrupted or BotschoolError."""
+        """Evaluate every episode of a batch. Raises Interrupted or BotschoolError."""
         self._alone_since = None
         self._watch.begin()
         try:
@@ -88,7 +90,9 @@ class Crew:
             self._watch.end(len(self.ready))
 
     def forget(self) -> None:
-        """Takes back what has been given to workers; who was asked who it is will be asked anew."""
+        """Take back all chunks; workers that have not answered their greeting will be greeted
+        again.
+        """
         for number in self._tasks:
             self._connection.forget(number)
         self._tasks.clear()
@@ -97,7 +101,7 @@ class Crew:
             worker.tasks.clear()
 
     def _look(self, batch: Batch) -> None:
-        """Who has come, who has gone, and whether anybody is left."""
+        """Update the workers: new ones, lost ones, and whether any is left."""
         self._connection.refresh()
         members = self._connection.members
         for address, threads in members.items():
@@ -119,20 +123,20 @@ class Crew:
         self._alone()
 
     def _alone(self) -> None:
-        """Nobody can be given anything: waits for a while."""
+        """Wait for a while, because no worker can take a chunk."""
         self._watch.nobody()
         place, left_out = self._connection.place, [w.left_out for w in self.workers.values()]
         if left_out and all(left_out):
             raise BotschoolError(
-                f"No worker at {place} can take part: {left_out[0]} Mend that, and add --resume."
+                f"No worker at {place} can take part: {left_out[0]} Correct that, and add --resume."
             )
         now = time.monotonic()
         self._alone_since = self._alone_since or now
         away = now - self._alone_since
         if away > self._patience:
             raise BotschoolError(
-                f"For {away:.0f} seconds no worker at {place} has taken part: start one with 'dask "
-                f"worker {self._connection.address}', and add --resume to go on."
+                f"For {away:.0f} seconds no worker at {place} has taken part: start one with "
+                f"'dask worker {self._connection.address}', and add --resume to continue."
             )
         if away > 3 and not self._told and not self.workers:
             self._told = True
@@ -142,7 +146,7 @@ class Crew:
             )
 
     def _greet(self, worker: Worker) -> None:
-        """Asks a worker who it is."""
+        """Send a greeting: a worker must say what it is."""
         request = {"experiment": self._name, "needs": [self._name], "files": self._files}
         message = wire.pack({**request, "tables": {self._name: self._setup}})
         worker.greeting = self._send(remote.hello, worker, message)
@@ -153,7 +157,7 @@ class Crew:
         return self._connection.submit(function, worker.address, message)
 
     def _gone(self, worker: Worker) -> None:
-        """What it was doing, others must do; nobody waits for its answers."""
+        """Give a lost worker's chunks to others and expect no more answers from it."""
         tasks, worker.tasks = worker.tasks, {}
         for number in (*tasks, worker.greeting):
             self._tasks.pop(number, None)
@@ -162,7 +166,7 @@ class Crew:
             self._lost(task)
 
     def _lost(self, task: Task) -> None:
-        """A chunk has no outcome, and will get none from this task."""
+        """Take back a chunk that will get no outcome from this task."""
         if self._elsewhere(task) or task.batch.done(task.chunk):
             return
         if task.batch.give_back(task.chunk) >= LOSSES:
@@ -172,7 +176,7 @@ class Crew:
             )
 
     def _elsewhere(self, task: Task) -> bool:
-        """Whether somebody else has the same chunk."""
+        """Return whether another worker has the same chunk."""
         return any(
             isinstance(other, Task)
             and other is not task
@@ -182,7 +186,7 @@ class Crew:
         )
 
     def _give(self, batch: Batch) -> None:
-        """Work for everyone who has room for it: first for who has least."""
+        """Give chunks to all workers that have room, beginning with those that have least."""
         if not batch.waiting:
             return
         now, ready = time.monotonic(), self.ready
@@ -201,7 +205,7 @@ class Crew:
         return task
 
     def _submit(self, task: Task) -> None:
-        """Sends a chunk, with those tables that its worker lacks."""
+        """Send a chunk, with the tables that its worker lacks."""
         worker, (request, tables) = task.worker, task.message
         tables = {self._name: self._setup, **tables}
         lacking = {name: data for name, data in tables.items() if name not in worker.holds}
@@ -216,7 +220,7 @@ class Crew:
         worker.tasks[number] = self._tasks[number] = task
 
     def _help(self, batch: Batch) -> None:
-        """Gives late chunks to workers that have nothing to do; the first answer counts."""
+        """Give late chunks to idle workers, too; the first answer counts."""
         if batch.waiting:
             return
         now = time.monotonic()
@@ -235,7 +239,7 @@ class Crew:
             copy.copies = task.copies
 
     def _hear(self, batch: Batch) -> None:
-        """Takes the answers that come within a moment."""
+        """Take the answers that arrive within a moment."""
         heard = self._connection.answer(TICK)
         while heard:
             self._take(*heard)
@@ -243,7 +247,7 @@ class Crew:
 
     def _take(self, number: int, answer: bytes | BaseException) -> None:
         task = self._tasks.pop(number, None)
-        if task is None:  # of a worker that is gone
+        if task is None:  # its worker is lost
             return
         worker = task if isinstance(task, Worker) else task.worker
         worker.tasks.pop(number, None)
@@ -269,10 +273,11 @@ class Crew:
             self._done(task, content)
 
     def _met(self, worker: Worker, answer: dict) -> None:
-        """A worker has said who it is."""
+        """Take a worker's answer to its greeting."""
         worker.greeting = None
         said = answer.get("sentence") or answer.get("failure")
-        if said and "Cancelled" in said:  # it is gone, or the connection: it will be asked again
+        # the worker or connection is lost: it will be greeted again
+        if said and "Cancelled" in said:
             self.workers.pop(worker.address, None)
             return
         if "failure" in answer and worker.failures + 1 < FAILURES:
@@ -301,10 +306,10 @@ class Crew:
         self._say(f"Worker {worker.address} is left out: {worker.left_out}")
 
     def _failed(self, task: Task, said: str) -> None:
-        """A task broke down, not the environment: its chunk is for somebody else."""
+        """Take back a chunk whose task failed, although the environment did not."""
         worker = task.worker
         self._lost(task)
-        if "Cancelled" in said or "KilledWorker" in said:  # it is gone, or the connection
+        if "Cancelled" in said or "KilledWorker" in said:  # the worker or connection is lost
             return
         worker.failures += 1
         if worker.failures >= FAILURES:
@@ -348,5 +353,5 @@ def _differing(names: list[str]) -> str:
 
 
 def counted(number: int, what: str) -> str:
-    """The number and the word, in the plural if it is not one."""
+    """Return the number and the word, in the plural unless the number is one."""
     return f"{number} {what}" if number == 1 else f"{number} {what}s"

@@ -1,6 +1,6 @@
 """Compare the files that an evaluation runs on: here and on a worker.
 
-Compared are botschool's Python files, the C++ sources that its module was compiled from (compiled
+These are botschool's Python files, the C++ sources that its module was compiled from (compiled
 files differ between machines that compute the same), and the files of the modules that an
 experiment names: all of a package, or a module and what it imports from its own folder.
 """
@@ -20,12 +20,12 @@ from botschool.problems import Problem
 
 CORE = "botschool._core"
 COMPILED = {".pyc", ".pyo", ".so", ".pyd", ".dll", ".dylib", ".o", ".a", ".lib"}
-"""How files end that may differ between machines."""
+"""Endings of files that may differ between machines."""
 TOLD = 1_000
-"""Names of differing files that a worker tells at most."""
+"""Largest number of differing files that a worker reports."""
 
 Manifest = dict[str, dict[str, bytes]]
-"""Of each module: files, by their path from the folder that holds the module, and their digests."""
+"""For each module: its files, by their path from the folder of the module, and their digests."""
 
 
 def manifest(problem: Problem) -> Manifest:
@@ -54,7 +54,7 @@ def differing(asked: Manifest) -> list[str]:
 
 
 def _place(module: str) -> Path | None:
-    """The folder of a package, or the file of a module; None if it has neither."""
+    """Return the folder of a package, or the file of a module; None if it has neither."""
     found = sys.modules.get(module)
     if file := getattr(found, "__file__", None):
         return Path(file).parent if Path(file).stem == "__init__" else Path(file)
@@ -71,7 +71,7 @@ def _files(place: Path) -> list[Path]:
 
 
 def _installed(file: Path) -> bool:
-    """Whether a file belongs to an installed package, the standard library or botschool."""
+    """Return whether a file belongs to an installed package, the standard library or botschool."""
     library = (sysconfig.get_path("stdlib"), Path(botschool.__file__).parent)
     packages = {"site-packages", "dist-packages"} & set(file.parts)
     compiled = file.suffix in COMPILED
@@ -84,7 +84,7 @@ def _digests(folder: Path, files: Iterable[Path]) -> dict[str, bytes]:
 
 @cache
 def _digest(file: Path) -> bytes:
-    """The digest of a file when this process first asked for it: what was imported then stays."""
+    """Return a file's digest at the first request of this process, because imported code stays."""
     try:
         return blake2b(file.read_bytes(), digest_size=12).digest()
     except OSError:

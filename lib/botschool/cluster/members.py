@@ -1,4 +1,4 @@
-"""The workers of a cluster as the command sees them: their tasks, and the tables that they hold."""
+"""Keep what the command knows of a cluster's workers: their tasks and the tables that they hold."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from botschool.cluster.chunks import Batch, Pace
 SPACE = 256_000_000
 """Bytes of tables that a worker keeps."""
 UNKNOWN = 30.0
-"""The time that a chunk should take where nothing is known."""
+"""Expected seconds of a chunk before anything is known."""
 
 
 class Shelf:
-    """Names, each with a size in bytes; those used last are kept, as many as fit."""
+    """Names, each with a size in bytes; the most recently used ones are kept, as many as fit."""
 
     def __init__(self, limit: int) -> None:
         self._limit = limit
@@ -26,22 +26,22 @@ class Shelf:
         return name in self._sizes
 
     def put(self, name: bytes, size: int) -> None:
-        """A table that is there from now on."""
+        """Add a table."""
         self.drop(name)
         self._sizes[name] = size
         self._total += size
 
     def drop(self, name: bytes) -> None:
-        """A table that is not there."""
+        """Remove a table."""
         self._total -= self._sizes.pop(name, 0)
 
     def use(self, names: Iterable[bytes]) -> None:
-        """Tables that are used now."""
+        """Mark tables as used now."""
         for name in names:
             self._sizes.move_to_end(name)
 
     def trim(self) -> list[bytes]:
-        """Drops what has not been used for longest, until the rest fits; gives the names."""
+        """Drop the least recently used tables until the rest fits; return their names."""
         dropped = []
         while self._total > self._limit:
             dropped.append(next(iter(self._sizes)))
@@ -57,15 +57,15 @@ class Task:
     chunk: slice
     worker: Worker
     since: float
-    """When it began, or will begin, as far as is known."""
+    """Time at which it began, or will begin, as estimated."""
     expected: float
     """Seconds that it should take."""
     message: tuple[dict, dict[bytes, bytes]]
     copies: int = 0
-    """How often it was given to others too."""
+    """Number of other workers that got it, too."""
 
     def left(self, now: float) -> float:
-        """Episodes that are yet to be evaluated, as far as is known."""
+        """Return the estimated number of episodes that are not yet evaluated."""
         part = (self.since + self.expected - now) / self.expected
         return (self.chunk.stop - self.chunk.start) * min(1.0, max(0.0, part))
 
@@ -77,28 +77,28 @@ class Worker:
     address: str
     pace: Pace
     ready: bool = False
-    """Whether it computes the same bits as we do."""
+    """Whether it computes the same bits as this machine."""
     left_out: str = ""
-    """Why it gets nothing to do, if so."""
+    """Why it is left out; "" if it is not."""
     tasks: dict[int, Task] = field(default_factory=dict)
     holds: Shelf = field(default_factory=lambda: Shelf(SPACE // 2))
-    """Tables that it has, probably."""
+    """Tables that it probably has."""
     failures: int = 0
     greeting: int | None = None
-    """Number of the task that asks it who it is."""
+    """Number of its greeting's task."""
 
     @property
     def behind(self) -> bool:
-        """Whether it has yet to answer what others have done in its place."""
+        """Return whether it still works on chunks that others have finished in its place."""
         return any(task.batch.done(task.chunk) for task in self.tasks.values())
 
     def task(self, batch: Batch, chunk: slice, message, now: float) -> Task:
-        """A chunk for it, after those that it has."""
+        """Add a chunk after the worker's other chunks and return its task."""
         count = chunk.stop - chunk.start
         expected = count / self.pace.episodes if self.pace.episodes else UNKNOWN
         free = [task.since + task.expected for task in self.tasks.values()]
         return Task(batch, chunk, self, max([now, *free]), expected, message)
 
     def ahead(self, now: float) -> float:
-        """Episodes that it has yet to evaluate."""
+        """Return the number of episodes that it has yet to evaluate."""
         return sum(task.left(now) for task in self.tasks.values())

@@ -1,4 +1,4 @@
-"""A problem whose episodes run on a cluster; its outcome is that of the problem itself."""
+"""Evaluate a problem's episodes on a cluster, with the same outcome as here."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ from botschool.problems import Episodes, Interrupted, Outcome, Problem
 from botschool.problems.transition import Transition
 
 DECLARED = tuple(name for name in Problem.__annotations__ if not name.startswith("_"))
-"""What a problem says of itself."""
+"""Attributes that a problem declares."""
 KEPT = 0.3
-"""How much the newest batch counts in the time that an episode takes."""
+"""Weight of the newest batch in the estimated duration of an episode."""
 
 
 class Distributed(Problem):
     """Evaluates on the workers of a connection.
 
-    Batches that this machine evaluates in less time than a message takes stay here, and so does
-    what is left to do when the user has asked to stop.
+    Batches that this machine evaluates in less time than a message takes stay here. So does the
+    rest of the work after the user has asked to stop.
     """
 
     def __init__(
@@ -47,14 +47,14 @@ class Distributed(Problem):
             setattr(self, name, getattr(inner, name))
         same = bits(experiment)
         if not self.native and same != bits(experiment):
-            same = None  # never the same twice: there is nothing to compare
+            same = None  # it never gives the same result twice: there is nothing to compare
         self._shortest = float(dask.config.get("botschool.shortest", LEAST))
-        """Seconds of a batch from which it goes to the workers, and of the shortest chunk."""
+        """Shortest batch for the workers, and shortest chunk, in seconds."""
         self._single = inner.native and not inner.interface.morphology
         """Whether evaluation rounds genotypes to single precision anyway."""
         self._stopped = False
         self._seconds: float | None = None
-        """Of an episode, on one core."""
+        """Seconds of an episode on one core."""
         self.watch = Bottleneck()
         self._connection = connection
         setup = wire.pack(to_dict(experiment))
@@ -75,7 +75,7 @@ class Distributed(Problem):
         return self._inner.policy(config)
 
     def rows(self, *parts: np.ndarray) -> Any:
-        """As they are: each part has its own way over the wire."""
+        """Return the parts unchanged: each is sent in its own way."""
         return parts
 
     def evaluate(
@@ -88,7 +88,9 @@ class Distributed(Problem):
         workers: int = 1,
         stopping: Callable[[], bool] = lambda: False,
     ) -> Outcome:
-        """See Problem.evaluate; genotypes: also what `rows` gives. `workers` does not matter."""
+        """See Problem.evaluate; genotypes may also be a result of `rows`. `workers`
+        has no effect.
+        """
         parts = list(genotypes) if isinstance(genotypes, tuple) else [genotypes]
         if self._short(len(episodes)):
             return self._here(policy, parts, normalisation, episodes, maxsteps, stopping)
@@ -106,7 +108,7 @@ class Distributed(Problem):
 
     def _short(self, count: int) -> bool:
         if self._connection.lost:
-            self._connection.refresh()  # raises what happened
+            self._connection.refresh()  # raises a failure of the connection
         return self._stopped or (
             self._seconds is not None and self._seconds * count < self._shortest
         )
@@ -135,17 +137,17 @@ class Distributed(Problem):
         maxsteps: int,
         render: bool = False,
     ) -> Iterator[Transition]:
-        """On this machine."""
+        """Play on this machine."""
         return self._inner.play(policy, genotype, normalisation, seed, episode, maxsteps, render)
 
     def status(self) -> str:
-        """Workers and their speed, for a progress bar."""
+        """Return the workers and their speed, for a progress bar."""
         ready = self._crew.ready
         speed = sum(worker.pace.steps for worker in ready)
         return f"{counted(len(ready), 'worker')} {_speed(speed)}" if speed else ""
 
     def report(self) -> list[str]:
-        """Sentences for the end: each worker's speed, and where the time went."""
+        """Return sentences for the end: each worker's speed, and how the time was spent."""
         lines = [
             f"worker {worker.address}: {_speed(worker.pace.steps)}"
             for worker in self._crew.ready
@@ -161,7 +163,7 @@ class Distributed(Problem):
         return lines
 
     def close(self) -> None:
-        """Ends what evaluation has started on this machine."""
+        """End what evaluation has started on this machine."""
         self._inner.close()
 
 

@@ -1,5 +1,6 @@
-"""What goes over the wire: dicts of plain values and arrays as bytes, by msgpack, after a checksum.
-Nothing that is unpacked can be code."""
+"""Encode messages: dicts of plain values and arrays become bytes by msgpack, after a checksum.
+Unpacked data cannot contain code.
+"""
 
 from __future__ import annotations
 
@@ -24,11 +25,11 @@ FIELDS = {
     Cloud: ("centres", "samplesize", "deviation", "both"),
     Start: ("centres", "m", "v", "samplesize", "deviation", "stepsize", "wdecay"),
 }
-"""What a table of each kind holds, besides a stream."""
+"""Contents of a table of each kind, besides a stream."""
 WORTH = 64
-"""Bytes from which whole numbers are compressed: seeds and places are regular."""
+"""Size in bytes from which whole numbers are compressed: seeds and indices are regular."""
 LARGEST = 64_000_000
-"""Bytes that the compressed arrays of one message may become."""
+"""Largest size in bytes of a message's arrays when decompressed."""
 CHECKSUM = 4
 """Bytes of the checksum before a message."""
 
@@ -40,15 +41,16 @@ def pack(value: Any) -> bytes:
 
 
 def unpack(data: bytes) -> Any:
-    """Reverse `pack`. Raises ValueError for a damaged message and for anything else, also for one
-    whose arrays would become larger than LARGEST."""
+    """Reverse `pack`. Raises ValueError for damaged or foreign data, and for arrays that would
+    become larger than LARGEST.
+    """
     content = memoryview(data)[CHECKSUM:]
     if data[:CHECKSUM] != _checksum(content):
         raise ValueError("the message is damaged")
     try:
         return msgpack.unpackb(content, ext_hook=_Arrays(), raw=False, strict_map_key=False)
-    except Exception as error:  # msgpack, zlib and numpy each have their own
-        raise ValueError(f"the message is none of botschool's ({said(error)})") from None
+    except Exception as error:  # msgpack, zlib and numpy each raise their own
+        raise ValueError(f"the message is not one of botschool's ({said(error)})") from None
 
 
 def _checksum(data: bytes | memoryview) -> bytes:
@@ -59,7 +61,7 @@ def _array(value: Any) -> msgpack.ExtType:
     if isinstance(value, np.generic):
         value = np.array(value)
     if not isinstance(value, np.ndarray):
-        raise TypeError(f"{type(value).__name__} does not go over the wire")
+        raise TypeError(f"{type(value).__name__} cannot be sent")
     value = np.ascontiguousarray(value).view(np.ndarray)
     data, code = value.tobytes(), ARRAY
     if value.dtype.kind in "iu" and WORTH <= len(data) <= LARGEST // 8:
@@ -76,7 +78,7 @@ class _Arrays:
     def __call__(self, code: int, data: bytes) -> np.ndarray:
         kind, shape, content = msgpack.unpackb(data)
         if kind not in TYPES or code not in (ARRAY, PACKED):
-            raise ValueError(f"{kind} is no array of botschool's")
+            raise ValueError(f"{kind} is not an array of botschool's")
         if code == PACKED:
             content = self._decompressed(content, np.dtype(kind).itemsize * math.prod(shape))
         return np.frombuffer(content, dtype=kind).reshape(shape)
@@ -88,17 +90,17 @@ class _Arrays:
         decompressor = zlib.decompressobj()
         found = decompressor.decompress(content, size + 1)
         if len(found) != size or not decompressor.eof:
-            raise ValueError("an array has another size than it says")
+            raise ValueError("an array has another size than it declares")
         return found
 
 
 def digest(data: bytes) -> bytes:
-    """A name for data: equal if and only if the data are."""
+    """Return a name for data: equal if and only if the data are."""
     return blake2b(data, digest_size=12).digest()
 
 
 def packed(value: Cloud | Start) -> bytes:
-    """What candidates are drawn from, as a table: see `table`."""
+    """Return the source of drawn candidates as a table: see `table`."""
     kind = type(value)
     told = {"kind": kind.__name__, "fields": {name: getattr(value, name) for name in FIELDS[kind]}}
     places = value.places[1:] if isinstance(value, Cloud) else []
@@ -106,13 +108,13 @@ def packed(value: Cloud | Start) -> bytes:
 
 
 def _told(stream: Mapping[str, Any]) -> list:
-    """The state of a Philox generator as a list."""
+    """Return the state of a Philox generator as a list."""
     arrays = [stream["state"][name] for name in STREAM]
     return [*arrays, stream["buffer"], *(stream[name] for name in WORDS)]
 
 
 def _stream(told: list) -> dict:
-    """The reverse of `_told`."""
+    """Return the state that `_told` made a list of."""
     counter, key, buffer, *words = told
     state = dict(zip(STREAM, (np.array(counter), np.array(key)), strict=True))
     rest = dict(zip(WORDS, words, strict=True))
@@ -120,7 +122,7 @@ def _stream(told: list) -> dict:
 
 
 def table(data: bytes) -> Any:
-    """What a table holds: an array, a Cloud, a Start, or an experiment as a dict."""
+    """Return the contents of a table: an array, a Cloud, a Start, or an experiment as a dict."""
     value = unpack(data)
     name = value.get("kind") if isinstance(value, dict) else None
     kind = next((each for each in FIELDS if each.__name__ == name), None)

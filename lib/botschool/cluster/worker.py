@@ -1,7 +1,7 @@
-"""What workers do: the functions that Dask calls there. They take bytes and give bytes.
+"""The functions that Dask calls on workers. They take bytes and return bytes.
 
-A worker process keeps what it has been sent: the experiment, from which it makes the problem and
-the policy, and tables (centres, populations) by their digests. What it lacks it asks for.
+A worker process keeps what it received: the experiment, from which it makes the problem and the
+policy, and tables (centres, populations) by their digests. It asks for tables that it lacks.
 """
 
 from __future__ import annotations
@@ -34,23 +34,26 @@ _one_at_a_time = threading.Lock()  # each evaluation uses all threads of the wor
 _tables: dict[bytes, Any] = {}
 _shelf = Shelf(SPACE)
 _ascents: dict[bytes, tuple[tuple[bytes, ...], Ascent, Cloud]] = {}
-"""Of the newest start: the names of what it was told, and where that has led."""
+"""The newest ascent: its start, the names of the fitness values it was told, and its cloud."""
 _made: dict[bytes, tuple[Problem, Policy]] = {}
 
 
 def hello(message: bytes) -> bytes:
-    """Return what this worker is: version, threads, which of its files differ from those of the
-    request, and the bits of a probe of the experiment."""
+    """Return what this worker is: version, threads, its files that differ from those of the
+    request, and the bits of a probe of the experiment.
+    """
     return _answer(message, _hello)
 
 
 def evaluate(message: bytes) -> bytes:
-    """A chunk of episodes: fitness and steps of each, and the seconds they took."""
+    """Evaluate a chunk of episodes; return fitness and steps of each, and the seconds it took."""
     return _answer(message, _evaluate)
 
 
 def _answer(message: bytes, function: Callable[[dict], dict]) -> bytes:
-    """Errors are answers too: of ours the sentence, of others what they say."""
+    """Return the function's result or its error as an answer: our own message, or
+    the error's text.
+    """
     try:
         with _one_at_a_time:
             request = wire.unpack(message)
@@ -80,10 +83,10 @@ def _hello(request: dict) -> dict:
 
 
 def bits(experiment: Experiment) -> bytes:
-    """A digest of what this machine computes: the beginning of two episodes, and normal numbers.
+    """Return a digest of what this machine computes: the start of two episodes, and normal numbers.
 
-    Machines with other digests would give other results. The environment is one of its own: after
-    episodes that are broken off, PyBullet's next one can differ in its last digits.
+    Machines with other digests would give other results. The probe has its own environment, because
+    after an unfinished episode PyBullet's next one can differ in its last digits.
     """
     problem = problems.of(experiment)
     policy = problem.policy(experiment.policy)
@@ -120,7 +123,7 @@ def _evaluate(request: dict) -> dict:
 
 
 def _rows(part: dict) -> np.ndarray:
-    """The genotypes of a part: as they were sent, a table each, or drawn again."""
+    """Return the genotypes of a part: sent directly, sent as tables, or drawn again."""
     if "sent" in part:
         return part["sent"].astype(np.float64)
     if "each" in part:
@@ -146,7 +149,7 @@ def _cloud(name: bytes, told: tuple[bytes, ...]) -> Cloud:
 
 
 def _experiment(name: bytes) -> tuple[Problem, Policy]:
-    """Problem and policy of an experiment that has been sent."""
+    """Return problem and policy of an experiment that was sent before."""
     if name not in _made:
         experiment = config.from_dict(_tables[name])
         problem = problems.of(experiment)
@@ -157,15 +160,16 @@ def _experiment(name: bytes) -> tuple[Problem, Policy]:
 
 
 def _threads() -> int:
-    """Threads that this worker may use."""
+    """Return the number of threads that this worker may use."""
     from distributed import get_worker
 
     return get_worker().state.nthreads
 
 
 def _may_have_children(problem: Problem) -> None:
-    """Episodes in Python have a process for each thread; Dask starts workers as daemons, which may
-    have none. The problem's end with their parent: they watch it, and it ends them."""
+    """Allow child processes: Dask starts workers as daemons, which may have none, but episodes in
+    Python use a process per thread. These end with the worker, because they watch it.
+    """
     process: Any = multiprocessing.current_process()
     process._config["daemon"] = False
     Finalize(None, problem.close, exitpriority=10)

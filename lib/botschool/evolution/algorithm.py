@@ -1,8 +1,8 @@
-"""What an evolutionary algorithm is, and the registry that all of them are in.
+"""Define what an evolutionary algorithm is, and register all algorithms.
 
-A new one is one file in botschool/evolution/algorithms: a dataclass of its hyperparameters and a
-class with the decorator `algorithm`. Experiment files, `botschool es`, checkpoints and the list of
-hyperparameters find it there.
+A new algorithm is one file in botschool/evolution/algorithms: a dataclass of its hyperparameters
+and a class with the decorator `algorithm`. Experiment files, `botschool es`, checkpoints and the
+list of hyperparameters find it by itself.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ import numpy as np
 from botschool.policies.hyperparameters import hyper
 
 Initial = Callable[[int], np.ndarray]
-"""index -> a random genotype, shape (parameters,); each index gives another."""
+"""index -> a random genotype, shape (parameters,); each index gives a different one."""
 
 
 class Algorithm(Protocol):
-    """One population: `ask` for candidates, measure them, `tell` their fitness; and again.
+    """One population: `ask` for candidates, measure them, `tell` their fitness, and repeat.
 
-    It is a pure function of its hyperparameters, `initial`, the seed and the fitness it was told.
-    Its hyperparameters include those of `RunConfig`; `Stateful` has the methods `state` and
-    `restore`. An attribute `conflicts(config)` of the class may yield pairs of
-    hyperparameters that cannot go together, as botschool.config.conflicts does.
+    Its state is a pure function of its hyperparameters, `initial`, the seed and the fitness values
+    that it was told. Its hyperparameters include those of `RunConfig`. `Stateful` has the methods
+    `state` and `restore`. The class may have an attribute `conflicts(config)` that yields pairs of
+    hyperparameters that exclude each other, as botschool.config.conflicts does.
     """
 
     generation: int
@@ -42,7 +42,7 @@ class Algorithm(Protocol):
         """
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Ends the generation; fitness: float64 (n,), of the candidates in the order of `ask`."""
+        """End the generation; fitness: float64 (n,), in the order of the candidates of `ask`."""
 
     def average_parameter(self) -> float:
         """Return the average absolute parameter, for the stat file."""
@@ -54,49 +54,51 @@ class Algorithm(Protocol):
         """
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
+        """Restore what state() returned."""
 
 
 Play = Callable[..., np.ndarray]
 """(predators, prey, pairs, seed=None) -> fitness in each meeting, float64.
 
-Predators and prey are networks, float64, shapes (p, parameters) and (q, parameters); pairs says who
-meets whom, int32 (2, meetings). In a game of constant sum the fitness is the predator's,
-(meetings,), and a prey's is 1 minus it. In others it is that of both, (2, meetings), on any
-scale.
+Predators and prey are networks, float64, shapes (p, parameters) and (q, parameters). pairs says
+which of them meet, int32 (2, meetings). In a constant-sum game the result is the predator's
+fitness, (meetings,), and the prey's fitness is 1 minus it. In other games it is the fitness of
+both, (2, meetings), on any scale.
 
-Every meeting is the same `episodes` episodes: those of the run's seed with numbers 0, 1, ... With
-`seed` they are of that seed, and prey j has those from j * episodes on: all predators meet it under
-the same conditions, and other prey under others."""
+Every meeting consists of the same `episodes` episodes: those of the run's seed with numbers 0, 1,
+... If `seed` is given, the episodes have that seed, and prey j gets the episodes from j * episodes
+on: all predators meet one prey under the same conditions, and different prey under different
+conditions.
+"""
 
 
 class Competition(Protocol):
-    """Two sides, predators and prey, that evolve against each other: `advance`, again and again.
+    """Two sides, predators and prey, that evolve against each other: call `advance` repeatedly.
 
     Its hyperparameters include `ngenerations`, the length of a run in generations, and `saveeach`,
-    the generations between saves; they may include `maxmsteps`. What is said of Algorithm holds
-    here too: `initial` gives two networks in a row, of a predator and a prey.
+    the generations between saves; they may include `maxmsteps`. The rules of Algorithm hold here,
+    too. `initial` returns two networks in a row, of a predator and a prey.
     """
 
     generation: int
     """Generations done."""
     side: int
-    """Who evolves in the next generation: 0 predators, 1 prey."""
+    """The side that evolves in the next generation: 0 predators, 1 prey."""
     share: float
-    """How much of the evolution is done, from 0 to 1; the run sets it before each generation."""
+    """Share of the evolution that is done, from 0 to 1; the run sets it before each generation."""
     plays: int
     """Calls of `play` in a generation."""
     sides: tuple[str, ...]
-    """Names of the populations: predators and prey, or the only one, which plays both sides."""
+    """Names of the populations: predators and prey, or one population that plays both sides."""
 
     def __init__(
         self, config: Any, initial: Initial, seed: int, constant_sum: bool = True
     ) -> None: ...
 
     def advance(self, play: Play) -> None:
-        """A generation, or what must come before the first one: then `generation` stays 0.
+        """Run a generation, or what must precede the first one (then `generation` stays 0).
 
-        It changes nothing before its end, so what `play` raises leaves no trace.
+        It changes nothing before its end, so an exception of `play` leaves no trace.
         """
 
     def best(self) -> tuple[np.ndarray, float]:
@@ -120,31 +122,33 @@ class Competition(Protocol):
         """
 
     def remembered(self) -> tuple | None:
-        """Meetings of which the state holds the outcome: what `play` was given, and what it gave
-        (four arrays, or five with the seed).
+        """Return meetings whose outcome the state holds: the arguments of `play`, and its result.
 
-        A resumed run repeats them, to see that they still end as they did. None if there are none.
+        The tuple has four arrays, or five with the seed. A resumed run repeats these meetings to
+        check that they end as before. Return None if there are none.
         """
 
     def average_parameter(self) -> float:
         """Return the average absolute parameter, for the stat file."""
 
     def state(self) -> dict[str, np.ndarray]:
-        """As Algorithm.state; arrays whose name begins with "archive_" may get longer."""
+        """Return the same as Algorithm.state; arrays named "archive_..." may get longer."""
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
+        """Restore what state() returned."""
 
 
 class Stateful:
-    """Saves and restores what a class declares in `evolves`: the methods `state` and `restore`."""
+    """Saves and restores the attributes named in `evolves`, by the methods
+    `state` and `restore`.
+    """
 
     evolves: tuple[str, ...] = ("generation",)
-    """Attributes that a generation changes and that the next one depends on: arrays and numbers.
+    """Attributes that a generation changes and the next one needs: arrays and numbers.
 
-    "matrix.root" is the attribute `root` of the attribute `matrix`, and is saved as "root".
-    Everything else must follow from the hyperparameters and the seed, or be made anew by the next
-    generation. A test looks at all algorithms for attributes that change and are not declared.
+    "matrix.root" is the attribute `root` of the attribute `matrix`, saved as "root". Everything
+    else must follow from the hyperparameters and the seed, or each generation must make it anew. A
+    test checks that no algorithm changes an attribute without declaring it.
     """
 
     def state(self) -> dict[str, np.ndarray]:
@@ -176,7 +180,7 @@ def generations_between_saves(default: int) -> Any:
 
 @dataclass
 class RunConfig:
-    """What every algorithm with one population has in section [ALGO]."""
+    """Section [ALGO] of every algorithm with one population."""
 
     maxmsteps: float = million_steps(1.0)
     saveeach: float = hyper(
@@ -185,7 +189,7 @@ class RunConfig:
 
 
 def mean_absolute(parameters: np.ndarray) -> float:
-    """np.mean(np.abs(parameters)), in half the time."""
+    """Return np.mean(np.abs(parameters)), in half the time."""
     return float(np.add.reduce(np.abs(parameters), axis=None)) / parameters.size
 
 
@@ -194,14 +198,14 @@ class Entry:
     """An algorithm as the registry knows it."""
 
     name: str
-    """What `algo = NAME` says in experiment files."""
+    """The name in experiment files: `algo = NAME`."""
     explanation: str
     config: type
     """The dataclass of its hyperparameters, made with botschool.policies.hyperparameters.hyper."""
     make: Any
-    """Its class: an Algorithm, or with `competitive` a Competition."""
+    """Its class: an Algorithm, or a Competition if `competitive`."""
     competitive: bool
-    """Whether two sides meet (botschool.evolution.coevolution runs it)."""
+    """Whether it has two sides (then botschool.evolution.coevolution runs it)."""
 
     def conflicts(self, config: Any) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield hyperparameters that cannot go together: their names and a sentence with the
@@ -211,7 +215,7 @@ class Entry:
 
 
 class Registry(dict[str, Entry]):
-    """Algorithms by name; `module:name` is a strategy of the user's own, and is in no list."""
+    """Algorithms by name; `module:name` finds a user's own strategy, which no list shows."""
 
     own: Callable[[str], Entry]
 
@@ -222,7 +226,7 @@ class Registry(dict[str, Entry]):
 
 
 ALGORITHMS = Registry()
-"""By name; filled when botschool.evolution.algorithms is imported."""
+"""All algorithms by name; importing botschool.evolution.algorithms fills it."""
 
 Class = TypeVar("Class", bound=type)
 
@@ -230,7 +234,7 @@ Class = TypeVar("Class", bound=type)
 def algorithm(
     name: str, explanation: str, config: type, competitive: bool = False
 ) -> Callable[[Class], Class]:
-    """Decorates an algorithm's class: enters it into the registry."""
+    """Decorate an algorithm's class to enter it into the registry."""
 
     def enter(made: Class) -> Class:
         ALGORITHMS[name] = Entry(name, explanation, config, made, competitive)

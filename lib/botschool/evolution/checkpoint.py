@@ -1,4 +1,4 @@
-"""Checkpoints: everything a run needs to go on as if it had never stopped."""
+"""Write and read checkpoints: everything a run needs to continue as if it had never stopped."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ FORMAT = 1
 
 
 class Resumable(Protocol):
-    """What a run is, seen from its checkpoint."""
+    """The methods of a run that its checkpoint needs."""
 
     experiment: Experiment
     seed: int
@@ -46,11 +46,11 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
         version, owner = header["format"], header["seed"]
         saved = {section: dict(keys) for section, keys in header["experiment"].items()}
         if not all(isinstance(value, np.ndarray) for value in state.values()):
-            raise ValueError("a part is no array")
+            raise ValueError("a part is not an array")
     except Exception as error:  # a damaged file can fail in any way
         raise BotschoolError(
-            f"{path} is no complete checkpoint of botschool ({_reason(error)}): restore it from a "
-            "copy, or use --force to start anew."
+            f"{path} is not a complete checkpoint of botschool ({_reason(error)}): restore it "
+            "from a copy, or use --force to start anew."
         ) from None
     if version != FORMAT:
         raise BotschoolError(
@@ -63,7 +63,7 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
             "that seed with -s, or use --force to start anew."
         )
     now, may_change = to_dict(experiment), free(experiment)
-    unsaid = defaults(experiment)  # keys that older versions did not know
+    unsaid = defaults(experiment)  # keys that older versions did not have
     for section, keys in now.items():
         for key, value in keys.items():
             before = saved.get(section, {}).get(key, unsaid[section][key])
@@ -76,10 +76,10 @@ def load(path: Path, experiment: Experiment, seed: int) -> dict[str, np.ndarray]
 
 
 def resume(path: Path, run: Resumable) -> None:
-    """Bring a run to where it was when the checkpoint was written.
+    """Restore a run to its state at the checkpoint.
 
-    Raises BotschoolError as `load` does, when the state is not that of such a run, and when this
-    version of botschool gives its robots another fitness than the one that wrote it.
+    Raises BotschoolError as `load` does, if the state belongs to another kind of run, or if this
+    version of botschool gives its robots another fitness than the version that wrote it.
     """
     try:
         run.restore(load(path, run.experiment, run.seed))

@@ -1,7 +1,7 @@
-"""A run in which two sides evolve against each other: who meets whom, and what is left.
+"""Run an algorithm in which two sides evolve against each other, and write its files.
 
-The sides are called predators and prey, whatever they are; in an environment of PettingZoo the
-predators are the first agent.
+The sides are always called predators and prey. In an environment of PettingZoo the predators are
+the first agent.
 """
 
 from __future__ import annotations
@@ -24,27 +24,27 @@ from botschool.problems import Episodes
 
 CHECKPOINT_SECONDS = 60
 SAVING_SHARE = 0.05
-"""Checkpoints are rarer if they take more than this share of the time, as with large archives."""
+"""Largest share of the time for checkpoints; if large archives take more, saves become rarer."""
 
 
 class CoevolutionRecord(Record):
-    """What a run has achieved.
+    """The results of a run with two sides.
 
-    The stat file is the predators': their best mean fitness so far (twice: meeting competitors is
-    measurement and post-evaluation in one), their best and their average fitness in the newest
-    generation. Of coevo2 that is against all prey, of algorithms with archives in the predators'
-    newest turn, against those drawn from the preys' archive; of a single population, that of its
-    individuals as first robots. The parameter is that of both sides.
-    bestg is the best predator and the best prey of the newest generation.
+    The stat file is the predators': their best mean fitness so far (twice, because meeting
+    competitors is both measurement and post-evaluation), then their best and their average fitness
+    in the newest generation. coevo2 measures it against all prey. Algorithms with archives measure
+    it in the predators' newest turn, against opponents drawn from the prey's archive. For a single
+    population it is the fitness as first robots. The average parameter covers both sides. bestg is
+    the best predator and the best prey of the newest generation.
     """
 
     def __init__(self, columns: tuple[str, ...]) -> None:
-        """columns: what the algorithm's summary() has."""
+        """Start the record; columns: the keys of the algorithm's summary()."""
         super().__init__()
         self.columns = (*STAT, *columns)
 
     def end(self, algorithm: Competition) -> None:
-        """Ends a generation."""
+        """End a generation."""
         summary, (_, best) = algorithm.summary(), algorithm.best()
         self.best_fitness = self.bestg_fitness = max(self.best_fitness, best)
         self._rows.append(
@@ -56,10 +56,11 @@ class CoevolutionRecord(Record):
 
 
 class Coevolution(Run):
-    """A run of an algorithm with two sides and a seed; what `Run` says holds for it too.
+    """A run of an algorithm with two sides and a seed; the rules of `Run` hold for it, too.
 
-    Which episodes a meeting is, `Play` says: they follow from the run's seed, or from the one that
-    the algorithm gives. So the fitness of a meeting is a pure function of that and the two who met.
+    `Play` defines the episodes of a meeting: they follow from the run's seed, or from the seed that
+    the algorithm gives. So the fitness of a meeting is a pure function of the seed and the two
+    individuals.
     """
 
     checkpointed = ("algorithm", "record")
@@ -77,7 +78,7 @@ class Coevolution(Run):
         self.record = CoevolutionRecord(tuple(self.algorithm.summary()))
         steps = self.max_steps if hasattr(config, "maxmsteps") else math.inf
         self.budget = self.limit = Limit(steps, config.ngenerations or math.inf)
-        self._steps = self._plays = 0  # of the present generation
+        self._steps = self._plays = 0  # in the present generation
         self._started: tuple[float, int, float] | None = None
 
     def check(self) -> None:
@@ -95,12 +96,12 @@ class Coevolution(Run):
             )
         if config.normalize:
             raise BotschoolError(
-                f"{name} does not scale observations, as individuals of all generations are to "
+                f"{name} does not scale observations, because individuals of all generations "
                 "meet: set normalize = 0."
             )
 
     def advance(self, goes_on: bool = False) -> None:
-        """One generation, or what the algorithm does before the first one.
+        """Run one generation, or what the algorithm does before the first one.
 
         Raises Interrupted on request; a generation that fails is dropped.
         """
@@ -130,7 +131,7 @@ class Coevolution(Run):
         return fitness
 
     def _meet(self, stopping, predators, prey, pairs, seed=None) -> tuple[np.ndarray, int]:
-        """By one call: fitness in each meeting, as `Play` says, and the steps it took."""
+        """Return the fitness in each meeting, as `Play` defines it, and the steps, by one call."""
         count, meetings = self.policy.config.episodes, pairs.shape[1]
         first = (pairs[1] * (seed is not None)).astype(np.uint32) * count
         places = pairs + np.array([[0], [len(predators)]], dtype=np.int32)
@@ -155,7 +156,7 @@ class Coevolution(Run):
     def reproduces(self) -> bool:
         """Return whether meetings that the algorithm remembers still end as they did, to the bit.
 
-        As in `Run`, problems in Python are not asked.
+        As in `Run`, problems in Python are not checked.
         """
         remembered = self.algorithm.remembered()
         if remembered is None or not self.problem.native:
@@ -166,7 +167,7 @@ class Coevolution(Run):
 
     @property
     def _milestone(self) -> bool:
-        """Whether individuals are to be kept, as every `saveeach` generations."""
+        """Return whether to keep the individuals now, every `saveeach` generations."""
         return self.record.generation % self.experiment.algo.saveeach == 0
 
     def due(self, seconds: float) -> bool:
@@ -178,8 +179,8 @@ class Coevolution(Run):
 
         SSGg.npy: float64, (2 n, parameters), n predators, then n prey after generation g.
         SSFitGg.npy: float64, (2 n, n), their own fitness against each competitor, in that order.
-        Of a single population (n, parameters), and (n, n). Who they are says the algorithm's
-        `individuals`.
+        For a single population: (n, parameters) and (n, n). The algorithm's `individuals` defines
+        which individuals these are.
         """
         self.record.write(files)
         if not (ended or self._milestone):
@@ -195,7 +196,7 @@ class Coevolution(Run):
 
     @property
     def _who(self) -> str:
-        """Who evolved in the last generation."""
+        """Return the name of the side that evolved in the last generation."""
         return self.algorithm.sides[self.algorithm.side - 1]
 
     def numbers(self) -> str:

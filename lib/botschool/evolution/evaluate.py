@@ -1,4 +1,4 @@
-"""Who computes fitness: candidates in, mean returns out; and post-evaluation."""
+"""Compute fitness: candidates in, mean returns out; and post-evaluate."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from botschool.problems import Episodes, Outcome, Problem
 from botschool.seeds import POST_EVALUATION_SEED
 
 COLLECTED = 0.01
-"""Share of the evaluation episodes in which normalisation data are collected."""
+"""Share of the evaluation episodes that collect normalisation data."""
 
 
 @dataclass
 class Measured:
-    """Fitness of each candidate, and the steps that measuring took."""
+    """Fitness of each candidate, and the steps of the measurement."""
 
     fitness: np.ndarray
     steps: int
@@ -33,7 +33,7 @@ def mean(values: np.ndarray) -> float:
 def means(returns: np.ndarray, episodes: int) -> np.ndarray:
     """Return the mean of every `episodes` values in a row, each as `mean` gives it."""
     if episodes == 1:
-        return returns + 0.0  # a sum of one is exact; 0.0 makes a 0 positive, as fsum does
+        return returns + 0.0  # a sum of one is exact; adding 0.0 turns -0 into 0, as fsum does
     rows = returns.reshape(-1, episodes).tolist()
     return np.array([math.fsum(row) / episodes for row in rows])
 
@@ -41,9 +41,9 @@ def means(returns: np.ndarray, episodes: int) -> np.ndarray:
 class Evaluator:
     """Measures candidates of one policy on one problem.
 
-    Holds the normalisation: its data are collected in post-evaluations only, and everything that
-    lasts changes only in `refresh()`, once a generation (docs/specification.md, "Evaluation").
-    A generation that breaks off before leaves no trace.
+    It holds the normalisation. Only post-evaluations collect its data, and only `refresh()`, once a
+    generation, makes lasting changes (docs/specification.md, "Evaluation"). A generation that is
+    interrupted earlier leaves no trace.
     """
 
     def __init__(
@@ -77,8 +77,9 @@ class Evaluator:
     def measure_both(
         self, candidates: np.ndarray, seeds: np.ndarray, genotype: np.ndarray
     ) -> tuple[Measured, Measured]:
-        """measure(candidates, seeds), and post_evaluate(genotype) that `collects` nothing, in one
-        evaluation: the post-evaluation takes the lanes that the candidates leave."""
+        """Return measure(candidates, seeds) and a post_evaluate(genotype) that `collects` nothing,
+        in one evaluation: the post-evaluation uses the lanes that the candidates leave free.
+        """
         own, post = self._of(seeds), self._post_episodes
         if len(seeds) not in self._behind:
             row = post.candidate + np.int32(len(seeds))
@@ -96,8 +97,8 @@ class Evaluator:
         )
 
     def _of(self, seeds: np.ndarray) -> Episodes:
-        """Return Episodes.of(seeds, episodes), of which only the seeds are new in each
-        generation.
+        """Return Episodes.of(seeds, episodes); only the seeds are computed anew
+        in each generation.
         """
         episodes = self.policy.config.episodes
         if len(seeds) not in self._alone:
@@ -114,13 +115,13 @@ class Evaluator:
 
     @property
     def post_steps(self) -> int:
-        """The most steps that a post-evaluation can take."""
+        """Return the largest number of steps that a post-evaluation can take."""
         longest = self.problem.steps(self.policy.config.post_steps)
         return self.policy.config.pepisodes * longest
 
     @property
     def collects(self) -> int:
-        """In how many episodes the generation's post-evaluation is to collect normalisation data:
+        """Return how many episodes of the generation's post-evaluation collect normalisation data:
         the first ones, while the share collected so far is below 1 % of the evaluation episodes.
         """
         if self._moments is None:
@@ -128,9 +129,9 @@ class Evaluator:
         return min(math.ceil(self._owed_next - 1e-9), self.policy.config.pepisodes)
 
     def post_evaluate(self, genotype: np.ndarray, stoppable: bool = True) -> Measured:
-        """Return of one genotype in each of `pepisodes` fixed episodes; shape (pepisodes,).
+        """Return the genotype's return in each of `pepisodes` fixed episodes; shape (pepisodes,).
 
-        The first of them also collect normalisation data, if there `collects` any.
+        The first `collects` episodes also collect normalisation data.
         """
         episodes, collecting = self._post_episodes, self.collects
         if self._moments is not None:
@@ -148,9 +149,9 @@ class Evaluator:
         return Measured(outcome.fitness, int(outcome.steps.sum()))
 
     def post_fitness(self, genotype: np.ndarray, normalisation: np.ndarray | None) -> float:
-        """Post-evaluated fitness of a genotype with normalisation vectors of its own.
+        """Return the post-evaluated fitness of a genotype with normalisation vectors of its own.
 
-        It takes part in nothing: no data are collected, and its steps do not count.
+        It has no effect on the run: it collects no data, and its steps do not count.
         """
         episodes, maxsteps = self._post_episodes, self.policy.config.post_steps
         outcome = self.problem.evaluate(
@@ -159,7 +160,7 @@ class Evaluator:
         return mean(outcome.fitness)
 
     def refresh(self) -> None:
-        """Ends a generation: takes the data that its post-evaluation collected into use."""
+        """End a generation: take the data that its post-evaluation collected into use."""
         self._owed = self._owed_next
         if self._moments is not None:
             for steps, sums, squares in self._collected:
@@ -195,7 +196,7 @@ class Evaluator:
         }
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state()."""
+        """Restore what state() returned."""
         if self._moments is not None:
             self._moments.state = state["moments"]
             self.normalisation = state["normalisation"]

@@ -1,7 +1,7 @@
-"""The run's curves for TensorBoard (`tensorboard --logdir FOLDER`).
+"""Write the run's curves for TensorBoard (`tensorboard --logdir FOLDER`).
 
-An event file is a TFRecord file of Event messages in Protocol Buffers' wire format; what is needed
-of both is here, as importing TensorBoard takes longer than many a run. Formats:
+An event file is a TFRecord file of Event messages in Protocol Buffers' wire format. This module
+writes both, because importing TensorBoard takes longer than many runs. Formats:
 https://github.com/tensorflow/tensorboard/tree/master/tensorboard/compat/proto (event.proto,
 summary.proto), https://protobuf.dev/programming-guides/encoding and
 https://www.tensorflow.org/tutorials/load_data/tfrecord#tfrecords_format_details
@@ -22,21 +22,25 @@ from botschool.evolution.record import STAT
 from botschool.output import cannot_write
 
 POINTS = 1000
-"""TensorBoard shows no more points of a curve than this."""
+"""Points per curve; TensorBoard shows no more."""
 
 
 class Events:
-    """Appends generations to an event file, at most about POINTS of them in a whole run."""
+    """Appends generations to an event file, about POINTS of them in a whole run."""
 
     def __init__(self, folder: Path, whole: float) -> None:
-        """whole: steps of the whole run, 0 to keep all. What is in the folder is replaced."""
+        """Start the file; whole: steps of the whole run, 0 to keep all. Old files there are
+        replaced.
+        """
         self._folder = folder
         self._spacing = whole / POINTS
         self._next = 0.0
         self._file: Path | None = None
 
     def append(self, first: int, rows: np.ndarray, columns: Sequence[str] = STAT) -> None:
-        """Generations from number `first`; rows: shape (generations, columns), steps first."""
+        """Append generations from number `first`; rows: shape (generations,
+        columns), steps first.
+        """
         now = time.time()
         events = [] if self._file else [event(now, version="brain.Event:2")]
         for generation, row in enumerate(rows.tolist(), first + 1):
@@ -84,7 +88,7 @@ def _field(key: bytes, content: bytes) -> bytes:
 
 
 def _varint(number: int) -> bytes:
-    """Seven bits a byte, the lowest first."""
+    """Return the number as a varint: seven bits per byte, the lowest first."""
     coded = bytearray()
     while number > 0x7F:
         coded.append(number & 0x7F | 0x80)
@@ -109,7 +113,7 @@ def _checksum(content: bytes) -> bytes:
 
 
 def _table() -> list[int]:
-    """CRC-32C of every byte: Castagnoli's polynomial, its lowest bit first."""
+    """Return the CRC-32C of every byte: Castagnoli's polynomial, its lowest bit first."""
     table = np.arange(256, dtype=np.uint32)
     for _ in range(8):
         table = np.where(table & 1, table >> 1 ^ np.uint32(0x82F63B78), table >> 1)

@@ -1,4 +1,4 @@
-"""When a run ends."""
+"""Decide when a run ends."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from botschool.evolution.record import Record
 
 
 class Advancing(Protocol):
-    """What a limit asks of a run."""
+    """The attributes of a run that a limit reads."""
 
     record: Record
     progress: float
-    """How much of the present generation is done, from 0 to 1."""
+    """Share of the present generation that is done, from 0 to 1."""
 
 
 @dataclass(frozen=True)
 class Limit:
-    """When a run ends: after so many steps or generations, whichever comes first."""
+    """The end of a run: a number of steps or of generations, whichever comes first."""
 
     steps: float = math.inf
     generations: float = math.inf
 
     def and_also(self, steps: int | None, generations: int | None) -> Limit:
-        """Return the same, or earlier; None does not limit."""
+        """Return a limit that is no later; None adds no limit."""
         return Limit(
             min(self.steps, math.inf if steps is None else steps),
             min(self.generations, math.inf if generations is None else generations),

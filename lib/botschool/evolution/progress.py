@@ -1,4 +1,4 @@
-"""What a user sees while robots evolve: progress bars, or a line per generation."""
+"""Show the progress of runs: progress bars, or a line per generation."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from botschool.evolution.run import Run
 from botschool.terminal import progress_bar
 
 SECONDS = 0.1
-"""Between two messages; a generation may take less than a millisecond."""
+"""Seconds between two messages; a generation may take less than a millisecond."""
 
 Bar = tuple[float, int, int, str]
 """Arguments for a progress bar: see botschool.terminal."""
@@ -29,14 +29,15 @@ def reporting(seed: int, terminal: bool) -> Iterator[Callable[[Run], None]]:
 
 
 def print_lines(lines: list[str]) -> None:
-    """Print them at once."""
+    """Print the lines in one call."""
     print("\n".join(lines), flush=True)
 
 
 @contextmanager
 def messages(terminal: bool, send: Callable[[Any], None]) -> Iterator[Callable[[Run], None]]:
-    """As `reporting`, but calls `send` every SECONDS, and at the end: with what a progress bar is
-    to show, or with the lines since the last time."""
+    """Yield a function like that of `reporting` that calls `send` every SECONDS and at the end,
+    with the state of a progress bar or with the lines since the last call.
+    """
     newest: Run | None = None
     lines: list[str] = []
     printed, sent = 0, -SECONDS
@@ -68,7 +69,7 @@ def messages(terminal: bool, send: Callable[[Any], None]) -> Iterator[Callable[[
 
 
 def bar(run: Run) -> Bar:
-    """Return what a progress bar is to show of a run."""
+    """Return the state of a run's progress bar."""
     share, record = run.limit.share(run), run.record
     numbers = run.numbers() if record.generation else ""
     return share, record.steps, 2, "  ".join(filter(None, (numbers, run.problem.status())))

@@ -1,4 +1,6 @@
-"""What a run has achieved, and the files that say so (docs/specification.md, "Run files")."""
+"""Record the results of a run, and name and write its files
+(docs/specification.md, "Run files").
+"""
 
 from __future__ import annotations
 
@@ -34,64 +36,64 @@ class RunFiles:
 
     @property
     def stat(self) -> Path:
-        """Flat float64, six numbers a generation, see STAT."""
+        """Return the stat file: flat float64, six numbers per generation, see STAT."""
         return self.folder / f"statS{self.seed}.npy"
 
     @property
     def best(self) -> Path:
-        """The genotype with the best fitness."""
+        """Return the file of the genotype with the best fitness."""
         return self.folder / f"bestS{self.seed}.npy"
 
     @property
     def bestg(self) -> Path:
-        """The genotype with the best post-evaluation."""
+        """Return the file of the genotype with the best post-evaluation."""
         return self.folder / f"bestgS{self.seed}.npy"
 
     @property
     def fit(self) -> Path:
-        """One line of `key value` pairs."""
+        """Return the fit file: one line of `key value` pairs."""
         return self.folder / f"S{self.seed}.fit"
 
     @property
     def checkpoint(self) -> Path:
-        """What --resume reads."""
+        """Return the checkpoint, which --resume reads."""
         return self.folder / f"checkpointS{self.seed}.npz"
 
     @property
     def events(self) -> Path:
-        """Folder of the TensorBoard event file."""
+        """Return the folder of the TensorBoard event file."""
         return self.folder / f"tensorboardS{self.seed}"
 
     def kept(self, generation: int | str) -> Path:
-        """--keep-every: the best post-evaluated genotype so far; "*" stands for all generations."""
+        """Return the file of --keep-every: the best post-evaluated genotype so far; "*" matches
+        all.
+        """
         return self.folder / f"bestgS{self.seed}G{generation}.npy"
 
     def populations(self, generation: int | str) -> Path:
-        """Co-evolution: the populations after a generation; "*" stands for all generations."""
+        """Return the file of the populations after a generation (co-evolution); "*" matches all."""
         return self.folder / f"S{self.seed}G{generation}.npy"
 
     def fitness(self, generation: int | str) -> Path:
-        """Co-evolution: their fitness; "*" stands for all generations."""
+        """Return the file of their fitness (co-evolution); "*" matches all generations."""
         return self.folder / f"S{self.seed}FitG{generation}.npy"
 
     def all(self) -> list[Path]:
-        """Return every one of them; those that have a generation in their name, with a star for
-        it.
-        """
+        """Return all of these files; "*" stands for a generation in a name."""
         named = [self.stat, self.best, self.bestg, self.fit, self.checkpoint, self.events]
         return [*named, self.kept("*"), self.populations("*"), self.fitness("*")]
 
     def existing(self) -> list[Path]:
-        """Those that exist."""
+        """Return the files that exist."""
         return [path for file in self.all() for path in sorted(self.folder.glob(file.name))]
 
 
 @contextmanager
 def claimed(folder: Path, seeds: list[int], resume: bool, force: bool) -> Iterator[None]:
-    """Make the folder ready for runs with these consecutive seeds, and hold it for them.
+    """Make the folder ready for runs with these consecutive seeds, and lock it for them.
 
-    Results that exist are kept when resuming, removed with `force`, and an error otherwise, as are
-    runs that another process writes.
+    Existing results are kept when resuming, removed with `force`, and an error otherwise. Runs that
+    another process writes are an error, too.
     """
     which = f"seed {seeds[0]}" if len(seeds) == 1 else f"a seed from {seeds[0]} to {seeds[-1]}"
     with ExitStack() as stack:
@@ -133,7 +135,7 @@ class Record(Stateful):
     evolves = ("steps", "best", "best_fitness", "bestg", "bestg_fitness")
 
     columns: tuple[str, ...] = STAT
-    """What is known of each generation; the stat file holds the first six."""
+    """Names of the values of each generation; the stat file holds the first six."""
 
     def __init__(self) -> None:
         self.steps = 0
@@ -143,25 +145,25 @@ class Record(Stateful):
 
     @property
     def generation(self) -> int:
-        """Generations done."""
+        """Return the number of generations done."""
         return len(self._rows)
 
     def offer(self, saved: np.ndarray, fitness: float, post_evaluated: float) -> None:
-        """The best genotype of a generation, as it would be saved."""
+        """Take the best genotype of a generation, in the form in which it is saved."""
         if fitness > self.best_fitness:
             self.best, self.best_fitness = saved, fitness
         if post_evaluated > self.bestg_fitness:
             self.bestg, self.bestg_fitness = saved, post_evaluated
 
     def add(self, best: float, average: float, parameter: float) -> None:
-        """Ends a generation."""
+        """End a generation."""
         self._rows.append(
             (self.steps, self.best_fitness, self.bestg_fitness, best, average, parameter)
         )
 
     @property
     def last(self) -> dict[str, float]:
-        """The newest row, by the names of its columns."""
+        """Return the newest row, by the names of its columns."""
         return dict(zip(self.columns, self._rows[-1], strict=True))
 
     def rows(self, first: int = 0) -> np.ndarray:
@@ -189,7 +191,7 @@ class Record(Stateful):
         return super().state() | {"stat": self.rows()}
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """The reverse of state(). Raises ValueError."""
+        """Restore what state() returned. Raises ValueError."""
         steps = state["stat"][:, 0]
         if not ((steps >= 0) & (steps <= state["steps"])).all() or (np.diff(steps) < 0).any():
             raise ValueError("the first column is not the steps so far")

@@ -1,4 +1,4 @@
-"""Several runs of one experiment, with consecutive seeds: one after another or side by side."""
+"""Run one experiment with consecutive seeds, one after another or in parallel."""
 
 from __future__ import annotations
 
@@ -23,10 +23,9 @@ from botschool.evolution.record import RunFiles, claimed
 from botschool.evolution.run import Options, Run
 from botschool.terminal import progress_bars, stoppable, unheard
 
-# --- Runs of one experiment side by side, each in a process of its own.
-#
-# A run of a native problem on two workers waits for both in every generation, and for numpy; two
-# runs on one worker each do not. The files are the same.
+# --- Parallel runs of one experiment, each in a process of its own.  With two workers, a run of a
+# native problem waits in every generation for both, and for numpy. Two parallel runs with one
+# worker each do not wait. The files are the same.
 
 
 STOP = "stop"
@@ -34,13 +33,13 @@ STOP = "stop"
 
 @dataclass(frozen=True)
 class Task:
-    """What all runs have in common."""
+    """The common part of all runs."""
 
     kind: type[Run]
     experiment: Experiment
     folder: Path
     options: Options
-    """Of each run."""
+    """How to run each of them."""
 
     def run(self, seed: int, stopping: Callable[[], bool], report: Callable[[Run], None]):
         """Evolve; return whether it is finished and a sentence about it, "" if it has not begun."""
@@ -50,9 +49,9 @@ class Task:
 
 
 def evolve_all(task: Task, seeds: list[int], processes: int, stopping: Callable[[], bool]) -> bool:
-    """Run every seed, in so many processes; return whether all were finished.
+    """Run every seed, in this many processes; return whether all finished.
 
-    When the user stops it or one fails, all stop and save; then the failure is raised.
+    When the user stops them or one fails, all stop and save; then the failure is raised.
     """
     with ExitStack() as stack:
         bars = stack.enter_context(progress_bars()) if task.options.terminal else None
@@ -67,7 +66,7 @@ def evolve_all(task: Task, seeds: list[int], processes: int, stopping: Callable[
                         bars.show(seed, *message) if bars else print_lines(message)
                 if stopping():
                     crew.stop()
-        except BaseException:  # standard output is gone, perhaps
+        except BaseException:  # perhaps standard output is gone
             crew.stop()
             while crew.running:
                 list(crew.messages())
@@ -78,7 +77,7 @@ def evolve_all(task: Task, seeds: list[int], processes: int, stopping: Callable[
 
 
 class Crew:
-    """Processes that evolve, and which seeds they are given."""
+    """Processes that evolve, each with the seed assigned to it."""
 
     def __init__(self, processes: list[Connection], seeds: list[int]) -> None:
         self._todo = list(seeds)
@@ -87,7 +86,7 @@ class Crew:
         """The processes that evolve, and their seeds."""
         self.finished = 0
         self.failure: Exception | None = None
-        """Of the first run that has failed; it stops all others."""
+        """The failure of the first run that failed; it stops all others."""
         for connection in processes:
             self._give(connection)
 
@@ -99,16 +98,14 @@ class Crew:
             _tell(connection, self.running[connection])
 
     def stop(self) -> None:
-        """Ask all to save and to stop."""
+        """Ask all runs to save and stop."""
         if not self._stopped:
             self._stopped = True
             for connection in self.running:
                 _tell(connection, STOP)
 
     def messages(self) -> Iterator[tuple[int, Any]]:
-        """Yield what comes within 0.2 seconds: seeds, and what `messages` or an end says of
-        them.
-        """
+        """Yield what arrives within 0.2 seconds: seeds, each with its message or its end."""
         ready: list[Any] = wait(list(self.running), timeout=0.2)
         for connection in ready:
             seed = self.running[connection]
@@ -138,26 +135,26 @@ def _received(connection: Connection, seed: int) -> Any:
         return connection.recv()
     except (EOFError, OSError):
         return BotschoolError(
-            f"The process of seed {seed} ended unexpectedly: if memory is short use fewer workers "
-            "(-w), and add --resume to go on."
+            f"The process of seed {seed} ended unexpectedly: if memory is short, use fewer "
+            "workers (-w), and add --resume to continue."
         )
 
 
 def _tell(connection: Connection, message: Any) -> None:
-    with suppress(OSError):  # when it has ended, `_received` says so
+    with suppress(OSError):  # `_received` reports a process that has ended
         connection.send(message)
 
 
 class Process:
-    """Context of a process that evolves the seeds that its connection gets."""
+    """Context of a process that evolves the seeds that it gets by its connection."""
 
     def __init__(self, task: Task) -> None:
         context = multiprocessing.get_context("spawn")
         self._connection, other = context.Pipe()
         self._process = context.Process(target=_work, args=(task, other), daemon=True)
         if os.name == "posix":
-            resource_tracker.ensure_running()  # lets through again what is held back
-        with unheard():  # to stop is this process's affair
+            resource_tracker.ensure_running()  # it would unblock these signals again
+        with unheard():  # only this process stops runs
             self._process.start()
         other.close()
 
@@ -165,7 +162,7 @@ class Process:
         return self._connection
 
     def __exit__(self, *error: object) -> None:
-        self._connection.close()  # ends it
+        self._connection.close()  # ends the process
         self._process.join()
 
 

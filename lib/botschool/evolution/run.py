@@ -1,4 +1,4 @@
-"""The loop of an evolutionary run, and its life on disk."""
+"""Advance an evolutionary run and keep it on disk."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ from botschool.terminal import readable
 
 EVENT_SECONDS = 10
 WAITING_STEPS = 1_000_000
-"""A post-evaluation that may take more steps never waits: to stop, a run has to finish it."""
+"""A post-evaluation with more steps never waits, because stopping a run has to finish it."""
 
 
 @dataclass
 class Unsettled:
-    """A generation that is done but for the post-evaluation of its best candidate."""
+    """A generation that lacks only the post-evaluation of its best candidate."""
 
     saved: np.ndarray
-    """The best candidate, as it would be saved."""
+    """The best candidate, in the form in which it is saved."""
     best: float
     average: float
     steps: int
@@ -47,31 +47,32 @@ class Unsettled:
 
 
 class Run:
-    """An experiment with a seed: made, then advanced generation by generation.
+    """An experiment with a seed: created, then advanced generation by generation.
 
-    Everything it computes is a pure function of (experiment, seed): neither the number of workers
-    nor interruptions show in its files.
+    All its results are a pure function of (experiment, seed): neither the number of workers nor
+    interruptions change its files.
     """
 
     checkpointed: tuple[str, ...] = ("algorithm", "evaluator", "record")
     """Attributes that a checkpoint holds."""
     growing: tuple[str, ...] = ("record.", "algorithm.told")
-    """How names of arrays in a checkpoint begin that get longer with the run."""
+    """Beginnings of the names of checkpoint arrays that get longer during the run."""
     saving = 0.0
     """Seconds that the last save took."""
     progress = 0.0
-    """How much of the present generation is done."""
+    """Share of the present generation that is done."""
     together = True
-    """Whether a post-evaluation may be evaluated together with the next generation's candidates.
-    The files are the same without; it takes longer."""
+    """Whether a post-evaluation may run together with the next generation's candidates. The files
+    are the same without it, but it takes longer.
+    """
     algorithm: Any
     record: Any
     budget: Limit
-    """Where it ends by its experiment."""
+    """The end of the run by its experiment."""
     limit: Limit
-    """Where it ends this time: there, or earlier if the user says so."""
+    """The end of this call: the budget, or earlier if the user says so."""
     report: Callable[[Run], None]
-    """For a run that has something to show during a generation."""
+    """Called during a generation if the run has progress to show."""
 
     def __init__(
         self,
@@ -81,7 +82,7 @@ class Run:
         stopping: Callable[[], bool] = lambda: False,
         problem: Problem | None = None,
     ) -> None:
-        """problem: the experiment's, if others than this machine's cores evaluate."""
+        """Create the run; problem: the experiment's, if other machines evaluate."""
         self.experiment = experiment
         self.seed = seed
         self.workers = workers
@@ -101,7 +102,7 @@ class Run:
         """Raise BotschoolError for a problem or a policy that the algorithm cannot evolve."""
 
     def begin(self) -> None:
-        """Make the algorithm, who evaluates for it, the record and the budget."""
+        """Make the algorithm, its evaluator, the record and the budget."""
         self.algorithm = ALGORITHMS[self.experiment.exp.algo].make(
             self.experiment.algo, partial(self.policy.initial, self.seed), self.seed
         )
@@ -113,7 +114,7 @@ class Run:
 
     @property
     def max_steps(self) -> int:
-        """The budget, in steps."""
+        """Return the budget in steps."""
         return max(1, round(self.experiment.algo.maxmsteps * 1e6))
 
     def due(self, seconds: float) -> bool:
@@ -125,7 +126,7 @@ class Run:
         self.record.write(files)
 
     def numbers(self) -> str:
-        """Return what it has reached, in short."""
+        """Return its results in short."""
         last = self.record.last
         return (
             f"best {readable(last['best fitness'])}  "
@@ -153,18 +154,18 @@ class Run:
         )
 
     def ending(self, files: RunFiles, finished: bool) -> str:
-        """Return what to say at its end; "" if there is nothing."""
+        """Return the last message of a run; "" if there is none."""
         if not finished:
             return (
-                f"seed {self.seed}: stopped after {self.record.generation} generations; all is "
-                "saved, add --resume to the same command to go on."
+                f"seed {self.seed}: stopped after {self.record.generation} generations; all "
+                "is saved, add --resume to the same command to continue."
             )
         return self.result(files) if self.record.generation else ""
 
     def advance(self, goes_on: bool = False) -> None:
-        """One generation. Raises Interrupted on request; a generation that fails is dropped.
+        """Run one generation. Raises Interrupted on request; a generation that fails is dropped.
 
-        goes_on: whether `advance` or `settle` is called next, so that the generation's
+        goes_on: whether the next call is `advance` or `settle`, so that the generation's
         post-evaluation and its entry in the record may wait for that call.
         """
         candidates, seeds = self.algorithm.ask()
@@ -197,9 +198,10 @@ class Run:
             self._close(post)
 
     def _may_wait(self, steps: int) -> bool:
-        """Return whether the post-evaluation of a generation that took so many steps may be
-        evaluated together with the next one's candidates: it has no part in what they are, and
-        surely they will be evaluated."""
+        """Return whether the post-evaluation of a generation with this many steps may run together
+        with the next generation's candidates: they do not depend on it, and they are certain to be
+        evaluated.
+        """
         most = self.evaluator.post_steps
         return (
             self.together
@@ -212,7 +214,8 @@ class Run:
         )
 
     def settle(self) -> None:
-        """Post-evaluates the newest generation, if that has waited; after that the record is whole.
+        """Post-evaluate the newest generation if that has waited; after that the record is
+        complete.
 
         If it fails, the generation is dropped.
         """
@@ -231,7 +234,9 @@ class Run:
         return generation.saved[: self.policy.genotype_size]
 
     def _close(self, post: Measured) -> None:
-        """Enter the open generation into the record; post: its best one's post-evaluation."""
+        """Enter the open generation into the record; post: the post-evaluation of its best
+        candidate.
+        """
         done, self._open = self._open, None
         self.record.steps += done.steps + post.steps
         self.record.offer(done.saved, done.best, mean(post.fitness))
@@ -247,7 +252,9 @@ class Run:
         }
 
     def restore(self, state: dict) -> None:
-        """The reverse of state(). Raises KeyError or ValueError for that of another run."""
+        """Restore what state() returned. Raises KeyError or ValueError for the state of another
+        run.
+        """
         for name, value in self.state().items():
             given = state[name]
             free = 1 if name.startswith(self.growing) else 0  # the first dimension
@@ -258,7 +265,7 @@ class Run:
             counts = given.dtype.kind in "iu" and (given < 0).any()
             lost = not free and np.isfinite(value).all() and not np.isfinite(given).all()
             if counts or lost:
-                raise ValueError(f"{name} holds what no run saves")
+                raise ValueError(f"{name} holds values that no run saves")
         for owner in self.checkpointed:
             prefix = owner + "."
             values = {k.removeprefix(prefix): v for k, v in state.items() if k.startswith(prefix)}
@@ -267,15 +274,15 @@ class Run:
     def reproduces(self) -> bool:
         """Return whether the best robot on record still gets its fitness, to the bit.
 
-        If not, this version evaluates robots differently from the one that wrote the record. Other
-        problems than native ones are not asked: they may be slow, or never the same twice.
+        If not, this version evaluates robots differently from the one that wrote the record. Only
+        native problems are checked: others may be slow, or give different results each time.
         """
         record = self.record
         if not (self.problem.native and record.generation):
             return True
         try:
             genotype, normalisation = self.policy.split(record.bestg)
-        except BotschoolError:  # it is of another network
+        except BotschoolError:  # it belongs to another network
             return False
         return self.evaluator.post_fitness(genotype, normalisation) == record.bestg_fitness
 
@@ -291,10 +298,10 @@ def evolve(
 ) -> bool:
     """Run until the budget, or `steps` or `generations`, is spent; save when due and at the end.
 
-    Returns whether it got there; False when it was asked to stop (all is saved then). Errors that
-    break a run off save what was finished first. `report` is called after each generation, and
-    may be called during one. With `keep_every` the best genotype so far stays in a file of its
-    own every so many generations, and the one that evolution starts from.
+    Returns True at that point, and False if the user stopped the run (everything is saved then). On
+    an error, the generations that were finished are saved first. `report` is called after each
+    generation, and may be called during one. With `keep_every` the best genotype so far is kept in
+    a file of its own every `keep_every` generations, beginning with the initial genotype.
     """
     files = RunFiles(Path(folder), run.seed)
     if keep_every:
@@ -351,35 +358,34 @@ def evolve(
 
 @dataclass(frozen=True)
 class Options:
-    """How to run an experiment; what it is stands in its file."""
+    """How to run an experiment; its file says what it is."""
 
     workers: int = 1
     steps: int | None = None
-    """Stop after so many, as after `generations`; None: when the experiment's budget is spent."""
+    """Stop after this many steps, as after `generations`; None: when the budget is spent."""
     generations: int | None = None
     keep_every: int | None = None
-    """Keep the best genotype so far of every so many generations."""
+    """Keep the best genotype so far every this many generations."""
     resume: bool = False
-    """Continue runs that are there; `force` replaces them."""
+    """Continue existing runs; `force` replaces them."""
     force: bool = False
     terminal: bool = False
     """Show progress bars instead of lines."""
     cluster: Open | None = None
-    """Takes the place of `workers`."""
+    """A cluster that replaces `workers`."""
 
     def evolve(self, run: Run, folder: Path, report: Callable[[Run], None]) -> bool:
-        """Evolve a run so; return whether it got to its end."""
+        """Evolve a run with these options; return whether it reached its end."""
         return evolve(
             run, folder, self.steps, self.resume, report, self.generations, self.keep_every
         )
 
 
 def keeping(files: RunFiles, every: int, report: Callable[[Run], None]) -> Callable[[Run], None]:
-    """Return a `report` that also saves the best post-evaluated genotype so far every `every`
-    generations.
+    """Return a `report` that also saves the best post-evaluated genotype every `every` generations.
 
-    It is saved before any checkpoint knows of its generation, so a run that is resumed lacks none;
-    generation 0 has the random genotype that evolution starts from.
+    It is saved before any checkpoint contains its generation, so a resumed run lacks none.
+    Generation 0 has the random genotype that evolution starts from.
     """
 
     def kept(run: Run) -> None:

@@ -1,10 +1,10 @@
 """archive, competitive co-evolution against a hall of fame: Rosin and Belew (1997), "New methods
 for competitive coevolution"; in this form Nolfi and Pagliuca (2024), "Global progress in
-competitive co-evolution", https://doi.org/10.3389/frobt.2024.1470886. As in
-docs/specification.md, "Algorithms".
+competitive co-evolution", https://doi.org/10.3389/frobt.2024.1470886. See docs/specification.md,
+"Algorithms".
 
-Each side is one centre, which takes a step of OpenAI-ES in its turn, against opponents drawn from
-the archive of the other side. Every now and then the best sample of a turn enters the archive.
+Each side has one centre. In its turn, the centre makes a step of OpenAI-ES against opponents drawn
+from the other side's archive. The best sample of some turns enters the archive.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class ArchiveConfig(HallOfFameConfig):
     "archive", "two sides, each against an archive of the other", ArchiveConfig, competitive=True
 )
 class Archive(HallOfFame):
-    """One centre a side; any archived opponent is as likely as any other."""
+    """One centre per side; all archived opponents are equally likely."""
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
         """Return candidates (1, 2 * samplesize, parameters), opponents (1, samplesize,

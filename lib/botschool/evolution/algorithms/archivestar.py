@@ -1,10 +1,10 @@
-"""archivestar, co-evolution of several lineages a side against archives: "Archive*" of Nolfi and
+"""archivestar, co-evolution of several lineages per side against archives: "Archive*" of Nolfi and
 Pagliuca (2024), "Global progress in competitive co-evolution",
-https://doi.org/10.3389/frobt.2024.1470886. As in docs/specification.md, "Algorithms".
+https://doi.org/10.3389/frobt.2024.1470886. See docs/specification.md, "Algorithms".
 
-As archive, with `popsize` centres a side that share one archive. Different lineages find different
-strategies, so the archive is richer. Opponents are of all lineages in equal shares, or else the
-stronger ones of those that are drawn.
+It extends archive to `popsize` centres per side that share one archive. Different lineages find
+different strategies, so the archive is richer. The opponents come from all lineages in equal
+shares, or are the strongest of several individuals drawn.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from botschool.policies.hyperparameters import NO_YES, hyper
 from botschool.seeds import generator
 
 UNKNOWN = 0.5
-"""Strength of an individual that nobody has met yet."""
+"""Strength of an individual that has met no opponent yet."""
 KEPT = 0.9
-"""Share of its old strength that an individual keeps when it is met again."""
+"""Share of its old strength that an individual keeps when it meets others again."""
 
 
 @dataclass
@@ -43,12 +43,13 @@ class ArchiveStarConfig(ArchiveConfig):
 
 @algorithm("archivestar", "archive with several lineages a side", ArchiveStarConfig, True)
 class ArchiveStar(HallOfFame):
-    """Several centres a side. Each archived individual has a lineage and a strength.
+    """Several centres per side. Each archived individual has a lineage and a strength.
 
-    The strength is a running mean of its success, 1 minus the fitness of those who meet it: after
-    each turn in which it was met, 0.9 * strength + 0.1 * mean success in that turn. Where the sum
-    is not constant, success is minus that fitness, the first turn gives the strength alone, and who
-    was never met counts as the mean of those who were.
+    The strength is a running mean of the success of an individual, which is 1 minus the fitness of
+    its opponents. After each turn in which it met opponents, the strength becomes 0.9 * strength +
+    0.1 * mean success in that turn. If the game has no constant sum, success is minus that fitness,
+    the first turn alone gives the strength, and individuals without a meeting count as the mean of
+    the others.
     """
 
     known = ("lineages", "strengths")
@@ -56,7 +57,9 @@ class ArchiveStar(HallOfFame):
     def __init__(
         self, config: ArchiveStarConfig, initial: Initial, seed: int, constant_sum: bool = True
     ) -> None:
-        """As HallOfFame; the random individuals of an archive are of all lineages by turns."""
+        """Start as HallOfFame does; assign the random individuals of an archive to the lineages in
+        turn.
+        """
         super().__init__(config, initial, seed, constant_sum)
         first = [i % config.popsize for i in range(config.ncompetitors)]
         self.lineages = (first.copy(), first.copy())
@@ -65,7 +68,9 @@ class ArchiveStar(HallOfFame):
         self.strengths = ([self.unknown] * len(first), [self.unknown] * len(first))
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """As HallOfFame.ask; each pair of candidates of each centre draws its own opponents."""
+        """Return the same as HallOfFame.ask; each pair of candidates of each centre draws its
+        opponents.
+        """
         numbers = generator(self.seed, self.generation)
         candidates = self._samples(numbers)
         draw = self._of_each_lineage if self.config.seldifferentiated else self._strongest
@@ -77,7 +82,7 @@ class ArchiveStar(HallOfFame):
         return self.config.popsize, self.config.samplesize, self.config.ncompetitors
 
     def _of_each_lineage(self, numbers: np.random.Generator) -> np.ndarray:
-        """Opponent c comes from lineage c mod popsize."""
+        """Return the opponents: opponent c comes from lineage c mod popsize."""
         lineages = np.array(self.lineages[1 - self.side])
         members = [np.flatnonzero(lineages == k) for k in range(self.config.popsize)]
         slots = [members[c % self.config.popsize] for c in range(self.config.ncompetitors)]
@@ -106,8 +111,8 @@ class ArchiveStar(HallOfFame):
         self.generation += 1
 
     def _remember(self, strengths: list[float], fitness: np.ndarray) -> None:
-        """Update the strength of those who were met."""
-        met = np.repeat(self.opponents, 2, axis=1)  # by both candidates of a perturbation
+        """Update the strength of those that met opponents."""
+        met = np.repeat(self.opponents, 2, axis=1)  # both candidates of a perturbation met them
         for place in np.unique(met):
             success = self.whole - mean(fitness[met == place])
             before = success if math.isnan(strengths[place]) else strengths[place]

@@ -1,9 +1,9 @@
 """ARS, augmented random search: Mania, Guy and Recht (2018), "Simple random search of static linear
-policies is competitive for reinforcement learning", as in docs/specification.md, "Algorithms".
+policies is competitive for reinforcement learning". See docs/specification.md, "Algorithms".
 
-As OpenAI-ES it measures candidates on both sides of a centre. But only the directions with the best
-candidates count, weighted by fitness itself instead of ranks, and the centre moves by their mean,
-divided by the spread of fitness, so that steps get smaller where fitness varies more.
+Like OpenAI-ES, it measures candidates on both sides of a centre. But only the directions with the
+best candidates count, and their weights are fitness values instead of ranks. The centre moves by
+their mean divided by the spread of fitness, so steps get smaller where fitness varies more.
 """
 
 # Hyperparameters keep the names they have in .ini files.
@@ -42,15 +42,15 @@ def shift(fitness: np.ndarray, samples: np.ndarray, ntop: int) -> np.ndarray:
     each, centre + s e and centre - s e, shape (2 * samplesize,).
     """
     pairs = fitness.reshape(-1, 2)
-    # the directions whose better candidate is best; of equal ones the first
+    # the directions with the best candidates; the first wins ties
     best = np.argsort(-pairs.max(axis=1), kind="stable")[:ntop]
     counted = pairs[best].ravel().tolist()
     mean = math.fsum(counted) / len(counted)
     spread = math.sqrt(math.fsum((one - mean) ** 2 for one in counted) / len(counted))
-    if not spread > 0:  # all are alike: there is no direction
+    if not spread > 0:  # all are equal: there is no direction
         return np.zeros(samples.shape[1])
     weights = (pairs[best, 0] - pairs[best, 1]) / (len(best) * spread)
-    # summed row by row, so that no BLAS can change the last bits
+    # sum row by row, so that no BLAS can change the last bits
     return np.add.reduce(weights[:, None] * samples[best], axis=0)
 
 

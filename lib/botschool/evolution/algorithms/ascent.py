@@ -1,7 +1,7 @@
-"""Several centres that climb side by side, each by steps of OpenAI-ES without bias correction.
+"""Move several centres in parallel, each by steps of OpenAI-ES without bias correction.
 
-Where they are follows from where they began and the fitness they were told: a cluster's workers
-follow them by that alone (docs/specification.md, "On a cluster").
+Their positions follow from their start and the fitness values that they were told. So a cluster's
+workers compute them from these alone (docs/specification.md, "On a cluster").
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from botschool.evolution.algorithms.openaies import climb
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """Where an ascent begins, and its hyperparameters."""
+    """Start of an ascent, and its hyperparameters."""
 
     centres: np.ndarray
-    """float64 (count, parameters), as are m and v."""
+    """float64 (count, parameters); m and v have the same shape."""
     m: np.ndarray
     v: np.ndarray
     stream: Mapping[str, Any]
-    """State of the Philox generator that gives the directions."""
+    """State of the Philox generator that draws the directions."""
     samplesize: int
     deviation: float
     stepsize: float
@@ -61,7 +61,7 @@ class Ascent:
         return candidates
 
     def climb(self, fitness: np.ndarray) -> None:
-        """A step of each centre; fitness: of the offspring, (count, 2 * samplesize)."""
+        """Make one step of each centre; fitness: of the offspring, (count, 2 * samplesize)."""
         self.centres, self.m, self.v = climb(
             self.centres, self.m, self.v, self._samples, fitness, self.start
         )

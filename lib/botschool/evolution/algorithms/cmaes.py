@@ -1,10 +1,10 @@
 """CMA-ES, evolution strategy with covariance matrix adaptation: Hansen (2016), "The CMA evolution
 strategy: a tutorial", arXiv 1604.00772; with `diagonal = 1` sep-CMA-ES of Ros and Hansen (2008).
-docs/specification.md, "CMA-ES".
+See docs/specification.md, "CMA-ES".
 
-Candidates are drawn from a Gaussian distribution. Its mean moves to the better ones, its overall
-size sigma grows while the mean keeps its direction, and its covariance matrix C learns along which
-directions the better ones lie. Names and numbers of equations are those of the tutorial.
+Candidates are drawn from a Gaussian distribution. Its mean moves to the better ones. Its overall
+size sigma grows while the mean keeps its direction. Its covariance matrix C learns the directions
+of the better ones. The names and equation numbers are the tutorial's.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from botschool.linear import eigen, exp, log, product, weighted
 from botschool.policies.hyperparameters import NO_YES, hyper
 
 CONDITION = 1e14
-"""The largest ratio of two eigenvalues of C that is used."""
+"""Largest ratio of two eigenvalues of C; smaller eigenvalues are raised to it."""
 
 
 @dataclass
@@ -45,7 +45,7 @@ class Settings:
     """Constants of a run (table 1 of the tutorial)."""
 
     weights: np.ndarray
-    """Of the candidates from the best to the worst; the positive ones add up to 1."""
+    """Weights of the candidates from the best to the worst; the positive ones add up to 1."""
     mueff: float
     csigma: float
     dsigma: float
@@ -59,14 +59,14 @@ class Settings:
 
     @classmethod
     def of(cls, n: int, popsize: int, diagonal: bool, active: bool) -> Settings:
-        """For n parameters."""
+        """Return the constants for n parameters."""
         raw = log([(popsize + 1) / 2])[0] - log(np.arange(1, popsize + 1))  # (49)
         better, worse = np.maximum(raw, 0), np.maximum(-raw, 0)
         mueff, mueff_worse = effective(better), effective(worse)
         cc = (4 + mueff / n) / (n + 4 + 2 * mueff / n)  # (56)
         c1 = 2 / ((n + 1.3) ** 2 + mueff)  # (57)
         cmu = 2 * (0.25 + mueff + 1 / mueff - 2) / ((n + 2) ** 2 + mueff)  # (58)
-        if diagonal:  # fewer numbers are learnt, so faster: Ros and Hansen, section 3
+        if diagonal:  # fewer numbers are learned, so learning is faster: Ros and Hansen, section 3
             c1, cmu = (n + 2) / 3 * c1, (n + 2) / 3 * cmu
         cmu = min(1 - c1, cmu)
         least = (
@@ -84,7 +84,7 @@ class Settings:
 
 
 def total(values: np.ndarray) -> float:
-    """Return their sum, exact but for its last rounding."""
+    """Return the sum of the values, exact but for its last rounding."""
     return math.fsum(values.tolist())
 
 
@@ -103,11 +103,11 @@ class FullMatrix:
         self.covariance, self.root = np.eye(n), np.eye(n)
 
     def shaped(self, z: np.ndarray) -> np.ndarray:
-        """root z for every row of z."""
+        """Return root z for every row of z."""
         return product(z, self.root)
 
     def update(self, keep: float, weights: np.ndarray, vectors: np.ndarray) -> None:
-        """C <- keep C + sum_k weights_k v_k v_k'; vectors: rows v_k."""
+        """Set C to keep C + sum_k weights_k v_k v_k'; vectors: rows v_k."""
         added = product((weights[:, None] * vectors).T, vectors)
         self.covariance = keep * self.covariance + added
 
@@ -125,7 +125,7 @@ class FullMatrix:
 
 
 class Diagonal(FullMatrix):
-    """The same for a diagonal matrix, of which both hold the diagonal, shape (n,)."""
+    """The same for a diagonal matrix: C and its root are diagonals of shape (n,)."""
 
     def __init__(self, n: int) -> None:
         self.covariance, self.root = np.ones(n), np.ones(n)
@@ -165,11 +165,11 @@ class CMAES(Gaussian):
         self.path_sigma, self.path_c = np.zeros(n), np.zeros(n)
 
     def shaped(self, z: np.ndarray) -> np.ndarray:
-        """In the shape of C, as it was when it was decomposed last."""
+        """Give z the shape of C at its last decomposition."""
         return self.matrix.shaped(z)
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Adapts mean, sigma and C; fitness has shape (popsize,), in the order of ask()."""
+        """Adapt mean, sigma and C; fitness has shape (popsize,), in the order of ask()."""
         s, n = self.settings, self.size
         order = best_first(fitness)
         z, y = self.z[order], self.y[order]

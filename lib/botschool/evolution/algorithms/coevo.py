@@ -1,12 +1,12 @@
 """coevo: one population whose individuals play both sides, as followers and leaders in
-ErStaybehind. As in docs/specification.md, "Algorithms"; see Nolfi and Pagliuca (2024), "Global
-progress in competitive co-evolution", https://doi.org/10.3389/frobt.2024.1470886, for the algorithm
-of two populations (coevo2) that it is made like.
+ErStaybehind. See docs/specification.md, "Algorithms". It follows coevo2, the algorithm with two
+populations of Nolfi and Pagliuca (2024), "Global progress in competitive co-evolution",
+https://doi.org/10.3389/frobt.2024.1470886.
 
-In a meeting (i, j) individual i drives the first robot and j the second, and the reward counts
-for i. Some individuals are improved as first robots, by steps like those of OpenAI-ES, with a few
-members of their own population that differ from each other; then they meet all members, and only
-who does well with all of them has a place in the population.
+In a meeting (i, j) individual i drives the first robot and j the second, and the reward counts for
+i. Copies of some individuals improve as first robots, by steps like those of OpenAI-ES, with a few
+members of the population that differ from each other. Then they meet all members, and a copy enters
+the population only if it does well with all of them.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class CoevoConfig(AscentConfig):
 
 @algorithm("coevo", "one population that plays both sides", CoevoConfig, competitive=True)
 class Coevo(Stateful):
-    """advance(play): at first everyone meets everyone, then each call is a generation.
+    """advance(play): the first call lets all meet all, each later call is a generation.
 
     Individuals keep their places. `fitness` is that of the individual in the row as first robot
     with the one in the column; nan before the first meeting.
@@ -66,13 +66,16 @@ class Coevo(Stateful):
     side = 0
     share = 0.0
     progress = math.nan
-    """Local progress of the last generation: by how much the mean fitness of the evolved
-    individuals with the chosen partners has grown."""
+    """Local progress of the last generation: the growth of the mean fitness of the evolved
+    individuals with the chosen partners.
+    """
 
     def __init__(
         self, config: CoevoConfig, initial: Initial, seed: int, constant_sum: bool = True
     ) -> None:
-        """initial(index) gives two random networks in a row; the first one is taken."""
+        """Start the population; initial(index) returns two random networks, of which the first
+        counts.
+        """
         self.config = config
         self.seed = seed
         self.generation = 0
@@ -89,7 +92,7 @@ class Coevo(Stateful):
 
     @property
     def met(self) -> bool:
-        """Whether everyone has met everyone."""
+        """Return whether all individuals have met."""
         return not np.isnan(self.fitness.flat[0])
 
     def _numbers(self, generation: int) -> tuple[np.random.Generator, list[int]]:
@@ -100,18 +103,18 @@ class Coevo(Stateful):
         return numbers, numbers.integers(2**62, size=1 + SUB_GENERATIONS).tolist()
 
     def advance(self, play: Play) -> None:
-        """A generation; the first call lets everyone meet everyone, which is none yet."""
+        """Run a generation; the first call lets all meet all and is not a generation."""
         if not self.met:
             self.fitness = self._everyone(play, self.parameters, 0)
             return
         config, (numbers, seeds) = self.config, self._numbers(self.generation)
 
-        # choose partners that differ, and who evolves
+        # choose partners that differ, and individuals to evolve
         first = int(numbers.integers(config.popsize))
         partners = differing(self.fitness.T, config.selsize, first)
         chosen = numbers.permutation(config.popsize)[: config.selsize]
 
-        # evolve copies of them as first robots, then let them meet everyone
+        # evolve copies of them as first robots, then let them meet all
         others = self.parameters[partners]
 
         def meet(offspring: np.ndarray, k: int) -> np.ndarray:
@@ -122,7 +125,7 @@ class Coevo(Stateful):
         after = _first(everyone(play, evolved[0], self.parameters, seeds[0]))
         progress = mean(after[:, partners]) - mean(self.fitness[np.ix_(chosen, partners)])
 
-        # evolved ones that are good enough take the places of the worst, newcomers before equals
+        # copies that are good enough replace the worst individuals, and win ties
         kept = ranking(np.concatenate([after, self.fitness]))[: config.popsize]
         new = np.sort(kept[kept < len(chosen)])
         places = np.setdiff1d(np.arange(config.popsize), kept - len(chosen))
@@ -130,14 +133,14 @@ class Coevo(Stateful):
         for array, improved in zip(arrays, evolved, strict=True):
             array[places] = improved[new]
 
-        # everyone meets everyone, under the next generation's conditions
+        # all meet all, under the next generation's conditions
         self.fitness = self._everyone(play, arrays[0], self.generation + 1)
         self.parameters, self.m, self.v = arrays
         self.generation += 1
         self.progress = progress
 
     def _everyone(self, play: Play, individuals: np.ndarray, generation: int) -> np.ndarray:
-        """Everyone meets everyone under a generation's conditions."""
+        """Return the fitness of all with all under a generation's conditions."""
         seed = self._numbers(generation)[1][0]
         return _first(everyone(play, individuals, individuals, seed))
 

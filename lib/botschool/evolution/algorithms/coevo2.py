@@ -1,12 +1,12 @@
 """coevo2, competitive co-evolution: the "Generalist" of Nolfi and Pagliuca (2024), "Global progress
 in competitive co-evolution", https://doi.org/10.3389/frobt.2024.1470886; earlier Simione and Nolfi
-(2020), "Long-term progress and behavior complexification in competitive coevolution". As in
+(2020), "Long-term progress and behavior complexification in competitive coevolution". See
 docs/specification.md, "Algorithms".
 
-Two populations, predators and prey, evolve by turns. Some individuals of one are improved, by
-steps like those of OpenAI-ES, against a few competitors that differ from each other; then they
-meet all competitors, and only who does well against all of them has a place in the population.
-That discards the opportunists, who do well against the few only.
+Two populations, predators and prey, evolve by turns. Copies of some individuals improve against a
+few competitors that differ from each other, by steps like those of OpenAI-ES. Then they meet all
+competitors, and a copy enters the population only if it does well against all of them. That
+discards opportunists, which do well only against the few.
 """
 
 # Hyperparameters keep the names they have in .ini files.
@@ -49,8 +49,8 @@ SUB_GENERATIONS = 20
 def differing(fitness: np.ndarray, count: int, first: int) -> np.ndarray:
     """Choose `count` rows that differ most from each other, beginning with the row `first`.
 
-    The next one is always the row with the largest sum of absolute differences to those chosen so
-    far; of equals, the earlier one.
+    The next row is always the one with the largest sum of absolute differences to those chosen so
+    far; the earlier row wins ties.
     """
     chosen = [first]
     apart = np.zeros(len(fitness))  # sum of absolute differences to the chosen rows
@@ -114,11 +114,11 @@ def improve(
 
 @algorithm("coevo2", "two competing populations", Coevo2Config, competitive=True)
 class Coevo2(Stateful):
-    """advance(play): at first everyone meets everyone, then each call is a generation.
+    """advance(play): the first call lets all meet all, each later call is a generation.
 
-    Everything is in the order of the populations, which are sorted: best mean fitness against the
-    whole other population first. `fitness` has predators in rows and prey in columns, as `seen_by`
-    takes it; nan before the first meeting.
+    All arrays have the order of the populations, which are sorted by mean fitness against the whole
+    other population, the best first. `fitness` has predators in rows and prey in columns, as
+    `seen_by` expects; nan before the first meeting.
     """
 
     evolves = ("generation", "parameters", "m", "v", "fitness")
@@ -127,19 +127,22 @@ class Coevo2(Stateful):
     sides = SIDES
     share = 0.0
     progress = math.nan
-    """Local progress of the last generation: by how much the mean fitness of the evolved
-    individuals against the chosen competitors has grown."""
+    """Local progress of the last generation: the growth of the mean fitness of the evolved
+    individuals against the chosen competitors.
+    """
 
     def __init__(
         self, config: Coevo2Config, initial: Initial, seed: int, constant_sum: bool = True
     ) -> None:
-        """initial(index) gives two random networks in a row: the index-th predator and prey."""
+        """Start both populations; initial(index) returns two random networks, a predator and a
+        prey.
+        """
         self.config = config
         self.seed = seed
         self.generation = 0
         pairs = np.array([initial(i) for i in range(config.popsize)])
         self.parameters = np.stack(np.split(pairs, 2, axis=1))
-        """Of predators, then prey: shape (2, popsize, parameters)."""
+        """Parameters of predators, then prey: shape (2, popsize, parameters)."""
         self.m = np.zeros_like(self.parameters)
         self.v = np.zeros_like(self.parameters)
         self.fitness = unknown(config.popsize, constant_sum)
@@ -156,16 +159,16 @@ class Coevo2(Stateful):
 
     @property
     def met(self) -> bool:
-        """Whether everyone has met everyone."""
+        """Return whether all predators have met all prey."""
         return not np.isnan(self.fitness.flat[0])
 
     @property
     def side(self) -> int:
-        """Who evolves in the next generation: predators, then prey, and so on by turns."""
+        """Return the side that evolves in the next generation: predators and prey take turns."""
         return self.generation % 2
 
     def advance(self, play: Play) -> None:
-        """A generation; the first call lets everyone meet everyone, which is none yet."""
+        """Run a generation; the first call lets all meet all and is not a generation."""
         if not self.met:
             self.fitness = everyone(play, *self.parameters)
             self._sort()
@@ -173,7 +176,8 @@ class Coevo2(Stateful):
         side, other = self.side, 1 - self.side
         numbers = generator(self.seed, self.generation)
 
-        # choose competitors that differ, and who evolves: the best against them, or anyone
+        # choose competitors that differ, and individuals to evolve: the best against them, or
+        # random ones
         first = int(numbers.integers(self.config.popsize))
         competitors = differing(seen_by(other, self.fitness), self.config.selsize, first)
         before = seen_by(side, self.fitness)[:, competitors]
@@ -181,7 +185,7 @@ class Coevo2(Stateful):
         order = ranking(before) if best_first else numbers.permutation(self.config.popsize)
         chosen = order[: self.config.selsize]
 
-        # evolve copies of them, then let them meet everyone
+        # evolve copies of them, then let them meet all
         opponents = self.parameters[other, competitors]
 
         def meet(offspring: np.ndarray, _: int) -> np.ndarray:
@@ -192,7 +196,7 @@ class Coevo2(Stateful):
         met = _play(play, side, evolved[0], self.parameters[other])
         after = seen_by(side, met)[:, competitors]
 
-        # everyone, newcomers first so that of equals they stay; without the worst
+        # rank all, newcomers first so that they win ties, and drop the worst
         fitness = np.concatenate([met, self.fitness], axis=side - 2)
         kept = ranking(seen_by(side, fitness))[: self.config.popsize]
         self.fitness = np.take(fitness, kept, axis=side - 2)

@@ -1,5 +1,6 @@
-"""How candidates are drawn around centres, in one place: where they are asked for, and again where
-they are evaluated, on another machine (docs/specification.md, "On a cluster")."""
+"""Draw candidates around centres. The algorithm draws them, and another machine that evaluates them
+draws the same again (docs/specification.md, "On a cluster").
+"""
 
 from __future__ import annotations
 
@@ -11,7 +12,7 @@ import numpy as np
 from numpy.random import Generator, Philox
 
 STRIDE = 16
-"""Samples between two places in the stream that a cloud remembers."""
+"""Samples between two positions in the stream that a cloud remembers."""
 
 
 def mirrored(centres: np.ndarray, samples: np.ndarray, deviation: float) -> np.ndarray:
@@ -29,18 +30,18 @@ def mirrored(centres: np.ndarray, samples: np.ndarray, deviation: float) -> np.n
 
 @dataclass(eq=False)
 class Cloud:
-    """Candidates around centres, as few numbers: enough to draw any of them again."""
+    """Candidates around centres, described by the few numbers from which all can be drawn again."""
 
     centres: np.ndarray
     """float64 (count, parameters)."""
     samplesize: int
     """Directions drawn for each centre."""
     deviation: float | np.ndarray
-    """Of the candidates, or along each axis."""
+    """Standard deviation of the candidates, one or one for each axis."""
     both: bool
     """Whether there are candidates on both sides of a centre: see `mirrored`."""
     stream: Mapping[str, Any]
-    """State of the Philox generator that gives the directions, centre by centre."""
+    """State of the Philox generator that draws the directions, centre by centre."""
     places: list[Mapping[str, Any]] = field(default_factory=list)
     """The stream after 0, STRIDE, 2 STRIDE ... directions, as far as it has been followed."""
 
@@ -65,12 +66,12 @@ class Cloud:
         return candidates[places]
 
     def _directions(self, first: int, last: int) -> np.ndarray:
-        """Directions from number `first` to before `last`."""
+        """Return the directions from number `first` to before `last`."""
         size = self.centres.shape[1]
         found = np.empty((last - first, size))
         self.places = self.places or [self.stream]
         numbers = Generator(Philox(0))
-        # follow the stream to the block with the first one, and on to the last
+        # follow the stream to the block of the first direction, and on to the last
         block = min(len(self.places) - 1, first // STRIDE)
         while block * STRIDE < last:
             numbers.bit_generator.state = self.places[block]
@@ -88,16 +89,19 @@ class Cloud:
 
 
 class Drawn(np.ndarray):
-    """Candidates that can be drawn again; parts of them, or what is computed from them, cannot.
+    """Candidates that can be drawn again from their recipe. Slices and results of computation
+    cannot.
 
-    A cluster reads `recipe`, and nothing else, of what an algorithm evaluates.
+    A cluster reads only `recipe` from what an algorithm evaluates.
     """
 
     recipe: tuple | None = None
-    """Their Cloud; or where an ascent began (ascent.Start), and the fitness of each step since."""
+    """The candidates' Cloud; or the start of an ascent (ascent.Start) and the fitness
+    of each step.
+    """
 
     def reshape(self, *shape, **options) -> np.ndarray:
-        """As numpy's; the same candidates in the same order keep their recipe."""
+        """Reshape as numpy does; the same candidates in the same order keep their recipe."""
         found = super().reshape(*shape, **options)
         if found.shape[-1:] == self.shape[-1:]:
             found.recipe = self.recipe
@@ -112,10 +116,10 @@ def candidates_of(centres: np.ndarray, samples: np.ndarray, deviation) -> np.nda
 def draw(
     numbers: Generator, centres: np.ndarray, samplesize: int, deviation, both: bool = True
 ) -> tuple[np.ndarray, Drawn]:
-    """Directions, shape (count, samplesize, parameters), and candidates around the centres.
+    """Draw directions, shape (count, samplesize, parameters), and candidates around the centres.
 
-    centres: (count, parameters). Candidates: with `both` as `mirrored` gives them, else one for
-    each direction, (count, samplesize, parameters).
+    centres: (count, parameters). Candidates: with `both` those of `mirrored`, else one for each
+    direction, (count, samplesize, parameters).
     """
     directions = np.empty((len(centres) * samplesize, centres.shape[1]))
     places = []

@@ -1,10 +1,10 @@
 """GA, a plain genetic algorithm: Such, Madhavan, Conti, Lehman, Stanley and Clune (2017), "Deep
 neuroevolution: genetic algorithms are a competitive alternative for training deep neural networks
-for reinforcement learning", https://arxiv.org/abs/1712.06567; uniform crossover, off by default, is
-Syswerda's (1989). As in docs/specification.md, "GA".
+for reinforcement learning", https://arxiv.org/abs/1712.06567. The uniform crossover, off by
+default, is Syswerda's (1989). See docs/specification.md, "GA".
 
-Each generation measures the population, keeps the best individual as it is, and makes all others
-anew: mutated copies, or mixtures, of parents drawn from the best few.
+Each generation measures the population, keeps the best individual as it is, and replaces all others
+by mutated copies, or mixtures, of parents drawn from the best few.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class GA(Stateful):
     evolves = ("generation", "population")
 
     def __init__(self, config: GAConfig, initial: Initial, seed: int) -> None:
-        """initial(index) gives a random genotype; the population starts with numbers 0, 1, ..."""
+        """Start the population with random genotypes: initial(index) for index 0, 1, ..."""
         self.config = config
         self.seed = seed
         self.generation = 0
@@ -65,12 +65,13 @@ class GA(Stateful):
         return self.population, seeds
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Selection, crossover and mutation; fitness has shape (popsize,)."""
+        """Select, cross and mutate; fitness has shape (popsize,)."""
         count, size = self.population.shape
         numbers = generator(self.seed, self.generation)
         parents = self.population[best_first(fitness)[: self.config.selsize]]
 
-        # each child has a parent, or with `crossrate` each parameter from one of two parents
+        # each child has one parent, or with `crossrate` takes each parameter from one of two
+        # parents
         first, second = numbers.integers(len(parents), size=(2, count - 1))
         crossed = numbers.random(count - 1) < self.config.crossrate
         other = (numbers.random((count - 1, size)) < 0.5) & crossed[:, None]

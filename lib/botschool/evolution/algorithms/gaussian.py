@@ -1,5 +1,6 @@
-"""What CMA-ES, xNES and sNES share: candidates are drawn from a Gaussian distribution that moves
-and changes its shape, x = mean + sigma * y, and only their ranks count."""
+"""The common part of CMA-ES, xNES and sNES: they draw candidates from a Gaussian distribution that
+moves and changes its shape, x = mean + sigma * y, and use only the ranks of fitness.
+"""
 
 from __future__ import annotations
 
@@ -16,14 +17,14 @@ from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 LARGEST = 5000
-"""Parameters up to which a full matrix is adapted: with more it takes gigabytes and minutes."""
+"""Largest number of parameters with a full matrix; more would take gigabytes and minutes."""
 SIGMAS = (1e-30, 1e6)
-"""Within which every sigma stays, also when the fitness says nothing for long."""
+"""Limits of every sigma, even if fitness gives no direction for long."""
 
 
 @dataclass
 class GaussianConfig(RunConfig):
-    """What section [ALGO] has of all three."""
+    """The hyperparameters that all three have in section [ALGO]."""
 
     popsize: int = hyper(
         0, "candidates in a generation, 0 for 4 + 3 ln(parameters)", low=0, high=1000000
@@ -35,10 +36,12 @@ class Gaussian(Stateful):
     """ask() -> candidates around the mean; tell(their fitness) of a subclass adapts the rest."""
 
     sigma: float | np.ndarray
-    """Of the candidates, in all directions or, shape (parameters,), along each axis."""
+    """Standard deviation of the candidates: one number, or shape (parameters,), one
+    for each axis.
+    """
 
     def __init__(self, config: GaussianConfig, initial: Initial, seed: int) -> None:
-        """initial(index) gives a random genotype; the mean starts at number 0."""
+        """Start the mean at initial(0), a random genotype."""
         self.config = config
         self.seed = seed
         self.generation = 0
@@ -70,8 +73,9 @@ class Gaussian(Stateful):
         return self.mean + self.sigma * self.y, self.evaluation_seeds()
 
     def evaluation_seeds(self) -> np.ndarray:
-        """All candidates of a generation meet the same conditions, so that the better one
-        wins and not the luckier one."""
+        """Return the same seed for all candidates of a generation: all meet the same conditions, so
+        the better one wins, not the luckier one.
+        """
         return np.full(self.popsize, self.seed + self.generation, dtype=np.uint64)
 
     def average_parameter(self) -> float:
@@ -80,14 +84,14 @@ class Gaussian(Stateful):
 
 
 def best_first(fitness: np.ndarray) -> np.ndarray:
-    """Return indices from the best to the worst; of equals, the earlier first."""
+    """Return indices from the best to the worst; the earlier wins ties."""
     return np.argsort(-fitness, kind="stable")
 
 
 def utilities(count: int) -> np.ndarray:
-    """Of candidates from the best to the worst, in natural evolution strategies; their sum is 0.
+    """Return the utilities of natural evolution strategies, from the best candidate to the worst.
 
-    (Wierstra and others 2014, section 3.1)
+    Their sum is 0 (Wierstra and others 2014, section 3.1).
     """
     numbers = np.arange(1, count + 1)
     raised = np.maximum(0, log([count / 2 + 1])[0] - log(numbers))
@@ -95,7 +99,7 @@ def utilities(count: int) -> np.ndarray:
 
 
 def within_limits(sigma: float | np.ndarray) -> float | np.ndarray:
-    """sigma, or the nearest that SIGMAS allow."""
+    """Return sigma, limited to SIGMAS."""
     return np.clip(sigma, *SIGMAS)
 
 
@@ -103,6 +107,6 @@ def refuse_large(size: int, algorithm: str, remedy: str) -> None:
     """Raise BotschoolError for a network that is too large for a full matrix."""
     if size > LARGEST:
         raise BotschoolError(
-            f"{algorithm} adapts a matrix of {size} x {size} numbers for this network's {size} "
-            f"parameters, and {LARGEST} parameters are the most that it can: {remedy}."
+            f"{algorithm} adapts a matrix of {size} x {size} numbers for this network's "
+            f"{size} parameters, but can handle at most {LARGEST} parameters: {remedy}."
         )

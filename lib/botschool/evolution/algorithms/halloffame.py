@@ -1,10 +1,10 @@
-"""What archive, archivestar and maxsolvestar share: two sides with archives, which take turns.
+"""The common part of archive, archivestar and maxsolvestar: two sides with archives take turns.
 
-A side is one or more evolving centres and an archive of individuals that it has had, against which
-the other side evolves: a hall of fame (Rosin and Belew 1997, "New methods for competitive
-coevolution"). So whoever forgets how to beat a competitor of long ago will be reminded of it. The
-three algorithms of Nolfi and Pagliuca (2024), https://doi.org/10.3389/frobt.2024.1470886, differ
-in who enters an archive, who leaves it and who is drawn from it. See docs/specification.md,
+A side has one or more evolving centres and an archive of its earlier individuals. The other side
+evolves against this archive: a hall of fame (Rosin and Belew 1997, "New methods for competitive
+coevolution"). So a side that forgets how to beat an old competitor meets it again. The three
+algorithms of Nolfi and Pagliuca (2024), https://doi.org/10.3389/frobt.2024.1470886, differ in which
+individuals enter an archive, leave it and are drawn from it. See docs/specification.md,
 "Algorithms".
 """
 
@@ -65,22 +65,22 @@ class HallOfFameConfig:
 class HallOfFame(Stateful):
     """ask() -> candidates and opponents; tell(their fitness) -> one step of one side's centres.
 
-    advance(play) does both: a generation, in which the predators evolve if its number is even,
-    else the prey.
+    advance(play) does both. The predators evolve in even generations, the prey in odd ones.
     """
 
     evolves = ("generation", "centres", "m", "v", "saved", "champions", "fitness")
     known: tuple[str, ...] = ()
-    """Attributes of the same form as `archives`: what is known of each archived individual."""
+    """Attributes with the form of `archives` that hold data about each archived individual."""
 
     share = 0.0
     plays = 1
     sides = SIDES
 
     def __init__(self, config: Any, initial: Initial, seed: int, constant_sum: bool = True) -> None:
-        """initial(index) gives two random networks in a row: the index-th predator and prey.
+        """Start both sides; initial(index) returns two random networks, a predator and a prey.
 
-        The first `popsize` of each side are its centres, the next `ncompetitors` its archive.
+        The first `popsize` networks of each side are its centres, the next `ncompetitors` its
+        archive.
         """
         self.config = config
         self.seed = seed
@@ -90,7 +90,7 @@ class HallOfFame(Stateful):
         pairs = np.array([initial(i) for i in range(max(count + config.ncompetitors, saved))])
         networks = np.stack(np.split(pairs, 2, axis=1))
         self.centres = networks[:, :count].copy()
-        """Of predators, then prey: shape (2, popsize, parameters)."""
+        """Centres of predators, then prey: shape (2, popsize, parameters)."""
         self.m = np.zeros_like(self.centres)
         self.v = np.zeros_like(self.centres)
         self.archives: tuple[list, list] = ([], [])
@@ -98,22 +98,27 @@ class HallOfFame(Stateful):
         for archive, first in zip(self.archives, networks[:, count:], strict=True):
             archive.extend(first[: config.ncompetitors].astype(np.float32))
         self.saved = networks[:, :saved].copy()
-        """Of predators, then prey: shape (2, individuals, parameters). The centres after the side's
-        newest turn; then the best sample of each centre in that turn, the second best, and so on.
-        Before the first turn, centres and other random individuals."""
+        """Saved individuals of predators, then prey: shape (2, individuals, parameters).
+
+        First the centres after the side's newest turn; then the best sample of each centre in that
+        turn, the second best, and so on. Before the first turn: centres and other random
+        individuals.
+        """
         self.champions = networks[:, 0].copy()
         """The best sample of the newest turn of each side."""
         self.fitness = np.full((2, 2), np.nan)
-        """Of predators, then prey, in their newest turn: of the best sample, and the average."""
+        """Fitness of predators, then prey, in their newest turn: of the best sample, and the
+        average.
+        """
 
     @property
     def side(self) -> int:
-        """Who evolves in the next generation: predators, then prey, and so on by turns."""
+        """Return the side that evolves in the next generation: predators and prey take turns."""
         return self.generation % 2
 
     @property
     def turn(self) -> int:
-        """Number of that side's turn, from 1."""
+        """Return the number of that side's turn, from 1."""
         return self.generation // 2 + 1
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
@@ -125,17 +130,21 @@ class HallOfFame(Stateful):
         raise NotImplementedError
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Ends the turn: fitness of each candidate, in the order of ask(), against its opponents.
+        """End the turn with the fitness of each candidate against each of its opponents.
 
-        Shape (popsize, 2 * samplesize, ncompetitors), from the side's own point of view.
+        fitness: shape (popsize, 2 * samplesize, ncompetitors), in the order of ask(), from the
+        side's own point of view.
         """
         raise NotImplementedError
 
     def advance(self, play: Play) -> None:
-        """A generation. It changes nothing before its end: what `play` raises leaves no trace."""
+        """Run a generation. It changes nothing before its end: an exception of `play` leaves no
+        trace.
+        """
         candidates, opponents = self.ask()
         places, rivals = np.unique(opponents, return_inverse=True)
-        # both candidates of a perturbation meet an opponent side by side: its weights are read once
+        # both candidates of a perturbation meet an opponent in a row, so that its weights are read
+        # once
         ours, rivals = np.broadcast_arrays(
             np.arange(candidates.shape[0] * candidates.shape[1]).reshape(-1, 1, 2),
             rivals.reshape(-1, opponents.shape[2], 1),
@@ -148,7 +157,7 @@ class HallOfFame(Stateful):
             met = play(flat, theirs, pairs)
         else:
             met = play(theirs, flat, np.ascontiguousarray(pairs[::-1]))
-        if met.ndim == 2:  # both sides have a fitness of their own
+        if met.ndim == 2:  # each side has its own fitness
             met = met[self.side]
         elif self.side == PREY:
             met = 1 - met
@@ -192,11 +201,11 @@ class HallOfFame(Stateful):
         return dict(zip(SIDES, self.fitness[:, 1].tolist(), strict=True))
 
     def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray]:
-        """`saved`, who meet here for the files alone."""
+        """Return `saved`, whose meetings here serve only the files."""
         return self.saved, everyone(play, *self.saved)
 
     def remembered(self) -> None:
-        """No meeting can be repeated: the opponents that were drawn are not kept."""
+        """Return None: no meeting can be repeated, because drawn opponents are not kept."""
 
     def average_parameter(self) -> float:
         """Return the average absolute parameter of all centres."""
@@ -212,12 +221,12 @@ class HallOfFame(Stateful):
         return state
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """Raise ValueError where archives and what is known of them do not fit."""
+        """Restore the state. Raises ValueError if archives and the data about them do not fit."""
         super().restore(state)
         predators, prey = (list(state[f"archive_{side}"]) for side in SIDES)
         self.archives = predators, prey
         for name in self.known:
             saved = [state[f"archive_{side}_{name}"] for side in SIDES]
             if [len(each) for each in saved] != [len(archive) for archive in self.archives]:
-                raise ValueError("archives and what is known of them do not fit")
+                raise ValueError("archives and the data about their individuals do not fit")
             setattr(self, name, tuple(x.tolist() if x.ndim == 1 else list(x) for x in saved))

@@ -1,11 +1,11 @@
 """maxsolvestar, co-evolution against an archive without redundant members: "MaxSolve*" of Nolfi and
 Pagliuca (2024), "Global progress in competitive co-evolution",
 https://doi.org/10.3389/frobt.2024.1470886, after De Jong (2005), "The MaxSolve algorithm for
-coevolution". As in docs/specification.md, "Algorithms".
+coevolution". See docs/specification.md, "Algorithms".
 
-As archive, but the centre enters the archive after every turn, and a full archive drops members
-that teach nothing: those to which another one is at least as hard a test, in every phase of
-evolution.
+It differs from archive in two points. The centre enters the archive after every turn. A full
+archive drops redundant members: those for which another member is at least as hard a test in every
+phase of evolution.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 LOOKED_AT = 10
-"""Members of a full archive that are looked at in a turn."""
+"""Members of a full archive that a turn examines."""
 
 
 @dataclass
@@ -44,10 +44,10 @@ class MaxSolveStarConfig(HallOfFameConfig):
 
 @algorithm("maxsolvestar", "archive of what is hard", MaxSolveStarConfig, competitive=True)
 class MaxSolveStar(HallOfFame):
-    """One centre a side. Of each archived individual it is known how others did against it.
+    """One centre per side. For each archived individual it records how others did against it.
 
     `solved`, of predators and prey: for each archived individual an array (2, nphases) with the sum
-    of the fitness of those who met it in each phase of evolution, and how many they were.
+    of its opponents' fitness in each phase of evolution, and the number of opponents.
     """
 
     known = ("solved",)
@@ -55,7 +55,7 @@ class MaxSolveStar(HallOfFame):
     def __init__(
         self, config: MaxSolveStarConfig, initial: Initial, seed: int, constant_sum: bool = True
     ) -> None:
-        """As HallOfFame."""
+        """Start as HallOfFame does."""
         super().__init__(config, initial, seed, constant_sum)
         self.solved: tuple[list, list] = ([], [])
         for solved, archive in zip(self.solved, self.archives, strict=True):
@@ -63,7 +63,7 @@ class MaxSolveStar(HallOfFame):
 
     @property
     def phase(self) -> int:
-        """The present one of `nphases` equal parts of evolution, from 0."""
+        """Return the present phase, from 0; `nphases` equal phases divide the evolution."""
         return min(int(self.share * self.config.nphases), self.config.nphases - 1)
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
@@ -80,7 +80,7 @@ class MaxSolveStar(HallOfFame):
     def tell(self, fitness: np.ndarray) -> None:
         """Move the centre, which enters the archive; one member of a full archive may leave it."""
         side = self.side
-        met = np.repeat(self.opponents, 2, axis=1)  # by both candidates of a perturbation
+        met = np.repeat(self.opponents, 2, axis=1)  # both candidates of a perturbation met them
         for place, value in zip(met.ravel().tolist(), fitness.ravel().tolist(), strict=True):
             self.solved[1 - side][place][:, self.phase] += value, 1
 
@@ -92,7 +92,7 @@ class MaxSolveStar(HallOfFame):
         self.generation += 1
 
     def _drop(self, side: int) -> None:
-        """Look at some members at random, and drop the first one that is dominated."""
+        """Examine some random members and drop the first dominated one."""
         solved = np.array(self.solved[side])
         looked_at = self.numbers.permutation(len(solved))[:LOOKED_AT].tolist()
         for place in looked_at:
@@ -102,11 +102,11 @@ class MaxSolveStar(HallOfFame):
 
 
 def dominated(sums: np.ndarray, counts: np.ndarray, place: int) -> bool:
-    """Return whether another one is at least as hard to beat as the one at `place`, in every phase.
+    """Return whether another member is at least as hard to beat as `place` in every phase.
 
-    sums, counts: shape (archived, phases), fitness of those who met them, and how many they were.
-    What counts are the phases in which the one at `place` was met: the other one must have been met
-    in each of them, with a mean no higher. Who was never met is dominated by nobody.
+    sums, counts: shape (archived, phases), the fitness sum and number of each member's opponents.
+    Only phases in which `place` met opponents count: the other member must have met some in each of
+    them, with a mean no higher. No member dominates one that has met no opponent.
     """
     known = counts[place] > 0
     if not known.any():

@@ -1,9 +1,9 @@
 """(1+1)-ES with the 1/5 success rule: Rechenberg (1973), "Evolutionsstrategie"; the rule as in Kern
 and others (2004), "Learning probability distributions in continuous evolutionary algorithms",
-https://doi.org/10.1023/B:NACO.0000023416.59689.4e. As in docs/specification.md, "(1+1)-ES".
+https://doi.org/10.1023/B:NACO.0000023416.59689.4e. See docs/specification.md, "(1+1)-ES".
 
-One parent has one child a generation, and the better of the two stays. Mutations grow after a
-success and shrink after a failure, so that they are right when every fifth child wins.
+One parent has one child per generation, and the better of the two stays. Mutations grow after a
+success and shrink after a failure, so their size settles where one child in five wins.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class OnePlusOne(Stateful):
     evolves = ("generation", "parent", "sigma")
 
     def __init__(self, config: OnePlusOneConfig, initial: Initial, seed: int) -> None:
-        """initial(index) gives a random genotype; the parent starts as number 0."""
+        """Start with initial(0), a random genotype, as the parent."""
         self.config = config
         self.seed = seed
         self.generation = 0
@@ -45,7 +45,7 @@ class OnePlusOne(Stateful):
         self.sigma = config.sigma
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Parent and child, shape (2, parameters), and the seed of both evaluations.
+        """Return parent and child, shape (2, parameters), and the seed of both evaluations.
 
         The parent is measured again, so that a lucky one does not stay for ever.
         """
@@ -54,7 +54,7 @@ class OnePlusOne(Stateful):
         return self._both, np.full(2, self.seed + self.generation, dtype=np.uint64)
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Selection; fitness has shape (2,). A child that is as good as its parent stays."""
+        """Select the next parent; fitness has shape (2,). A child as good as its parent wins."""
         success = bool(fitness[1] >= fitness[0])
         self.parent = self._both[int(success)]
         change = self.config.growth if success else -self.config.growth / 4

@@ -1,9 +1,8 @@
 """OpenAI-ES: Salimans, Ho, Chen, Sidor and Sutskever (2017), "Evolution strategies as a scalable
-alternative to reinforcement learning", as in
-docs/specification.md, "Algorithms".
+alternative to reinforcement learning". See docs/specification.md, "Algorithms".
 
 The population is a cloud around one centre. Each generation measures candidates on both sides of
-the centre along random directions, estimates from their ranks in which direction fitness rises,
+the centre along random directions, estimates from their ranks the direction in which fitness rises,
 and moves the centre a step that way with Adam (Kingma and Ba 2015).
 """
 
@@ -30,12 +29,12 @@ DECAY = 0.005
 
 @cache
 def ranks(count: int) -> np.ndarray:
-    """Return the utilities of `count` candidates, the worst first; not to be changed."""
+    """Return the utilities of `count` candidates, the worst first. Do not change the array."""
     return np.linspace(-0.5, 0.5, count)
 
 
 def gradient(fitness: np.ndarray, samples: np.ndarray) -> np.ndarray:
-    """In which direction fitness rises, estimated from ranks; shape (parameters,).
+    """Return the direction in which fitness rises, estimated from ranks; shape (parameters,).
 
     samples: directions, shape (samplesize, parameters); fitness: that of the two candidates of
     each, centre + s e and centre - s e, shape (2 * samplesize,).
@@ -44,17 +43,17 @@ def gradient(fitness: np.ndarray, samples: np.ndarray) -> np.ndarray:
     utilities = np.empty(len(fitness))
     utilities[fitness.argsort(kind="stable")] = ranks(len(fitness))
 
-    # directions weighted by how much better + is than -
+    # weight each direction by how much its + candidate is better than its - candidate
     weights = utilities[0::2] - utilities[1::2]
-    # summed row by row, so that no BLAS can change the last bits
+    # sum row by row, so that no BLAS can change the last bits
     return np.add.reduce(weights[:, None] * samples, axis=0) / len(fitness)
 
 
 def adam(
     m: np.ndarray, v: np.ndarray, gradient: np.ndarray, centre: np.ndarray, wdecay: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Adam's next first and second moment, m and v, before any bias correction."""
-    # Adam climbs, so it descends on the negative gradient
+    """Return Adam's next first and second moments, m and v, before any bias correction."""
+    # Adam descends, so climbing takes the negative gradient
     descent = -gradient
     if wdecay == 1:
         descent += DECAY * centre
@@ -101,7 +100,7 @@ class AroundCentre(Stateful):
     evolves: tuple[str, ...] = ("generation", "centre")
 
     def __init__(self, config: Any, initial: Initial, seed: int) -> None:
-        """initial(index) gives a random genotype; the centre starts at number 0."""
+        """Start the centre at initial(0), a random genotype."""
         self.config = config
         self.seed = seed
         self.generation = 0

@@ -1,7 +1,7 @@
-"""A strategy of one's own: `algo = module:name` under [EXP] (docs/experiments.md).
+"""Run a user's own strategy: `algo = module:name` under [EXP] (docs/experiments.md).
 
 The name is a function evolve(evaluate, centre, generations, seed, ...), which runs in a thread and
-waits there while the tool evaluates, or a class with `ask` and `tell`.
+waits there during evaluations, or a class with `ask` and `tell`.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ from botschool.policies.hyperparameters import hyper
 from botschool.wrappers import keywords
 
 GENERATIONS = 1_000_000
-"""What `generations` is told: the run's budget ends it before."""
+"""Value of the argument `generations`: the run's budget ends the function earlier."""
 POPSIZE = 20
-"""Rows of `population`, unless the options say popsize."""
+"""Rows of `population`, unless the options set popsize."""
 
 
 @dataclass
 class OwnConfig(RunConfig):
-    """Section [ALGO] of a strategy of one's own."""
+    """Section [ALGO] of a user's own strategy."""
 
     options: str = hyper(
         "",
@@ -51,13 +51,13 @@ class OwnConfig(RunConfig):
 
 
 class _Left(BaseException):
-    """Ends the thread of a function whose run is over."""
+    """Raised to end the thread of a function whose run is over."""
 
 
 class Asked:
-    """A function that calls evaluate(candidates, seed), turned inside out: `ask` and `tell`.
+    """Turns a function that calls evaluate(candidates, seed) into `ask` and `tell`.
 
-    It runs in a thread of its own, which waits whenever the caller computes: the two take turns.
+    The function runs in a thread of its own and waits whenever the caller computes.
     """
 
     def __init__(self, function: Callable[..., Any], **arguments: Any) -> None:
@@ -101,10 +101,11 @@ def _turns(function: Callable, arguments: dict, asked: SimpleQueue, told: Simple
 
 
 class Own(Stateful):
-    """Runs a strategy of one's own as the tool's algorithms are run.
+    """Runs a user's own strategy like a built-in algorithm.
 
-    A checkpoint holds the fitness that it was told. A resumed run tells it again, from the start,
-    so the strategy need not save anything; it must draw all random numbers from its seed.
+    A checkpoint holds the fitness values that the strategy was told. A resumed run tells them
+    again, from the start, so the strategy need not save anything; it must draw all random numbers
+    from its seed.
     """
 
     evolves = ("generation", "told", "seen")
@@ -112,7 +113,7 @@ class Own(Stateful):
     def __init__(
         self, name: str, config: Any, initial: Initial, seed: int, found: Callable | None = None
     ) -> None:
-        """found: the function or class, if it is not to be imported by its name."""
+        """Start the strategy; found: the function or class, if it is not imported by its name."""
         self.name, self.seed = name, seed
         self._found = found or _find(name)
         self._arguments = self._given(keywords(config.options), initial)
@@ -123,9 +124,9 @@ class Own(Stateful):
         self.generation = 0
         self._history = np.zeros(1024)
         self.told = self._history[:0]
-        """All fitness so far, one candidate after another."""
+        """All fitness values so far, one candidate after another."""
         self.seen = 0.0
-        """The sum of the average absolute parameters of all generations."""
+        """Sum of the average absolute parameters of all generations."""
         self._strategy: Any = None
         self._candidates: np.ndarray | None = None
         self._next_seed = self.seed

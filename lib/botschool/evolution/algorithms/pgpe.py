@@ -1,5 +1,5 @@
 """PGPE, parameter-exploring policy gradients: Sehnke, Osendorfer, Rueckstiess, Graves, Peters and
-Schmidhuber (2010), https://doi.org/10.1016/j.neunet.2009.12.004, with symmetric samples. As in
+Schmidhuber (2010), https://doi.org/10.1016/j.neunet.2009.12.004, with symmetric samples. See
 docs/specification.md, "PGPE".
 
 A policy's parameters are drawn from a Gaussian distribution with a mean and a standard deviation
@@ -21,7 +21,7 @@ from botschool.policies.hyperparameters import hyper
 from botschool.seeds import generator
 
 MOST = 0.2
-"""By how much of itself a deviation changes in a generation at most."""
+"""Largest relative change of a deviation in a generation."""
 
 
 @dataclass
@@ -43,7 +43,7 @@ class PGPE(Stateful):
     evolves = ("generation", "mean", "sigma")
 
     def __init__(self, config: PGPEConfig, initial: Initial, seed: int) -> None:
-        """initial(index) gives a random genotype; the mean starts at number 0."""
+        """Start the mean at initial(0), a random genotype."""
         self.config = config
         self.seed = seed
         self.generation = 0

@@ -1,4 +1,4 @@
-"""Predators and prey: what all algorithms with two sides share."""
+"""The common part of all algorithms with two sides, predators and prey."""
 
 from __future__ import annotations
 
@@ -24,22 +24,22 @@ def seen_by(side: int, fitness: np.ndarray) -> np.ndarray:
 
 
 def unknown(count: int, constant_sum: bool) -> np.ndarray:
-    """Return what `everyone` gives, before so many of each side have met: nan."""
+    """Return the result of `everyone` before any meeting: nan."""
     return np.full((count, count) if constant_sum else (2, count, count), np.nan)
 
 
 BAND = 4
-"""Side by side an evaluation has 16 episodes: those of four predators against four prey, where each
-network's weights are read once for four of them (lib/evonet/rows.hpp)."""
+"""Predators in a band. An evaluation runs 16 episodes in parallel: four predators against four
+prey, so that each network's weights are read once for four episodes (lib/evonet/rows.hpp).
+"""
 
 
 def everyone(
     play: Play, predators: np.ndarray, prey: np.ndarray, seed: int | None = None
 ) -> np.ndarray:
-    """Return the fitness of every predator (rows) against every prey (columns), as `seen_by` takes
-    it.
+    """Return the fitness of every predator (rows) against every prey (columns), as for `seen_by`.
 
-    They meet in bands of a few predators: all of a band the first prey, then the next.
+    They meet in bands of a few predators: all of a band meet the first prey, then the next.
     """
     shape = len(predators), len(prey)
     row, column = np.indices(shape, dtype=np.int32).reshape(2, -1)
@@ -61,5 +61,5 @@ def means(fitness: np.ndarray) -> np.ndarray:
 
 
 def ranking(fitness: np.ndarray) -> np.ndarray:
-    """Return rows from the best mean to the worst; of equals, the earlier row first."""
+    """Return rows from the best mean to the worst; the earlier row wins ties."""
     return np.argsort(-means(fitness), kind="stable")

@@ -1,9 +1,9 @@
 """sNES, separable natural evolution strategy: Schaul, Glasmachers and Schmidhuber (2011), "High
 dimensions and heavy tails for natural evolution strategies", as in Wierstra, Schaul, Glasmachers,
-Sun, Peters and Schmidhuber (2014), algorithm 6, and docs/specification.md, "sNES".
+Sun, Peters and Schmidhuber (2014), algorithm 6. See docs/specification.md, "sNES".
 
-Candidates have a standard deviation of their own along each axis. Mean and deviations follow the
-natural gradient of the expected utility.
+Each parameter has its own standard deviation. Mean and deviations follow the natural gradient of
+the expected utility.
 """
 
 from __future__ import annotations
@@ -53,14 +53,14 @@ class SNES(Gaussian):
         self.utilities = utilities(self.popsize)
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """As Gaussian.ask."""
+        """Return the same as Gaussian.ask, and keep the drawn numbers."""
         numbers = generator(self.seed, self.generation)
         z, candidates = draw(numbers, self.mean[None], self.popsize, self.sigma, both=False)
         self.z = z[0]
         return candidates, self.evaluation_seeds()
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Adapts mean and deviations; fitness has shape (popsize,), in the order of ask()."""
+        """Adapt mean and deviations; fitness has shape (popsize,), in the order of ask()."""
         z = self.z[best_first(fitness)]
         gradient_mean = weighted(self.utilities, z)
         gradient_sigma = weighted(self.utilities, z * z - 1)

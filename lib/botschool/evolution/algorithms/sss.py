@@ -1,8 +1,8 @@
-"""SSS, the stochastic steady state: Pagliuca, Milano and Nolfi (2018), as in
-docs/specification.md, "Algorithms".
+"""SSS, the stochastic steady state: Pagliuca, Milano and Nolfi (2018). See docs/specification.md,
+"Algorithms".
 
-Each generation measures every individual, keeps the better half, and overwrites the worse half
-with mutated copies of the better one.
+Each generation measures every individual, keeps the better half, and overwrites the worse half with
+mutated copies of the better one.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class SSS(Stateful):
     evolves = ("generation", "population")
 
     def __init__(self, config: SSSConfig, initial: Initial, seed: int) -> None:
-        """initial(index) gives a random genotype; the population starts with numbers 0, 1, ..."""
+        """Start the population with random genotypes: initial(index) for index 0, 1, ..."""
         self.config = config
         self.seed = seed
         self.generation = 0
@@ -54,14 +54,14 @@ class SSS(Stateful):
         """Return the population, shape (popsize, parameters), and the seed of each one's
         evaluation.
 
-        All individuals of a generation meet the same conditions, so that the better one wins and
-        not the luckier one.
+        All individuals of a generation meet the same conditions, so the better one wins, not the
+        luckier one.
         """
         seeds = np.full(len(self.population), self.seed + self.generation, dtype=np.uint64)
         return self.population, seeds
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Selection and mutation; fitness has shape (popsize,)."""
+        """Select and mutate; fitness has shape (popsize,)."""
         # rank the individuals, the best first
         ranking = np.argsort(-fitness, kind="stable")
         half = len(ranking) // 2

@@ -1,10 +1,10 @@
 """xNES, exponential natural evolution strategy: Glasmachers, Schaul, Sun, Wierstra and Schmidhuber
-(2010), as in Wierstra, Schaul, Glasmachers, Sun, Peters and Schmidhuber (2014), algorithm 5, and
+(2010), as in Wierstra, Schaul, Glasmachers, Sun, Peters and Schmidhuber (2014), algorithm 5. See
 docs/specification.md, "xNES".
 
-Candidates are x = mean + sigma B z with z of the standard normal distribution and det B = 1. Mean,
-sigma and B follow the natural gradient of the expected utility; B is multiplied by a matrix
-exponential, so it stays invertible.
+Candidates are x = mean + sigma B z, where z is standard normal and det B = 1. Mean, sigma and B
+follow the natural gradient of the expected utility. B is multiplied by a matrix exponential, so it
+stays invertible.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from botschool.linear import exp, log, product, weighted
 from botschool.policies.hyperparameters import hyper
 
 TERMS = 18
-"""Of the series of an exponential whose argument is at most 1: the next is below rounding."""
+"""Terms in the series of an exponential whose argument is at most 1; the next is below rounding."""
 
 
 @dataclass
@@ -41,16 +41,16 @@ class XNESConfig(GaussianConfig):
 
 
 def exponential(z: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """M such that exp(Z' W Z) = 1 + Z' M Z, where W has the weights on its diagonal.
+    """Return M such that exp(Z' W Z) = 1 + Z' M Z, where W has the weights on its diagonal.
 
     z: (popsize, parameters); M: (popsize, popsize). Exponentiating a matrix of the parameters would
     take popsize times as long, or more. The series sum_k (Z' W Z)^k / k! has Z' at the left and Z
-    at the right of every term but the first; it is summed for a 2^h-th of the matrix, and
-    exp(2 A) = exp(A)^2 then gives M <- 2 M + M (Z Z') M.
+    at the right of every term but the first. It is summed for the matrix divided by 2^h, and exp(2
+    A) = exp(A)^2 then gives M <- 2 M + M (Z Z') M.
     """
     gram = product(z, z.T)
     inner = gram * weights
-    largest = float(np.abs(inner).sum(axis=1).max())  # no eigenvalue is above
+    largest = float(np.abs(inner).sum(axis=1).max())  # no eigenvalue is larger
     halvings = max(0, math.frexp(largest)[1])
     inner = inner * 0.5**halvings
     term = np.eye(len(z))
@@ -81,19 +81,19 @@ class XNES(Gaussian):
         self.utilities = utilities(self.popsize)
 
     def shaped(self, z: np.ndarray) -> np.ndarray:
-        """B z for every row of z."""
+        """Return B z for every row of z."""
         return product(z, self.shape.T)
 
     def tell(self, fitness: np.ndarray) -> None:
-        """Adapts mean, sigma and B; fitness has shape (popsize,), in the order of ask()."""
+        """Adapt mean, sigma and B; fitness has shape (popsize,), in the order of ask()."""
         order, u, eta = best_first(fitness), self.utilities, self.etasigma
         z, y = self.z[order], self.y[order]
 
         # B times the gradient of the mean, sum_k u_k z_k
         self.mean = self.mean + self.config.etamu * self.sigma * weighted(u, y)
 
-        # the gradient of the shape, G = sum_k u_k (z_k z_k' - 1), is split into its trace, for
-        # sigma, and a rest whose trace is 0, for B
+        # the gradient of the shape, G = sum_k u_k (z_k z_k' - 1), is the sum of its trace part,
+        # which moves sigma, and a rest without trace, which moves B
         trace = math.fsum(u * (np.add.reduce(z * z, axis=1) - self.size)) / self.size
         self.sigma = float(within_limits(self.sigma * exp([eta / 2 * trace])[0]))
         m = exponential(z, eta / 2 * u)
