@@ -71,10 +71,10 @@ def write_header(text, path):
 def refused_files():
     good = stat_of(5).ravel()
     backwards = stat_of(5)[::-1].ravel()
-    yield "words", "no stat file", lambda path: path.write_text("good morning")
-    yield "empty", "no stat file", lambda path: path.write_bytes(b"")
-    yield "pickle", "no stat file", lambda path: path.write_bytes(pickle.dumps(Bomb()))
-    yield "objects", "no stat file", lambda path: np.save(path, np.array([Bomb()], dtype=object))
+    yield "words", "not a stat file", lambda path: path.write_text("good morning")
+    yield "empty", "not a stat file", lambda path: path.write_bytes(b"")
+    yield "pickle", "not a stat file", lambda path: path.write_bytes(pickle.dumps(Bomb()))
+    yield "objects", "not a stat file", lambda path: np.save(path, np.array([Bomb()], dtype=object))
     yield "length", "6 for each generation", lambda path: np.save(path, good[:-1])
     yield "nothing", "no generation", lambda path: np.save(path, good[:0])
     yield "genotype", "steps", lambda path: np.save(path, backwards)
@@ -126,7 +126,7 @@ def test_a_fit_file_is_pairs(tmp_path):
 def test_what_is_no_fit_file_is_refused(tmp_path, content):
     path = tmp_path / "S1.fit"
     path.write_bytes(content)
-    with pytest.raises(BotschoolError, match=r"S1\.fit is no \.fit file"):
+    with pytest.raises(BotschoolError, match=r"S1\.fit is not a \.fit file"):
         read_fit(path)
 
 
@@ -235,7 +235,7 @@ def test_curves_of_any_length_are_drawn(tmp_path, drawn, generations, last):
 
 def test_a_damaged_file_is_an_error_if_it_was_named(tmp_path):
     (tmp_path / "statS1.npy").write_bytes(b"junk")
-    with pytest.raises(BotschoolError, match="no stat file"):
+    with pytest.raises(BotschoolError, match="not a stat file"):
         plots.plot_stat([tmp_path / "statS1.npy"], tmp_path / "a.png")
 
 

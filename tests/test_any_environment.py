@@ -164,7 +164,7 @@ def test_mujoco_is_filmed_without_a_display(tmp_path):
 def test_mujoco_that_cannot_draw_says_what_to_install(monkeypatch):
     monkeypatch.delenv("MUJOCO_GL", raising=False)
     monkeypatch.setattr(making, "DRAWING", (("egl", "libnothing.so"),))
-    with pytest.raises(BotschoolError, match=r"Hopper-v5 is drawn by MuJoCo.*libegl1"):
+    with pytest.raises(BotschoolError, match=r"MuJoCo draws Hopper-v5.*libegl1"):
         making.make_env("Hopper-v5", render_mode="rgb_array")
     making.make_env("CartPole-v1", render_mode="rgb_array").close()
 

@@ -253,7 +253,10 @@ def test_populations_are_shown_and_measured(whole, command, tmp_path):
     base = ("es", "-f", own, "-s", 3, "-o", whole, "-p", "-g")
     code, out, _ = command(*base, "p-4-3")
     assert code == 0
-    assert "one population: its predators are those who are follower, its prey leader" in out
+    assert (
+        "one population: its predators are its individuals as follower, its prey those as leader"
+        in out
+    )
     means = [line for line in out.splitlines() if line.startswith("mean fitness of the ")]
     assert len(means) == 2 and means[0].split(":")[1] == means[1].split(":")[1]
     page = tmp_path / "replay.html"

@@ -221,7 +221,7 @@ def test_the_opponent_is_the_one_that_was_evolved(name, tmp_path):
 def test_opponents_that_cannot_be(tmp_path):
     path = tmp_path / "bad.npy"
     path.write_text("no genotype")
-    refused(lambda: env_of("Prey", opponent=path), "no genotype")
+    refused(lambda: env_of("Prey", opponent=path), "not a genotype")
     refused(lambda: env_of("Prey", opponent=tmp_path / "none.npy"), "none.npy")
     refused(lambda: env_of("Prey", opponent=np.zeros(7)), "shape (7,)")
     refused(lambda: env_of("Prey", opponent=np.full(10954, np.nan)), "")

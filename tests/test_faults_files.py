@@ -48,7 +48,7 @@ def test_files_that_are_no_genotypes(refused, tmp_path):
     assert other["huge.npy"] != whole != other["shape.npy"]
     for name, data in other.items():
         (tmp_path / name).write_bytes(data)
-        refused("es", "-f", ini, "-p", "-g", tmp_path / name, says=["no genotype", name])
+        refused("es", "-f", ini, "-p", "-g", tmp_path / name, says=["not a genotype", name])
     for path in (results / "checkpointS1.npz", results / "S1.fit", results):
         refused("es", "-f", ini, "-p", "-g", path, says="genotype")
     refused("es", "-f", ini, "-g", tmp_path / "bestgS2.npy", says=["bestgS2.npy", "bestgS11.npy"])
@@ -66,7 +66,7 @@ def test_pickles_are_never_opened(refused, tmp_path):
     np.save(tmp_path / "trap.npy", np.array([Trap()], dtype=object), allow_pickle=True)
     (tmp_path / "bare.npy").write_bytes(pickle.dumps(Trap()))
     for name in ("trap.npy", "bare.npy"):
-        refused("es", "-f", ini, "-p", "-g", tmp_path / name, says=["no genotype"])
+        refused("es", "-f", ini, "-p", "-g", tmp_path / name, says=["not a genotype"])
     whole = dict(np.load(results / "checkpointS1.npz"))
     for name in ("botschool", "algorithm.population", "more"):
         trapped = whole | {name: np.array([Trap()], dtype=object)}

@@ -60,7 +60,7 @@ def damage():
     yield "as many predators as prey", lambda path: np.save(path, np.zeros((5, 50)))
     yield "have 50", lambda path: np.save(path, np.zeros((6, 49)))
     yield "cannot be read", lambda path: (path.unlink(), path.mkdir())
-    yield "not of one run", lambda path: np.save(path.parent / "S12FitG10.npy", np.zeros((4, 2)))
+    yield "not from one run", lambda path: np.save(path.parent / "S12FitG10.npy", np.zeros((4, 2)))
     yield "no fitness", lambda path: (path.parent / "S12FitG10.npy").write_bytes(b"")
 
 

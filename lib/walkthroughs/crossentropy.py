@@ -34,7 +34,7 @@ from botschool.problems.gym import make_env
 # 1. Hyperparameters ---------------------------------------------------------------------------
 @dataclass
 class Hyperparameters:
-    """Those of CartPole."""
+    """Hyperparameters; the defaults are those of CartPole."""
 
     env: str = hyper("CartPole-v1", "Gymnasium id, or CartPoleMotor")
     seed: int = hyper(1, "decides every random number", low=0)
@@ -50,7 +50,7 @@ class Hyperparameters:
 
 # 2. Problems ----------------------------------------------------------------------------------
 def make(name: str) -> gymnasium.Env:
-    """An environment by its Gymnasium id, or CartPoleMotor: CartPole with a Box action."""
+    """Return an environment by its Gymnasium id, or CartPoleMotor: CartPole with a Box action."""
     if name != "CartPoleMotor":
         return make_env(name)
     motor = spaces.Box(-1.0, 1.0, (1,), np.float32)
@@ -60,7 +60,7 @@ def make(name: str) -> gymnasium.Env:
 
 
 def check_spaces(name: str, env: gymnasium.Env) -> None:
-    """Raises BotschoolError if the policies below do not suit the environment."""
+    """Raise BotschoolError if the policies below do not suit the environment."""
     observed, acted = env.observation_space, env.action_space
     suits = isinstance(observed, spaces.Box) and isinstance(acted, (spaces.Box, spaces.Discrete))
     if not suits or len(observed.shape) != 1 or len(acted.shape) > 1:
@@ -72,7 +72,7 @@ def check_spaces(name: str, env: gymnasium.Env) -> None:
 
 # 3. The policy --------------------------------------------------------------------------------
 class Policy(nn.Module):
-    """A network whose outputs say how probable each action is."""
+    """A network whose outputs determine the probability of each action."""
 
     def __init__(self, env: gymnasium.Env, nhiddens: int) -> None:
         super().__init__()
@@ -85,7 +85,7 @@ class Policy(nn.Module):
         self.log_std = None if self.discrete else nn.Parameter(torch.zeros(outputs))
 
     def forward(self, observations: torch.Tensor) -> Distribution:
-        """The distribution of the action for each observation, shape (..., inputs)."""
+        """Return the distribution of the action for each observation, shape (..., inputs)."""
         outputs = self.network(observations)
         if self.discrete:
             return Categorical(logits=outputs)
@@ -95,7 +95,7 @@ class Policy(nn.Module):
 # 4. Episodes ----------------------------------------------------------------------------------
 @dataclass
 class Episode:
-    """One episode as it was played."""
+    """One episode that was played."""
 
     observations: list[np.ndarray] = field(default_factory=list)
     actions: list[np.ndarray] = field(default_factory=list)
@@ -105,7 +105,9 @@ class Episode:
 
 @torch.no_grad()
 def play(policy: Policy, envs: list[gymnasium.Env], maxsteps: int, explore=True) -> list[Episode]:
-    """One episode in each environment, side by side; without exploring, the likeliest actions."""
+    """Play one episode in each environment, in parallel; without exploring, take the likeliest
+    actions.
+    """
     episodes = [Episode() for _ in envs]
     observations = [env.reset()[0] for env in envs]
     alive = list(range(len(envs)))
@@ -127,7 +129,7 @@ def play(policy: Policy, envs: list[gymnasium.Env], maxsteps: int, explore=True)
 
 
 def fitted(action: np.ndarray, space):
-    """An action that the environment takes: a Gaussian may ask for more than the motor can do."""
+    """Return an action that the environment accepts: a Gaussian may exceed the motor's force."""
     if isinstance(space, spaces.Discrete):
         return int(space.start + action)
     return np.clip(action, space.low, space.high)
@@ -135,14 +137,16 @@ def fitted(action: np.ndarray, space):
 
 # 5. The filter --------------------------------------------------------------------------------
 def keep_best(episodes: list[Episode], percentile: float) -> tuple[list[Episode], float]:
-    """The episodes whose return reaches the percentile of all returns, and that threshold."""
+    """Return the episodes whose return reaches the percentile of all returns,
+    and that threshold.
+    """
     threshold = float(np.percentile([episode.reward for episode in episodes], percentile))
     return [episode for episode in episodes if episode.reward >= threshold], threshold
 
 
 # 6. Learning ----------------------------------------------------------------------------------
 def learn(policy: Policy, optimiser, kept: list[Episode], epochs: int) -> float:
-    """Makes the actions of these episodes more probable; returns the last loss.
+    """Make the actions of these episodes more probable; return the last loss.
 
     The loss is minus the mean logarithm of their probability: the cross-entropy.
     """
@@ -159,7 +163,9 @@ def learn(policy: Policy, optimiser, kept: list[Episode], epochs: int) -> float:
 def train(
     h: Hyperparameters, report=lambda text: None
 ) -> tuple[Policy, list[list[float]], list[float]]:
-    """A trained policy, and of each iteration the returns of all episodes and the threshold."""
+    """Return a trained policy; and for each iteration the returns of all episodes and the
+    threshold.
+    """
     torch.manual_seed(h.seed)
     envs = [make(h.env) for _ in range(h.episodes)]
     check_spaces(h.env, envs[0])
@@ -189,7 +195,9 @@ def train(
 
 # 7. The picture -------------------------------------------------------------------------------
 def draw(file: Path, returns: list[list[float]], thresholds: list[float], title: str) -> None:
-    """Every episode of every iteration: kept or thrown away, and the threshold between them."""
+    """Draw every episode of every iteration, kept or thrown away, and the
+    threshold between them.
+    """
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(8, 5), layout="constrained")
@@ -218,7 +226,7 @@ def draw(file: Path, returns: list[list[float]], thresholds: list[float], title:
 
 def main() -> None:
     h = read_hyperparameters(Hyperparameters, __doc__)
-    torch.set_num_threads(1)  # this network is too small to share out
+    torch.set_num_threads(1)  # this network is too small for more threads
     policy, returns, thresholds = train(h, print)
     envs = [make(h.env) for _ in range(20)]
     for i, env in enumerate(envs):

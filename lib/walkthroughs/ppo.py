@@ -40,7 +40,7 @@ from botschool.problems.gym import make_env
 # 1. Hyperparameters ---------------------------------------------------------------------------
 @dataclass
 class Hyperparameters:
-    """Those of CartPole; the text above has those of Pendulum."""
+    """Hyperparameters; the defaults are those of CartPole, the text above has those of Pendulum."""
 
     env: str = hyper("CartPole-v1", "Gymnasium id, with Discrete or Box actions")
     seed: int = hyper(1, "decides every random number", low=0)
@@ -65,21 +65,21 @@ class Hyperparameters:
 
 # 2. The networks ------------------------------------------------------------------------------
 class Agent(nn.Module):
-    """A policy and a critic that share nothing but the observation."""
+    """A policy and a critic that share only the observation."""
 
     def __init__(self, observation_space: spaces.Box, action_space, nhiddens: int) -> None:
         super().__init__()
         self.discrete = isinstance(action_space, spaces.Discrete)
         inputs = observation_space.shape[0]
         outputs = int(action_space.n) if self.discrete else action_space.shape[0]
-        # A policy that begins with tiny outputs begins without prejudice.
+        # A policy whose outputs are tiny at first prefers no action.
         self.actor = layers(inputs, nhiddens, outputs, last_gain=0.01)
         self.critic = layers(inputs, nhiddens, 1, last_gain=1.0)
         if not self.discrete:
             self.log_std = nn.Parameter(torch.zeros(outputs))
 
     def policy(self, observations: torch.Tensor) -> torch.distributions.Distribution:
-        """The distribution of the action for each observation, shape (..., inputs)."""
+        """Return the distribution of the action for each observation, shape (..., inputs)."""
         outputs = self.actor(observations)
         if self.discrete:
             return Categorical(logits=outputs, validate_args=False)
@@ -87,12 +87,12 @@ class Agent(nn.Module):
         return Independent(gaussian, 1, validate_args=False)
 
     def value(self, observations: torch.Tensor) -> torch.Tensor:
-        """The predicted discounted return that follows, shape (...,)."""
+        """Return the predicted discounted return, shape (...,)."""
         return self.critic(observations).squeeze(-1)
 
 
 def layers(inputs: int, nhiddens: int, outputs: int, last_gain: float) -> nn.Sequential:
-    """Two tanh layers and a linear one; orthogonal weights, biases 0."""
+    """Return two tanh layers and a linear one; orthogonal weights, biases 0."""
     linear = [
         nn.Linear(*s) for s in ((inputs, nhiddens), (nhiddens, nhiddens), (nhiddens, outputs))
     ]
@@ -105,21 +105,21 @@ def layers(inputs: int, nhiddens: int, outputs: int, last_gain: float) -> nn.Seq
 # 3. Experience --------------------------------------------------------------------------------
 @dataclass
 class Rollout:
-    """What n_envs environments experienced in n_steps steps; arrays of shape (n_steps, n_envs)."""
+    """The experience of n_envs environments in n_steps steps; arrays of shape (n_steps, n_envs)."""
 
     observations: torch.Tensor
     """(n_steps, n_envs, inputs)."""
     actions: torch.Tensor
     """(n_steps, n_envs), or (n_steps, n_envs, outputs) of a Box."""
     log_probs: torch.Tensor
-    """Logarithm of the probability (density) that the policy gave to the action."""
+    """Logarithm of the probability (density) with which the policy chose the action."""
     values: torch.Tensor
     """The critic's prediction for the observation."""
     rewards: torch.Tensor
     ended: torch.Tensor
     """1 where the episode ended with this step, else 0."""
     last_values: torch.Tensor
-    """(n_envs,): the prediction for the observation after the last step."""
+    """(n_envs,): the critic's predictions for the observations after the last step."""
 
 
 class Experience:
@@ -127,8 +127,8 @@ class Experience:
 
     def __init__(self, h: Hyperparameters) -> None:
         self.h = h
-        # SAME_STEP: after an episode's last step the environment is reset at once. What comes
-        # back is the first observation of the next episode; the last one is in "final_obs".
+        # SAME_STEP: after an episode's last step the environment is reset at once. It returns the
+        # first observation of the next episode; the last one is in "final_obs".
         self.envs = SyncVectorEnv(
             [lambda: make_env(h.env)] * h.n_envs, autoreset_mode=AutoresetMode.SAME_STEP
         )
@@ -142,7 +142,7 @@ class Experience:
 
     @torch.no_grad()
     def collect(self, agent: Agent) -> Rollout:
-        """The next n_steps steps."""
+        """Play and return the next n_steps steps."""
         moments = []
         for _ in range(self.h.n_steps):
             observations = tensor(self.observations)
@@ -155,7 +155,7 @@ class Experience:
             self._count(rewards, ended)
             rewards = tensor(rewards)
             for i in np.flatnonzero(truncated & ~terminated):
-                # Time ran out, but the task went on: the critic says what would have followed.
+                # Time ran out, but the task continued: add the critic's prediction of the rest.
                 rewards[i] += self.h.gamma * agent.value(tensor(info["final_obs"][i]))
             moments.append(
                 (observations, actions, policy.log_prob(actions), agent.value(observations),
@@ -178,14 +178,14 @@ def tensor(array: np.ndarray) -> torch.Tensor:
 
 
 def fitted(actions: np.ndarray, space) -> np.ndarray:
-    """Actions that the environment takes: a Gaussian may ask for more than the motor can do."""
+    """Return actions that the environment accepts: a Gaussian may exceed the motor's force."""
     if isinstance(space, spaces.Discrete):
         return space.start + actions
     return np.clip(actions, space.low, space.high)
 
 
 def check_spaces(env: str, observation_space, action_space) -> None:
-    """Raises BotschoolError if the networks above do not suit these spaces."""
+    """Raise BotschoolError if the networks above do not suit these spaces."""
     for what, space, kinds in (
         ("observations", observation_space, spaces.Box),
         ("actions", action_space, (spaces.Box, spaces.Discrete)),
@@ -199,11 +199,11 @@ def check_spaces(env: str, observation_space, action_space) -> None:
 
 # 4. Advantages --------------------------------------------------------------------------------
 def advantages_of(rollout: Rollout, gamma: float, gae_lambda: float) -> torch.Tensor:
-    """Generalised advantage estimation: how much better than predicted each step went.
+    """Return how much better than predicted each step went: generalised advantage estimation.
 
     delta_t = r_t + gamma V_{t+1} - V_t  is the surprise of a step, and
-    A_t = delta_t + gamma lambda A_{t+1}  adds up the later ones, each weighing less. Where the
-    episode ended nothing follows: V_{t+1} and A_{t+1} are 0. Shape (n_steps, n_envs).
+    A_t = delta_t + gamma lambda A_{t+1}  adds the later ones, each with less weight. After the end
+    of an episode nothing follows: V_{t+1} and A_{t+1} are 0. Shape (n_steps, n_envs).
     """
     advantages = torch.zeros_like(rollout.rewards)
     following_value, following = rollout.last_values, torch.zeros_like(rollout.last_values)
@@ -218,7 +218,7 @@ def advantages_of(rollout: Rollout, gamma: float, gae_lambda: float) -> torch.Te
 
 # 5. Learning ----------------------------------------------------------------------------------
 class Learner:
-    """Changes an agent by what it has experienced."""
+    """Changes an agent according to its experience."""
 
     def __init__(self, agent: Agent, h: Hyperparameters) -> None:
         self.agent, self.h = agent, h
@@ -226,9 +226,9 @@ class Learner:
         self.rng = np.random.default_rng(h.seed)
 
     def update(self, rollout: Rollout, progress: float) -> dict[str, float]:
-        """n_epochs passes through a rollout; returns the means of the indicators.
+        """Go n_epochs times through a rollout; return the means of the indicators.
 
-        progress: share of the training that is over, from 0 to 1.
+        progress: share of the training that is done, from 0 to 1.
         """
         h = self.h
         left = 1.0 - progress if h.anneal else 1.0
@@ -252,7 +252,7 @@ class Learner:
                 self.optimiser.step()
             else:
                 continue
-            break  # the policy has gone far enough from the one that collected the data
+            break  # the policy is far enough from the one that collected the data
         means = {name: float(np.mean([each[name] for each in seen])) for name in seen[0]}
         left_over = torch.var(returns - rollout.values) / (torch.var(returns) + 1e-12)
         means["explained_variance"] = 1.0 - float(left_over)
@@ -267,7 +267,7 @@ class Learner:
         returns: torch.Tensor,
         clip_range: float,
     ) -> tuple[torch.Tensor, dict[str, float]]:
-        """The loss of a minibatch, and its indicators."""
+        """Return the loss of a minibatch, and its indicators."""
         if len(advantages) > 1:
             advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
         policy = self.agent.policy(observations)
@@ -293,17 +293,17 @@ class Learner:
 # 6. The loop ----------------------------------------------------------------------------------
 @dataclass
 class History:
-    """What a training leaves behind."""
+    """The history of a training."""
 
     agent: Agent
     episodes: list[tuple[int, float, int]]
     """(steps so far, return, length) of every episode."""
     indicators: list[dict[str, float]] = field(default_factory=list)
-    """Of every update; "steps" among them."""
+    """Indicators of every update, including "steps"."""
 
 
 def train(h: Hyperparameters, log=lambda name, value, steps: None, report=lambda text: None):
-    """Trains an agent from the seed; returns its History.
+    """Train an agent from the seed; return its History.
 
     log(name, value, steps) is called for every indicator, report(line) about twenty times.
     """
@@ -343,7 +343,9 @@ def line_about(steps: int, found: dict[str, float]) -> str:
 
 @torch.no_grad()
 def evaluate(agent: Agent, env: str, episodes: int, seed: int) -> np.ndarray:
-    """The return of each of some episodes with the most probable actions; shape (episodes,)."""
+    """Return the return of each of some episodes with the most probable
+    actions; shape (episodes,).
+    """
     world: gymnasium.Env = make_env(env)
     returns = np.zeros(episodes)
     for episode in range(episodes):
@@ -364,7 +366,7 @@ def main() -> None:
     from torch.utils.tensorboard import SummaryWriter
 
     h = read_hyperparameters(Hyperparameters, __doc__)
-    torch.set_num_threads(1)  # these networks are too small to share out
+    torch.set_num_threads(1)  # these networks are too small for more threads
     make_env(h.env).close()
     folder = new_folder(f"ppo_{h.env.replace('/', '_').replace(':', '_')}")
     with SummaryWriter(folder) as writer:

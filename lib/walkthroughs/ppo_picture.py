@@ -23,8 +23,7 @@ def draw(
 ) -> None:
     """Draw the learning curve, and four indicators beneath it.
 
-    episodes: (steps so far, return, length) of each; indicators: of each update, "steps" among
-    them.
+    episodes: (steps so far, return, length) of each; indicators: of each update, including "steps".
     """
     from matplotlib.figure import Figure
 

@@ -1,7 +1,7 @@
 """Regression by back-propagation, whole and in one file. Read it from top to bottom.
 
-A network with one hidden layer learns to answer each input pattern with its target. Every so often
-the activations of all neurons are printed, and at the end a picture shows what has been learnt.
+A network with one hidden layer learns to answer each input pattern with its target. At intervals it
+prints the activations of all neurons, and at the end a picture shows what it has learnt.
 
     python lib/walkthroughs/regression.py
     python lib/walkthroughs/regression.py --training_set parity --nhiddens 5
@@ -36,7 +36,7 @@ SETS = {
 # 1. Hyperparameters ---------------------------------------------------------------------------
 @dataclass
 class Hyperparameters:
-    """Those of XOR."""
+    """Hyperparameters; the defaults are those of XOR."""
 
     training_set: str = hyper("xor", "what to learn", choices=SETS)
     seed: int = hyper(1, "decides the first weights and the order of the patterns", low=0)
@@ -51,7 +51,7 @@ class Hyperparameters:
 
 # 2. Training sets -----------------------------------------------------------------------------
 def training_set(name: str, seed: int) -> tuple[torch.Tensor, torch.Tensor]:
-    """Inputs (patterns, inputs) and targets (patterns, outputs). Add your own here."""
+    """Return inputs (patterns, inputs) and targets (patterns, outputs). Add your own here."""
     rng = np.random.default_rng(seed)
     if name == "xor":
         inputs = np.array([[0, 0], [0, 1], [1, 0], [1, 1]])
@@ -78,20 +78,20 @@ class Network(nn.Module):
         self.output = nn.Linear(nhiddens, outputs)
 
     def features(self, patterns: torch.Tensor) -> torch.Tensor:
-        """Activations of the hidden neurons, shape (patterns, nhiddens)."""
+        """Return the activations of the hidden neurons, shape (patterns, nhiddens)."""
         return torch.sigmoid(self.hidden(patterns))
 
     def forward(self, patterns: torch.Tensor) -> torch.Tensor:
-        """Outputs, shape (patterns, outputs)."""
+        """Return the outputs, shape (patterns, outputs)."""
         return self.output(self.features(patterns))
 
 
 # 4. A look at it ------------------------------------------------------------------------------
-@torch.no_grad()  # what is computed here is not for learning
+@torch.no_grad()  # no gradients are needed here
 def show_network(network: Network, inputs: torch.Tensor, targets: torch.Tensor) -> None:
-    """Prints the activations for the first patterns, input -> hidden -> output, and the parameters.
+    """Print the activations for the first patterns, input -> hidden -> output, and the parameters.
 
-    A tensor becomes numbers by .numpy(); a parameter, which torch keeps a record of, by
+    A tensor becomes numbers by .numpy(); a parameter, whose history torch records, by
     .detach().numpy().
     """
     hidden, outputs = network.features(inputs), network(inputs)
@@ -117,7 +117,7 @@ def train(
     targets: torch.Tensor,
     look=lambda epoch, net, loss: None,
 ) -> tuple[Network, list[float]]:
-    """A network trained from the seed, and its loss (mean squared error) before each epoch.
+    """Return a network trained from the seed, and its loss (mean squared error) before each epoch.
 
     look(epoch, network, loss) is called every print_every epochs, and at the end.
     """
@@ -144,7 +144,9 @@ def train(
 # 6. The picture -------------------------------------------------------------------------------
 @torch.no_grad()
 def draw(file: Path, network: Network, inputs: torch.Tensor, targets: torch.Tensor, title: str):
-    """With two inputs, the features over the input plane; else the outputs beside the targets."""
+    """Draw the features over the input plane if there are two inputs; else
+    outputs beside targets.
+    """
     if inputs.shape[1] == 2:
         low, high, n = -0.5, 1.5, 150
         x = torch.linspace(low, high, n)
@@ -176,7 +178,7 @@ def draw(file: Path, network: Network, inputs: torch.Tensor, targets: torch.Tens
 
 def main() -> None:
     h = read_hyperparameters(Hyperparameters, __doc__)
-    torch.set_num_threads(1)  # this network is too small to share out
+    torch.set_num_threads(1)  # this network is too small for more threads
     inputs, targets = training_set(h.training_set, h.seed)
     print(
         f"{h.training_set}: {len(inputs)} patterns. The network has {inputs.shape[1]} inputs, "

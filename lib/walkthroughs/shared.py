@@ -1,4 +1,6 @@
-"""What the walkthroughs share and what has nothing to do with learning: options and folders."""
+"""Read options and make folders: the part of the walkthroughs that has nothing to
+do with learning.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,7 @@ Settings = TypeVar("Settings")
 
 
 def read_hyperparameters(settings: type[Settings], text: str) -> Settings:
-    """The dataclass `settings` with what the command line says; `text` is shown by --help.
+    """Return the dataclass `settings` with the options of the command line; --help shows `text`.
 
     Every field, made by botschool.config.hyper, becomes an option --name.
     """
@@ -55,7 +57,7 @@ def _check(parser: argparse.ArgumentParser, field, value: Any) -> None:
 
 
 def new_folder(name: str) -> Path:
-    """A new folder results/walkthroughs/NAME_1, or the next number that is free."""
+    """Make and return the folder results/walkthroughs/NAME_1, or one with the next free number."""
     for number in range(1, sys.maxsize):
         folder = Path("results", "walkthroughs", f"{name}_{number}")
         try:
@@ -72,7 +74,7 @@ def new_folder(name: str) -> Path:
 
 
 def run(main) -> None:
-    """Calls main; an error that the user can mend is one sentence and exit code 2."""
+    """Call main; an error that the user can correct is one sentence and exit code 2."""
     try:
         main()
     except BotschoolError as error:

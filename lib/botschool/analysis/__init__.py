@@ -1,1 +1,1 @@
-"""Looking at the results of runs: their files, their curves, their averages."""
+"""Read the results of runs: their files, curves and averages."""

@@ -1,4 +1,4 @@
-"""Pictures of BodyBrain robots, and of brains in each other's bodies."""
+"""Draw BodyBrain robots, and the returns of brains in each other's bodies."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ TORSO, NEAR, FAR = "#d5783c", np.array([127, 76, 180]) / 255, np.array([90, 170,
 
 
 def draw_walkers(file: str | Path, walkers: list[dict]) -> None:
-    """A picture of bodies at rest, with what each joint can turn as a grey fan.
+    """Draw bodies at rest, with the range of each joint as a grey fan.
 
     walkers: for each body a dict with "title"; "outline", corners in metres, shape (11, 4, 2), the
     torso first; "lower" and "upper", radians around the default angle, shape (10,).
@@ -20,7 +20,7 @@ def draw_walkers(file: str | Path, walkers: list[dict]) -> None:
 
     sides = np.array([np.ptp(walker["outline"], axis=(0, 1)) for walker in walkers])
     width, height = sides.max(axis=0) + 1
-    scale = 3.8 / max(width, height)  # inches a metre
+    scale = 3.8 / max(width, height)  # inches per metre
     figure = Figure(
         figsize=(scale * width * len(walkers) + 0.5, scale * height + 1), layout="constrained"
     )
@@ -70,7 +70,7 @@ def _draw_fans(axes, corners: np.ndarray, lower: np.ndarray, upper: np.ndarray) 
 
 
 def draw_matrix(file: str | Path, matrix: np.ndarray) -> None:
-    """The return of each brain (row) in each body (column), as a coloured table."""
+    """Draw the return of each brain (row) in each body (column) as a coloured table."""
     from matplotlib.figure import Figure
     from matplotlib.patches import Rectangle
 

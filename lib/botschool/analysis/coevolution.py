@@ -1,4 +1,4 @@
-"""Post-evaluation of co-evolved populations: what `es -p -g STRING` means for them.
+"""Post-evaluate co-evolved populations: `es -p -g STRING`.
 
 P-g-n          the n best predators of generation g against its n best prey, shown
 p-g-n          the same without a picture
@@ -33,9 +33,9 @@ from botschool.inifile import shown
 
 FORMS = "P-100-5, p-100-5, m-100-10, M-100-10, c-FILE1-FILE2"
 GENERATIONS = 11
-"""Generations of a tournament at most, unless the user says which."""
+"""Largest number of generations of a tournament, unless the user chooses."""
 BEST = 10
-"""Individuals of each population that take part, likewise."""
+"""Individuals of each population that take part, unless the user chooses."""
 
 _STRING = re.compile(r"(?P<kind>[PpmM])-(?P<generation>\d{1,9})-(?P<number>\d{1,9})", re.ASCII)
 
@@ -56,7 +56,7 @@ def names_file(text: str) -> bool:
 
 @dataclass(frozen=True)
 class Request:
-    """What a string asks for: its letter, then generation and last number (n or i), or files."""
+    """A parsed string: its letter, then generation and last number (n or i), or files."""
 
     kind: str
     generation: int = 0
@@ -81,10 +81,10 @@ def parse(text: str, folder: Path) -> Request:
 
 
 def split_files(text: str, folder: Path) -> tuple[Path, Path]:
-    """Return the two files of c-FILE1-FILE2; their names may hold "-" too.
+    """Return the two files of c-FILE1-FILE2; their names may contain "-", too.
 
-    Of all ways to split the string the one counts in which both files exist, from here or in the
-    run's folder. Raises BotschoolError if there is none, or more than one.
+    Among all ways to split the string, only one may give two files that exist, from here or in the
+    run's folder. Raises BotschoolError otherwise.
     """
     parts = text.split("-")[1:]
     splits = []
@@ -125,7 +125,7 @@ Show = Callable[[Population], None]
 def post_evaluate(
     experiment: Experiment, seed: int, folder: Path, request: Request, workers: int, show: Show
 ) -> None:
-    """Does what a string asks for and prints its tables; `show` gets the population of P.
+    """Run the post-evaluation of a request and print its tables; `show` gets the population of P.
 
     Raises BotschoolError for a generation or a file that cannot be used.
     """
@@ -166,11 +166,11 @@ def tournament(
     window: bool,
     cluster: Open | None = None,
 ) -> None:
-    """The command `botschool tournament`: tables, the verdict, the picture and its CSV file.
+    """Run `botschool tournament`: print tables and verdict, write the picture and its CSV file.
 
-    seed: None is the only one in the folder. cluster: whose workers evaluate, instead of `workers`
-    cores. wanted: generations, else `every` so many, else at
-    most GENERATIONS of them. window: where no picture is asked for, show it on the screen.
+    seed: None means the only one in the folder. cluster: evaluates instead of `workers` cores.
+    wanted: the generations; None chooses every `every`-th, or GENERATIONS of them. window: show the
+    picture on the screen if no file is named.
     """
     files = None if picture is None else check_files(picture)
     seed = only_seed(folder) if seed is None else seed
@@ -178,7 +178,9 @@ def tournament(
         populations = Populations(folder, seed, contest.policy, contest.single)
         generations = wanted or thinned(populations, every)
         if len(generations) < 2:
-            raise BotschoolError(f"A tournament needs two generations: {populations.there()}.")
+            raise BotschoolError(
+                f"A tournament needs at least two generations: {populations.there()}."
+            )
         chosen = select(populations, generations, best)
         report.print_roles(contest.roles)
         print(_taking_part(chosen))
@@ -193,7 +195,7 @@ def tournament(
     if files:
         print(f"picture: {files[0]}, its numbers: {files[1]}")
     elif not window:
-        print("For a picture of it add -o PICTURE.png.")
+        print("For a picture of the tournament, add -o PICTURE.png.")
 
 
 def only_seed(folder: Path) -> int:
@@ -259,10 +261,10 @@ def _tournament(contest: Contest, chosen: list[Population]) -> tuple[Table, Tabl
 
 
 def earlier(populations: Populations, generation: int, every: int) -> list[int]:
-    """Return generations g, g - i, g - 2 i, ...; of one that is not saved, the nearest that is;
-    sorted.
+    """Return generations g, g - i, g - 2 i, ... sorted; the nearest saved one replaces a missing
+    one.
 
-    Prints which are not saved.
+    Prints a warning about missing ones.
     """
     there = populations.generations
     wanted = range(generation, -1, -every)
@@ -291,7 +293,10 @@ def select(
 
 
 def equal_parts(loaded: list[Population], best: int | None = None) -> list[Population]:
-    """As many of the best of each population; raises BotschoolError for less than two."""
+    """Return the best individuals of each population, the same number of each.
+
+    Raises BotschoolError if that is less than two.
+    """
     fewest = min(loaded, key=lambda population: len(population.prey))
     if len(fewest.prey) < 2:
         raise BotschoolError(
@@ -302,7 +307,7 @@ def equal_parts(loaded: list[Population], best: int | None = None) -> list[Popul
 
 
 def cross_test(contest: Contest, files: tuple[Path, Path]) -> None:
-    """The best of two runs against each other, and among themselves."""
+    """Evaluate the best of two runs against each other, and against those of their own run."""
     loaded = [read_population(path, contest.policy, str(path), contest.single) for path in files]
     print(_taking_part(loaded := equal_parts(loaded), "population"))
     report.print_cross(master_tournament(contest, loaded), [str(path) for path in files])

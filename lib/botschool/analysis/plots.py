@@ -1,4 +1,4 @@
-"""Pictures of results: learning curves and averages over replications."""
+"""Draw results: learning curves and averages over replications."""
 
 from __future__ import annotations
 
@@ -39,17 +39,17 @@ if TYPE_CHECKING:
 
 PICTURE_SUFFIXES = (".png", ".svg", ".pdf", ".jpg")
 MAX_POINTS = 1000
-"""Points of a curve that are drawn at most; longer curves are thinned."""
+"""Largest number of points drawn of a curve; longer curves are thinned."""
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-"""Okabe and Ito's palette: its colours differ for colour-blind readers too."""
+"""Okabe and Ito's palette: colour-blind readers can distinguish its colours, too."""
 
 FITNESS = "fitness (mean return of an episode)"
 RETURN = "mean return of an episode"
 
 
 class NoDisplay(BotschoolError):
-    """There is no screen to draw on."""
+    """Raised if there is no screen to draw on."""
 
 
 Curves = dict[int, np.ndarray]
@@ -62,12 +62,11 @@ def plot_stat(
     """Draw fitness against steps for stat files, and for all runs and trainings of folders.
 
     One run gives three curves. The runs of one folder give the mean and a band of one standard
-    deviation, with the single runs as thin lines; several folders are told apart by colour, and so
-    are trainings of `botschool rl` that differ in more than the seed. Beside evolution a training
-    is drawn as evolution is: the best post-evaluation so far, and steps that count those of the
-    post-evaluations. Drawn on the screen, or to the picture file `output`. A damaged stat file is
-    an error if it was named and is left out with a warning if its folder was. Raises
-    BotschoolError.
+    deviation, with the single runs as thin lines. Colours distinguish several folders, and
+    trainings of `botschool rl` that differ in more than the seed. Next to evolution, a training is
+    drawn like a run: the best post-evaluation so far against steps that include post-evaluations.
+    The picture goes to the screen, or to the file `output`. A damaged stat file is an error if it
+    was named; if its folder was named, it is left out with a warning. Raises BotschoolError.
     """
     evolved, trained = _read_targets(targets, warn)
     experiments = evolved | trained
@@ -95,10 +94,10 @@ def plot_stat(
 
 @dataclass(frozen=True)
 class _Words:
-    """How a figure names what it shows."""
+    """The words of a figure."""
 
     column: int
-    """Of the main curve."""
+    """Column of the main curve."""
     labels: dict[int, str]
     steps: str
     fitness: str
@@ -106,7 +105,7 @@ class _Words:
 
     @classmethod
     def of(cls, evolved: bool, trained: bool) -> _Words:
-        """Return words for runs of evolution, for trainings, or for both side by side."""
+        """Return words for runs of evolution, for trainings, or for both together."""
         best = "best post-evaluated so far"
         if not trained:
             labels = {
@@ -130,9 +129,8 @@ def plot_ave(
 ) -> None:
     """Print and draw mean, standard deviation (n - 1) and n of the best post-evaluated fitness.
 
-    One row and one bar for each folder of runs, with a dot for each run. The table is printed
-    before the picture is tried; without a display to draw on, it is all there is, and a note says
-    so. Raises BotschoolError.
+    Each folder of runs gives one row and one bar, each run a dot. The table is printed before the
+    picture is drawn; without a display, a note replaces the picture. Raises BotschoolError.
     """
     folders = [Path(target) for target in targets]
     if output is not None:
@@ -152,7 +150,7 @@ def plot_ave(
 def _read_targets(
     targets: Sequence[Path | str], warn: Warn
 ) -> tuple[dict[str, Curves], dict[str, Curves]]:
-    """Name -> curves, of evolution and of trainings; stat files are grouped by their folder."""
+    """Return name -> curves, of evolution and of trainings; stat files are grouped by folder."""
     evolved: dict[Path, Curves] = {}
     trainings: list[Path] = []
     for target in map(Path, targets):
@@ -176,7 +174,7 @@ def _read_targets(
 
 
 def _named(folders: Sequence[Path]) -> dict[str, Path]:
-    """Shortest names that tell the folders apart: "acrobot", or "old/acrobot" if need be."""
+    """Return the shortest names that distinguish the folders: "acrobot", or "old/acrobot"."""
     if not folders:
         raise BotschoolError("nothing to show: name at least one folder of runs.")
     resolved = {folder.resolve(): folder for folder in folders}
@@ -203,7 +201,7 @@ def _layout(height: float, width: float) -> dict[str, Any]:
 def new_figure(
     output: Path | str | None, height: float = 5.0, width: float = 8.0
 ) -> Iterator[Figure]:
-    """Return a figure of `width` by `height` inches, shown or written when the block ends."""
+    """Yield a figure of `width` by `height` inches; show or write it when the block ends."""
     if output is None:
         with _shown_figure(height, width) as figure:
             yield figure
@@ -257,7 +255,7 @@ def _draw_run(axes: Axes, stat: np.ndarray, labels: dict[int, str]) -> None:
 
 
 def _draw_group(axes: Axes, curves: Curves, column: int, colour: str, label: str) -> None:
-    """The mean and band of several runs, and each of them as a thin line."""
+    """Draw the mean and band of several runs, and each run as a thin line."""
     single = len(curves) == 1
     for stat in curves.values():
         marker = "o" if len(stat) == 1 else None
@@ -285,12 +283,11 @@ def _draw_mean(axes: Axes, curves: Curves, column: int, colour: str, label: str)
 def replication_mean(
     stats: Sequence[np.ndarray], column: int, points: int = 500
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the mean and standard deviation (n - 1) of one column over replications, on common
-    steps.
+    """Return mean and standard deviation (n - 1) of one column over replications, on common steps.
 
     Each run, (generations, 6), is interpolated linearly between its generations, and counts only
-    from its first to its last one. Returns steps, mean and sd, each (points,), NaN where fewer
-    than two runs, or than half of them, count.
+    from its first to its last one. Return steps, mean and sd, each (points,), NaN where fewer than
+    two runs, or fewer than half of them, count.
     """
     stats = list(stats)
     grid = np.linspace(
@@ -338,7 +335,7 @@ def _finish(axes: Axes, title: str, words: _Words) -> None:
 
 
 def format_steps(steps: float) -> str:
-    """1500 -> "1.5k", 2e6 -> "2M"."""
+    """Format steps: 1500 -> "1.5k", 2e6 -> "2M"."""
     for unit, size in (("G", 1e9), ("M", 1e6), ("k", 1e3)):
         if abs(steps) >= size:
             return f"{steps / size:.6g}{unit}"

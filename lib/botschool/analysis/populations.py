@@ -1,9 +1,9 @@
-"""The populations that co-evolution leaves in a folder (docs/specification.md, "Run files").
+"""Read the populations that co-evolution saves (docs/specification.md, "Run files").
 
 `S12G200.npy` holds the populations of seed 12 after 200 generations: first all predators, then all
-prey, a network a row. `S12FitG200.npy` holds the fitness of each of them against each competitor.
-Where one population plays both sides (`single`), the file holds that, and its individuals are
-predators and prey alike.
+prey, one network per row. `S12FitG200.npy` holds the fitness of each of them against each
+competitor. If one population plays both sides (`single`), the files hold only that one, and its
+individuals are both predators and prey.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from botschool.policies.policy import Policy
 POPULATIONS = re.compile(r"S(?P<seed>\d+)G(?P<generation>\d+)\.npy", re.ASCII)
 """Names of the files."""
 _LISTED = 12
-"""Generations that a sentence lists in full."""
+"""Largest number of generations that a sentence lists in full."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Population:
     prey: np.ndarray
 
     def best(self, individuals: int) -> Population:
-        """Return the n best of both. Raises BotschoolError if there are not as many."""
+        """Return the n best of both. Raises BotschoolError if there are fewer."""
         if individuals > len(self.prey):
             raise BotschoolError(
                 f"{self.name} has {len(self.prey)} predators and as many prey, so it cannot give "
@@ -45,7 +45,7 @@ class Population:
 class Populations:
     """The saved generations of the run with this seed.
 
-    Raises BotschoolError, which says what is there, if the folder holds none of them.
+    Raises BotschoolError that lists the seeds in the folder if there are none of this seed.
     """
 
     def __init__(self, folder: Path, seed: int, policy: Policy, single: bool = False) -> None:
@@ -61,7 +61,7 @@ class Populations:
                 f"there: {there}): name the run's seed with -s and its folder."
             )
         self.generations = found[seed]
-        """Sorted."""
+        """The saved generations, sorted."""
 
     def check(self, generation: int) -> None:
         """Raise BotschoolError if there is no such generation."""
@@ -80,7 +80,7 @@ class Populations:
 
 
 def seeds_of(folder: Path) -> dict[int, list[int]]:
-    """Seed -> generations of which the folder holds populations, both sorted."""
+    """Return seed -> generations whose populations the folder holds, both sorted."""
     try:
         names = [path.name for path in folder.iterdir()]
     except FileNotFoundError:
@@ -94,7 +94,7 @@ def seeds_of(folder: Path) -> dict[int, list[int]]:
 
 
 def counted(generations: list[int]) -> str:
-    """Return the generations as a piece of a sentence; many are shortened."""
+    """Return the generations as part of a sentence, shortened if there are many."""
     if len(generations) == 1:
         return f"generation {generations[0]} alone"
     numbers = [str(generation) for generation in generations]
@@ -105,7 +105,8 @@ def counted(generations: list[int]) -> str:
 
 
 def read_population(path: Path, policy: Policy, name: str, single: bool = False) -> Population:
-    """Return the populations in a file, by the mean of the Fit file beside it, or as they stand.
+    """Return the populations in a file, sorted by the mean of the Fit file beside it if there is
+    one.
 
     Raises BotschoolError if a file is damaged or its networks are not the policy's.
     """
@@ -113,15 +114,16 @@ def read_population(path: Path, policy: Policy, name: str, single: bool = False)
     count, length = genotypes.shape
     if length != policy.nparameters:
         raise BotschoolError(
-            f"{path} holds {count} networks of {length} parameters, but this experiment's have "
-            f"{policy.nparameters}: it is of an experiment with other [POLICY] settings."
+            f"{path} holds {count} networks of {length} parameters, but this experiment's "
+            f"have {policy.nparameters}: it belongs to an experiment with other [POLICY] "
+            "settings."
         )
     if single and count:
         best = genotypes[_order(path, count, 1)]
         return Population(name, best, best)
     if count % 2 or not count:
         raise BotschoolError(
-            f"{path} holds {count} networks, but populations are as many predators as prey."
+            f"{path} holds {count} networks, but populations have as many predators as prey."
         )
     order = _order(path, count, 2)
     half = count // 2
@@ -129,8 +131,8 @@ def read_population(path: Path, policy: Policy, name: str, single: bool = False)
 
 
 def _order(path: Path, count: int, sides: int) -> np.ndarray:
-    """Return rows of each side, one side after the other, the best first; equal ones as they
-    stand.
+    """Return the rows of each side, one side after the other, the best first; ties keep their
+    order.
     """
     beside = path.with_name(re.sub(r"(S\d+)(G\d+\.npy)", r"\1Fit\2", path.name))
     if beside == path or not beside.exists():
@@ -139,7 +141,7 @@ def _order(path: Path, count: int, sides: int) -> np.ndarray:
     if len(fitness) != count or not fitness.shape[1]:
         raise BotschoolError(
             f"{beside} holds the fitness of {len(fitness)} individuals, but {path.name} has "
-            f"{count}: the two are not of one run."
+            f"{count}: the two files are not from one run."
         )
     means = np.array([mean(row) for row in fitness]).reshape(sides, -1)
     order = np.argsort(-means, axis=1, kind="stable")

@@ -1,6 +1,6 @@
-"""One page about a run, beside its files: curve, best robot, settings, the command to repeat it.
+"""Write one page about a run: curve, best robot, settings, the command to repeat it.
 
-The page is a single file that needs nothing else: it can be opened, mailed and kept.
+The page is a single file that needs no other: you can open, mail and keep it.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ from botschool.output import save_bytes
 from botschool.terminal import readable
 
 WIDTH, HEIGHT, LEFT, BOTTOM = 720, 260, 84, 30
-"""Of the curve, in pixels; what its labels take."""
+"""Size of the curve in pixels, and the space that its labels take."""
 POINTS = 400
-"""Of a curve at most."""
+"""Largest number of points of a curve."""
 LINES = (
     (BEST_POST, "best", "best so far, post-evaluated"),
     (GENERATION_BEST, "own", "best of the generation"),
@@ -50,8 +50,8 @@ def has_begun(folder: Path, seed: int) -> bool:
 def write_page(experiment: Experiment, seed: int, folder: Path, robot: bool = True) -> Path:
     """Write pageSS.html from what the run has saved so far, and return its path.
 
-    robot: whether it plays the best robot. Raises BotschoolError if the folder holds no such run,
-    if no generation is saved yet, or if the page cannot be written.
+    robot: whether the page plays the best robot. Raises BotschoolError if the folder holds no such
+    run, if no generation is saved yet, or if the page cannot be written.
     """
     rows = read_stat(folder / f"statS{seed}.npy")
     path = folder / f"pageS{seed}.html"
@@ -79,7 +79,7 @@ def write_page(experiment: Experiment, seed: int, folder: Path, robot: bool = Tr
 
 
 def curve(rows: np.ndarray) -> str:
-    """Return fitness against steps as SVG; rows: of a stat file."""
+    """Return fitness against steps as SVG; rows: those of a stat file."""
     rows = rows[np.unique(np.linspace(0, len(rows) - 1, POINTS).round().astype(int))]
     values = rows[:, [column for column, _, _ in LINES]]
     low, high = np.nanmin(values), np.nanmax(values)
@@ -111,7 +111,7 @@ def curve(rows: np.ndarray) -> str:
 
 
 def _replay(experiment: Experiment, seed: int, folder: Path) -> str:
-    """Return the best robot's replay, a page within the page; or why there is none."""
+    """Return the best robot's replay, a page within the page; or the reason why there is none."""
     from botschool.render.watch import PostEvaluation, read_genotype
 
     best = RunFiles(folder, seed).bestg
@@ -129,7 +129,7 @@ def _replay(experiment: Experiment, seed: int, folder: Path) -> str:
 
 
 def _settings(part: str, config) -> str:
-    """Return a section's keys and values; those that are not the default stand out."""
+    """Return a section's keys and values; values that are not the default are emphasised."""
     rows = []
     for f in fields(config):
         value = getattr(config, f.name)

@@ -1,4 +1,4 @@
-"""Reading the files that runs leave in a folder."""
+"""Read the files of runs in a folder."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def warn(sentence: str) -> None:
 
 @dataclass
 class Run:
-    """The files of one run; a path is None where there is no such file."""
+    """The files of one run; a path is None if there is no such file."""
 
     seed: int
     folder: Path
@@ -39,13 +39,13 @@ class Run:
     bestg: Path | None = None
     """Best post-evaluated genotype."""
     fit: dict[str, float | str] = field(default_factory=dict)
-    """What the .fit file says; empty without one."""
+    """Contents of the .fit file; empty without one."""
 
     def best_post_evaluated(self) -> float:
         """Return the best post-evaluated fitness: the .fit file's `bestgfit`, else the stat file's
-        last one.
+        last.
 
-        Raises BotschoolError if neither file tells it.
+        Raises BotschoolError if neither file holds it.
         """
         fitness = float("nan")
         if self.fit:
@@ -61,19 +61,20 @@ class Run:
 
 
 def read_stat(path: Path | str) -> np.ndarray:
-    """Return the learning curve of one run.
+    """Return the learning curve of one run: float64, shape (generations, 6).
 
-    Returns float64 of shape (generations, 6); the columns are those that STEPS to
-    PARAMETER_SIZE number. Raises BotschoolError if the file is missing or is no stat file;
-    Python objects in it are never loaded.
+    STEPS to PARAMETER_SIZE number the columns. Raises BotschoolError if the file is missing or not
+    a stat file; Python objects in it are never loaded.
     """
     path = Path(path)
     try:
         with open(path, "rb") as file, warnings.catch_warnings():
             if file.read(len(_MAGIC)) != _MAGIC:
-                raise BotschoolError(f"{path} is no stat file: it is not in numpy's .npy format.")
+                raise BotschoolError(
+                    f"{path} is not a stat file: it is not in numpy's .npy format."
+                )
             file.seek(0)
-            warnings.simplefilter("ignore")  # of what a damaged header looks like
+            warnings.simplefilter("ignore")  # a damaged header causes warnings
             numbers = np.lib.format.read_array(file, allow_pickle=False)
     except BotschoolError:
         raise
@@ -85,32 +86,32 @@ def read_stat(path: Path | str) -> np.ndarray:
         raise BotschoolError(f"{path} cannot be read ({error.strerror or error}).") from error
     except Exception as error:  # a damaged header can fail in any way
         raise BotschoolError(
-            f"{path} is no stat file, or is damaged: run the experiment again with this seed."
+            f"{path} is not a stat file, or is damaged: run the experiment again with this seed."
         ) from error
     if numbers.dtype.kind not in "fiu" or numbers.ndim not in (1, 2):
-        raise BotschoolError(f"{path} is no stat file: it does not hold a row of plain numbers.")
+        raise BotschoolError(f"{path} is not a stat file: it does not hold a row of plain numbers.")
     if numbers.size == 0:
         raise BotschoolError(f"{path} holds no generation yet: let the run go on for a while.")
     if numbers.size % 6 or (numbers.ndim == 2 and numbers.shape[1] != 6):
         raise BotschoolError(
-            f"{path} is no stat file, or is damaged: "
-            f"its {numbers.size} numbers are not 6 for each generation."
+            f"{path} is not a stat file, or is damaged: its {numbers.size} numbers are not 6 "
+            "for each generation."
         )
     stat = numbers.astype(np.float64).reshape(-1, 6)
     steps = stat[:, STEPS]
     if not np.isfinite(steps).all() or steps[0] < 0 or (np.diff(steps) < 0).any():
         raise BotschoolError(
-            f"{path} is no stat file: the first of every 6 numbers should be the steps so far, "
-            "which only grow."
+            f"{path} is not a stat file: the first of every 6 numbers should be the steps so "
+            "far, which only grow."
         )
     return stat
 
 
 def read_fit(path: Path | str) -> dict[str, float | str]:
-    """Return the `key value` pairs of a run's .fit file, numbers as float, `bestgfit` among them.
+    """Return the `key value` pairs of a run's .fit file, numbers as float, including `bestgfit`.
 
-    A part in brackets, as `(42.0%)`, is left out. Raises BotschoolError if the file is missing
-    or is no .fit file.
+    A part in brackets, such as `(42.0%)`, is left out. Raises BotschoolError if the file is missing
+    or not a .fit file.
     """
     path = Path(path)
     try:
@@ -120,12 +121,12 @@ def read_fit(path: Path | str) -> dict[str, float | str]:
     except OSError as error:
         raise BotschoolError(f"{path} cannot be read ({error.strerror or error}).") from error
     except UnicodeDecodeError as error:
-        raise BotschoolError(f"{path} is no .fit file: it is not a line of text.") from error
+        raise BotschoolError(f"{path} is not a .fit file: it is not a line of text.") from error
     pairs = {key: _number(value) for key, value in zip(words[::2], words[1::2], strict=False)}
     if len(words) % 2 or not isinstance(pairs.get("bestgfit"), float):
         raise BotschoolError(
-            f"{path} is no .fit file, or is damaged: "
-            "it should be a line of 'key value' pairs with a number for bestgfit."
+            f"{path} is not a .fit file, or is damaged: it should be a line of 'key value' "
+            "pairs with a number for bestgfit."
         )
     return pairs
 
@@ -140,9 +141,9 @@ def _number(word: str) -> float | str:
 def find_runs(folder: Path | str, warn: Warn = warn) -> list[Run]:
     """Return the runs whose files lie in a folder, by seed.
 
-    The seed is that of the file names: `statS11.npy` (or `stat11.npy`) belongs to seed 11. A .fit
-    file that cannot be read is left out after `warn` was called with a sentence. Raises
-    BotschoolError if there is no such folder or no run in it.
+    The file names give the seed: `statS11.npy` (or `stat11.npy`) belongs to seed 11. An unreadable
+    .fit file is left out after a call of `warn`. Raises BotschoolError if there is no such folder
+    or no run in it.
     """
     folder = Path(folder)
     try:
@@ -175,8 +176,8 @@ def find_runs(folder: Path | str, warn: Warn = warn) -> list[Run]:
 def read_curves(folder: Path | str, warn: Warn = warn) -> dict[int, np.ndarray]:
     """Return the learning curves of all runs in a folder: seed -> (generations, 6), as `read_stat`.
 
-    A stat file that cannot be read is left out after `warn` was called with a sentence. Raises
-    BotschoolError if none is left.
+    An unreadable stat file is left out after a call of `warn`. Raises BotschoolError if none is
+    left.
     """
     curves = {}
     for run in find_runs(folder, warn):
@@ -196,8 +197,7 @@ def read_curves(folder: Path | str, warn: Warn = warn) -> dict[int, np.ndarray]:
 def read_fitness(folder: Path | str, warn: Warn = warn) -> dict[int, float]:
     """Return the best post-evaluated fitness of each run in a folder: seed -> fitness.
 
-    A run that does not tell it is left out after `warn` was called with a sentence. Raises
-    BotschoolError if none is left.
+    A run without one is left out after a call of `warn`. Raises BotschoolError if none is left.
     """
     fitness = {}
     for run in find_runs(folder, warn):

@@ -1,14 +1,14 @@
-"""The master tournament: predators and prey of all generations against each other.
+"""Play the master tournament: predators and prey of all generations against each other.
 
-The fitness of contemporaries hardly changes in an arms race, since both sides improve; progress
-shows when each generation meets the competitors of all others. What is asked then is due to
-Miconi (2009), "Why coevolution doesn't 'work': superiority and progress in coevolution": progress
-is *historical* if later generations do better against the competitors that came before them, and
+In an arms race both sides improve, so the fitness against contemporaries hardly changes. Progress
+shows only when each generation meets the competitors of all others. Two indices follow Miconi
+(2009), "Why coevolution doesn't 'work': superiority and progress in coevolution". Progress is
+*historical* if later generations do better against the competitors that came before them. It is
 *global* if they do better against competitors at large.
 
-A table of fitness has the shape (..., generations, generations of competitors); row and column are
-in the order of time. The prey's table follows from the predators', as its fitness is 1 - theirs,
-unless each side has a fitness of its own.
+A table of fitness has the shape (..., generations, generations of competitors), with rows and
+columns in the order of time. The prey's table follows from the predators', because its fitness is 1
+- theirs, unless each side has a fitness of its own.
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ LEVEL = 0.95
 class Contest:
     """Lets predators meet prey, each pair in `pepisodes` episodes of the run's post-evaluation.
 
-    Raises BotschoolError if the experiment's environment has no two robots.
+    Raises BotschoolError if the experiment's environment does not have two robots.
     """
 
     problem: Problem
-    """May be replaced by one with the same outcomes that evaluates elsewhere."""
+    """The problem; another one with the same outcomes, such as a cluster's, may replace it."""
 
     def __init__(self, experiment: Experiment, seed: int, workers: int = 1) -> None:
         self.problem = problems.of(experiment)
@@ -57,11 +57,14 @@ class Contest:
 
     @property
     def roles(self) -> str:
-        """Who predators and prey are, if it has to be said."""
+        """Return a note about what predators and prey are, "" if it is obvious."""
         if not self.single:
             return self.problem.roles
         first, second = self.problem.sides
-        return f"one population: its predators are those who are {first}, its prey {second}"
+        return (
+            f"one population: its predators are its individuals as {first}, "
+            f"its prey those as {second}"
+        )
 
     def __enter__(self) -> Contest:
         return self
@@ -72,10 +75,11 @@ class Contest:
     def meet(self, predators: np.ndarray, prey: np.ndarray) -> np.ndarray:
         """Return the predators' fitness, shape (predators, prey); both given as (n, nparameters).
 
-        Where a prey's is not 1 minus it (`problem.constant_sum`), that of both: (2, ...).
+        If the prey's fitness is not 1 minus it (`problem.constant_sum`), return that of both: (2,
+        ...).
         """
         repeats = self.policy.config.pepisodes
-        # Neighbouring episodes share a predator, so its parameters stay at hand.
+        # Neighbouring episodes share a predator, so its parameters stay in the cache.
         pairs = np.indices((len(predators), len(prey)), dtype=np.int32).reshape(2, -1)
         pairs[1] += len(predators)
         count = pairs.shape[1] * repeats
@@ -103,11 +107,11 @@ def play(
     prey: Sequence[np.ndarray],
     report: Callable[[int], None] = lambda done: None,
 ) -> np.ndarray:
-    """Predators of several generations against prey of several generations.
+    """Play predators of several generations against prey of several generations.
 
-    All of one side have as many individuals. Returns the predators' fitness, float64, of shape
-    (generations of predators, generations of prey, predators, prey), or that of both sides, (2,
-    ...); `report` gets the generations of predators that are done.
+    All generations of one side have the same number of individuals. Return the predators' fitness,
+    float64, of shape (generations of predators, generations of prey, predators, prey), or that of
+    both sides, (2, ...). `report` gets the number of generations of predators that are done.
     """
     competitors = np.concatenate(prey)
     parts = []
@@ -127,23 +131,21 @@ class Table:
     mean: np.ndarray
     """(generations, generations of competitors)."""
     samples: np.ndarray
-    """(RESAMPLES, generations, generations of competitors): the means, had other individuals been
-    drawn from the same populations."""
+    """(RESAMPLES, generations, generations of competitors): the means of resampled individuals."""
 
     @property
     def interval(self) -> tuple[np.ndarray, np.ndarray]:
-        """Lower and upper end of the 95 % interval of each mean."""
+        """Return the lower and upper end of each mean's 95 % interval."""
         return interval(self.samples)
 
 
 def summarised(fitness: np.ndarray, seed: int) -> tuple[Table, Table]:
-    """Return the predators' and the prey's table from what `play` returns.
+    """Return the predators' and the prey's table from the result of `play`.
 
-    Intervals are by the bootstrap over individuals: in each resample every generation of both
-    sides is drawn anew from its own individuals, with replacement, and all cells of the table use
-    that one draw, so that indices made of several cells get their due interval too. Drawing both
-    sides is slightly conservative (Owen 2007, "The pigeonhole bootstrap"). The draws depend on the
-    seed alone.
+    Intervals come from the bootstrap over individuals. Each resample draws every generation of both
+    sides anew from its own individuals, with replacement. All cells of the table use that one draw,
+    so indices that combine several cells get correct intervals, too. Drawing both sides is slightly
+    conservative (Owen 2007, "The pigeonhole bootstrap"). The draws depend only on the seed.
     """
     rng = generator(seed, POST_EVALUATION_SEED)
     rows, columns, predators, prey = fitness.shape[-4:]
@@ -167,22 +169,21 @@ def summarised(fitness: np.ndarray, seed: int) -> tuple[Table, Table]:
 
 
 def interval(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Lower and upper end of the 95 % interval: percentiles over the first axis."""
+    """Return the lower and upper end of the 95 % interval: percentiles over the first axis."""
     low, high = np.quantile(samples, [(1 - LEVEL) / 2, (1 + LEVEL) / 2], axis=0)
     return low, high
 
 
 def historical_progress(fitness: np.ndarray) -> np.ndarray:
-    """Return how much better a later generation does against ancient competitors than an earlier
-    one.
+    """Return how much better later generations do against ancient competitors than earlier ones.
 
     With f(g, k) the mean fitness of generation g against the competitors of generation k:
 
         mean over all pairs i < j of   mean over all k <= i of   f(j, k) - f(i, k)
 
-    Both generations of a pair meet the same competitors: those that i and the generations before
-    it had. In units of fitness: 0 without progress, below 0 if later generations have lost what
-    earlier ones could do (a little so if strategies come and go in cycles, as each is at its best
+    Both generations of a pair meet the same competitors: those of i and of the generations before
+    it. The unit is fitness. 0 means no progress. Below 0, later generations have lost what earlier
+    ones could do (a little below if strategies come and go in cycles, because each is at its best
     against those of its own time). fitness: (..., g, g) with g >= 2; returns (...).
     """
     count = fitness.shape[-1]
@@ -192,12 +193,12 @@ def historical_progress(fitness: np.ndarray) -> np.ndarray:
 
 
 def global_progress(fitness: np.ndarray) -> np.ndarray:
-    """Return how much better a later generation does against everybody than an earlier one.
+    """Return how much better later generations do against all competitors than earlier ones.
 
         mean over all pairs i < j of   mean over all k of   f(j, k) - f(i, k)
 
-    "Everybody" are the competitors of all generations of the run, ancient and future: the best
-    sample of all possible ones that a run has. Shapes and units as in historical_progress.
+    k runs over the competitors of all generations, ancient and future: the best sample of all
+    possible competitors that a run has. Shapes and units as in historical_progress.
     """
     overall = fitness.mean(axis=-1)
     earlier, later = np.triu_indices(fitness.shape[-1], 1)
@@ -231,11 +232,11 @@ def progress(table: Table) -> dict[str, Estimate]:
 
 
 def verdict(table: Table, names: Sequence[str]) -> str:
-    """Return whether later generations of a side beat ancient competitors more than earlier ones
-    did.
+    """Return a sentence on whether later generations beat ancient competitors more than earlier
+    ones.
 
-    A sentence with numbers; it is certain if 0 is outside the interval of the historical progress.
-    names: those of the generations.
+    It says so only if 0 is outside the interval of the historical progress. names: those of the
+    generations.
     """
     own, other = ROLES if table.role == ROLES[0] else ROLES[::-1]
     found = progress(table)
@@ -255,9 +256,9 @@ def verdict(table: Table, names: Sequence[str]) -> str:
 
 
 def in_words(estimate: Estimate, sign: str = "") -> str:
-    """Return the number with its interval, as "0.31 (95 % interval 0.25 to 0.36)".
+    """Return the number with its interval, such as "0.31 (95 % interval 0.25 to 0.36)".
 
-    A difference, whose sign matters ("+"), gets a decimal more.
+    sign: "+" shows the sign of a difference, and one more decimal.
     """
     form = f"{sign}.{3 if sign else 2}f"
     return (
@@ -270,7 +271,7 @@ def master_tournament(
     populations: Sequence[Population],
     report: Callable[[int], None] = lambda done: None,
 ) -> tuple[Table, Table]:
-    """Let all meet all: return the predators' and the prey's table over these populations."""
+    """Let all meet all; return the predators' and the prey's table over these populations."""
     fitness = play(
         contest,
         [population.predators for population in populations],

@@ -1,4 +1,4 @@
-"""What a tournament reports: tables on the screen, a picture and a CSV file."""
+"""Report a tournament: tables on the screen, a picture and a CSV file."""
 
 from __future__ import annotations
 
@@ -32,18 +32,19 @@ from botschool.output import check_output, save_bytes
 
 
 MAX_COLUMNS = 11
-"""Generations or individuals that a table shows side by side."""
+"""Generations or individuals that a table shows in a row."""
 
 
 def print_roles(roles: str) -> None:
-    """Who predators and prey are, if it has to be said."""
+    """Print what predators and prey are, unless it is obvious."""
     if roles:
         print(roles)
 
 
 def print_pairs(fitness: np.ndarray, tables: tuple[Table, Table], name: str) -> None:
-    """Each predator of a generation against each prey: the predators' fitness, (n, n), or that of
-    both sides, (2, n, n)."""
+    """Print each predator of a generation against each prey: fitness (n, n), or of both sides (2,
+    n, n).
+    """
     if fitness.shape[-1] <= MAX_COLUMNS:
         if fitness.ndim == 2:
             _print_pairs(fitness, f"{name}: fitness of predators (rows) against prey (columns)")
@@ -68,7 +69,7 @@ def _print_pairs(fitness: np.ndarray, title: str) -> None:
 
 
 def print_row(predators: Table, prey: Table, name: str, names: Sequence[str]) -> None:
-    """One generation against several: the predators' first row, and the prey's."""
+    """Print one generation against several: the first row of predators and of prey."""
     grid = _grid(f"{name} against competitors of its own time and before: mean fitness")
     _columns(grid, ["competitors of", "its predators", "its prey"])
     for j, other in enumerate(names):
@@ -77,7 +78,9 @@ def print_row(predators: Table, prey: Table, name: str, names: Sequence[str]) ->
 
 
 def print_cross(tables: tuple[Table, Table], names: Sequence[str]) -> None:
-    """Two runs: predators and prey of each against those of both, and who is better."""
+    """Print a cross test: predators and prey of each run against those of both, and which are
+    better.
+    """
     predators, prey = tables
     letters = ("A", "B")
     for letter, name in zip(letters, names, strict=True):
@@ -95,7 +98,7 @@ def print_cross(tables: tuple[Table, Table], names: Sequence[str]) -> None:
 
 
 def print_tournament(tables: tuple[Table, Table], names: Sequence[str]) -> None:
-    """All against all: per side the means, each generation in brief, and the verdict."""
+    """Print all against all: for each side the means, each generation in brief, and the verdict."""
     numbers = [name.removeprefix("generation ") for name in names]
     for table, other in zip(tables, ROLES[::-1], strict=True):
         _print(_means(table, other, numbers))
@@ -130,7 +133,7 @@ def _brief(table: Table, other: str, numbers: Sequence[str]) -> Grid:
 
 @contextmanager
 def progress_bar(total: int) -> Iterator[Callable[[int], None]]:
-    """Return a function to call with the generations done; a bar where there is a terminal."""
+    """Yield a function to call with the generations done; on a terminal it moves a bar."""
     if not sys.stdout.isatty():
         yield lambda done: None
         return
@@ -143,7 +146,7 @@ def progress_bar(total: int) -> Iterator[Callable[[int], None]]:
 
 
 def spaced(count: int, most: int) -> list[int]:
-    """At most so many of `count` places, evenly spaced, the first and the last among them."""
+    """Return at most `most` of `count` indices, evenly spaced, including the first and the last."""
     if count <= most:
         return list(range(count))
     return [round(place) for place in np.linspace(0, count - 1, most)]
@@ -171,7 +174,7 @@ def _grid(title: str) -> Grid:
 
 
 def _columns(grid: Grid, names: Sequence[str], texts: int = 1) -> None:
-    """The first columns are texts, the others numbers."""
+    """Add the columns: first the texts, then the numbers."""
     for place, name in enumerate(names):
         grid.add_column(name, justify="left" if place < texts else "right", no_wrap=True)
 
@@ -202,8 +205,8 @@ CSV_COLUMNS = ("side", "generation", "competitors", "fitness", "low", "high")
 
 
 def check_files(picture: Path) -> tuple[Path, Path]:
-    """Return the picture and the CSV file beside it; raises BotschoolError if they cannot be
-    written.
+    """Return the files of the picture and its CSV; raises BotschoolError if they
+    cannot be written.
     """
     return check_output(picture, PICTURE_SUFFIXES), check_output(
         picture.with_suffix(".csv"), (".csv",)
@@ -211,7 +214,7 @@ def check_files(picture: Path) -> tuple[Path, Path]:
 
 
 def save_csv(path: Path, tables: tuple[Table, Table], generations: Sequence[int]) -> None:
-    """A row for each side, generation and generation of competitors: mean and 95 % interval."""
+    """Write a row for each side, generation and competing generation: mean and 95 % interval."""
     text = StringIO()
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow(CSV_COLUMNS)
@@ -230,7 +233,7 @@ def draw(
     title: str,
     output: Path | None = None,
 ) -> None:
-    """Heat maps, profiles, fitness against everybody and progress; to a file or the screen.
+    """Draw heat maps, profiles, fitness against all and progress, to a file or the screen.
 
     generations: of the tables' rows and columns, at least two. Raises BotschoolError.
     """
@@ -305,7 +308,7 @@ def _draw_profiles(page: Figure | SubFigure, tables: tuple[Table, Table], genera
     shared = _one_scale(tables)
     panels = page.subplots(1, 2, sharey=shared)
     chosen = spaced(len(generations), PROFILES)
-    # Single hues from light to dark, so that later generations are the darker ones.
+    # Single hues from light to dark: later generations are darker.
     hues = {"predators": colormaps["Oranges"], "prey": colormaps["Blues"]}
     for axes, table in zip(panels, tables, strict=True):
         low, high = table.interval
@@ -321,7 +324,7 @@ def _draw_profiles(page: Figure | SubFigure, tables: tuple[Table, Table], genera
         axes.set_xlabel(f"generation of the {_other(table)} (dot: of the same generation)")
         _tidy(axes)
         if shared:
-            axes.set(ylim=(-0.05, 1.25), yticks=np.linspace(0, 1, 6))  # with room for the legend
+            axes.set(ylim=(-0.05, 1.25), yticks=np.linspace(0, 1, 6))  # leave room for the legend
         else:
             bottom, top = axes.get_ylim()
             axes.set_ylim(bottom, top + 0.2 * (top - bottom))
@@ -330,7 +333,7 @@ def _draw_profiles(page: Figure | SubFigure, tables: tuple[Table, Table], genera
 
 
 def _draw_overall(axes: Axes, tables: tuple[Table, Table], generations) -> None:
-    """Fitness of each generation against the competitors of all generations."""
+    """Draw the fitness of each generation against the competitors of all generations."""
     for table in tables:
         colour = COLOURS[table.role]
         low, high = interval(table.samples.mean(axis=-1))
@@ -345,7 +348,7 @@ def _draw_overall(axes: Axes, tables: tuple[Table, Table], generations) -> None:
 
 
 def _draw_progress(axes: Axes, tables: tuple[Table, Table]) -> None:
-    """Both indices of both sides as dots with their intervals; 0 is no progress."""
+    """Draw both indices of both sides as dots with their intervals; 0 is no progress."""
     labels, row = [], 0
     for table in tables:
         for name, estimate in progress(table).items():

@@ -1,4 +1,4 @@
-"""Trainings of `botschool rl` as learning curves that can be drawn beside those of evolution."""
+"""Read trainings of `botschool rl` as learning curves that can be drawn next to evolution's."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from botschool.errors import BotschoolError
 from botschool.rl.folder import RunFolder, find_runs
 
 POST_EVALUATED, TRAINING_EPISODES = GENERATION_BEST, GENERATION_AVERAGE
-"""What these columns of a stat file hold in the curve of a training."""
+"""Meaning of these columns of a stat file in the curve of a training."""
 
 
 def has_trainings(folder: Path) -> bool:
-    """Return whether a folder is a training or holds some; runs of evolution in it come first."""
+    """Return whether a folder is or holds a training; a folder of evolutionary runs is none."""
     return folder.is_dir() and not any(folder.glob("stat*.npy")) and bool(find_runs(folder))
 
 
@@ -31,9 +31,9 @@ def read_trainings(
     """Return the curves of all trainings in a folder or below: group -> number of the run -> (n,
     6).
 
-    A group is a path that exists in name only, `FOLDER/ppo Acrobot-v1`, with what was changed by
-    --params. Columns as in `read_curve`. A damaged training is left out after `warn` was called;
-    one that was named itself is an error. Gives {} if there is no training.
+    A group is a path that exists only as a name, `FOLDER/ppo Acrobot-v1`, with the values changed
+    by --params. Columns as in `read_curve`. A damaged training is left out after a call of `warn`;
+    it is an error if it was named itself. Return {} if there is no training.
     """
     groups: dict[Path, dict[int, np.ndarray]] = {}
     runs = find_runs(folder)
@@ -61,10 +61,10 @@ def _group(run: RunFolder) -> Path:
 def read_curve(run: RunFolder, count_evaluations: bool = False) -> np.ndarray:
     """Return the learning curve of a training in the shape of a stat file, (evaluations, 6).
 
-    Steps of training (with `count_evaluations` those of the post-evaluations too, as evolution
-    counts them); the best post-evaluation so far; POST_EVALUATED, the mean return of this one;
-    TRAINING_EPISODES, the mean return of the latest episodes of the training itself. The other
-    columns are NaN. Raises BotschoolError.
+    The columns are: steps of training (with `count_evaluations` including post-evaluations, as in
+    evolution); the best post-evaluation so far; POST_EVALUATED, the mean return of this one;
+    TRAINING_EPISODES, the mean return of the training's latest episodes. Other columns are NaN.
+    Raises BotschoolError.
     """
     found = run.evaluations()
     curve = np.full((len(found.steps), 6), np.nan)

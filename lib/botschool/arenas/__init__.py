@@ -1,1 +1,1 @@
-"""Arenas of wheeled robots: declare them, and step them by hand."""
+"""Declare arenas of wheeled robots, and step them by hand."""

@@ -1,5 +1,5 @@
-"""The arenas of wheeled robots, to step by hand: `make("discrim")`, `make("predprey")`, and those
-that are declared: `make(Plan(...))` (botschool.arenas.plan).
+"""Step the arenas of wheeled robots by hand: `make("discrim")`, `make("predprey")`, or a declared
+one, `make(Plan(...))` (botschool.arenas.plan).
 
     arena = make("discrim")
     arena.reset(seed=1)
@@ -8,8 +8,8 @@ that are declared: `make(Plan(...))` (botschool.arenas.plan).
         reward = arena.step()
 
 Lengths are in mm, angles in radians, counter-clockwise from the x axis, and a step lasts 0.1 s.
-Whole episodes of evolution run in C++ without this (botschool.problems); what happens in a step is
-the same. The world itself is in lib/arena/robots (docs/specification.md, "Wheeled robots").
+Evolution runs whole episodes in C++ (botschool.problems) with the same steps. The world itself is
+in lib/arena/robots (docs/specification.md, "Wheeled robots").
 """
 
 from __future__ import annotations
@@ -39,9 +39,8 @@ _TASKS = {
 class Arena:
     """One arena with its robots; `make` makes one.
 
-    All arrays are the arena's own and stay the same ones: write into them, or assign to them,
-    which copies. Anything that cannot be, such as a robot inside a wall, is a BotschoolError when
-    it is used.
+    The arrays belong to the arena and stay the same objects: write into them, or assign to them,
+    which copies. Using an impossible state, such as a robot inside a wall, raises BotschoolError.
     """
 
     def __init__(
@@ -50,23 +49,23 @@ class Arena:
         info = _TASKS[name]
         self.name = name
         self.problem: str = info["name"]
-        """Its name in experiment files."""
+        """Name of the problem in experiment files."""
         self.plan: Plan | None = plan
-        """What has been declared, in a declared arena."""
+        """The plan of a declared arena, else None."""
         own_limit = plan.steps if plan else info["limit"]
         self.max_steps = _max_steps(own_limit if max_steps is None else max_steps)
         self.models = plan.models if plan else robots.cast(name, info["plan"], models)
-        """What each robot is built like, arenas.robots.RobotModel."""
+        """The model of each robot (arenas.robots.RobotModel)."""
         self.width: float = plan.width if plan else info["plan"]["width"]
         self.height: float = plan.height if plan else info["plan"]["height"]
         self.cylinders: int = len(plan.cylinders) if plan else info["plan"]["cylinders"]
-        """How many rows of `objects` are cylinders; the others are walls."""
+        """Number of rows of `objects` that are cylinders; the others are walls."""
         self.steps = 0
-        """Done in this episode."""
+        """Steps done in this episode."""
         self.done = False
         """Whether the episode has ended."""
         self.terminated = False
-        """Whether it has ended for another reason than `max_steps`."""
+        """Whether the episode has ended for another reason than `max_steps`."""
         self._stepper = _core.make_stepper(self.problem)
         tables = [None if t is None else samples.load(t).core() for t in (wall_table, round_table)]
         chosen = [model.name for model in self.models]
@@ -75,7 +74,7 @@ class Arena:
         self._stepper.set(self.max_steps, options)
         self._seed, self._episode = 0, -1
         self._state = self._stepper.state
-        # where cylinders, lights and zones begin in the state
+        # indices in the state where cylinders, lights and zones begin
         self._first = plan.firsts if plan else {"cylinder": 3 * len(self.models)}
         self._robots = np.zeros((len(self.models), 3))
         self._lights = np.zeros((len(plan.lights) if plan else 0, 2))
@@ -87,16 +86,20 @@ class Arena:
 
     @property
     def observation(self) -> np.ndarray:
-        """What the robots sense, one robot after another, float64: 8 values in "discrim", twice 24
-        in "predprey", twice 32 in "staybehind", in a declared arena those of its sensors. It is
-        renewed by reset(), step() and sense()."""
+        """Return the robots' observations, one robot after another, float64.
+
+        A robot of "discrim" has 8 values, of "predprey" 24, of "staybehind" 32, of a declared arena
+        those of its sensors. reset(), step() and sense() update the array.
+        """
         return self._observation
 
     @property
     def action(self) -> np.ndarray:
-        """Left and right wheel of one robot after another, float64, shape (2 * robots,): shares
-        of the greatest speed, usually -1 to 1; in "staybehind" speed and direction instead. step()
-        reads it and leaves it as it is."""
+        """Return the wheels' speeds, one robot after another, float64, shape (2 * robots,).
+
+        They are shares of the greatest speed, left and right, usually -1 to 1; in "staybehind"
+        speed and direction instead. step() reads the array and does not change it.
+        """
         return self._action
 
     @action.setter
@@ -105,7 +108,9 @@ class Arena:
 
     @property
     def robots(self) -> np.ndarray:
-        """Poses, float64, shape (robots, 3): rows x, y, heading. Write here to move a robot."""
+        """Return the poses, float64, shape (robots, 3): rows x, y, heading. Write here to move a
+        robot.
+        """
         return self._robots
 
     @robots.setter
@@ -114,10 +119,10 @@ class Arena:
 
     @property
     def objects(self) -> np.ndarray:
-        """Cylinders, then walls, float64, shape (objects, 5): rows x, y, x2, y2, radius.
+        """Return cylinders, then walls, float64, shape (objects, 5): rows x, y, x2, y2, radius.
 
         A cylinder's x2 and y2 are 0, and so is a wall's radius. reset() places the cylinders anew;
-        everything else stays as it is written here.
+        the rest keeps your values.
         """
         return self._objects
 
@@ -127,8 +132,9 @@ class Arena:
 
     @property
     def lights(self) -> np.ndarray:
-        """Where the lights of a declared arena are, float64, shape (lights, 2). Write here to move
-        one; reset() places all anew."""
+        """Return the positions of a declared arena's lights, float64, shape (lights, 2). Write here
+        to move a light; reset() places all anew.
+        """
         return self._lights
 
     @lights.setter
@@ -137,7 +143,7 @@ class Arena:
 
     @property
     def zones(self) -> np.ndarray:
-        """The same of the zones."""
+        """Return the positions of the zones; see lights."""
         return self._zones
 
     @zones.setter
@@ -146,9 +152,12 @@ class Arena:
 
     @property
     def state(self) -> np.ndarray:
-        """x, y, heading of each robot, x, y of each cylinder, steps done: what scenes draw. In
-        "staybehind" it tells before the steps who is blocked. That of a declared arena is in
-        docs/specification.md, "Declared arenas"."""
+        """Return the state that scenes draw: x, y, heading of each robot, x, y of each cylinder,
+        steps.
+
+        In "staybehind" it also holds, before the steps, which robot is blocked.
+        docs/specification.md, "Declared arenas", describes that of a declared arena.
+        """
         state = self._state.copy()
         for first, values in self._parts():
             state[first : first + values.size] = values.ravel()
@@ -156,7 +165,7 @@ class Arena:
         return state
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
-        """Return what a user can move: where it begins in the state, and its places."""
+        """Return the arrays that a user can move: index in the state, and positions."""
         parts = [(0, self._robots), (self._first["cylinder"], self._objects[: self.cylinders, :2])]
         if self.plan:
             parts += [(self._first["light"], self._lights), (self._first["zone"], self._zones)]
@@ -165,8 +174,8 @@ class Arena:
     def reset(self, seed: int | None = None, episode: int = 0) -> np.ndarray:
         """Start an episode and return the observation.
 
-        Seed and episode decide on everything that is random in it, as they do in evolution.
-        Without a seed the next episode of the seed before starts.
+        Seed and episode determine everything random in it, as in evolution. Without a seed, the
+        next episode of the previous seed starts.
         """
         if seed is None:
             seed, episode = self._seed, self._episode + 1
@@ -182,17 +191,17 @@ class Arena:
         return self.sense()
 
     def sense(self) -> np.ndarray:
-        """Renew and return the observation, from the poses as they stand; nothing moves."""
+        """Update and return the observation from the present poses; nothing moves."""
         self._place()
         self._observation[:] = self._stepper.observation
         return self._observation
 
     def step(self) -> float:
-        """Move the robots by `action` from the poses as they stand, and return the reward.
+        """Move the robots by `action` from their present poses, and return the reward.
 
-        In "predprey" it is the predator's, in others that of all robots. The random noise
-        of the sensors depends on seed, episode and step.
-        After the episode's end it moves on all the same; `done` stays True until reset().
+        In "predprey" it is the predator's, otherwise that of all robots. The sensors' noise depends
+        on seed, episode and step. You can call it after the episode's end, too; `done` stays True
+        until reset().
         """
         _finite("action", self._action)
         self._place()
@@ -210,7 +219,9 @@ class Arena:
         self.steps = int(state[-1])
 
     def _place(self) -> None:
-        """Put robots and objects where the arrays say, if that can be."""
+        """Put robots and objects where the arrays say. Raises BotschoolError if
+        that is impossible.
+        """
         _finite("robots", self._robots)
         _finite("lights", self._lights)
         _finite("zones", self._zones)
@@ -257,13 +268,13 @@ def make(
 
     "discrim": a Khepera, a cylinder. "predprey": two marXbots, the predator first. "staybehind":
     two marXbots, the follower first. A Plan (botschool.arenas.plan): the arena that it declares;
-    `config.load(FILE).plan` is that of a file.
+    `config.load(FILE).plan` is the plan of a file.
 
-    max_steps: longest episode; None is the task's own (500, 2000, 500). noise: standard deviation
-    of the infrared readings; None is the task's own (0.03, 0, 0). wall_table, round_table:
-    `.sample` files (botschool.arenas.samples) with measured readings of walls and of round things;
-    None is the fitted model. models: names of other robots ("e-puck"), one for all or one each; ()
-    is the task's own. Raises BotschoolError.
+    max_steps: longest episode; None means the task's own (500, 2000, 500). noise: standard
+    deviation of the infrared readings; None means the task's own (0.03, 0, 0). wall_table,
+    round_table: `.sample` files (botschool.arenas.samples) with measured readings of walls and of
+    round objects; None means the fitted model. models: names of other robots ("e-puck"), one for
+    all or one each; () means the task's own. Raises BotschoolError.
     """
     if isinstance(name, Plan):
         if models:

@@ -1,18 +1,19 @@
-"""A declared arena: robots, walls, cylinders, lights, zones, sensors and a reward by name.
+"""Declare an arena: robots, walls, cylinders, lights, zones, sensors and a reward by name.
 
     Plan(robots=[Robot("e-puck", x=(100, 300), y=200)], lights=[Light(x=350)],
          sensors=["infrared", "light"], reward="near-light")
 
-is the section [ARENA] of an experiment file with `environment = ErArena`
+is the same as the section [ARENA] of an experiment file with `environment = ErArena`:
 
     robot1  = e-puck, x 100 to 300, y 200
     light1  = x 350
     sensors = infrared, light
     reward  = near-light
 
-Lengths are in mm, angles in degrees, counter-clockwise from the x axis. A place or a heading is a
-number, a range (low, high) from which every episode draws, or left out: anywhere. Things may also
-be given as texts, as in a file. docs/specification.md, "Declared arenas".
+Lengths are in mm, angles in degrees, counter-clockwise from the x axis. A position or a heading is
+a number or a range (low, high) from which every episode draws; if it is left out, it can be
+anywhere. You may also give objects as texts, as in a file. docs/specification.md, "Declared
+arenas".
 """
 
 from __future__ import annotations
@@ -45,11 +46,11 @@ __all__ = ["ArenaConfig", "Cylinder", "Light", "Plan", "PlanError", "Robot", "Wa
 
 PROBLEM = "ErArena"
 TRIED = 100
-"""Episodes whose starts are looked at before a plan is taken."""
+"""Episodes whose starts are tried before a plan is accepted."""
 
 
 class PlanError(BotschoolError):
-    """What cannot be in a plan; `key` is the line of a file that says so, such as robot1."""
+    """An error in a plan; `key` is the line of the file that causes it, such as robot1."""
 
     def __init__(self, key: str, sentence: str) -> None:
         super().__init__(sentence if sentence.endswith("?") else f"{sentence}.")
@@ -60,7 +61,7 @@ NEEDS = {
     "near-cylinder": "cylinder", "near-light": "light", "on-zone": "zone", "same-zone": "zone",
     "every-zone": "zone", "cylinders": "cylinder", "light": "light", "ground": "zone",
 }  # fmt: skip
-"""What must be in the arena for a reward or a sensor to mean something."""
+"""Objects that a reward or a sensor needs in the arena."""
 TEAM = ("same-zone", "every-zone", "together", "camera")
 """Rewards and sensors for two robots or more."""
 
@@ -178,7 +179,7 @@ class Plan:
             )
 
     def _check_places(self) -> None:
-        """Ranges lie within the arena."""
+        """Check that ranges lie within the arena."""
         for kind in KINDS:
             for number, thing in enumerate(getattr(self, f"{kind}s"), 1):
                 key = f"{kind}{number}"
@@ -204,7 +205,7 @@ class Plan:
             )
 
     def _check_starts(self) -> None:
-        """Nothing overlaps at the starts of some episodes."""
+        """Check that nothing overlaps at the starts of some episodes."""
         stepper = _core.make_stepper(PROBLEM)
         options = _core.ArenaOptions(declaration=self.core)
         stepper.set(1, options)
@@ -249,17 +250,17 @@ class Plan:
         )
 
     def __getstate__(self) -> dict:
-        """For copies: without what C++ has made of it."""
+        """Return the state to copy, without the C++ objects."""
         return {name: value for name, value in vars(self).items() if name != "core"}
 
     @property
     def models(self) -> tuple[RobotModel, ...]:
-        """What each robot is built like."""
+        """Return the model of each robot."""
         return tuple(robot.model for robot in self.robots)
 
     @cached_property
     def core(self) -> _core.Declaration:
-        """The same in C++."""
+        """Return the same plan as a C++ declaration."""
         return _core.Declaration(
             width=self.width,
             height=self.height,
@@ -289,12 +290,12 @@ class Plan:
 
     @property
     def sizes(self) -> list[tuple[str, int]]:
-        """Each sensor, and how many values it gives."""
+        """Return each sensor and its number of values."""
         return [(name, self.core.size_of(name)) for name in self.sensors]
 
     @property
     def beams(self) -> list[float]:
-        """Directions of the laser's beams, radians from the heading."""
+        """Return the directions of the laser's beams in radians from the heading."""
         count, field = self.laser_beams, self.laser_angle
         if field >= 360 or count == 1:
             return [math.radians(field * beam / count) for beam in range(count)]
@@ -302,7 +303,7 @@ class Plan:
 
     @property
     def firsts(self) -> dict[str, int]:
-        """Where the numbers of robots, cylinders, lights and zones begin in a state."""
+        """Return the indices in a state where robots, cylinders, lights and zones begin."""
         found, first = {}, 0
         for kind, values in _ROWS.items():
             found[kind] = first
@@ -310,7 +311,7 @@ class Plan:
         return found | {"visited": first}
 
     def spots(self, state: np.ndarray) -> dict[str, np.ndarray]:
-        """Return where things are in a state of the arena: kind -> x, y of each."""
+        """Return the positions in a state of the arena: kind -> x, y of each object."""
         found = {}
         for kind, first in self.firsts.items():
             if kind in _ROWS:
@@ -321,7 +322,7 @@ class Plan:
 
 
 _ROWS = {"robot": 3, "cylinder": 2, "light": 2, "zone": 2}
-"""Numbers that a thing has in a state."""
+"""Numbers of an object in a state."""
 
 
 def _ends(value: Range, low: float, high: float) -> tuple[float, float]:
@@ -331,7 +332,7 @@ def _ends(value: Range, low: float, high: float) -> tuple[float, float]:
 
 
 def _gap(wall: Wall, x: float, y: float) -> float:
-    """From a point to a wall."""
+    """Return the distance from a point to a wall."""
     ux, uy = wall.x2 - wall.x, wall.y2 - wall.y
     t = min(max(((x - wall.x) * ux + (y - wall.y) * uy) / (ux * ux + uy * uy), 0.0), 1.0)
     return math.hypot(x - wall.x - t * ux, y - wall.y - t * uy)

@@ -1,4 +1,4 @@
-"""The kinds of wheeled robots that there are, and which of them a task is given.
+"""Describe the kinds of wheeled robots, and choose the robots of a task.
 
 Their table is in lib/arena/robots/plan.hpp (docs/specification.md, "Wheeled robots").
 """
@@ -15,18 +15,18 @@ from botschool.inifile import nearest
 
 @dataclass(frozen=True)
 class RobotModel:
-    """What a robot is built like; lengths in mm."""
+    """Properties of a kind of robot; lengths in mm."""
 
     name: str
     radius: float
     axle: float
-    """Between the wheels."""
+    """Distance between the wheels."""
     speed: float
-    """mm/s of a wheel at an action of 1."""
+    """Speed of a wheel at an action of 1, in mm/s."""
     directions: tuple[float, ...]
-    """Of the infrared sensors, degrees counter-clockwise from the heading."""
+    """Directions of the infrared sensors, degrees counter-clockwise from the heading."""
     range: float
-    """Infrared sensors see no farther than this from the robot's edge."""
+    """Range of the infrared sensors from the robot's edge."""
 
 
 MODELS = {
@@ -36,7 +36,7 @@ MODELS = {
 
 
 def find(name: str) -> RobotModel:
-    """Return the model of that name, in capitals or not. Raises BotschoolError."""
+    """Return the model with this name, in any case. Raises BotschoolError."""
     for known, model in MODELS.items():
         if known.lower() == name.lower():
             return model

@@ -1,4 +1,4 @@
-"""Measured infrared tables: `.sample` files (docs/specification.md, "Wheeled robots").
+"""Read measured infrared tables: `.sample` files (docs/specification.md, "Wheeled robots").
 
     8 180 20 5 2            sensors, angles, distances, first distance and step in mm
     TURN 0                  the first distance
@@ -8,8 +8,8 @@
     ...
     END
 
-Readings are shares of a sensor's greatest one. In a file with a reading above 1 all are raw units
-of a sensor that reads up to 1023, and are divided by that.
+Readings are shares of a sensor's greatest one. If a file has a reading above 1, all its readings
+are raw units of a sensor with a maximum of 1023, and are divided by that.
 """
 
 from __future__ import annotations
@@ -28,17 +28,17 @@ SENSORS = 8
 RAW_UNITS = 1023.0
 HEADER = "8 180 20 5 2"
 MOST = 10_000
-"""Angles or distances."""
+"""Largest number of angles or distances."""
 
 
 @dataclass(frozen=True)
 class Samples:
-    """What eight infrared sensors were measured to read."""
+    """Measured readings of eight infrared sensors."""
 
     first: float
     """Nearest distance between the robot's and the object's surface, mm."""
     step: float
-    """From one distance to the next, mm."""
+    """Difference between two neighbouring distances, mm."""
     readings: np.ndarray
     """Shape (distances, angles, 8), 0 to 1."""
 
@@ -80,14 +80,14 @@ class _Lines:
         return len(self._lines) - self._next
 
     def next(self, wanted: str) -> list[str]:
-        """Return the next line's words; `wanted` says what is missing where the file ends."""
+        """Return the next line's words; `wanted` names the missing part if the file ends here."""
         if not self.left():
             raise refusal(self._path, 0, f"the file ends where {wanted} should come")
         self._next += 1
         return self._lines[self._next - 1][1]
 
     def refuse(self, sentence: str) -> None:
-        """Raise the error for the line that was given last."""
+        """Raise an error about the last line that was read."""
         raise refusal(self._path, self._lines[self._next - 1][0], sentence)
 
 

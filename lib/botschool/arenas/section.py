@@ -1,6 +1,6 @@
-"""The section [ARENA] of experiment files: its keys, and the words that it knows.
+"""Define the section [ARENA] of experiment files: its keys and their words.
 
-What they mean together is in botschool.arenas.plan.
+botschool.arenas.plan checks how they fit together.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from botschool.inifile import nearest, shown
 from botschool.policies.hyperparameters import hyper
 
 WORDS = _core.declarations()
-"""The names and the greatest numbers that lib/arena/robots/declaration.hpp has."""
+"""Names and limits from lib/arena/robots/declaration.hpp."""
 REWARDS = {
     "avoid": "fast, straight and away from things",
     "explore": "1 for each cell of 8 x 8 that is new",
@@ -47,7 +47,7 @@ def _length(default: float, explanation: str) -> Any:
 
 @dataclass
 class Scalars:
-    """Its keys but for the things that stand in the arena."""
+    """The keys of the section, except those of robots and objects."""
 
     width: float = _length(400.0, "of the arena, mm")
     height: float = _length(400.0, "of the arena, mm")
@@ -75,7 +75,7 @@ class Scalars:
 
 
 def reader(key: str, cls: type[Thing]) -> Callable[[str], Thing]:
-    """Read the text of that key; what is wrong with it begins with the key."""
+    """Return a reader of that key's text; its errors begin with the key."""
 
     def read(text: str) -> Thing:
         try:
@@ -101,7 +101,7 @@ def _lines() -> list[tuple[str, type, Any]]:
 if TYPE_CHECKING:
 
     class ArenaConfig(Scalars):
-        """A type checker cannot see the keys that are counted: robot1, robot2 ..."""
+        """Tells a type checker nothing of the numbered keys: robot1, robot2 ..."""
 
 else:
     ArenaConfig = make_dataclass(

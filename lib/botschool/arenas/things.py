@@ -1,7 +1,7 @@
-"""What stands in a declared arena (botschool.arenas.plan), and the texts by which files name it.
+"""Define the objects of a declared arena (botschool.arenas.plan), and their texts in files.
 
-Lengths are in mm, angles in degrees, counter-clockwise from the x axis. A place or a heading is a
-number, a range (low, high) from which every episode draws, or None: anywhere.
+Lengths are in mm, angles in degrees, counter-clockwise from the x axis. A position or a heading is
+a number, a range (low, high) from which every episode draws, or None: anywhere.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from botschool.errors import BotschoolError
 from botschool.inifile import nearest, shown
 
 LONGEST = 100_000.0
-"""Of a side and of any length, mm."""
+"""Largest side and length, mm."""
 
 Range = float | tuple[float, float] | None
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?"
@@ -25,11 +25,11 @@ NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?"
 
 @dataclass(frozen=True)
 class Thing:
-    """What a line of [ARENA] puts into the arena."""
+    """An object that a line of [ARENA] puts into the arena."""
 
     @classmethod
     def read(cls, text: str) -> Any:
-        """Return a thing from its text, as `x 100 to 300, y 50`. Raises ValueError or
+        """Return the object of a text such as `x 100 to 300, y 50`. Raises ValueError or
         BotschoolError.
         """
         known = {f.name: f for f in fields(cls)}
@@ -54,7 +54,7 @@ class Thing:
         return cls(**values)
 
     def text(self) -> str:
-        """Return the text of which `read` makes it."""
+        """Return the text from which `read` makes the same object."""
         parts = []
         for f in fields(self):
             value = getattr(self, f.name)
@@ -76,11 +76,11 @@ class Thing:
 
 
 def _checked(f: Field, value: Any) -> Range:
-    """Return the value of a thing's field, as a float or a range of two. Raises BotschoolError."""
+    """Return the value of an object's field, a float or a range of two. Raises BotschoolError."""
     ranged = "Range" in f.type and isinstance(value, (tuple, list)) and len(value) == 2
     numbers = tuple(value) if ranged else (value,)
     if not all(is_number(number) for number in numbers):
-        raise BotschoolError(f"{f.name} = {shown(value)} is no number from -100000 to 100000.")
+        raise BotschoolError(f"{f.name} = {shown(value)} is not a number from -100000 to 100000.")
     low, high = float(numbers[0]), float(numbers[-1])
     if low > high:
         raise BotschoolError(f"{f.name} {low:g} to {high:g} goes from high to low.")
@@ -103,11 +103,11 @@ class Robot(Thing):
     y: Range = None
     heading: Range = None
     speed: float = field(default=0.0, metadata={"low": 0, "high": LONGEST})
-    """mm/s of a wheel at an action of 1; 0 is the kind's own."""
+    """Speed of a wheel at an action of 1, in mm/s; 0 means the kind's own."""
 
     @property
     def model(self) -> RobotModel:
-        """What it is built like."""
+        """Return the robot's model."""
         model = find(self.kind)
         return replace(model, speed=self.speed) if self.speed else model
 
@@ -135,7 +135,7 @@ class Cylinder(Thing):
 
 @dataclass(frozen=True)
 class Light(Thing):
-    """A light above the floor, which nothing bumps into."""
+    """A light above the floor, which robots cannot hit."""
 
     x: Range = None
     y: Range = None
@@ -150,7 +150,7 @@ class Zone(Thing):
     y: Range = None
     radius: float = field(default=100.0, metadata={"above": 0})
     shade: float = field(default=1.0, metadata={"low": 0, "high": 1})
-    """What ground sensors read above it; 0 is the floor."""
+    """Reading of a ground sensor above it; the floor reads 0."""
 
 
 KINDS = {"robot": Robot, "wall": Wall, "cylinder": Cylinder, "light": Light, "zone": Zone}
@@ -161,11 +161,11 @@ def _range(name: str, text: str, kind: str) -> Any:
     if not match or (match[2] and "Range" not in kind):
         ranged = f", or {name} 100 to 300" if "Range" in kind else ""
         said = shown(f"{name} {text}".strip())
-        raise ValueError(f"{said} is no number: write {name} 100{ranged}")
+        raise ValueError(f"{said} is not a number: write {name} 100{ranged}")
     return (float(match[1]), float(match[2])) if match[2] else float(match[1])
 
 
 def is_number(value: Any, most: float = LONGEST) -> bool:
-    """Return whether it is a finite number, and not a larger one."""
+    """Return whether the value is a finite number, at most `most`."""
     numeric = isinstance(value, (int, float, np.integer, np.floating))
     return numeric and not isinstance(value, bool) and abs(value) <= most

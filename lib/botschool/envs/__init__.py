@@ -1,3 +1,3 @@
-"""The Gymnasium and PettingZoo faces of our own problems; importing this registers their ids."""
+"""Register our own problems with Gymnasium and PettingZoo."""
 
 from botschool.problems import faces  # noqa: F401

@@ -1,4 +1,4 @@
-"""Body and brain: a chain of segments that crawls or walks over rough ground (Box2D)."""
+"""Simulate body and brain: a chain of segments that crawls or walks over rough ground (Box2D)."""
 
 from __future__ import annotations
 
@@ -47,16 +47,16 @@ CLEARANCE = 0.1
 
 MOTOR_SPEED, MOTOR_TORQUE = 5.0, 90.0
 LOST = -100.0
-"""Reward of leaving the ground's left end, and of a robot that explodes."""
+"""Reward for leaving the ground at its left end, and for an exploding robot."""
 
 
 def _add_shape(body, shape, **options) -> None:
     body.CreateFixture(b2FixtureDef(shape=shape, friction=FRICTION, **options))
-    shape.thisown = True  # the definition has taken it over, and would never free it
+    shape.thisown = True  # otherwise nobody would free it: the definition owns it
 
 
 class Touch(b2ContactListener):
-    """How many contacts each segment has with the ground."""
+    """Counts the contacts of each segment with the ground."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -72,23 +72,23 @@ class Touch(b2ContactListener):
 class BodyBrain(gymnasium.Env):
     """A torso and ten more segments in a chain, with a motor in each joint.
 
-    The body is given by 64 parameters (botschool.envs.morphology), when the environment is made or
-    by `set_morphology`. Action (10): speed and torque of the motors. Observation (35): torso angle,
-    angular velocity, horizontal and vertical velocity and contact; angle (against the default one)
-    and speed of each joint; contact of each other segment. Reward: metres forward, 130 / 30 each,
-    minus 5 for each radian that the torso turns away from the horizontal. `info["distance"]` is how
-    far forward the torso has come, in metres.
+    64 parameters describe the body (botschool.envs.morphology): an argument of the constructor, or
+    of `set_morphology`. Action (10): speed and torque of the motors. Observation (35): torso angle,
+    angular velocity, horizontal and vertical velocity and contact; angle (relative to the default
+    angle) and speed of each joint; contact of each other segment. Reward: metres forward, 130 / 30
+    each, minus 5 for each radian that the torso turns away from the horizontal. `info["distance"]`
+    is the torso's progress in metres.
 
-    All this exactly: docs/specification.md, "Bodies". The torso is the rear end, and the
-    chain begins to its right; the body is placed with the middle of its extent above the middle of
-    the flat part, its lowest corner 0.1 m above the ground; gravity is 10 m/s^2; the ground's
-    friction is that of the segments. Every episode has a world of its own, so it is a pure function
-    of body, seed and actions.
+    docs/specification.md, "Bodies", has the exact rules. The torso is the rear end, and the chain
+    begins to its right. The body starts with the middle of its extent above the middle of the flat
+    part, its lowest corner 0.1 m above the ground. Gravity is 10 m/s^2; the ground's friction is
+    that of the segments. Every episode has a world of its own, so it is a pure function of body,
+    seed and actions.
     """
 
     metadata: ClassVar[dict] = {"render_modes": ["human", "rgb_array"], "render_fps": FPS}
     morphology_size = MORPHOLOGY_SIZE
-    """Parameters of the body, at the end of a genotype."""
+    """Number of parameters of the body, at the end of a genotype."""
 
     def __init__(self, render_mode: str | None = None, morphology: np.ndarray | None = None):
         self.render_mode = render_mode
@@ -100,7 +100,7 @@ class BodyBrain(gymnasium.Env):
         self._world: Any = None
 
     def set_morphology(self, parameters: np.ndarray) -> None:
-        """The body of all episodes from the next reset on; 64 numbers. Raises ValueError."""
+        """Set the body of all episodes from the next reset on; 64 numbers. Raises ValueError."""
         self.body: Morphology = decode(parameters)
 
     def reset(self, *, seed: int | None = None, options: dict | None = None):
@@ -181,7 +181,7 @@ class BodyBrain(gymnasium.Env):
         return observation, reward, terminated, False, {"distance": x - self._start_x}
 
     def _advance(self, action: np.ndarray) -> None:
-        """A fiftieth of a second."""
+        """Simulate a fiftieth of a second."""
         speeds, torques = MOTOR_SPEED * np.sign(action), MOTOR_TORQUE * np.minimum(abs(action), 1)
         for joint, speed, torque in zip(
             self.joints, speeds.tolist(), torques.tolist(), strict=True
@@ -191,7 +191,7 @@ class BodyBrain(gymnasium.Env):
         self._world.Step(1 / FPS, VELOCITY_ITERATIONS, POSITION_ITERATIONS)
 
     def _explode(self):
-        """The end of an episode in which numbers have become NaN."""
+        """End an episode in which numbers have become NaN."""
         self.exploded = True
         nothing = np.zeros(self.observation_space.shape, np.float32)
         return nothing, LOST, True, False, {"distance": 0.0}
@@ -210,7 +210,7 @@ class BodyBrain(gymnasium.Env):
         return np.array(values + contacts[1:], dtype=np.float32)
 
     def render(self):
-        """A picture, (400, 600, 3) uint8, or the window's next one."""
+        """Return a picture, (400, 600, 3) uint8, or show the next one in the window."""
         if self.render_mode is None:
             gymnasium.logger.warn('make the environment with render_mode="rgb_array" to see it.')
             return None

@@ -1,4 +1,4 @@
-"""Pictures of a BodyBrain robot, in the style of Gymnasium's Box2D environments.
+"""Draw a BodyBrain robot in the style of Gymnasium's Box2D environments.
 
 `env` is always a botschool.envs.bodybrain.BodyBrain.
 """
@@ -24,9 +24,9 @@ except ImportError as error:
 
 WIDTH, HEIGHT = 600, 400
 SCALE = 30.0
-"""Pixels a metre."""
+"""Pixels per metre."""
 GROUND_AT = 110.0
-"""Pixels of ground, on average, at the bottom of the picture."""
+"""Average height of the ground in the picture, in pixels."""
 
 SKY = (215, 215, 255)
 CLOUD = (255, 255, 255)
@@ -39,7 +39,7 @@ NEAR, FAR = np.array([127, 76, 180]), np.array([90, 170, 200])
 HINGE = (60, 40, 80)
 
 CLOUDS = ((3.0, 9.6, 1.5), (11.0, 8.4, 1.0), (16.5, 10.2, 1.8), (24.0, 9.0, 1.2))
-"""x, y and size in metres; they come again every 30 m, and move at half the ground's pace."""
+"""x, y and size in metres; clouds repeat every 30 m, and move at half the ground's pace."""
 CLOUDS_EVERY = 30.0
 
 
@@ -55,7 +55,7 @@ class View:
         self._clock: Any = None
 
     def draw(self, env) -> np.ndarray | None:
-        """Return the picture as (400, 600, 3) uint8, or None when it went to the window."""
+        """Return the picture as (400, 600, 3) uint8, or None if the window shows it."""
         if self._mode == "human":
             self._open()
         if not env.exploded:
@@ -72,14 +72,14 @@ class View:
         return np.ascontiguousarray(pygame.surfarray.array3d(self._surface).swapaxes(0, 1))
 
     def _look_at(self, env) -> None:
-        """Put the robot in the middle, and the ground that is in sight at the usual height."""
+        """Put the robot in the middle, and the visible ground at its usual height."""
         x = float(np.mean([segment.position.x for segment in env.segments]))
         self._left = x - WIDTH / SCALE / 2
         seen = np.interp(np.linspace(x - 10, x + 10, 21), *_ground(env.heights))
         self._bottom = float(np.mean(seen)) - GROUND_AT / SCALE
 
     def _at(self, x: float, y: float) -> tuple[float, float]:
-        """Pixels of a point in metres."""
+        """Return a point in metres as pixels."""
         return SCALE * (x - self._left), HEIGHT - SCALE * (y - self._bottom)
 
     def _draw_clouds(self) -> None:
@@ -106,7 +106,7 @@ class View:
             pygame.draw.aaline(self._surface, (76, 140, 56), (x1, y1), (x2, y2))
 
     def _draw_flag(self, heights: list[float]) -> None:
-        """A flag where robots start, and a number every 5 m from there."""
+        """Draw a flag where robots start, and a number every 5 m from there."""
         x, y = self._at(START_X, heights[0])
         pygame.draw.aaline(self._surface, (0, 0, 0), (x, y), (x, y - 50))
         flag = [(x, y - 50), (x, y - 40), (x + 25, y - 45)]

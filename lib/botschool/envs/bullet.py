@@ -1,4 +1,4 @@
-"""PyBullet without its chatter: worlds of their own, models, pictures."""
+"""Use PyBullet without its output: worlds of their own, models, pictures."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ SELF_COLLISION = ("USE_SELF_COLLISION", "USE_SELF_COLLISION_EXCLUDE_ALL_PARENTS"
 FORMATS = (".urdf", ".xml", ".mjcf")
 
 FIELD_OF_VIEW = 45.0
-"""Degrees, from the bottom of a picture to its top."""
+"""Vertical angle of a picture in degrees."""
 MARGIN = 1.05
-"""How much farther than necessary a fitting camera stands."""
+"""Factor on the smallest distance from which a camera sees all."""
 
 _one_at_a_time = threading.RLock()
 
 
 @contextmanager
 def hushed() -> Iterator[None]:
-    """Show nothing that C code writes to standard output or error meanwhile."""
+    """Hide what C code writes to standard output or error meanwhile."""
     with _one_at_a_time:
         _flush()
         kept = {}
@@ -56,7 +56,7 @@ def _flush() -> None:
 
 
 def import_pybullet() -> ModuleType:
-    """PyBullet, without its greeting. Raises BotschoolError if it is not installed."""
+    """Import PyBullet without its greeting. Raises BotschoolError if it is not installed."""
     if sys.modules.get("pybullet"):
         return sys.modules["pybullet"]
     try:
@@ -70,7 +70,7 @@ def import_pybullet() -> ModuleType:
 
 
 def data_folder() -> Path:
-    """Return where PyBullet keeps its models."""
+    """Return the folder of PyBullet's models."""
     import_pybullet()
     import pybullet_data
 
@@ -78,13 +78,11 @@ def data_folder() -> Path:
 
 
 def connect(window: bool = False) -> int:
-    """Return a new physics world; returns its client. Raises BotschoolError where no window can
-    open.
-    """
+    """Start a physics world and return its client. Raises BotschoolError if no window can open."""
     bullet = import_pybullet()
     if window and sys.platform == "linux" and not os.environ.get("DISPLAY"):
         raise BotschoolError(
-            "there is no display to open a window on: make a film or a picture instead (in a "
+            "there is no display for a window: make a film or a picture instead (in a "
             "command with --video FILE.mp4 or --sheet FILE.png, in Python with "
             "render_mode='rgb_array')."
         )
@@ -92,7 +90,7 @@ def connect(window: bool = False) -> int:
         client = bullet.connect(bullet.GUI if window else bullet.DIRECT)
     if client < 0:
         raise BotschoolError(
-            "PyBullet gives no further physics world: close() environments that are done with."
+            "PyBullet gives no further physics world: close() environments that you no longer need."
         )
     if window:
         bullet.configureDebugVisualizer(bullet.COV_ENABLE_GUI, 0, physicsClientId=client)
@@ -100,7 +98,7 @@ def connect(window: bool = False) -> int:
 
 
 def disconnect(client: int) -> None:
-    """Ends a physics world, if it has not ended already."""
+    """End a physics world, unless it has ended already."""
     bullet = sys.modules.get("pybullet")
     if bullet is not None:
         with suppress(bullet.error), hushed():
@@ -108,11 +106,11 @@ def disconnect(client: int) -> None:
 
 
 def load_model(client: int, path: Path, flags: tuple[str, ...] = (), **options) -> int:
-    """Load a robot from a .urdf file, or from a MuJoCo .xml one; return its body.
+    """Load a robot from a .urdf file, or from a MuJoCo .xml file; return its body.
 
-    flags: names of PyBullet's URDF_ flags; options go to loadURDF. Where an .xml file holds several
+    flags: names of PyBullet's URDF_ flags; options go to loadURDF. If an .xml file holds several
     bodies, the robot is the one with most joints. Raises BotschoolError if the file is missing or
-    cannot be read.
+    unreadable.
     """
     bullet = import_pybullet()
     if not path.is_file():
@@ -120,7 +118,7 @@ def load_model(client: int, path: Path, flags: tuple[str, ...] = (), **options) 
             f"There is no model file {path}: give the path of a .urdf or .xml file."
         )
     if path.suffix.lower() not in FORMATS:
-        raise BotschoolError(f"{path} is no robot model: its name must end in .urdf or .xml.")
+        raise BotschoolError(f"{path} is not a robot model: its name must end in .urdf or .xml.")
     bits = sum(getattr(bullet, f"URDF_{name}") for name in flags)
     try:
         with hushed():
@@ -156,10 +154,10 @@ def picture(
     pitch: float = -20.0,
     size: tuple[int, int] = (400, 300),
 ) -> np.ndarray:
-    """Return what a camera sees, (height, width, 3) uint8, drawn without a display.
+    """Return the picture of a camera, (height, width, 3) uint8, drawn without a display.
 
-    It looks at `target` from `distance` metres; yaw and pitch are in degrees; size is width and
-    height.
+    The camera looks at `target` from `distance` metres; yaw and pitch are in degrees; size is width
+    and height.
     """
     bullet = import_pybullet()
     width, height = size
@@ -182,7 +180,7 @@ def picture(
 def fitting_camera(
     points: np.ndarray, yaw: float, pitch: float, aspect: float = 1.25
 ) -> tuple[tuple[float, float, float], float]:
-    """Return where a camera of `picture` looks, and from how far, to see all points, shape (n, 3).
+    """Return the target and distance of a camera of `picture` that sees all points, shape (n, 3).
 
     aspect: width of the picture / height.
     """

@@ -1,4 +1,4 @@
-"""What makes the five locomotors different, and the rewards of version 5."""
+"""Define what distinguishes the five locomotors, and the rewards of version 5."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 @dataclass(slots=True)
 class Measured:
-    """What rewards are made of, measured over one step."""
+    """Quantities of one step from which rewards are computed."""
 
     progress: float
     """Metres gained towards the target, divided by the step's 0.0165 s."""
@@ -80,10 +80,10 @@ def _humanoid(step: Measured) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class LocomotorBody:
-    """What makes one robot different from the others."""
+    """Properties that distinguish one robot from the others."""
 
     model: str
-    """Its file, among those that come with PyBullet."""
+    """Its model file, among those of PyBullet."""
     feet: tuple[str, ...]
     """Parts whose contact with the floor is observed."""
     alive: Alive
@@ -92,13 +92,13 @@ class LocomotorBody:
     """The reward of version 5."""
     power: float
     strength: dict[str, float] = field(default_factory=dict)
-    """Joint -> its strength, if that is not 100; full torque is power * strength."""
+    """Joint -> its strength, if it is not 100; full torque is power * strength."""
     electricity: float = 1.0
-    """What electricity costs, against the other robots."""
+    """Cost of electricity, relative to the other robots."""
     evolved_noise: float = 0.1
-    """Version 5 starts with joints this far (radians) from their rest position, at most."""
+    """Version 5 starts with joints at most this far (radians) from their rest position."""
     start_height: float | None = None
-    """Metres from which height is observed; None: where the episode starts."""
+    """Height in metres relative to which height is observed; None: that of the episode's start."""
     gains: type = np.float64
     """Precision of the torques."""
 

@@ -1,12 +1,12 @@
-"""Hopper, HalfCheetah, Ant, Walker2D and Humanoid: robots that learn to run, simulated by PyBullet.
+"""Simulate Hopper, HalfCheetah, Ant, Walker2D and Humanoid by PyBullet: robots that learn to run.
 
 Version 0 is that of pybullet_envs_gymnasium 0.6: the same robots, physics, observations, rewards
-and ends. Version 5 is for evolution: its reward has little but progress in it, since a robot that
-is paid for standing learns to stand (Pagliuca, Milano and Nolfi, 2020).
+and ends. Version 5 is for evolution: its reward is almost only progress, because a robot that is
+rewarded for standing learns to stand (Pagliuca, Milano and Nolfi, 2020).
 
-An episode depends on its seed and actions alone. That package measures the start of its very first
-episode without the floor, and of all others with it, which moves the first step's progress by up
-to 0.15; here every episode is like its second and later ones.
+An episode depends only on its seed and actions. pybullet_envs_gymnasium measures the start of its
+very first episode without the floor, and of all others with it, which changes the first step's
+progress by up to 0.15. Here every episode is like its second and later ones.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ from botschool.errors import BotschoolError
 STEP = 0.0165
 """Seconds of a step, simulated in four parts."""
 TARGET = 1000.0
-"""Metres from the start to the point on the x axis that a robot is to run to."""
+"""Position on the x axis that a robot runs to, in metres from the start."""
 AT_LIMIT = 0.99
-"""Share of a joint's range, on either side, from which it counts as being at its limit."""
+"""Share of a joint's range, on either side, beyond which the joint is at its limit."""
 BELOW_GROUND = -1.0
-"""Height in metres at which a robot has fallen through the floor."""
+"""Height in metres below which a robot has fallen through the floor."""
 ALOFT = 50.0
-"""Height in metres where a robot touches nothing."""
+"""Height in metres at which a robot touches nothing."""
 STEPS_OF_PICTURE = 2
-"""Pictures are slow to draw without a graphics card: a film has 30 different ones a second."""
+"""Steps per picture: drawing is slow without a graphics card, and a film needs only 30 a second."""
 COLOURS = {
     "torso": (0.35, 0.4, 0.5, 1),
     "foot": (0.15, 0.15, 0.2, 1),
@@ -44,22 +44,22 @@ COLOURS = {
 }
 """Word in the name of a part -> its colour: red, green, blue, opacity."""
 UNREAL = 1e4
-"""Sum of an observation's values, unclipped, that no robot reaches before its simulation breaks."""
+"""Sum of an observation's unclipped values that only a broken simulation reaches."""
 
 
 class Locomotor(gymnasium.Env):
     """One of BODIES on an endless plane, to run along the x axis.
 
-    Observation, float32 in [-5, 5]: torso height from the start (m); sine and cosine of the angle
-    to the target; 0.3 * velocity (m/s) ahead, sideways, up; roll and pitch (rad); for each joint
-    its position, -1 and 1 at the limits, and a tenth of its speed (rad/s); for each of `feet`, 1
-    if it touched the floor after the step before. Action: a torque for each joint, full at -1
-    and 1.
+    Observation, float32 in [-5, 5]: torso height relative to the start (m); sine and cosine of the
+    angle to the target; 0.3 * velocity (m/s) ahead, sideways, up; roll and pitch (rad); for each
+    joint its position, -1 and 1 at the limits, and a tenth of its speed (rad/s); for each of
+    `feet`, 1 if it touched the floor after the previous step. Action: a torque for each joint, full
+    at -1 and 1.
 
     `info` holds the components of the reward in both versions, {"v0": {...}, "v5": {...}}; the
-    reward is the sum of those of its own version. When numbers are no longer real or the robot
-    has fallen through the floor, the episode ends (terminated) with a reward of 0 and the last
-    observation that made sense, and `info` is {"exploded": True}.
+    reward is the sum of its own version's components. When numbers are no longer finite or the
+    robot has fallen through the floor, the episode ends (terminated) with a reward of 0 and the
+    last valid observation, and `info` is {"exploded": True}.
     """
 
     metadata: ClassVar[dict[str, Any]] = {
@@ -68,7 +68,9 @@ class Locomotor(gymnasium.Env):
     }
 
     def __init__(self, body: str, version: int = 0, render_mode: str | None = None) -> None:
-        """Raises BotschoolError if PyBullet or its models are missing or damaged."""
+        """Make the environment. Raises BotschoolError if PyBullet or its models are missing or
+        damaged.
+        """
         self.body = BODIES[body]
         self.version = version
         self.render_mode = render_mode
@@ -90,7 +92,7 @@ class Locomotor(gymnasium.Env):
         self._picture: np.ndarray | None = None
 
     def _build(self) -> None:
-        """Make the world anew, as every episode finds it."""
+        """Make the world anew, with which every episode starts."""
         world = {"physicsClientId": self._client}
         self._bullet.resetSimulation(**world)
         self._bullet.setGravity(0, 0, -9.8, **world)
@@ -144,7 +146,7 @@ class Locomotor(gymnasium.Env):
         self._speeds = slice(9, 9 + 2 * len(free), 2)
 
     def reset(self, *, seed: int | None = None, options: dict | None = None):
-        """Start an episode, with the joints a little off their rest position."""
+        """Start an episode, with the joints a little away from their rest position."""
         super().reset(seed=seed)
         world = {"physicsClientId": self._client}
         if self._exploded:
@@ -165,8 +167,9 @@ class Locomotor(gymnasium.Env):
         return self._observation.clip(*self._seen), {}
 
     def _forget_contacts(self) -> None:
-        """Restoring a state leaves points where the last episode touched the floor, which in one
-        episode of hundreds shows in the last digits. High above the floor there are none."""
+        """Clear contact points: restoring a state keeps those of the last episode, which changes
+        the last digits of one episode in hundreds. High above the floor there are none.
+        """
         world = {"physicsClientId": self._client}
         self._bullet.resetBasePositionAndOrientation(
             self._robot, (0.0, 0.0, ALOFT), (0.0, 0.0, 0.0, 1.0), **world
@@ -174,11 +177,13 @@ class Locomotor(gymnasium.Env):
         self._bullet.performCollisionDetection(**world)
 
     def step(self, action: np.ndarray):
-        """One step. Raises BotschoolError if the action holds a number that is not finite."""
+        """Simulate one step. Raises BotschoolError if the action holds a number that
+        is not finite.
+        """
         action = np.asarray(action)
         torques = (self._gains * action.clip(*self._full)).tolist()
         if not math.isfinite(sum(torques)):
-            raise BotschoolError(f"{action.tolist()} is no action: it holds NaN.")
+            raise BotschoolError(f"{action.tolist()} is not an action: it holds NaN.")
         world, robot = self._client, self._robot
         self._bullet.setJointMotorControlArray(
             robot, self._joints, self._bullet.TORQUE_CONTROL, forces=torques, physicsClientId=world
@@ -202,7 +207,7 @@ class Locomotor(gymnasium.Env):
         return observed, reward, alive < 0 and self._ends, False, info
 
     def _observe(self) -> np.ndarray:
-        """Return the observation before it is clipped; notices an explosion."""
+        """Return the observation before clipping, and detect an explosion."""
         query, world, robot = self._bullet, self._client, self._robot
         torso = self._torso
         links = query.getLinkStates(
@@ -268,12 +273,12 @@ class Locomotor(gymnasium.Env):
         }
 
     def measured(self) -> dict[str, Any]:
-        """Return what the last step led to: metres to the target, height (m), pitch and heading
-        (rad).
+        """Return measurements after the last step: metres to the target, height (m), pitch and
+        heading (rad).
 
-        "positions" and "speeds" are those of the joints, as observed but without limits.
-        "touching" is 1.0 if a part of a HalfCheetah other than its feet was on the floor after the
-        step before the last one, which is when its alive bonus looks.
+        "positions" and "speeds" are those of the joints, as observed but without limits. "touching"
+        is 1.0 if a part of a HalfCheetah other than its feet was on the floor after the step before
+        the last one, on which its alive bonus depends.
         """
         return {
             "distance": self._to_target,
@@ -286,7 +291,9 @@ class Locomotor(gymnasium.Env):
         }
 
     def render(self) -> np.ndarray | None:
-        """With render_mode 'rgb_array': a picture, (300, 400, 3) uint8, new at every other step."""
+        """Return a picture with render_mode 'rgb_array', (300, 400, 3) uint8, new at every other
+        step.
+        """
         if self.render_mode != "rgb_array":
             return None
         if self._picture is None or self._steps >= self._drawn + STEPS_OF_PICTURE:
@@ -295,7 +302,7 @@ class Locomotor(gymnasium.Env):
         return self._picture
 
     def _show(self) -> None:
-        """Keep the window's camera on the robot, and its time that of the world."""
+        """Keep the window's camera on the robot, and the window in real time."""
         if self.render_mode != "human":
             return
         self._bullet.resetDebugVisualizerCamera(
@@ -305,5 +312,5 @@ class Locomotor(gymnasium.Env):
         self._next_frame = time.monotonic() + STEP
 
     def close(self) -> None:
-        """Ends the physics world."""
+        """End the physics world."""
         self._end()

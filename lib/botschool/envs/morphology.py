@@ -1,7 +1,7 @@
-"""The 64 numbers that describe the body of a BodyBrain robot (docs/specification.md, "Bodies").
+"""Decode the 64 parameters of a BodyBrain robot's body (docs/specification.md, "Bodies").
 
-In this order: length and thickness of each of the 11 segments; two limits for each of the 10
-joints; default angle of each segment; density of each segment.
+They are, in this order: length and thickness of each of the 11 segments; two limits for each of the
+10 joints; default angle of each segment; density of each segment.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ JOINTS = SEGMENTS - 1
 MORPHOLOGY_SIZE = 2 * SEGMENTS + 2 * JOINTS + 2 * SEGMENTS
 
 LENGTH, THICKNESS, DENSITY = 0.8, 0.2, 5.0
-"""Of a segment whose parameters are 0: metres, metres, kg / m^2."""
+"""Values of a segment whose parameters are 0: metres, metres, kg / m^2."""
 SIZE_RANGE = 0.9
 DENSITY_RANGE = 0.8
 LIMIT_RANGE = np.pi / 2
@@ -33,21 +33,23 @@ class Morphology:
     limits: np.ndarray
     """Radians around the default angle, shape (10, 2): lower and upper limit of each joint."""
     angles: np.ndarray
-    """Radians, shape (11,): default angle of the torso, and of each segment against the one
-    before."""
+    """Radians, shape (11,): default angle of the torso, and of each segment relative to the
+    previous one.
+    """
     densities: np.ndarray
     """kg / m^2, shape (11,)."""
 
     def pose(self) -> tuple[np.ndarray, np.ndarray]:
-        """Centres, shape (11, 2), and absolute angles, shape (11,), with the torso's rear at (0, 0)
-        and every joint at its default angle."""
+        """Return centres, shape (11, 2), and absolute angles, shape (11,), with the torso's rear at
+        (0, 0) and every joint at its default angle.
+        """
         headings = np.cumsum(self.angles)
         along = self.lengths[:, None] * np.stack([np.cos(headings), np.sin(headings)], axis=1)
         ends = np.cumsum(along, axis=0)
         return ends - along / 2, headings
 
     def corners(self) -> np.ndarray:
-        """Corners of the segments in that pose, shape (11, 4, 2)."""
+        """Return the corners of the segments in that pose, shape (11, 4, 2)."""
         centres, headings = self.pose()
         signs = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / 2
         boxes = signs * np.stack([self.lengths, self.thicknesses], axis=1)[:, None]

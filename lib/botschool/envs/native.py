@@ -1,4 +1,4 @@
-"""Native problems of one robot as Gymnasium environments: botschool/Discrim-v0 and others."""
+"""Make native problems of one robot Gymnasium environments: botschool/Discrim-v0 and others."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ from botschool.problems.native import INFOS
 class NativeEnv(gymnasium.Env):
     """A native problem with one robot; the same world as in evolution, in double precision.
 
-    Observations are float32 as evolution's policies get them, actions one number per actuator
-    within the problem's range, or the index of a discrete problem's action. An episode ends early
-    as the problem says; its longest length is the affair of gymnasium.make, whose TimeLimit
-    truncates. What is random follows from the seed of reset().
+    Observations are float32, as evolution's policies get them. Actions are one number per actuator
+    within the problem's range, or the index of a discrete problem's action. The problem can end an
+    episode early; gymnasium.make adds the TimeLimit that truncates it. The seed of reset()
+    determines everything random.
 
     problem: its name in experiment files, such as ErDiscrim. noise: standard deviation of an
-    arena's infrared readings; None is the problem's own. robots: kinds of its wheeled robots, () is
-    the problem's own. morphology: parameters of a body that evolves, None for zeros. arena: of
+    arena's infrared readings; None means the problem's own. robots: kinds of its wheeled robots, ()
+    means the problem's own. morphology: parameters of an evolved body, None for zeros. arena: for
     ErArena, a botschool.arena.Plan with one robot, or an experiment file with a section [ARENA];
-    None is the default plan. Raises BotschoolError.
+    None means the default plan. Raises BotschoolError.
     """
 
     metadata: ClassVar[dict] = {"render_modes": RENDER_MODES}
@@ -53,7 +53,7 @@ class NativeEnv(gymnasium.Env):
                 f"A Gymnasium environment has one robot, but this arena has {len(plan.robots)}."
             )
         info = INFOS[problem]
-        own: Any = self  # each has its own
+        own: Any = self  # each environment has its own
         own.metadata = self.metadata | {"render_fps": round(1 / info["seconds"])}
         far = np.finfo(np.float32).max
         low, high = np.clip(self._simulation.bounds, -far, far).astype(np.float32)
@@ -69,7 +69,7 @@ class NativeEnv(gymnasium.Env):
             self.set_morphology(morphology)
 
     def set_morphology(self, parameters: np.ndarray) -> None:
-        """The body of all episodes from the next reset on, `morphology_size` finite numbers."""
+        """Set the body of all episodes from the next reset on, `morphology_size` finite numbers."""
         p = np.asarray(parameters)
         if (
             p.shape != (self.morphology_size,)

@@ -1,4 +1,4 @@
-"""Predator and prey (ErPredprey) for PettingZoo: two agents that act at the same time."""
+"""Offer predator and prey (ErPredprey) to PettingZoo: two agents that act at the same time."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ class PredPrey(ParallelEnv):
         )
 
     def state(self) -> np.ndarray:
-        """x, y and heading of predator and prey, steps done; float64."""
+        """Return x, y and heading of predator and prey, then the steps done; float64."""
         return self._simulation.state
 
     def render(self) -> np.ndarray | None:

@@ -1,5 +1,6 @@
-"""Predator and prey (ErPredprey): rules that all its faces share, and one side as a Gymnasium
-environment against a fixed opponent: botschool/Predator-v0 and botschool/Prey-v0."""
+"""Define the common rules of predator and prey (ErPredprey), and make one side a Gymnasium
+environment with a fixed opponent: botschool/Predator-v0 and botschool/Prey-v0.
+"""
 
 from __future__ import annotations
 
@@ -24,16 +25,16 @@ FPS = round(1 / INFOS[PROBLEM]["seconds"])
 _SEES, _WHEELS = INFOS[PROBLEM]["observations"], INFOS[PROBLEM]["outputs"]
 
 POLICY = PolicyConfig(nhiddens=25, bias=1, architecture=3)
-"""The opponent's network unless an experiment file says otherwise: that of predprey.ini."""
+"""Default network of the opponent: that of predprey.ini."""
 
 
 def observation_space() -> spaces.Box:
-    """Return what one of the two senses: infrared, camera, ground, elapsed time, the constant 1."""
+    """Return the space of one robot's observation: infrared, camera, ground, elapsed time, 1."""
     return spaces.Box(0.0, 1.0, (_SEES,), np.float32)
 
 
 def action_space() -> spaces.Box:
-    """Left and right wheel of one of the two."""
+    """Return the space of one robot's left and right wheel."""
     return spaces.Box(-1.0, 1.0, (_WHEELS,), np.float32)
 
 
@@ -48,7 +49,7 @@ def wheels(robot: str, action) -> np.ndarray:
 
 
 class PredpreySimulation(Simulation):
-    """Both robots. What the predator gets at the end, the prey lacks of 1."""
+    """Both robots. The returns of predator and prey add up to 1."""
 
     def __init__(self, max_steps: int | None, render_mode: str | None) -> None:
         super().__init__(PROBLEM, render_mode, max_steps)
@@ -61,8 +62,8 @@ class PredpreySimulation(Simulation):
         """Let both act; return (the predator's and the prey's reward, whether the episode is over).
 
         The predator gets 1 - step / max_steps when it catches the prey, else 0; the prey gets the
-        rest of 1, in the last step. Running out of time is an end like being caught, and no
-        truncation: the robots see how much is left, and the last step pays for it.
+        rest of 1 in the last step. When time runs out, the episode terminates and is not truncated,
+        because the robots observe the remaining time, and the last step is rewarded for it.
         """
         caught, ended = self.step(np.concatenate([predator, prey]))
         over = ended or self.steps >= self.limit
@@ -73,9 +74,9 @@ class OneSide(gymnasium.Env):
     """One of the two robots against an opponent that does not learn.
 
     side: "predator" or "prey". opponent: its genotype, as a run saves it (float64 array, or the
-    path of a .npy file): of one network, or of both, of which the opponent's is taken; None is a
-    random initial network, always the same. experiment: the .ini file whose [POLICY] the genotype
-    was evolved with, None for data/experiments/predprey.ini. max_steps: longest episode, None for
+    path of a .npy file), of one network or of both (then the opponent's is used); None means a
+    random initial network, always the same. experiment: the .ini file with whose [POLICY] the
+    genotype evolved, None for data/experiments/predprey.ini. max_steps: longest episode, None for
     the problem's own. Rewards are those of PredpreySimulation.act. Raises BotschoolError.
     """
 
@@ -118,14 +119,14 @@ class OneSide(gymnasium.Env):
 
 
 def _policy(experiment: str | os.PathLike[str] | None) -> Policy:
-    """Return the opponent's, as that of a single robot."""
+    """Return the opponent's policy, as that of a single robot."""
     chosen = POLICY if experiment is None else config.load(experiment).policy
     alone = replace(chosen, nrobots=1, heterogeneous=0)
     return Policy(PROBLEM, Interface(_SEES, _WHEELS, discrete=False), alone)
 
 
 def _network(policy: Policy, opponent, robot: int) -> tuple[np.ndarray, np.ndarray | None]:
-    """(parameters, normalisation) of that robot's network."""
+    """Return (parameters, normalisation) of that robot's network."""
     if opponent is None:
         return policy.initial(1), np.repeat([0.0, 1.0], _SEES) if policy.spec.normalize else None
     saved = opponent if isinstance(opponent, np.ndarray) else _saved(opponent)
@@ -143,4 +144,6 @@ def _saved(path: str | os.PathLike[str]) -> np.ndarray:
     except FileNotFoundError:
         raise BotschoolError(f"There is no opponent's genotype {path}.") from None
     except Exception:  # a damaged file can fail in any way
-        raise BotschoolError(f"{path} is no genotype: give a .npy file that a run saved.") from None
+        raise BotschoolError(
+            f"{path} is not a genotype: give a .npy file that a run saved."
+        ) from None

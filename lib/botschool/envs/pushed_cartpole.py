@@ -1,4 +1,6 @@
-"""CartPole with a motor that pushes with any force, instead of full force to the left or right."""
+"""Simulate CartPole with a motor of continuous force, instead of full force to the
+left or right.
+"""
 
 from __future__ import annotations
 
@@ -10,13 +12,13 @@ from gymnasium import spaces
 from gymnasium.envs.classic_control import CartPoleEnv
 
 FORCE = 10.0
-"""Newton of an action of 1, the force of CartPole."""
+"""Force of an action of 1, in newtons, as in CartPole."""
 
 
 class PushedCartPole(CartPoleEnv):
-    """CartPole but for the action: one number from -1 (10 N to the left) to 1 (10 N to the right).
+    """CartPole with another action: one number from -1 (10 N to the left) to 1 (10 N to the right).
 
-    Observation, physics, reward and end are those of Gymnasium's CartPole. The action is cut to
+    Observation, physics, reward and end are those of Gymnasium's CartPole. The action is clipped to
     its limits.
     """
 

@@ -1,4 +1,6 @@
-"""A robot without a policy: its joints moved by sliders, in a film, or on a sheet of pictures."""
+"""Show a robot without a policy: move its joints by sliders, in a film, or on a
+sheet of pictures.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,7 @@ SWEEP = 2.0
 """Seconds that a film shows each joint."""
 PHYSICS_STEP = 1 / 240
 YAW, PITCH = 25.0, -40.0
-"""Degrees: how the camera stands."""
+"""Direction of the camera in degrees."""
 MOVING, STILL = (0.9, 0.5, 0.1, 1), (0.45, 0.5, 0.6, 1)
 """Colours: red, green, blue, opacity."""
 PYBULLETS = {
@@ -44,8 +46,9 @@ PYBULLETS = {
     "vision60": "quadruped/vision60.urdf",
     "xarm": "xarm/xarm6_robot.urdf",
 }
-"""Robots among PyBullet's own models, by the names that they are known by; its other models go by
-the names of their files."""
+"""Robots among PyBullet's own models, by their common names; its other models have the names of
+their files.
+"""
 
 
 @dataclass
@@ -59,7 +62,7 @@ class Joint:
     slides: bool
 
     def written(self, position: float) -> str:
-        """Return a position as a learner reads it."""
+        """Return a position as text for learners."""
         return f"{position:.2f} m" if self.slides else f"{math.degrees(position):.0f} degrees"
 
 
@@ -67,7 +70,7 @@ class Model:
     """A robot in a physics world of its own, floating where its file puts it."""
 
     def __init__(self, name: str, window: bool = False) -> None:
-        """name: see find_model. Raises BotschoolError."""
+        """Load a model; name: see find_model. Raises BotschoolError."""
         path, flags = find_model(name)
         self.name = path.stem
         self.bullet = bullet.import_pybullet()
@@ -111,7 +114,7 @@ class Model:
         return found
 
     def _find_size(self) -> None:
-        """Where the camera looks and from how far: all that is in reach of the joints is seen."""
+        """Find a camera position from which everything in reach of the joints is visible."""
         self.pose()
         self.lowest = float(self._corners()[:, 2].min())
         corners = [self._corners()]
@@ -123,7 +126,7 @@ class Model:
         self.centre, self.distance = bullet.fitting_camera(np.concatenate(corners), YAW, PITCH)
 
     def _corners(self) -> np.ndarray:
-        """Corners of the boxes around its links, shape (n, 3); metres."""
+        """Return the corners of the boxes around the links, shape (n, 3), in metres."""
         world = {"physicsClientId": self.client}
         links = range(-1, self.bullet.getNumJoints(self.robot, **world))
         boxes = np.array([self.bullet.getAABB(self.robot, link, **world) for link in links])
@@ -133,7 +136,7 @@ class Model:
         return boxes[:, which, np.arange(3)].reshape(-1, 3)
 
     def pose(self, moved: Joint | None = None, position: float = 0.0) -> None:
-        """Put one joint where it is told, and all others at 0 or the nearest they can."""
+        """Put one joint at a position, and all others at 0 or as near as their limits allow."""
         for joint in self.joints:
             rest = min(max(0.0, joint.low), joint.high)
             self.bullet.resetJointState(
@@ -144,11 +147,11 @@ class Model:
             )
 
     def picture(self, size: tuple[int, int]) -> np.ndarray:
-        """(height, width, 3) uint8; size is width and height."""
+        """Return a picture, (height, width, 3) uint8; size is width and height."""
         return bullet.picture(self.client, self.centre, self.distance, YAW, PITCH, size)
 
     def paint(self, moved: Joint) -> None:
-        """Give the limb that a joint moves one colour, and all else another."""
+        """Paint the limb that a joint moves in one colour, and everything else in another."""
         world, moving = {"physicsClientId": self.client}, {moved.index}
         for i in range(-1, self.bullet.getNumJoints(self.robot, **world)):
             if i >= 0 and self.bullet.getJointInfo(self.robot, i, **world)[16] in moving:
@@ -157,7 +160,7 @@ class Model:
             self.bullet.changeVisualShape(self.robot, i, rgbaColor=colour, **world)
 
     def close(self) -> None:
-        """Ends its world."""
+        """End the physics world."""
         bullet.disconnect(self.client)
 
 
@@ -193,7 +196,7 @@ def find_model(name: str) -> tuple[Path, tuple[str, ...]]:
 
 
 def _of_pybullet(word: str) -> Path | None:
-    """Return a model of pybullet_data, by its name or the name of its file."""
+    """Return a model of pybullet_data by its name or its file's name."""
     folder = bullet.data_folder()
     if word in PYBULLETS:
         return folder / PYBULLETS[word]
@@ -227,7 +230,7 @@ def show_robot(name: str, video: Path | None, sheet: Path | None) -> None:
 
 
 def _sheet(model: Model, file: Path) -> None:
-    """A row for every joint: its name and range, and pictures from one end to the other."""
+    """Write a row for every joint: its name and range, and pictures from one end to the other."""
     from matplotlib.figure import Figure
 
     columns = 2 if len(model.joints) > 6 else 1
@@ -270,7 +273,9 @@ def _sweeps(model: Model) -> Iterator[np.ndarray]:
 
 
 def _window(model: Model) -> None:
-    """PyBullet's window, with a slider for each joint and one for gravity, until it is closed."""
+    """Show PyBullet's window, with a slider for each joint and one for gravity, until
+    it is closed.
+    """
     gui, world = model.bullet, {"physicsClientId": model.client}
     gui.configureDebugVisualizer(gui.COV_ENABLE_GUI, 1, **world)
     floor = bullet.load_floor(model.client, bullet.data_folder() / "plane_stadium.sdf")

@@ -1,4 +1,4 @@
-"""A native problem, step by step, for the environments that show it to the world."""
+"""Step a native problem for the environments that offer it to Gymnasium and PettingZoo."""
 
 from __future__ import annotations
 
@@ -19,11 +19,12 @@ RENDER_MODES = ["human", "rgb_array"]
 
 
 class Simulation:
-    """The problem, what its robots see, and pictures of it.
+    """A native problem with its robots' observations and its pictures.
 
-    problem: its name in C++. limit: longest episode in steps, None is the problem's own. noise:
-    standard deviation of an arena's infrared readings, None is the problem's own. robots: kinds of
-    its wheeled robots, one for all or one each; () is the problem's own. plan: a declared arena.
+    problem: its name in C++. limit: longest episode in steps, None means the problem's own. noise:
+    standard deviation of an arena's infrared readings, None means the problem's own. robots: kinds
+    of its wheeled robots, one for all or one each; () means the problem's own. plan: a declared
+    arena.
     """
 
     def __init__(
@@ -59,25 +60,27 @@ class Simulation:
 
     @property
     def bounds(self) -> np.ndarray:
-        """Shape (2, observations): least and greatest values of a robot's observation."""
+        """Return the smallest and largest values of a robot's observation,
+        shape (2, observations).
+        """
         return self._stepper.bounds
 
     @property
     def observation(self) -> np.ndarray:
-        """Of all robots, one after another, float64."""
+        """Return the observations of all robots, one after another, float64."""
         return self._stepper.observation
 
     @property
     def state(self) -> np.ndarray:
-        """The native problem's state."""
+        """Return the native problem's state."""
         return self._stepper.state
 
     def set_body(self, parameters: np.ndarray) -> None:
-        """The body of the episodes from the next start on, where it evolves."""
+        """Set an evolved body for the episodes from the next start on."""
         self._stepper.set_body(np.ascontiguousarray(parameters, dtype=np.float64))
 
     def start(self, random: np.random.Generator) -> int:
-        """Start an episode with a seed that it draws and returns."""
+        """Start an episode with a seed drawn from `random`, and return the seed."""
         seed = int(random.integers(2**63))
         self._stepper.start(seed, 0)
         self.steps = 0
@@ -96,12 +99,12 @@ class Simulation:
         return reward, ended
 
     def show(self) -> None:
-        """Show the step in the window, if that is how it is watched."""
+        """Show the step, if there is a window."""
         if self._mode == "human":
             self.render()
 
     def render(self) -> np.ndarray | None:
-        """Return the picture, (height, width, 3) uint8, or None where it goes to the window."""
+        """Return the picture, (height, width, 3) uint8, or None if the window shows it."""
         if self._mode is None:
             gymnasium.logger.warn('make the environment with render_mode="rgb_array" to see it.')
             return None
@@ -133,7 +136,7 @@ class Simulation:
 
 
 class Window:
-    """A window that keeps to the speed of the world. Raises BotschoolError without a display."""
+    """A window that runs at the speed of the world. Raises BotschoolError without a display."""
 
     def __init__(self, title: str, shape: tuple[int, ...], fps: float) -> None:
         from botschool.render.canvas import import_pygame

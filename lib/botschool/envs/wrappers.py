@@ -1,4 +1,4 @@
-"""Wrappers around environments, to be named by `wrappers` in an experiment file."""
+"""Define wrappers around environments, for `wrappers` in an experiment file."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import gymnasium
 class AliveBonus(gymnasium.Wrapper):
     """Adds `bonus` to the reward of each step that does not terminate the episode.
 
-    A robot that loses reward at every step learns to fall early, which ends the loss; with the
-    bonus it learns to stay up first, and then, if progress earns more than standing, to go.
+    A robot that loses reward at every step learns to fall early, which ends the loss. With the
+    bonus it first learns to stay up, and then, if progress earns more than standing, to walk.
     """
 
     def __init__(self, env: gymnasium.Env, bonus: float = 1.0) -> None:
@@ -17,7 +17,7 @@ class AliveBonus(gymnasium.Wrapper):
         self.bonus = float(bonus)
 
     def step(self, action):
-        """One step, whose reward may have the bonus in it."""
+        """Make one step, and add the bonus unless it terminates the episode."""
         observation, reward, terminated, truncated, info = self.env.step(action)
         if not terminated:
             reward += self.bonus

@@ -1,5 +1,5 @@
-"""An experiment as one self-contained page: it evolves in the browser, with the command's bits, and
-its robot can be taken apart (docs/page.md).
+"""Write an experiment as one self-contained page: it evolves in the browser, with the command's
+bits, and you can modify its robot (docs/page.md).
 
 The core is lib/web, compiled to WebAssembly by `make web`. The page's scripts lie beside this file.
 """
@@ -30,7 +30,7 @@ from botschool.seeds import POST_EVALUATION_SEED
 
 SCRIPTS = ("scenes.js", "core.js", "files.js", "hands.js", "tournament.js", "evolve.js", "page.js")
 ALGORITHMS = ("OpenAI-ES", "SSS", "coevo2")
-"""Those that a page can evolve with."""
+"""Algorithms that a page can run."""
 
 
 def write_page(
@@ -42,9 +42,9 @@ def write_page(
 ) -> None:
     """Write the page of an experiment on a native problem.
 
-    saved: the robot that it begins with, as run files hold it, called `name`; of populations of
-    predators and prey, shape (2 n, parameters), the first of each. If it is None, it is the random
-    one that the seed's run starts from. Raises BotschoolError.
+    saved: the robot at the start, as run files hold it, called `name`; of populations of predators
+    and prey, shape (2 n, parameters), the first of each. None means the random robot from which the
+    seed's run starts. Raises BotschoolError.
     """
     path = check_output(path, (".html",))
     problem = _checked(experiment)
@@ -77,7 +77,9 @@ def part_of(problem: str) -> str:
 
 
 def core(problem: str) -> bytes:
-    """Return the compiled core that has a problem. Raises BotschoolError if it was not built."""
+    """Return the compiled core that contains a problem. Raises BotschoolError if it
+    was not built.
+    """
     place = files("botschool.page") / f"{part_of(problem)}.wasm"
     if not place.is_file():
         raise BotschoolError(
@@ -88,7 +90,7 @@ def core(problem: str) -> bytes:
 
 
 def problem_scene(problem: NativeProblem) -> Any:
-    """Return the picture of a native problem. Raises BotschoolError where a page has none."""
+    """Return the picture of a native problem. Raises BotschoolError if it has none in pages."""
     return make_scene(problem.dynamics, problem.robots, problem.plan)
 
 
@@ -153,12 +155,12 @@ def _data(experiment: Experiment, problem: NativeProblem, policy: Any) -> dict:
 
 
 def _rounded(description: dict) -> dict:
-    """Return what is drawn with six digits behind the point: less than a pixel, and shorter."""
+    """Return the shapes rounded to six digits after the point: less than a pixel, and shorter."""
     return json.loads(json.dumps(description), parse_float=lambda text: round(float(text), 6))
 
 
 def _encoded(saved: np.ndarray) -> dict[str, str]:
-    """Return a robot in base 64: in single precision where that holds it exactly."""
+    """Return a robot in base 64, in single precision if that is exact."""
     single = saved.astype("<f4")
     if (single == saved).all():
         return {"robot": _packed(single.tobytes())}
@@ -166,12 +168,12 @@ def _encoded(saved: np.ndarray) -> dict[str, str]:
 
 
 def _packed(content: bytes) -> str:
-    """Return what `unzipped` in core.js takes."""
+    """Return the packed content that `unzipped` in core.js reads."""
     return b64encode(gzip.compress(content, 9, mtime=0)).decode()
 
 
 def _algorithm(experiment: Experiment) -> list[float] | None:
-    """Return what core.cpp's `run` reads; None for one that it does not have."""
+    """Return the arguments of core.cpp's `run`; None for an algorithm that it does not have."""
     a = experiment.algo
     match experiment.exp.algo:
         case "OpenAI-ES":
@@ -194,7 +196,7 @@ PLACES = {
 
 
 def _written(experiment: Experiment) -> dict[str, dict[str, Any]]:
-    """The experiment without texts that are empty."""
+    """Return the experiment without empty texts."""
     parts = to_dict(experiment)
     return {
         part: {key: value for key, value in values.items() if value != ""}
@@ -203,7 +205,7 @@ def _written(experiment: Experiment) -> dict[str, dict[str, Any]]:
 
 
 def _fields(experiment: Experiment, problem: NativeProblem) -> list[dict]:
-    """Return what may be changed in the page, and where it goes: [array, index, factor, most]."""
+    """Return the fields that a user can change: [array, index, factor, most] for each."""
     most = problem.limit
     post = [] if experiment.policy.pmaxsteps else [["evaluation", 3, 1, most]]
     places: dict[str, list] = {
@@ -245,7 +247,7 @@ def _fields(experiment: Experiment, problem: NativeProblem) -> list[dict]:
 
 
 def _needs(limits: Any, whole: bool) -> str:
-    """Return what a field needs, in words."""
+    """Return the requirement of a field in words."""
     if "choices" in limits:
         return "one of " + ", ".join(f"{v} ({text})" for v, text in limits["choices"].items())
     kind = "a whole number" if whole else "a number"
@@ -254,7 +256,7 @@ def _needs(limits: Any, whole: bool) -> str:
 
 
 def _shorter(script: str) -> str:
-    """Return a script without indentation and lines that are comments."""
+    """Return a script without indentation and comment lines."""
     lines = (line.strip() for line in script.splitlines())
     return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
 

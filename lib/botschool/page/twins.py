@@ -1,4 +1,4 @@
-"""What scenes.js needs to move a picture's shapes as its scene in Python does."""
+"""Describe for scenes.js how a picture's shapes move, as its scene in Python moves them."""
 
 from __future__ import annotations
 

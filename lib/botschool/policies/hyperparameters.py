@@ -1,8 +1,8 @@
-"""Hyperparameters: how they are declared, and those of every policy.
+"""Declare hyperparameters, in particular those of every policy.
 
-Each is declared once, with its default, its allowed values and a line of explanation; reading,
-checking and listing experiment files (botschool.config) follow from these declarations. Those of an
-algorithm stand in its file (botschool.evolution.algorithms).
+Each is declared once, with its default, its allowed values and a line of explanation. Reading,
+checking and listing experiment files (botschool.config) use these declarations. The hyperparameters
+of an algorithm are in its file (botschool.evolution.algorithms).
 """
 
 from __future__ import annotations
@@ -24,12 +24,11 @@ WEIGHT_DECAY = {0: "none", 1: "by 0.005 x centre", 2: "by 0.005 x sign(centre)"}
 def hyper(default: Any, help: str, **limits: Any) -> Any:
     """Return a hyperparameter: a dataclass field with an explanation and limits.
 
-    Further arguments: `alias`, another name of the key; `free`, whether it may change when a run
-    is resumed. Limits are `low` and `high` (both allowed), `above` (itself not allowed), `choices`,
-    a dict from each allowed value to its meaning, `each`, names of which several may be given, or
-    `check`, a function that raises for a text that cannot be, with `form`, words for what can.
-    The value has the type of the default;
-    `default=MISSING` stands for a text that must be given.
+    Further arguments: `alias`, another name of the key; `free`, whether it may change when a run is
+    resumed. Limits are `low` and `high` (both allowed), `above` (itself not allowed), `choices`, a
+    dict from each allowed value to its meaning, `each`, names of which several may be given, or
+    `check`, a function that raises for an impossible text, with `form`, words for what is possible.
+    The value has the type of the default; `default=MISSING` declares a text that must be given.
     """
     return field(default=default, metadata={"help": help, **limits})
 
@@ -39,8 +38,8 @@ def numbers(text: str) -> tuple[int, ...]:
     listed = [part.strip() for part in text.split(",")]
     if not all(re.fullmatch(r"0*([1-9][0-9]{0,2}|1000)", part, re.ASCII) for part in listed):
         raise ValueError(
-            f"{shown(text)} is no list of whole numbers from 1 to 1000: write them with commas "
-            "between, as in 16, 32"
+            f"{shown(text)} is not a list of whole numbers from 1 to 1000: write them with "
+            "commas between, as in 16, 32"
         )
     return tuple(map(int, listed))
 
@@ -58,7 +57,7 @@ def _of_networks() -> list[tuple[str, type, Any]]:
 
 
 def _of_convolutions() -> list[tuple[str, type, Any]]:
-    """Return the same of those that have a number for each convolutional layer."""
+    """Return the same for hyperparameters with a number for each convolutional layer."""
     form = "whole numbers from 1 to 1000 separated by commas, one for each convolutional layer"
     return [
         (name, str, hyper(default, f"{help} (architecture = 4)", check=numbers, form=form))
@@ -71,9 +70,9 @@ def _of_convolutions() -> list[tuple[str, type, Any]]:
 
 
 NETWORK = tuple(name for name, _, _ in _of_networks())
-"""Names of those of every policy network; lib/evonet/hyperparameters.hpp declares them."""
+"""Names of the hyperparameters of every network; lib/evonet/hyperparameters.hpp declares them."""
 CONVOLUTIONS = tuple(name for name, _, _ in _of_convolutions())
-"""Names of those of convolutional layers."""
+"""Names of the hyperparameters of convolutional layers."""
 
 
 @dataclass
@@ -89,14 +88,14 @@ class _Evaluation:
 
     @property
     def post_steps(self) -> int:
-        """Steps after which an episode of a post-evaluation is cut."""
+        """Return the steps after which an episode of a post-evaluation is cut."""
         return self.pmaxsteps or self.maxsteps
 
 
 if TYPE_CHECKING:
 
     class PolicyConfig(_Evaluation):
-        """A type checker cannot see the fields that come from C++."""
+        """Tells a type checker nothing of the fields that come from C++."""
 
         def __init__(self, **values: Any) -> None: ...
         def __getattr__(self, name: str) -> Any: ...
@@ -112,8 +111,9 @@ else:
 
 
 def conflicts(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
-    """Yield hyperparameters of the policy that cannot go together: their names and a sentence with
-    the remedy."""
+    """Yield hyperparameters of the policy that exclude each other: their names and a sentence with
+    the remedy.
+    """
     if p.nhiddens2 and p.nlayers != 2:
         yield (
             ("nhiddens2",),

@@ -1,8 +1,8 @@
-"""Policy networks, step by step ("evonet"; docs/specification.md, "Policy network").
+"""Step policy networks by hand ("evonet"; docs/specification.md, "Policy network").
 
-`Network` is the friendly face: numpy arrays to read and write, `reset()` and `step()`.
-`PyEvonet` is the original library's face, for scripts written for it: the caller owns all arrays
-and hands them over. Evolution itself uses neither: it evaluates whole episodes in C++.
+`Network` has numpy arrays to read and write, `reset()` and `step()`. `PyEvonet` has the original
+library's interface, for scripts written for it: the caller owns all arrays and hands them over.
+Evolution uses neither: it evaluates whole episodes in C++.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class _Spec:
         self.evonet()
 
     def core(self) -> _core.Spec:
-        """Return the C++ counterpart of all but convolutional layers."""
+        """Return the C++ counterpart, without convolutional layers."""
         spec = _core.Spec()
         for field in fields(self):
             if field.type is not tuple:
@@ -37,7 +37,7 @@ class _Spec:
         return spec
 
     def evonet(self, networks: int = 1, heterogeneous: bool = False) -> _core.Evonet:
-        """Networks like this; checks everything."""
+        """Return networks with this specification; checks everything."""
         vision = _core.Vision()
         if self.image:
             shape = _numbers("image", self.image)
@@ -61,7 +61,7 @@ def _fields() -> list[tuple]:
 if TYPE_CHECKING:
 
     class NetworkSpec(_Spec):
-        """A type checker cannot see the fields that come from C++."""
+        """Tells a type checker nothing of the fields that come from C++."""
 
         def __init__(self, inputs: int, outputs: int, **hyperparameters: Any) -> None: ...
 
@@ -104,8 +104,9 @@ class Network:
 
     @property
     def parameters(self) -> np.ndarray:
-        """The genotype in use, shape (parameters,); its order: docs/specification.md,
-        "Policy network"."""
+        """Return the genotype in use, shape (parameters,); docs/specification.md, "Policy network",
+        has its order.
+        """
         return self._parameters
 
     @parameters.setter
@@ -114,8 +115,9 @@ class Network:
 
     @property
     def observation(self) -> np.ndarray:
-        """Shape (inputs,): the raw observation that `step()` reads. That of a convolutional network
-        comes channel by channel, row by row, from 0 to 1."""
+        """Return the raw observation that `step()` reads, shape (inputs,). That of a convolutional
+        network is ordered channel by channel, row by row, with values from 0 to 1.
+        """
         return self._observation
 
     @observation.setter
@@ -124,26 +126,27 @@ class Network:
 
     @property
     def action(self) -> np.ndarray:
-        """Shape (outputs,): the actuators after binning and noise."""
+        """Return the actuators after binning and noise, shape (outputs,)."""
         return self._action
 
     @property
     def activations(self) -> np.ndarray:
-        """Shape (neurons,): inputs (normalised and clipped), hidden neurons, outputs. Of a
-        convolutional network they begin with the features instead, as the last of its convolutional
-        layers gives them."""
+        """Return the activations, shape (neurons,): inputs (normalised and clipped), hidden
+        neurons, outputs. A convolutional network has the features of its last convolutional layer
+        instead of inputs.
+        """
         return self._activations
 
     @property
     def neurons(self) -> tuple[int, int]:
-        """How many of the activations are inputs (or features), and how many are outputs."""
+        """Return how many activations are inputs (or features), and how many are outputs."""
         hidden = self.spec.nhiddens * self.spec.nlayers if self.spec.nhiddens else 0
         outputs = self.spec.outputs * self.spec.nbins
         return len(self._activations) - hidden - outputs, outputs
 
     @property
     def normalisation(self) -> np.ndarray:
-        """Shape (2 * inputs,): the means in use, then the standard deviations (a copy)."""
+        """Return a copy of the means in use, then the standard deviations, shape (2 * inputs,)."""
         return self._core.get_normalisation()
 
     @normalisation.setter
@@ -151,7 +154,7 @@ class Network:
         self._core.set_normalisation(_normalisation(values, self.spec.inputs))
 
     def seed(self, seed: int, episode: int = 0) -> None:
-        """Set what drives initial weights and action noise, which starts anew."""
+        """Seed the initial weights and the action noise, which starts anew."""
         if not isinstance(episode, Integral) or not 0 <= episode < 2**32:
             raise ValueError(f"An episode is a whole number from 0 to 2^32 - 1, not {episode!r}.")
         self._core.seed(_seed(seed), int(episode))
@@ -164,7 +167,7 @@ class Network:
         return self._parameters
 
     def reset(self) -> None:
-        """Start of an episode: activations and memory are 0; the action noise goes on."""
+        """Start an episode: activations and memory become 0; the action noise continues."""
         self._core.reset()
         self._activations[:] = 0
         self._action[:] = 0
@@ -176,9 +179,9 @@ class Network:
 
 
 class PyEvonet:
-    """The original library's network, same 20 positional arguments and methods.
+    """The original library's network, with the same 20 positional arguments and methods.
 
-    `nhiddens` is here the total of all layers. The arrays handed over are kept alive and read (or
+    `nhiddens` is the total of all layers here. The arrays handed over are kept alive and read (or
     written) in place: inputs and outputs float32, parameters, activations and normalisation
     float64, all C-contiguous. Wrong sizes, types and ranges raise ValueError or TypeError.
     """
@@ -255,11 +258,11 @@ class PyEvonet:
         self._keep("input", inputs, np.float32, self._core.ninputs, written=False)
 
     def copyOutput(self, outputs: np.ndarray) -> None:
-        """Hand over where actions go, float32, shape (nnetworks * noutputs,)."""
+        """Hand over the array for actions, float32, shape (nnetworks * noutputs,)."""
         self._keep("output", outputs, np.float32, self._core.nactions)
 
     def copyNeuronact(self, activations: np.ndarray) -> None:
-        """Hand over where activations go, float64, shape (nnetworks * neurons,)."""
+        """Hand over the array for activations, float64, shape (nnetworks * neurons,)."""
         self._keep("neuron activation", activations, np.float64, self._core.nneurons)
 
     def copyNormalization(self, vectors: np.ndarray) -> None:
@@ -267,7 +270,7 @@ class PyEvonet:
         self._keep("normalization", vectors, np.float64, 2 * self.spec.inputs)
 
     def seed(self, seed: int) -> None:
-        """Seeds initial weights and action noise."""
+        """Seed initial weights and action noise."""
         self._core.seed(_seed(seed), 0)
 
     def initWeights(self) -> None:
@@ -290,7 +293,7 @@ class PyEvonet:
         )
 
     def normphase(self, phase: int) -> None:
-        """1: `updateNet` adds the observations it sees to the statistics; 0: it does not."""
+        """Switch statistics: 1: `updateNet` adds the observations that it sees; 0: it does not."""
         if phase not in (0, 1):
             raise ValueError(f"normphase takes 0 or 1, not {phase!r}.")
         self._core.collecting = bool(phase)

@@ -1,4 +1,4 @@
-"""Policies of two agents that may differ in what they see and in what they do."""
+"""Combine the policies of two agents that may differ in observations and actions."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from botschool.policies.hyperparameters import PolicyConfig
 from botschool.policies.policy import Interface, Policy
 
 NOISE_STRIDE = 2**48
-"""Between the seeds of two robots' action noise (docs/specification.md, "Evaluation")."""
+"""Difference of the seeds of two robots' action noise (docs/specification.md, "Evaluation")."""
 
 
 class Pair:
     """The policies that an experiment's [POLICY] describes, one for each of two agents.
 
     Both have the hyperparameters of the file, but inputs and outputs of their own. A genotype is
-    two rows of `nparameters` values, one after the other: as many as the larger network has. The
-    row of the smaller one ends with values that mean nothing (docs/specification.md, "Policy
+    two rows of `nparameters` values, one after the other; the larger network determines their
+    length. The smaller network's row ends with unused values (docs/specification.md, "Policy
     network").
     """
 
     networks = 2
 
     def __init__(self, problem: str, interfaces: Sequence[Interface], config: PolicyConfig) -> None:
-        """Raises BotschoolError."""
+        """Make both policies. Raises BotschoolError."""
         if config.nrobots != 2:
             raise BotschoolError(f"{problem} has 2 agents: set nrobots = 2, not {config.nrobots}.")
         alone = replace(config, nrobots=1, heterogeneous=0)
@@ -40,12 +40,12 @@ class Pair:
 
     @property
     def genotype_size(self) -> int:
-        """Values of both rows."""
+        """Return the number of values of both rows."""
         return 2 * self.nparameters
 
     @property
     def neurons(self) -> tuple[list[int], list[int]]:
-        """Inputs and outputs of each network."""
+        """Return the inputs and outputs of each network."""
         inputs, outputs = zip(*(side.neurons for side in self.sides), strict=True)
         return list(inputs), list(outputs)
 
@@ -59,7 +59,7 @@ class Pair:
     def split(self, saved: np.ndarray) -> tuple[np.ndarray, None]:
         """Split a saved genotype into (genotype, no normalisation vectors).
 
-        Raises BotschoolError when its length is not what this policy needs.
+        Raises BotschoolError if it has the wrong length for this policy.
         """
         saved = np.asarray(saved)
         if saved.dtype.kind not in "fiu" or saved.shape != (self.genotype_size,):
@@ -78,11 +78,11 @@ class Pair:
             side.load(row[: side.genotype_size], None)
 
     def reset(self, seed: int, episode: int) -> None:
-        """Start of an episode; its action noise depends on (seed, episode) and the side alone."""
+        """Start an episode; its action noise depends only on (seed, episode) and the side."""
         for k, side in enumerate(self.sides):
             side.reset((seed + k * NOISE_STRIDE) % 2**64, episode)
 
     @property
     def activations(self) -> np.ndarray:
-        """Of the first network's neurons, then of the second's."""
+        """Return the activations of the first network's neurons, then of the second's."""
         return np.concatenate([side.network.activations for side in self.sides])

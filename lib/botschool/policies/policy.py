@@ -1,4 +1,4 @@
-"""A policy: a network bound to a problem; observation -> action, genotype in and out."""
+"""Bind a network to a problem: observation -> action, genotype in and out."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from botschool.policies.hyperparameters import (
 from botschool.policies.net import Network, NetworkSpec
 
 LARGEST = 30_000
-"""Values of an observation; a network without convolutional layers reads no more."""
+"""Largest number of values of an observation for a network without convolutional layers."""
 
 
 @dataclass(frozen=True)
 class Image:
-    """How an observation is an image (docs/specification.md, "Convolutional networks")."""
+    """The image format of an observation (docs/specification.md, "Convolutional networks")."""
 
     shape: tuple[int, ...]
     """(height, width), with the channels last or first; or several of them, one after another."""
@@ -31,7 +31,7 @@ class Image:
 
     @property
     def axes(self) -> tuple[int, ...]:
-        """The axes in the order frames, channels, height, width, as far as there are any."""
+        """Return the axes in the order frames, channels, height, width, as far as they exist."""
         every = tuple(range(len(self.shape)))
         frames, frame = every[:-3], every[-3:]
         if len(frame) == 3 and self.shape[frame[0]] >= self.shape[frame[2]]:
@@ -40,7 +40,7 @@ class Image:
 
     @property
     def planes(self) -> tuple[int, int, int]:
-        """Channels of all frames, height and width."""
+        """Return the number of channels of all frames, height and width."""
         *channels, height, width = (self.shape[axis] for axis in self.axes)
         return int(np.prod(channels)), height, width
 
@@ -52,7 +52,7 @@ class Image:
 
 @dataclass(frozen=True)
 class Interface:
-    """What a problem asks of a policy."""
+    """A problem's requirements of a policy."""
 
     observations: int
     """Values of one robot's observation."""
@@ -61,24 +61,25 @@ class Interface:
     discrete: bool
     """Whether an action is the index of the most active output."""
     low: float | None = -1.0
-    """Smallest action of every actuator; None where they differ or are unbounded."""
+    """Smallest action of every actuator; None if they differ or are unbounded."""
     high: float | None = 1.0
     morphology: int = 0
     """Parameters of the body, at the end of the genotype."""
     robots: int = 1
     """Robots in the environment, one network each."""
     groups: tuple[int, ...] = ()
-    """Sizes of the groups of outputs of which each chooses an index, where a discrete action has
-    several; () where it is one index."""
+    """Sizes of the groups of outputs, each of which chooses an index, if a discrete action has
+    several indices; () if it is one index.
+    """
     image: Image | None = None
-    """How the observation is an image, if it is one."""
+    """Image format of the observation, if it is one."""
 
 
 class Policy:
     """The policy that an experiment's [POLICY] describes, for one problem.
 
-    A genotype is a float64 vector of `genotype_size` parameters. A saved genotype of a normalised
-    policy is followed by all means, then all standard deviations (docs/specification.md,
+    A genotype is a float64 vector of `genotype_size` parameters. In a saved genotype of a
+    normalised policy, all means and then all standard deviations follow (docs/specification.md,
     "Run files").
     """
 
@@ -102,8 +103,8 @@ class Policy:
         self._image = interface.image if config.architecture == CONVOLUTIONAL else None
         if config.architecture == CONVOLUTIONAL and self._image is None:
             raise BotschoolError(
-                f"architecture = {CONVOLUTIONAL} (convolutional) reads images, but observations "
-                f"of {problem} are none: set architecture = 0."
+                f"architecture = {CONVOLUTIONAL} (convolutional) reads images, but "
+                f"observations of {problem} are not images: set architecture = 0."
             )
         if self._image is None and interface.observations > LARGEST:
             raise BotschoolError(
@@ -129,7 +130,7 @@ class Policy:
         self.networks = interface.robots if config.heterogeneous else 1
         """Networks in a genotype; without `heterogeneous` all robots share one."""
         self.morphology = np.zeros(interface.morphology)
-        """Parameters of the body, from the genotype that is loaded; often none."""
+        """Parameters of the body, from the loaded genotype; often none."""
 
     def _convolutions(self) -> dict[str, tuple[int, ...]]:
         if self._image is None:
@@ -139,12 +140,12 @@ class Policy:
 
     @property
     def neurons(self) -> tuple[int, int]:
-        """Inputs (or features of images) and outputs of one network."""
+        """Return the inputs (or features of images) and outputs of one network."""
         return self.network.neurons
 
     @property
     def genotype_size(self) -> int:
-        """Parameters of the networks and of the body."""
+        """Return the number of parameters of the networks and of the body."""
         return self.networks * self.nparameters + self.interface.morphology
 
     def initial(self, seed: int, index: int = 0) -> np.ndarray:
@@ -158,7 +159,7 @@ class Policy:
     def split(self, saved: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
         """Split a saved genotype into (genotype, normalisation vectors or None).
 
-        Raises BotschoolError when its length is not what this policy needs.
+        Raises BotschoolError if it has the wrong length for this policy.
         """
         saved = np.asarray(saved)
         vectors = 2 * self.spec.inputs if self.spec.normalize else 0
@@ -179,7 +180,7 @@ class Policy:
         return saved[: self.genotype_size], saved[self.genotype_size :]
 
     def join(self, genotype: np.ndarray, normalisation: np.ndarray | None) -> np.ndarray:
-        """Return what is saved: the reverse of `split`."""
+        """Return the genotype to save: the reverse of `split`."""
         return genotype.copy() if normalisation is None else np.append(genotype, normalisation)
 
     def load(self, genotype: np.ndarray, normalisation: np.ndarray | None) -> None:
@@ -190,13 +191,14 @@ class Policy:
             self.network.normalisation = normalisation
 
     def reset(self, seed: int, episode: int) -> None:
-        """Start of an episode; its action noise depends on (seed, episode) alone."""
+        """Start an episode; its action noise depends only on (seed, episode)."""
         self.network.seed(seed, episode)
         self.network.reset()
 
     def act(self, observation: np.ndarray) -> np.ndarray | int:
-        """Return the action: an index for a discrete problem (int64 of shape (groups,) where it has
-        several), else float32 of shape (outputs,)."""
+        """Return the action: an index for a discrete problem (int64 of shape (groups,) if it has
+        several), else float32 of shape (outputs,).
+        """
         if self._image is None:
             self.network.observation[:] = observation
         else:

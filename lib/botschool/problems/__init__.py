@@ -1,9 +1,9 @@
-"""What a robot is evaluated on. `make(name)` knows every name.
+"""Define the problems on which robots are evaluated. `make(name)` finds all of them.
 
-A problem has a `name`, an `interface` (what it asks of a policy), a `limit` (longest episode in
+A problem has a `name`, an `interface` (its requirements of a policy), a `limit` (longest episode in
 steps, or None), `fps` (of its pictures), and two methods: `evaluate` runs a batch of episodes,
-`play` runs one and yields every step. Native problems run whole episodes in C++ (native.py);
-every other name is a Gymnasium id (gym.py) or, where two sides compete, a PettingZoo environment
+`play` runs one and yields every step. Native problems run whole episodes in C++ (native.py). Every
+other name is a Gymnasium id (gym.py) or, if two sides compete, a PettingZoo environment
 (parallel.py).
 """
 
@@ -27,14 +27,14 @@ def make(
     competitive: bool = False,
     plan: Plan | None = None,
 ) -> Problem:
-    """Return the problem of that name; robots: kinds of its wheeled robots, () for its own; plan: a
-    declared arena, for ErArena.
+    """Return the problem with that name; robots: kinds of its wheeled robots, () for its own; plan:
+    a declared arena, for ErArena.
 
-    wrappers: those around its environment (botschool.wrappers); a native problem is then played as
-    a Gymnasium environment. options: keywords of the environment's constructor; a native planar
-    runner takes `alive`, the pay for each step without a fall. competitive: two
-    sides evolve against each other in it. Raises BotschoolError when there is no such problem, or
-    it has no such robots, wrappers or options.
+    wrappers: around its environment (botschool.wrappers); a native problem is then played as a
+    Gymnasium environment. options: keywords of the environment's constructor; a native planar
+    runner takes `alive`, the reward for each step without a fall. competitive: two sides evolve
+    against each other in it. Raises BotschoolError if there is no such problem, or if it has no
+    such robots, wrappers or options.
     """
     if name in NATIVE and not wrappers:
         alive = alive_of(name, options) if options else 0.0
@@ -52,7 +52,8 @@ def make(
         )
     if robots:
         raise BotschoolError(
-            f"{name} is no arena of wheeled robots: remove the line robots = {', '.join(robots)}."
+            f"{name} is not an arena of wheeled robots: remove the line robots = "
+            f"{', '.join(robots)}."
         )
     if competitive:
         from botschool.problems.parallel import ParallelProblem

@@ -1,4 +1,4 @@
-"""What all problems have in common."""
+"""Define the common part of all problems."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from botschool.problems.transition import Transition
 
 
 class Interrupted(Exception):
-    """The evaluation was stopped on request; its results are dropped."""
+    """Raised if the evaluation was stopped on request; its results are dropped."""
 
 
 @dataclass
@@ -28,13 +28,13 @@ class Episodes:
     seed: np.ndarray
     """uint64."""
     episode: np.ndarray
-    """uint32: together with the seed, what is random in the episode."""
+    """uint32: together with the seed, it determines everything random in the episode."""
     collect: np.ndarray | None = None
-    """uint8: 1 where the moments of the observations are wanted."""
+    """uint8: 1 for episodes that collect the moments of the observations."""
 
     @classmethod
     def of(cls, seeds: np.ndarray | list[int], episodes: int) -> Episodes:
-        """`episodes` episodes of every candidate, candidate by candidate."""
+        """Return `episodes` episodes of every candidate, candidate by candidate."""
         n = len(seeds)
         return cls(
             np.repeat(np.arange(n, dtype=np.int32), episodes),
@@ -55,16 +55,18 @@ class Episodes:
 
 @dataclass
 class Outcome:
-    """What a batch of n episodes gave."""
+    """Results of a batch of n episodes."""
 
     fitness: np.ndarray
     """float64, shape (n,): the return of each episode; of a problem of two sides without
-    `constant_sum` (2, n), the return of each side."""
+    `constant_sum` (2, n), the return of each side.
+    """
     steps: np.ndarray
     """int32, shape (n,)."""
     moments: np.ndarray | None = None
     """float64, shape (n, 2 * observations): sums, then sums of squares of what the network read
-    (`Network.observation`)."""
+    (`Network.observation`).
+    """
 
 
 class Problem(ABC):
@@ -76,18 +78,19 @@ class Problem(ABC):
     fps: float
     native: bool
     dynamics: str
-    """Name of the dynamics, by which pictures are drawn."""
+    """Name of the dynamics, which selects the pictures."""
     constant_sum: bool = True
-    """Of two sides: whether an episode has one return, the first side's, and the second side gets
-    1 minus it. Otherwise each has a return of its own."""
+    """For two sides: whether an episode has one return, the first side's, and the second side gets
+    1 minus it. Otherwise each has a return of its own.
+    """
     common: bool = False
-    """Of two sides without `constant_sum`: whether an episode has one return, which both get."""
+    """For two sides without `constant_sum`: whether an episode has one return, which both get."""
     sides: tuple[str, str] = ("predator", "prey")
-    """What individuals of two sides are called."""
+    """Names of the individuals of two sides."""
 
     @property
     def roles(self) -> str:
-        """Who predators and prey are, where they have other names; "" where they have not."""
+        """Return a note about predators and prey if they have other names; else ""."""
         if self.sides == Problem.sides:
             return ""
         return f"predators are {self.sides[0]}, prey are {self.sides[1]}"
@@ -110,7 +113,7 @@ class Problem(ABC):
         """Run the episodes. The outcome is a pure function of the first five arguments.
 
         genotypes: float64, shape (candidates, genotype_size). Raises `Interrupted` soon after
-        `stopping()` is true, and BotschoolError when the environment breaks down.
+        `stopping()` is true, and BotschoolError if the environment breaks down.
         """
 
     @abstractmethod
@@ -131,7 +134,7 @@ class Problem(ABC):
         """
 
     def sided(self, returns: np.ndarray) -> np.ndarray:
-        """Return what `evaluate` gave, (n,), as the returns of both sides, (2, n), if they share
+        """Return the result of `evaluate`, (n,), as returns of both sides, (2, n), if they share
         one.
         """
         return np.stack([returns, returns]) if self.common else returns
@@ -141,21 +144,19 @@ class Problem(ABC):
         return np.concatenate(parts)
 
     def modules(self) -> set[str]:
-        """Return the names of the modules that its environment is made of; of a native one
-        none.
-        """
+        """Return the names of the environment's modules; a native problem has none."""
         return set()
 
     def status(self) -> str:
-        """Return what a progress bar is to say of those who evaluate; often nothing."""
+        """Return the workers' state for a progress bar; often ""."""
         return ""
 
     def steps(self, maxsteps: int) -> int:
-        """Longest episode under an experiment's `maxsteps`."""
+        """Return the longest episode under an experiment's `maxsteps`."""
         return maxsteps if self.limit is None else min(maxsteps, self.limit)
 
     def broken(self, what: str, seed: int, episode: int) -> BotschoolError:
-        """Return the error for an environment that gives something that cannot be used."""
+        """Return the error for an environment that returns an unusable value."""
         return BotschoolError(
             f"{self.name} gave {what} in episode {episode} of seed {seed}, so fitness cannot be "
             "measured: mend the environment, or lower stepsize, noiseStdDev or mutrate if the "
@@ -163,4 +164,4 @@ class Problem(ABC):
         )
 
     def close(self) -> None:
-        """Ends what evaluation has started (worker processes)."""
+        """End what evaluation has started (worker processes)."""

@@ -1,7 +1,7 @@
-"""Registers the Gymnasium faces of our own problems; each is imported when it is made.
+"""Register our own problems with Gymnasium; each is imported when it is made.
 
-A problem in Python needs no line here: an experiment file names it as `module:id`, where the module
-lies in the present folder or is installed and registers the id.
+A problem in Python needs no line here: an experiment file names it as `module:id`. The module lies
+in the current folder or is installed, and registers the id.
 """
 
 import gymnasium
@@ -30,8 +30,7 @@ for _side in ("predator", "prey"):
         kwargs={"side": _side},
     )
 
-# The plain ids are those of experiment files; where another package has registered one before, it
-# keeps it.
+# Experiment files use the plain ids; if another package has registered one before, it keeps it.
 _PLAIN = {"envBodybrainCustom": ("botschool.envs.bodybrain:BodyBrain", {})}
 _OURS = {"botschool/BodyBrain-v0": _PLAIN["envBodybrainCustom"]}
 for _body in ("Hopper", "HalfCheetah", "Ant", "Walker2D", "Humanoid"):

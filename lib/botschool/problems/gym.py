@@ -1,4 +1,4 @@
-"""Any Gymnasium environment as a problem: episodes run in Python, in worker processes with -w."""
+"""Make any Gymnasium environment a problem: episodes run in Python, in worker processes with -w."""
 
 from __future__ import annotations
 
@@ -17,13 +17,14 @@ class GymProblem(PythonProblem):
     """A registered Gymnasium id (also `module:id`, which imports the module first).
 
     An environment with a body to evolve has an attribute `morphology_size`, the number of its
-    parameters, and a method `set_morphology(parameters)`, which decides on the body of the episodes
-    from the next reset on.
+    parameters, and a method `set_morphology(parameters)`, which sets the body of the episodes from
+    the next reset on.
     """
 
     def __init__(self, name: str, wrapped: str = "", options: str = "") -> None:
-        """wrapped: the wrappers around it, as an experiment file names them; options: keywords of
-        its constructor, likewise."""
+        """Make the environment; wrapped: its wrappers, options: keywords of its constructor, both
+        as in an experiment file.
+        """
         self.name = self.dynamics = name
         self.made = {"name": name, "wrappers": wrapped, "options": options}
         self._wrappers = wrappers.parse(wrapped)

@@ -1,4 +1,4 @@
-"""gymnasium.make with errors for learners: packages that have an id, wrappers, pictures."""
+"""Make Gymnasium environments with clear errors: known packages, wrappers, pictures."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from botschool.terminal import has_display
 from botschool.wrappers import Wrapper
 
 PACKAGES = {"BalanceBotBulletEnv-v0": "balance_bot"}
-"""Environments of the course in packages of their own, which register them on import."""
+"""Environments of the course in packages of their own; importing such a package registers them."""
 
 FAMILIES = (
     (r"ALE/.*|.*(NoFrameskip|Deterministic)-v\d+", "ale_py", "ale-py", "'botschool[atari]'"),
@@ -33,13 +33,15 @@ FAMILIES = (
 """Ids of well-known packages: pattern, module that registers them, package, what to install."""
 
 DRAWING = (("egl", "libEGL.so.1"), ("osmesa", "libOSMesa.so"), ("osmesa", "libOSMesa.so.8"))
-"""How MuJoCo draws without a display: a value of MUJOCO_GL, and the library that it needs."""
+"""Ways in which MuJoCo draws without a display: value of MUJOCO_GL, and the library
+that it needs.
+"""
 
 
 def make_env(name: str, wrappers: Sequence[Wrapper] = (), **options) -> gymnasium.Env:
     """Return the environment of that id, inside the wrappers, the first one innermost.
 
-    A `module:` before the id may lie in the present folder. Options go to gymnasium.make. Raises
+    A `module:` before the id may lie in the current folder. Options go to gymnasium.make. Raises
     BotschoolError.
     """
     env = _make(name, **(skipping(name, wrappers) | options))
@@ -49,7 +51,7 @@ def make_env(name: str, wrappers: Sequence[Wrapper] = (), **options) -> gymnasiu
 
 
 def skipping(name: str, wrappers: Sequence[Wrapper]) -> dict[str, int]:
-    """Options of an Atari game inside these wrappers: AtariPreprocessing skips frames itself."""
+    """Return options of an Atari game in these wrappers: AtariPreprocessing itself skips frames."""
     preprocessed = any(wrapper.name == "AtariPreprocessing" for wrapper in wrappers)
     return {"frameskip": 1} if preprocessed and re.fullmatch(FAMILIES[0][0], name) else {}
 
@@ -63,7 +65,7 @@ def _make(name: str, **options) -> gymnasium.Env:
         _choose_drawing(name)
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", DeprecationWarning)  # errors say it in a sentence
+            warnings.simplefilter("ignore", DeprecationWarning)  # errors report it in a sentence
             return gymnasium.make(_registered(name), disable_env_checker=True, **options)
     except (gymnasium.error.DependencyNotInstalled, ModuleNotFoundError) as error:
         raise BotschoolError(
@@ -82,7 +84,7 @@ def _make(name: str, **options) -> gymnasium.Env:
 
 
 def _registered(name: str) -> str:
-    """Return the id under which Gymnasium knows it; others may have taken our plain one."""
+    """Return the id under which Gymnasium knows it; another package may own the plain id."""
     if f"botschool/{name}" in gymnasium.registry:
         return f"botschool/{name}"
     if name in NATIVE and name not in gymnasium.registry:
@@ -92,9 +94,9 @@ def _registered(name: str) -> str:
 
 
 def _choose_drawing(name: str) -> None:
-    """Tell MuJoCo to draw in memory where there is no display, unless the user has told it how.
+    """Tell MuJoCo to draw in memory if there is no display and the user has not chosen.
 
-    Raises BotschoolError for an environment of MuJoCo's where it cannot.
+    Raises BotschoolError for an environment of MuJoCo that cannot be drawn.
     """
     if sys.platform != "linux" or has_display() or "MUJOCO_GL" in os.environ:
         return
@@ -106,8 +108,8 @@ def _choose_drawing(name: str) -> None:
     spec = gymnasium.registry.get(name.rpartition(":")[2])
     if spec is not None and "mujoco" in str(spec.entry_point):
         raise BotschoolError(
-            f"{name} is drawn by MuJoCo, which needs EGL or OSMesa where there is no display: "
-            "install it (on Debian and Ubuntu libegl1 and libgl1-mesa-dri), or draw no pictures."
+            f"MuJoCo draws {name}, and without a display it needs EGL or OSMesa: install one "
+            "(on Debian and Ubuntu libegl1 and libgl1-mesa-dri), or draw no pictures."
         )
 
 
@@ -127,7 +129,7 @@ def _import_package(name: str) -> None:
         remedy = f"comes with the package {called}: install it with pip install {install}."
     try:
         module = importlib.import_module(package)
-        if package == "ale_py":  # which greets every process and every game
+        if package == "ale_py":  # ale_py greets every process and every game
             module.ALEInterface.setLoggerMode(module.LoggerMode.Error)
     except ModuleNotFoundError as error:
         if error.name != package:

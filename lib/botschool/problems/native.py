@@ -1,4 +1,4 @@
-"""Native problems: whole episodes in C++ (lib/arena), many at a time, on threads."""
+"""Evaluate native problems: whole episodes in C++ (lib/arena), many at a time, on threads."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from botschool.problems.transition import Transition
 from botschool.wrappers import keywords
 
 INFOS = {info["name"]: info for info in _core.native_problems()}
-"""What lib/arena/problems says of each native problem, by its name in C++."""
+"""Description of each native problem from lib/arena/problems, by its name in C++."""
 
 NATIVE = {name: (name, info["limit"]) for name, info in INFOS.items()} | {
     info["alias"]: (name, info["alias_limit"]) for name, info in INFOS.items() if info["alias"]
@@ -29,17 +29,16 @@ RUNNERS = tuple(
 )
 """Problems that take the option `alive`."""
 
-# Stopping is possible between batches of about this many steps.
+# Evaluation can stop between batches of about this many steps.
 BATCH_STEPS = 20_000_000
 
 
 class NativeProblem(Problem):
     """A problem whose dynamics are in C++.
 
-    robots: kinds of its wheeled robots (botschool.arenas.robots), one for all or one each; () is
-    the problem's own. plan: what is declared for ErArena, None for the default. instruction_set:
-    one of `_core.instruction_sets()`; "" is the best (all give the same bits). Raises
-    BotschoolError.
+    robots: kinds of its wheeled robots (botschool.arenas.robots), one for all or one each; () means
+    the problem's own. plan: declaration for ErArena, None for the default. instruction_set: one of
+    `_core.instruction_sets()`; "" means the best (all give the same bits). Raises BotschoolError.
     """
 
     native = True
@@ -52,8 +51,9 @@ class NativeProblem(Problem):
         plan: Plan | None = None,
         alive: float = 0.0,
     ) -> None:
-        """alive: what a planar runner is paid for each step that does not end its episode early,
-        beside the problem's own reward."""
+        """Make the problem; alive: a planar runner's reward for each step that does not end its
+        episode early, in addition to the problem's own reward.
+        """
         self.name = name
         self.alive = alive
         self.dynamics, self.limit = NATIVE[name]
@@ -67,7 +67,7 @@ class NativeProblem(Problem):
             info["observations"] = self.plan.core.observations
             self.limit = self.plan.steps
         self.robots = _cast(name, info, robots, self.plan)
-        """What its wheeled robots are built like; () for other problems."""
+        """Models of its wheeled robots; () for other problems."""
         self._options = self.options() if self.robots else None
         self.fps = 1 / info["seconds"]
         self.common, self.sides = info["common"], info["sides"]
@@ -83,7 +83,7 @@ class NativeProblem(Problem):
         )
 
     def options(self, noise: float | None = None) -> _core.ArenaOptions:
-        """Return what C++ is told about its arena; noise: of its sensors, None for its own."""
+        """Return the arena's options for C++; noise: of its sensors, None for its own."""
         core = self.plan.core if self.plan else None
         return _core.ArenaOptions([model.name for model in self.robots], noise, declaration=core)
 
@@ -175,17 +175,15 @@ class NativeProblem(Problem):
 
 
 def alive_of(name: str, options: str) -> float:
-    """Return the pay for standing that the options of a native problem name. Raises
-    BotschoolError.
-    """
+    """Return the reward for standing in a native problem's options. Raises BotschoolError."""
     if name not in RUNNERS:
         raise BotschoolError(f"{name} takes no options: remove the line options = {options}.")
     given = keywords(options)
     value = given.pop("alive", None)
     if given or isinstance(value, bool) or not isinstance(value, (int, float)):
         raise BotschoolError(
-            f"{name} takes one option, the pay for each step without a fall: write options = "
-            f"alive=0.5 instead of options = {options}."
+            f"{name} takes one option, the reward for each step without a fall: write options "
+            f"= alive=0.5 instead of options = {options}."
         )
     if not -100 <= value <= 100:
         raise BotschoolError(

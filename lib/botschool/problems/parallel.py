@@ -1,4 +1,4 @@
-"""Any PettingZoo parallel environment of two agents as a problem in which they compete."""
+"""Make any PettingZoo parallel environment of two agents a problem in which they compete."""
 
 from __future__ import annotations
 
@@ -20,17 +20,18 @@ from botschool.problems.zoo import make_parallel
 
 
 class ParallelProblem(PythonProblem):
-    """The environment of that name (botschool.problems.zoo); its first agent is the predator.
+    """The environment with that name (botschool.problems.zoo); its first agent is the predator.
 
-    Each agent has spaces, a network and a return of its own. One that leaves the episode early
-    neither acts nor is paid from then on; the episode lasts until both have left.
+    Each agent has its own spaces, network and return. An agent that leaves the episode early
+    neither acts nor gets rewards after that; the episode lasts until both have left.
     """
 
     constant_sum = False
 
     def __init__(self, name: str, wrapped: str = "", options: str = "") -> None:
-        """options: keywords of its constructor, as an experiment file gives them. Raises
-        BotschoolError."""
+        """Make the environment; options: keywords of its constructor, as in an experiment file.
+        Raises BotschoolError.
+        """
         if wrapped:
             raise BotschoolError(
                 f"{name} is an environment of PettingZoo, which Gymnasium's wrappers do not fit: "
@@ -68,7 +69,7 @@ class ParallelProblem(PythonProblem):
         return agents
 
     def _add(self, agent: Any) -> None:
-        """Find out what this agent sees and does."""
+        """Read the spaces of this agent."""
         seen = self._call(self._env.observation_space, f"observation_space({agent!r})", agent)
         acted = self._call(self._env.action_space, f"action_space({agent!r})", agent)
         try:
@@ -80,7 +81,7 @@ class ParallelProblem(PythonProblem):
         self._spaces[agent] = acted
 
     def _try_seeds(self) -> None:
-        """Say so if the same seed does not give the same start."""
+        """Print a note if the same seed does not give the same start."""
         starts = []
         for _ in range(2):
             raw, here = self._call(_start, "reset", self._env, self.agents, 0)
@@ -138,7 +139,7 @@ class ParallelProblem(PythonProblem):
 
 
 def _start(env, agents: list, seed: int) -> tuple[dict, list]:
-    """Start an episode: what agents see, and who of them takes part."""
+    """Start an episode; return the observations, and the agents that take part."""
     given = env.reset(seed=seed)
     if not isinstance(given, tuple) or len(given) != 2:
         raise TypeError("it gives no pair of observations and infos")
@@ -149,7 +150,7 @@ def _start(env, agents: list, seed: int) -> tuple[dict, list]:
 
 
 def _step(env, actions: dict) -> tuple[dict, dict, list]:
-    """Let all act: return what agents see, what they are paid, and whose end has come."""
+    """Let all act; return observations, rewards, and the agents whose episode has ended."""
     given = env.step(actions)
     if not isinstance(given, tuple) or len(given) != 5:
         raise TypeError("it gives no five dicts, from observations to infos")

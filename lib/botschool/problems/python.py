@@ -1,4 +1,4 @@
-"""Episodes that run in Python, in worker processes with -w: what such problems have in common."""
+"""Run episodes in Python, in worker processes with -w: the common part of such problems."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from botschool.problems.transition import Transition
 class PythonProblem(Problem):
     """A problem whose environment is a Python object.
 
-    A class of such problems sets what `Problem` has, `_env` and `made`, and plays an episode.
+    A subclass sets the attributes of `Problem`, `_env` and `made`, and plays an episode.
     """
 
     native = False
     made: dict[str, Any]
-    """The arguments of botschool.problems.make that make it anew, in a worker process."""
+    """The arguments of botschool.problems.make that make the same problem in a worker process."""
     _env: Any
     _pool = None
 
@@ -103,11 +103,11 @@ class PythonProblem(Problem):
     def _episode(
         self, env: Any, policy: Policy, seed: int, episode: int, maxsteps: int
     ) -> Iterator[Transition]:
-        """Plays an episode of what the policy has loaded."""
+        """Play an episode with the genotype that the policy has loaded."""
 
     @abstractmethod
     def _drawing(self) -> Any:
-        """Return an environment like the own one that draws."""
+        """Return a copy of the environment that draws."""
 
     def _call(self, method, where: str, *arguments, **options):
         try:
@@ -150,7 +150,7 @@ class PythonProblem(Problem):
         )
 
     def close(self) -> None:
-        """Ends worker processes."""
+        """End the worker processes."""
         if self._pool is not None:
             self._pool.close()
             self._pool = None

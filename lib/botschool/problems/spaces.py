@@ -1,4 +1,4 @@
-"""Gymnasium's spaces as a policy meets them: a flat vector in, outputs that choose an action.
+"""Adapt Gymnasium's spaces to a policy: a flat vector in, outputs that choose an action.
 
 The rules are in docs/specification.md, "Any environment".
 """
@@ -26,18 +26,18 @@ ACTED = "policies give a Box, Discrete, MultiDiscrete or MultiBinary"
 
 
 class Unsupported(ValueError):
-    """A space that no policy can deal with: what it is, and what would do."""
+    """Raised for a space that no policy can handle; it names the space and the usable ones."""
 
 
 class Flattener:
-    """Makes a vector of an observation: its parts one after the other.
+    """Turns an observation into a vector: its parts one after the other.
 
     A Box gives its values in order, a Discrete value its one-hot vector. The parts of a Dict come
-    in the order of its keys; parts that are no numbers, as texts, are left out.
+    in the order of its keys; parts that are not numbers, such as texts, are left out.
     """
 
     def __init__(self, space: spaces.Space, name: str) -> None:
-        """Raises Unsupported."""
+        """Prepare the vector. Raises Unsupported."""
         leaves = list(_leaves(space, ()))
         self._parts = [(path, leaf) for path, leaf in leaves if _numbers(leaf)]
         if not self._parts:
@@ -49,12 +49,12 @@ class Flattener:
         [(path, leaf), *others] = self._parts
         self._vector = not path and not others and isinstance(leaf, spaces.Box)
         self.image = _image(leaf) if self._vector else None
-        """How the observation is an image, if it is one."""
+        """Image format of the observation, if it is one."""
 
     def __call__(self, raw: Any) -> np.ndarray:
-        """float64, shape (size,), rounded to single precision.
+        """Return the vector, float64, shape (size,), rounded to single precision.
 
-        Raises TypeError, ValueError or LookupError for what the space does not contain.
+        Raises TypeError, ValueError or LookupError for a value outside the space.
         """
         if self._vector:
             return _values(self._parts[0][1], raw)
@@ -62,7 +62,7 @@ class Flattener:
 
 
 def _leaves(space: spaces.Space, path: tuple) -> Iterator[tuple[tuple, spaces.Space]]:
-    """Yield the spaces that hold no others, each with the keys that lead there."""
+    """Yield the spaces that contain no others, each with the keys that lead to it."""
     if isinstance(space, (spaces.Dict, spaces.Tuple)):
         named = space.items() if isinstance(space, spaces.Dict) else enumerate(space)
         for key, part in named:
@@ -121,9 +121,7 @@ def _say_left_out(name: str, part: str, kind: str) -> None:
 def interface(
     size: int, acted: spaces.Space, morphology: int, image: Image | None = None
 ) -> Interface:
-    """Return what a policy needs for observations of that size and these actions. Raises
-    Unsupported.
-    """
+    """Return the interface for observations of that size and these actions. Raises Unsupported."""
     seen: dict[str, Any] = {"morphology": morphology, "image": image}
     if isinstance(acted, spaces.Discrete):
         return Interface(size, int(acted.n), discrete=True, **seen)
@@ -147,7 +145,7 @@ def interface(
 
 
 def fitted(action: Any, space: spaces.Space) -> Any:
-    """Return an action that the space contains: choices begin where it does, others are clipped."""
+    """Return an action in the space: choices start at its first value, numbers are clipped."""
     if isinstance(space, spaces.Discrete):
         return space.start + action
     if isinstance(space, (spaces.MultiDiscrete, spaces.MultiBinary)):

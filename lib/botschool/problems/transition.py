@@ -1,4 +1,4 @@
-"""What is known about one step of an episode that is being played."""
+"""Describe one step of an episode that is being played."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Transition:
     """Steps done so far, from 1."""
     reward: float
     total: float
-    """Return so far, this step's reward included."""
+    """Return so far, including this step's reward."""
     observation: np.ndarray
     """Shape (observations,): what the policy saw before this step's action."""
     action: np.ndarray
@@ -27,5 +27,6 @@ class Transition:
     frame: np.ndarray | None = None
     """The environment's own picture after the step, (height, width, 3) uint8, on request."""
     totals: tuple[float, ...] = ()
-    """Of two sides that have a return of their own: the return of each so far. `reward` and `total`
-    are the first side's; of the others the values of both stand one after the other."""
+    """For two sides with returns of their own: the return of each so far. `reward` and `total` are
+    the first side's; all other values hold the first side's, then the second's.
+    """

@@ -1,4 +1,4 @@
-"""Worker processes for problems whose episodes run in Python."""
+"""Run the episodes of Python problems in worker processes."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ from botschool.errors import BotschoolError
 from botschool.policies.hyperparameters import PolicyConfig
 from botschool.problems.base import Episodes, Interrupted, Outcome
 
-# A batch is cut into this many chunks per worker: small enough to even out long episodes.
+# Chunks per worker in a batch: enough to even out long episodes.
 CHUNKS = 10
-# How often the workers may die without finishing a single chunk.
+# How often workers may die without finishing a single chunk.
 PATIENCE = 3
 
 
 class Workers:
     """A pool of processes, each with its own environment and network.
 
-    A worker that dies is replaced and its episodes run again: they are pure functions of what was
-    sent, so the outcome is the same.
+    A worker that dies is replaced and its episodes run again. They are pure functions of their
+    inputs, so the outcome is the same.
     """
 
     def __init__(self, made: dict[str, Any], config: PolicyConfig, workers: int) -> None:
-        """made: arguments of botschool.problems.make."""
+        """Prepare the pool; made: arguments of botschool.problems.make."""
         self._name = made["name"]
         self._arguments = (made, config)
         self._workers = workers
@@ -91,7 +91,7 @@ class Workers:
             shape = chosen.candidate.shape
             used, places = np.unique(chosen.candidate, return_inverse=True)
             chosen.candidate = places.reshape(shape)
-            with _unheard(signal.SIGINT):  # Ctrl-C is the main process's affair
+            with _unheard(signal.SIGINT):  # only the main process handles Ctrl-C
                 future = self._pool.submit(
                     _evaluate, genotypes[used], normalisation, chosen, maxsteps
                 )
@@ -105,13 +105,13 @@ class Workers:
                 raise Interrupted
 
     def close(self) -> None:
-        """Ends the processes without waiting for unfinished episodes."""
+        """End the processes without waiting for unfinished episodes."""
         if self._pool is None:
             return
         for process in list((self._pool._processes or {}).values()):
             process.terminate()
-        # Waits for the pool's own thread: at the program's end, CPython would wake it through a
-        # pipe that the thread may be closing just then.
+        # Wait for the pool's own thread: at the program's end, CPython would wake it through a pipe
+        # that the thread may be closing at that moment.
         self._pool.shutdown(wait=True, cancel_futures=True)
         self._pool = None
 
@@ -128,7 +128,7 @@ def _start(made: dict[str, Any], config: PolicyConfig) -> None:
     try:
         problem = problems.make(**made)
         _worker = (problem, problem.policy(config))
-    except BotschoolError as error:  # told by the first evaluation
+    except BotschoolError as error:  # the first evaluation reports it
         _worker = error
 
 
@@ -139,7 +139,7 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def _unheard(number: int) -> Iterator[None]:
-    """Processes that start meanwhile never get this signal; here it comes at the end."""
+    """Block this signal for processes that start meanwhile; deliver it here at the end."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return

@@ -1,8 +1,8 @@
-"""PettingZoo environments by name, with errors for learners.
+"""Find PettingZoo environments by name, with clear errors.
 
 A name is a module with a function `parallel_env` (`mpe2.simple_tag_v3`), `module:name` of a
 function or class that makes an environment, or an id of PettingZoo's registry (`classic/rps-v2`).
-The module may lie in the present folder.
+The module may lie in the current folder.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ NAMES = (
 
 
 def make_parallel(name: str, **options: Any) -> Any:
-    """Return the pettingzoo.ParallelEnv of that name; options go to its constructor.
+    """Return the pettingzoo.ParallelEnv with that name; options go to its constructor.
 
-    An environment whose agents act one after the other (AECEnv) is made parallel if it says that it
-    can be. Raises BotschoolError.
+    An environment whose agents take turns (AECEnv) is made parallel if it declares that it can be.
+    Raises BotschoolError.
     """
     try:
         from pettingzoo import AECEnv, ParallelEnv
@@ -44,7 +44,7 @@ def make_parallel(name: str, **options: Any) -> Any:
             "with `pip install 'botschool[pettingzoo]'`."
         ) from None
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of old names and the like; errors say it in a sentence
+        warnings.simplefilter("ignore")  # errors report problems in a sentence
         maker = _maker(name)
         try:
             env = maker(**options)
@@ -73,7 +73,7 @@ def make_parallel(name: str, **options: Any) -> Any:
 
 
 def is_parallel(name: str) -> bool:
-    """Return whether an environment of this name can be made."""
+    """Return whether an environment with this name can be made."""
     if not re.search(r"[.:/]", name):
         return False
     with suppress(BotschoolError):
@@ -105,7 +105,7 @@ def _maker(name: str) -> Callable[..., Any]:
 
 
 def _callable(found: Any, name: str) -> Callable[..., Any]:
-    """Return what makes the environment, of a module or of what a name after a colon means."""
+    """Return the maker of the environment: a module's function, or the object after the colon."""
     if isinstance(found, ModuleType):
         for kind in ("parallel_env", "env"):
             if callable(getattr(found, kind, None)):
@@ -120,7 +120,7 @@ def _callable(found: Any, name: str) -> Callable[..., Any]:
 
 
 def _registered(name: str) -> Callable[..., Any]:
-    """Return what makes the environment with this id in PettingZoo's registry."""
+    """Return the maker of the environment with this id in PettingZoo's registry."""
     import pettingzoo
 
     if name in gymnasium.registry:
@@ -152,7 +152,7 @@ def _import(module: str, name: str) -> ModuleType:
 
 
 def _without(name: str, error: ModuleNotFoundError) -> BotschoolError:
-    """Return the error for a module that is not there, or that another one needs."""
+    """Return the error for a missing module, or for a module that it needs."""
     missing, module = error.name or "", name.partition(":")[0]
     if missing == "mpe2":
         return BotschoolError(

@@ -1,1 +1,1 @@
-"""Showing robots: frames of episodes, to a window or a video file."""
+"""Show robots: frames of episodes, in a window or in a video file."""

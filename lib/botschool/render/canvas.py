@@ -1,4 +1,4 @@
-"""Drawing with pygame without a window, and without leaving traces in the environment."""
+"""Draw with pygame without a window, and without side effects on the environment."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ BLACK = (0, 0, 0)
 GREY = (128, 128, 128)
 
 FINE = 2
-"""Frames are drawn so many times larger, then reduced, which smooths edges."""
-_FAR = 16_000.0  # pygame counts pixels in 16 bits
+"""Frames are drawn larger by this factor, then reduced, which smooths edges."""
+_FAR = 16_000.0  # pygame stores coordinates in 16 bits
 
 
 def import_pygame() -> ModuleType:
-    """pygame, without its greeting. Raises BotschoolError if it is not installed."""
+    """Import pygame without its greeting. Raises BotschoolError if it is not installed."""
     try:
         with _environment(PYGAME_HIDE_SUPPORT_PROMPT="1"):
             import pygame
@@ -40,10 +40,10 @@ def import_pygame() -> ModuleType:
 
 
 def draw_offscreen() -> None:
-    """Call this before Gymnasium or pygame draws frames that go to no window.
+    """Prepare for Gymnasium or pygame to draw frames without a window.
 
-    Where no display is open yet, pygame's dummy one is opened, so that nothing is asked of the
-    machine's screen; an open window stays as it is.
+    If no display is open yet, pygame's dummy display is opened, so that the machine's screen is not
+    needed; an open window stays as it is.
     """
     pygame = import_pygame()
     if not pygame.display.get_init():
@@ -97,7 +97,7 @@ def _text(text: str, size: int, colour: Colour) -> pygame.Surface:
 class Painter:
     """Paints the frames of a scene on white.
 
-    view: left, bottom, right, top of what is seen; scale: pixels per unit of length.
+    view: left, bottom, right, top of the visible world; scale: pixels per unit of length.
     """
 
     def __init__(
@@ -148,7 +148,7 @@ def _to_pixels(points: np.ndarray, origin: tuple[float, float], pixels: float) -
 
 
 def _within(surface: pygame.Surface, points: np.ndarray, margin: float) -> bool:
-    """Return whether any of a shape can lie between the left and the right edge."""
+    """Return whether part of a shape can lie between the left and the right edge."""
     return points[:, 0].max() >= -margin and points[:, 0].min() <= surface.get_width() + margin
 
 

@@ -1,4 +1,4 @@
-"""Looking at co-evolved robots: each predator meets each prey, a pair after the other."""
+"""Show co-evolved robots: each predator meets each prey, one pair after another."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class PairEpisodes(PostEvaluation):
 
     @property
     def available(self) -> int:
-        """Episodes that all pairs have."""
+        """Return the number of episodes of all pairs."""
         return len(self._predators) * len(self._prey) * self._repeats
 
     def cast(self, episode: int) -> tuple[np.ndarray, np.ndarray | None, int]:

@@ -1,4 +1,4 @@
-"""What is written and drawn beside a frame: the neurons' activations, and a caption."""
+"""Draw beside a frame: the neurons' activations, and a caption."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ PANEL_WIDTH = 240
 PANEL_MIN_HEIGHT = 240
 CAPTION_HEIGHT = 26
 CAPTION_WIDTH = 300
-"""Pixels that a caption needs."""
+"""Smallest width of a caption in pixels."""
 POSITIVE = (213, 94, 0)
 NEGATIVE = (0, 114, 178)
-"""Orange and blue: different for colour-blind readers too."""
+"""Blue and orange: colour-blind readers can distinguish them, too."""
 
 _MARGIN = 12
 _LABEL = 22
@@ -39,9 +39,9 @@ def with_activations(
     """Return the frame with a panel at its right: one coloured cell for each neuron.
 
     `frame` is (height, width, 3) uint8, `activations` (neurons,): inputs, hidden, outputs of each
-    of the robots. White is 0, orange +1 and beyond, blue -1 and beyond; a black border marks what
-    is beyond. Cells with room show their number. Returns a new frame; its sides are even, as
-    video formats ask. Raises ValueError if there are fewer neurons than inputs and outputs.
+    of the robots. White is 0, orange +1 and beyond, blue -1 and beyond; a black border marks values
+    beyond. Large cells show their number. The new frame has even sides, which video formats need.
+    Raises ValueError if there are fewer neurons than inputs and outputs.
     """
     activations = np.asarray(activations, dtype=np.float64).ravel()
     groups, first = {}, 0
@@ -62,10 +62,11 @@ def neuron_groups(
     noutputs: int | Sequence[int],
     robots: Sequence[str] = ("",),
 ) -> list[tuple[str, int]]:
-    """Labels and sizes of the groups in a vector of activations; empty groups are left out.
+    """Return labels and sizes of the groups in a vector of activations, without empty groups.
 
     ninputs and noutputs are those of one robot's network if all are alike, else of each; all have
-    as many hidden neurons. Raises ValueError if there are fewer neurons than inputs and outputs.
+    the same number of hidden neurons. Raises ValueError if there are fewer neurons than inputs and
+    outputs.
     """
     inputs, outputs = (np.broadcast_to(n, len(robots)).tolist() for n in (ninputs, noutputs))
     nhiddens, rest = divmod(neurons - sum(inputs) - sum(outputs), len(robots))
@@ -86,8 +87,8 @@ def neuron_groups(
 def with_caption(frame: np.ndarray, episode: int, transition: Transition) -> np.ndarray:
     """Return the frame with a line below: episode, step, reward and return.
 
-    `frame` is (height, width, 3) uint8. Returns a new frame; its sides are even. Of a frame too
-    narrow for the caption, as Atari's, each pixel becomes a square of pixels.
+    `frame` is (height, width, 3) uint8. The new frame has even sides. If a frame is too narrow for
+    the caption, like Atari's, each pixel becomes a square of pixels.
     """
     larger = -(-CAPTION_WIDTH // frame.shape[1])
     frame = frame.repeat(larger, axis=0).repeat(larger, axis=1)
@@ -102,7 +103,7 @@ def with_caption(frame: np.ndarray, episode: int, transition: Transition) -> np.
 
 
 def caption(episode: int, transition: Transition) -> tuple[str, str, str, str]:
-    """Return what `with_caption` writes."""
+    """Return the texts of `with_caption`."""
     returns = f"return {transition.total:.1f}"
     if transition.totals:
         returns = "returns " + " : ".join(f"{total:.1f}" for total in transition.totals)
@@ -119,7 +120,7 @@ def _even(length: int) -> int:
 
 
 def _padded(frame: np.ndarray, height: int) -> np.ndarray:
-    """Return the frame on a white ground of this height and of even width."""
+    """Return the frame on a white background of this height and of even width."""
     padding = height - len(frame), frame.shape[1] % 2
     return np.pad(frame, [(0, padding[0]), (0, padding[1]), (0, 0)], constant_values=255)
 
@@ -143,7 +144,7 @@ def _columns(cell: int) -> int:
 
 
 def _cell_size(counts: list[int], room: int) -> int:
-    """Return the largest side of a cell, in pixels, with which all groups and their labels fit."""
+    """Return the largest side of a cell, in pixels, that leaves room for all groups and labels."""
     for cell in range(_LARGEST_CELL, 1, -1):
         rows = sum(-(-count // _columns(cell)) for count in counts)
         if len(counts) * _LABEL + rows * cell <= room:
@@ -176,7 +177,7 @@ def _draw_cell(
 
 
 def colour_of(activation: float) -> tuple[int, int, int]:
-    """White for 0, through to NEGATIVE at -1 and POSITIVE at +1."""
+    """Return a colour: white for 0, towards NEGATIVE at -1 and POSITIVE at +1."""
     share = min(abs(activation), 1.0)
     end = POSITIVE if activation > 0 else NEGATIVE
     red, green, blue = (

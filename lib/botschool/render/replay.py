@@ -1,7 +1,7 @@
-"""Replays: one self-contained page that plays episodes in any browser, without a network.
+"""Write replays: one self-contained page that plays episodes in any browser, without a network.
 
-The page is replay.html with its two scripts and the episodes as JSON in it. Where there is a
-scene, an episode is the scene's numbers step by step; elsewhere it is the environment's frames.
+The page is replay.html with its two scripts and the episodes as JSON. With a scene, an episode
+holds the scene's numbers step by step; otherwise it holds the environment's frames.
 """
 
 from __future__ import annotations
@@ -27,7 +27,9 @@ from botschool.render.shapes import PALETTE
 
 REPLAY_SUFFIXES = (".html",)
 MAX_FRAME_BYTES = 16_000_000
-"""Of all pictures of a page; where they would be more, every second one is left out, and so on."""
+"""Largest size of all pictures of a page; beyond it, every second picture
+is dropped, repeatedly.
+"""
 _FRAME_SIDE = 640
 _LEVELS = 65_535
 
@@ -45,11 +47,11 @@ def write_replay(
 ) -> None:
     """Write the page.
 
-    title: the problem's name; about: a line on the robot and the experiment. fps: steps a second.
+    title: the problem's name; about: a line on the robot and the experiment. fps: steps per second.
     neurons: inputs and outputs of one robot's network, or of each robot's. Without a scene the
-    transitions must hold frames. labels: what tells each episode from the others, shown while it
-    plays. robots: names of the robots where there is no scene that has them.
-    Raises BotschoolError if the file cannot be written or there are no steps to show.
+    transitions must hold frames. labels: a distinguishing text for each episode, shown while it
+    plays. robots: names of the robots if there is no scene with names. Raises BotschoolError if the
+    file cannot be written or there are no steps to show.
     """
     path = check_output(path, REPLAY_SUFFIXES)
     frames = Frames()
@@ -92,12 +94,12 @@ def _page(data: dict) -> str:
 
 
 def palette() -> dict[str, list[str]]:
-    """Return each colour's name and what it is on a light and on a dark page, "#rrggbb"."""
+    """Return each colour's name and its values on a light and on a dark page, "#rrggbb"."""
     return {name: [_hex(colour) for colour in pair] for name, pair in PALETTE.items()}
 
 
 def scene_description(scene: Scene) -> dict:
-    """Return what replay_draw.js draws, ready for JSON: what is seen, shapes and close-ups."""
+    """Return what replay_draw.js draws, ready for JSON: the view, shapes and close-ups."""
     return {
         "view": scene.view,
         "shapes": [shape.as_dict() for shape in scene.shapes],
@@ -108,14 +110,12 @@ def scene_description(scene: Scene) -> dict:
 class _Step(NamedTuple):
     total: float
     activations: np.ndarray
-    """Of the neurons, then what the scene charts."""
+    """Activations of the neurons, then the values that the scene charts."""
     numbers: np.ndarray
 
     @classmethod
     def of(cls, transition: Transition, scene: Scene | None, frames: Frames, episode: int) -> _Step:
-        """Return what is kept of a transition; its picture goes to `frames` where there is no
-        scene.
-        """
+        """Return the stored part of a transition; without a scene its picture goes to `frames`."""
         numbers, activations = np.zeros(0), np.array(transition.activations)
         if scene is None:
             frames.add(episode, transition.step - 1, transition.frame)
@@ -140,8 +140,9 @@ def _episode(steps: list[_Step]) -> dict:
 def packed(table: np.ndarray) -> dict:
     """Return a table, (rows, columns), as JSON: each column in 65,536 levels from its least value.
 
-    Levels are stored as differences from the row before, modulo 65,536: all low bytes, then all
-    high bytes, column by column, compressed by zlib, in base 64. What is not finite becomes 0.
+    Levels are stored as differences from the previous row, modulo 65,536: all low bytes, then all
+    high bytes, column by column, compressed by zlib, in base 64. Values that are not finite become
+    0.
     """
     table = np.nan_to_num(np.asarray(table, dtype=np.float64), posinf=0.0, neginf=0.0)
     low = table.min(axis=0)
@@ -166,7 +167,7 @@ class Frames:
         self._bytes = 0
 
     def add(self, episode: int, step: int, frame: np.ndarray) -> None:
-        """Add the picture of a step, (height, width, 3) uint8; step count from 0."""
+        """Add the picture of a step, (height, width, 3) uint8; steps count from 0."""
         if step % self._every:
             return
         content = _webp(frame)

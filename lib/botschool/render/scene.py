@@ -1,6 +1,6 @@
-"""What a picture of a native problem is: shapes, described once, and the numbers that move them.
+"""Define the picture of a native problem: shapes, described once, and the numbers that move them.
 
-A problem's own picture is a file in botschool/render/scenes.
+Each problem's picture is a file in botschool/render/scenes.
 """
 
 from __future__ import annotations
@@ -17,40 +17,40 @@ from botschool.render.shapes import Shape
 
 
 class Scene(ABC):
-    """The picture of one problem. A subclass adds its shapes when it is made."""
+    """The picture of one problem. The constructor of a subclass adds its shapes."""
 
     fps: float
-    """Steps a second: the speed at which a film looks right."""
+    """Steps per second in a film."""
     state_size: int
     view: tuple[float, float, float, float]
-    """What is seen of the world: left, bottom, right, top."""
+    """The visible part of the world: left, bottom, right, top."""
     scale: float
     """Pixels of a frame per unit of length."""
     robots: tuple[str, ...] = ("",)
-    """Names of the robots whose networks are seen, where there is more than one."""
+    """Names of the robots whose networks are shown, if there is more than one."""
     closeups: tuple[tuple[str, int, float], ...] = ()
-    """What a replay can follow: name, pose, width of what is seen around it."""
+    """Objects that a replay can follow: name, pose, width of the view around it."""
     charted: tuple[tuple[str, tuple[int, ...]], ...] = ()
-    """What a replay charts below the neurons: name, and which numbers are its lines (-1 to 1)."""
+    """Charts of a replay below the neurons: name, and the numbers that are its lines (-1 to 1)."""
 
     def __init__(self) -> None:
         self.shapes: list[Shape] = []
         self.count = 0
-        """How many numbers a step has."""
+        """Numbers per step."""
         self._past: list[np.ndarray] = []
         self._painter: Painter | None = None
 
     def add(self, kind: str, points, colour: str, **options) -> None:
-        """Add a shape in front of those before; see Shape."""
+        """Add a shape in front of the earlier ones; see Shape."""
         self.shapes.append(Shape(kind, tuple(points), colour, **options))
 
     def pose(self) -> int:
-        """Reserves three numbers: x, y, angle."""
+        """Reserve three numbers: x, y, angle; return the index of the first."""
         self.count += 3
         return self.count - 3
 
     def value(self) -> int:
-        """Reserves one number."""
+        """Reserve one number; return its index."""
         self.count += 1
         return self.count - 1
 
@@ -61,12 +61,12 @@ class Scene(ABC):
         observation: np.ndarray | None = None,
         reward: float = 0.0,
     ) -> np.ndarray:
-        """Return what moves the shapes, float64 (count,).
+        """Return the numbers that move the shapes, float64 (count,).
 
-        `state` is the native problem's, (state_size,); `action` the one that led to it,
-        `observation` what it answered to and `reward` what it earned, where they can be seen.
-        Raises BotschoolError if a number of the state is not finite, ValueError if the size of
-        the state, the action or the observation is wrong.
+        `state` is the native problem's, (state_size,); `action` led to it, `observation` is what
+        the robots saw before the action, and `reward` what it earned, if they are known. Raises
+        BotschoolError if a number of the state is not finite, and ValueError if the size of the
+        state, the action or the observation is wrong.
         """
         state = np.asarray(state, dtype=np.float64)
         if state.shape != (self.state_size,):
@@ -88,7 +88,7 @@ class Scene(ABC):
         observation: np.ndarray | None,
         reward: float,
     ) -> list[float]:
-        """As `numbers`, in the order in which they were reserved; `action` may be empty."""
+        """Return the same as `numbers`, in the order of reservation; `action` may be empty."""
 
     def draw(
         self,
@@ -97,9 +97,10 @@ class Scene(ABC):
         observation: np.ndarray | None = None,
         reward: float = 0.0,
     ) -> np.ndarray:
-        """Return the frame of a step, (height, width, 3) uint8; arguments and errors as `numbers`.
+        """Return the frame of a step, (height, width, 3) uint8; arguments and errors as in
+        `numbers`.
 
-        Where there are trails, they show what was drawn before in the same episode.
+        Trails show what was drawn before in the same episode.
         """
         numbers = self.numbers(state, action, observation, reward)
         longest = max((shape.steps for shape in self.shapes), default=0)
@@ -118,19 +119,21 @@ class Scene(ABC):
         )
 
     def _follows(self, state: np.ndarray) -> bool:
-        """Return whether the state comes after those drawn before, in the same episode."""
+        """Return whether the state follows those drawn before, in the same episode."""
         return False
 
 
 Maker = Callable[..., Scene]
-"""Makes a scene for the problem's wheeled robots (none for most), and its plan if it has one."""
+"""Makes a scene for the problem's wheeled robots (none for most), and for its plan if
+it has one.
+"""
 
 SCENES: dict[str, Maker] = {}
-"""By the problem's name in C++; filled when botschool.render.scenes is imported."""
+"""By the problem's name in C++; importing botschool.render.scenes fills it."""
 
 
 def draws(problem: str) -> Callable[[Maker], Maker]:
-    """Decorates what makes a problem's scene."""
+    """Decorate the maker of a problem's scene to register it."""
 
     def enter(maker: Maker) -> Maker:
         SCENES[problem] = maker

@@ -1,6 +1,6 @@
-"""What pictures are made of: shapes in world coordinates, moved by a few numbers a step.
+"""Define the shapes of pictures in world coordinates, moved by a few numbers per step.
 
-A scene (scene.py, arena.py) describes its picture once, as shapes. The film's frames
+A scene (scene.py, scenes/arenas.py) describes its picture once, as shapes. The film's frames
 (`canvas.Painter`) and the replay's page (replay.js) draw the same shapes from the same numbers.
 World coordinates have y upwards; angles are radians, counter-clockwise.
 """
@@ -47,7 +47,7 @@ PALETTE: dict[str, tuple[Colour, Colour]] = {
 
 @dataclass(frozen=True)
 class Shape:
-    """One thing in a picture: where it is drawn, and which numbers move it."""
+    """One shape in a picture: its position, and the numbers that move it."""
 
     kind: str
     """polygon (corners), line (vertices), disc (its centre), text (its middle), trail (none)."""
@@ -55,11 +55,11 @@ class Shape:
     colour: str
     """A name in PALETTE."""
     radius: float = 0.0
-    """Of a disc; half the width of a line or trail."""
+    """Radius of a disc; half the width of a line or trail."""
     opacity: float = 1.0
     text: str = ""
     at: Point = (0.0, 0.0)
-    """Added to the points after scaling and before posing."""
+    """Offset of the points after scaling and before posing."""
     pose: int | None = None
     """Index of the first of three numbers (x, y, angle) that move the shape."""
     size: int | None = None
@@ -69,11 +69,11 @@ class Shape:
     level: int | None = None
     """Index of a number, 0 to 1, that multiplies the opacity."""
     steps: int = 0
-    """Length of a trail: the way of its pose over so many steps, fading."""
+    """Length of a fading trail in steps."""
 
     @property
     def moves(self) -> bool:
-        """Whether the numbers change it."""
+        """Return whether the numbers change the shape."""
         return (self.pose, self.size, self.level) != (None, None, None)
 
     def placed(self, numbers: np.ndarray) -> np.ndarray:
@@ -93,7 +93,7 @@ class Shape:
         return self.opacity * level
 
     def as_dict(self) -> dict:
-        """For JSON: what differs from the defaults, rounded to 1e-4."""
+        """Return the attributes that differ from the defaults, rounded to 1e-4, for JSON."""
         shape = {field.name: field.default for field in fields(self)}
         kept = {name: value for name, value in asdict(self).items() if value != shape[name]}
         kept["points"] = [[round(float(x), 4), round(float(y), 4)] for x, y in self.points]
@@ -101,7 +101,7 @@ class Shape:
 
 
 def rectangle(left: float, bottom: float, right: float, top: float) -> tuple[Point, ...]:
-    """Corners of a rectangle."""
+    """Return the corners of a rectangle."""
     return ((left, bottom), (right, bottom), (right, top), (left, top))
 
 
@@ -111,19 +111,21 @@ def arc(start: float, end: float, radius: float, parts: int = 8) -> tuple[Point,
 
 
 def ring(start: float, end: float, inner: float, outer: float) -> tuple[Point, ...]:
-    """Corners of a piece of a ring."""
+    """Return the corners of a piece of a ring."""
     return arc(start, end, outer) + arc(end, start, inner)
 
 
 def arrow(length: float, width: float) -> tuple[Point, ...]:
-    """Corners of an arrow from the origin along +x."""
+    """Return the corners of an arrow from the origin along +x."""
     neck, half, shaft = 0.72 * length, width / 2, width / 6
     upper = ((0.0, shaft), (neck, shaft), (neck, half))
     return (*upper, (length, 0.0), *((x, -y) for x, y in reversed(upper)))
 
 
 def bent_arrow(radius: float, width: float) -> tuple[Point, ...]:
-    """Corners of an arrow that goes a quarter round above the origin, counter-clockwise."""
+    """Return the corners of an arrow that goes a quarter round above
+    the origin, counter-clockwise.
+    """
     start, neck, tip, half = 0.8, 2.1, 2.55, width / 6
     outer, inner = arc(start, neck, radius + half), arc(neck, start, radius - half)
     head = arc(neck, neck, radius + width / 2, 1)[:1] + arc(tip, tip, radius, 1)[:1]

@@ -1,4 +1,4 @@
-"""Films of episodes: frames to a video file, one at a time."""
+"""Write frames of episodes to a video file, one at a time."""
 
 from __future__ import annotations
 
@@ -28,16 +28,18 @@ _ENCODERS = {
 
 VIDEO_SUFFIXES = tuple(_ENCODERS)
 MAX_GIF_FPS = 50.0
-"""GIF counts time in hundredths of a second, and viewers slow down what is faster than this."""
+"""Highest frame rate of a GIF: it counts time in hundredths of a second, and viewers slow down
+faster ones.
+"""
 
 
 def write_video(path: Path | str, frames: Iterable[np.ndarray], fps: float) -> None:
     """Write frames, each (height, width, 3) uint8 and of one size, to a .mp4, .webm or .gif file.
 
-    Holds one frame at a time. An odd width or height is padded where the format asks for even
-    ones. An existing file is replaced once the new one is complete, and stays as it is if
-    anything fails, in `frames` too. Raises BotschoolError if the file cannot be written or there
-    are no frames.
+    Only one frame is in memory at a time. An odd width or height is padded if the format needs even
+    ones. An existing file is replaced when the new one is complete, and stays as it is if anything
+    fails, including `frames`. Raises BotschoolError if the file cannot be written or there are no
+    frames.
     """
     path = check_output(path, VIDEO_SUFFIXES)
     frames = iter(frames)
@@ -76,7 +78,7 @@ def _start_encoder(
     )
     command = [ffmpeg, "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24"]
     command += ["-s", f"{width}x{height}", "-r", f"{fps}", "-i", "pipe:0", *encoding.split()]
-    # Ctrl-C is for Python, which then ends the encoder and removes its file.
+    # Only Python handles Ctrl-C; it then ends the encoder and removes its file.
     windows = sys.platform == "win32"
     return subprocess.Popen(
         [*command, str(path.absolute())],
@@ -89,7 +91,7 @@ def _start_encoder(
 
 
 def _send(first: np.ndarray, others: Iterator[np.ndarray], pipe: IO[bytes], path: Path) -> bool:
-    """Send all frames; False if the encoder stopped listening before the end."""
+    """Send all frames; return False if the encoder ended early."""
     frame = first
     while frame is not None:
         if frame.shape != first.shape or frame.dtype != np.uint8 or frame.shape[2:] != (3,):
@@ -110,7 +112,7 @@ def _send(first: np.ndarray, others: Iterator[np.ndarray], pipe: IO[bytes], path
 
 
 def _reason(complaints: IO[bytes]) -> str:
-    """Return why the encoder failed, as far as it said so."""
+    """Return why the encoder failed, if it said so."""
     complaints.seek(0)
     said = complaints.read().decode(errors="replace").strip()
     for reason in ("No space left on device", "Permission denied", "Read-only file system"):

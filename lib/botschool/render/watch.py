@@ -1,4 +1,4 @@
-"""Looking at one robot: post-evaluation with numbers, window, video, replay and activations."""
+"""Watch one robot: post-evaluation with numbers, window, video, replay and activations."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from botschool.terminal import has_display, readable
 
 VIDEO_EPISODES = 3
 REPLAY_EPISODES = 5
-"""Episodes in a video and in a replay, unless the user says how many."""
+"""Default number of episodes in a video and in a replay."""
 
 
 def read_genotype(path: Path) -> np.ndarray:
@@ -33,12 +33,12 @@ def read_genotype(path: Path) -> np.ndarray:
             return np.load(stream, allow_pickle=False)
     except Exception:  # a damaged file can fail in any way
         raise BotschoolError(
-            f"{path} is no genotype: it is damaged, or not a .npy file of numbers."
+            f"{path} is not a genotype: it is damaged, or not a .npy file of numbers."
         ) from None
 
 
 class PostEvaluation:
-    """Episodes of one robot, on the seeds that its run post-evaluated on.
+    """Episodes of one robot, on the seeds of its run's post-evaluations.
 
     Without a saved genotype the robot is the random one that evolution starts from.
     """
@@ -57,7 +57,7 @@ class PostEvaluation:
         self.maxsteps = experiment.policy.post_steps
         self.fitness: list[float] = []
         self.others: list[float] = []
-        """Of the second side, where it has a fitness of its own."""
+        """Fitness values of the second side, if it has its own."""
         self.steps: list[int] = []
         if saved is None:
             self._robot: tuple[np.ndarray, np.ndarray | None] = (self.policy.initial(seed), None)
@@ -66,7 +66,7 @@ class PostEvaluation:
 
     @property
     def available(self) -> int:
-        """Episodes of a whole post-evaluation."""
+        """Return the number of episodes of a whole post-evaluation."""
         return self.policy.config.pepisodes
 
     def cast(self, episode: int) -> tuple[np.ndarray, np.ndarray | None, int]:
@@ -74,11 +74,11 @@ class PostEvaluation:
         return *self._robot, episode
 
     def label(self, episode: int) -> str:
-        """Return what tells this episode from the others, beside its number."""
+        """Return the text that distinguishes this episode from the others, beside its number."""
         return ""
 
     def play(self, episode: int, render: bool = False) -> Iterator[Transition]:
-        """Plays one episode, then keeps its fitness and steps and prints them."""
+        """Play one episode, record its fitness and steps, and print them."""
         genotype, normalisation, number = self.cast(episode)
         seed = self.seed + POST_EVALUATION_SEED
         transition = None
@@ -121,7 +121,9 @@ class PostEvaluation:
 
     @property
     def neurons(self) -> tuple[int, int]:
-        """Inputs (or features of images) and outputs of one robot's network, or of each robot's."""
+        """Return inputs (or features of images) and outputs of one robot's network, or of each
+        robot's.
+        """
         return self.policy.neurons
 
     def _robots(self, scene) -> tuple[str, ...]:
@@ -131,7 +133,7 @@ class PostEvaluation:
         return self.problem.sides if self.problem.interface.robots > 1 else ("",)
 
     def write_replay(self, path: Path, episodes: int) -> None:
-        """A page that plays the first episodes; see botschool.render.replay."""
+        """Write a page that plays the first episodes; see botschool.render.replay."""
         from botschool.render.canvas import draw_offscreen
         from botschool.render.replay import write_replay
         from botschool.render.scenes import scene_of
@@ -151,7 +153,9 @@ class PostEvaluation:
         )
 
     def print_summary(self) -> None:
-        """Mean and standard deviation over the episodes played, of each side that has its own."""
+        """Print mean and standard deviation over the episodes played, of each side with its own
+        fitness.
+        """
         names = [f"{side}: " for side in self.problem.sides] if self.others else [""]
         for name, fitness in zip(names, (self.fitness, self.others), strict=False):
             if fitness:
@@ -164,9 +168,9 @@ class PostEvaluation:
 
 @dataclass(frozen=True)
 class Watching:
-    """How a robot is looked at: the options of `botschool es -p`.
+    """The options of `botschool es -p`: how to watch a robot.
 
-    Raises BotschoolError for options that do not go together.
+    Raises BotschoolError for options that exclude each other.
     """
 
     neurons: bool = False
@@ -184,11 +188,11 @@ class Watching:
 
     @property
     def asked(self) -> bool:
-        """Whether the options ask for something to look at."""
+        """Return whether the options ask to show something."""
         return bool(self.neurons or self.video or self.replay or self.render == "human")
 
     def show(self, robot: PostEvaluation) -> None:
-        """Plays and prints the episodes; to a window, a video file or a page if wanted."""
+        """Play and print the episodes; show or write them in a window, a video file or a page."""
         film = self.video or self.replay
         window = self.render == "human" or (self.render is None and not film and has_display())
         most = VIDEO_EPISODES if self.video else REPLAY_EPISODES if self.replay else sys.maxsize
@@ -204,7 +208,9 @@ def watch(
     activations: bool,
     replay: Path | None = None,
 ) -> None:
-    """Plays and prints `episodes` episodes; to a window, a video file or a page if wanted."""
+    """Play and print `episodes` episodes; show or write them in a window, a video file
+    or a page.
+    """
     title = f"botschool: {robot.problem.name}"
     if video is not None:
         from botschool.render.video import write_video

@@ -1,4 +1,4 @@
-"""Watching episodes in a window."""
+"""Show episodes in a window."""
 
 from __future__ import annotations
 
@@ -14,11 +14,10 @@ from botschool.render.canvas import import_pygame
 
 
 def show(frames: Iterable[np.ndarray], fps: float, title: str) -> bool:
-    """Show frames, each (height, width, 3) uint8, in a window, `fps` a second.
+    """Show frames, each (height, width, 3) uint8, in a window, `fps` per second.
 
-    The space key pauses and goes on; Esc, q or closing the window ends. Returns True if all
-    frames were shown, False if the user ended before. Raises BotschoolError where there is no
-    display.
+    The space key pauses and continues; Esc, q or closing the window ends. Return True if all frames
+    were shown, False if the user ended earlier. Raises BotschoolError if there is no display.
     """
     pygame = import_pygame()
     open_display(pygame)
@@ -43,7 +42,7 @@ def show(frames: Iterable[np.ndarray], fps: float, title: str) -> bool:
 
 
 def open_display(pygame: Any) -> None:
-    """Open the machine's display, in place of one that was opened for drawing offscreen."""
+    """Open the machine's display, replacing one that was opened for drawing offscreen."""
     pygame.display.quit()
     places = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
     if sys.platform == "linux" and not any(map(os.environ.get, places)):
@@ -65,7 +64,7 @@ def _no_display() -> BotschoolError:
 
 
 def _goes_on(pygame: Any, clock: Any) -> bool:
-    """Handles keys, waiting while paused; False if the user wants to end."""
+    """Handle keys, and wait while paused; return False if the user wants to end."""
     paused = False
     while True:
         for event in pygame.event.get():

@@ -1,4 +1,4 @@
-"""The pictures of the native problems, a file each; importing this registers all of them."""
+"""The pictures of the native problems, one file each; importing this registers all of them."""
 
 from __future__ import annotations
 
@@ -24,15 +24,13 @@ for _module in pkgutil.iter_modules(__path__):
 
 
 def make_scene(name: str, robots: tuple[RobotModel, ...] = (), plan: Plan | None = None) -> Scene:
-    """Return the scene of a native problem: its own, or meters where nobody has drawn it.
+    """Return the scene of a native problem: its own, or meters if it has none.
 
     robots: its wheeled robots, () for its own. plan: a declared arena. Raises BotschoolError for
     another problem.
     """
     if name not in NATIVE:
-        raise BotschoolError(
-            f"there are no pictures of {name}: those that can be drawn are {', '.join(NATIVE)}."
-        )
+        raise BotschoolError(f"there are no pictures of {name}: choose one of {', '.join(NATIVE)}.")
     info = INFOS[NATIVE[name][0]]
     if info["name"] not in SCENES:
         return MeterScene(info)
@@ -42,18 +40,16 @@ def make_scene(name: str, robots: tuple[RobotModel, ...] = (), plan: Plan | None
 
 
 def scene_of(problem: Any) -> Scene | None:
-    """Return the scene that a problem's steps are drawn by; None where they bring their own
-    pictures.
-    """
+    """Return the scene of a problem's steps; None if they bring their own pictures."""
     if not problem.native or drawn_by_gymnasium(problem):
         return None
     return make_scene(problem.dynamics, problem.robots, problem.plan)
 
 
 def drawn_by_gymnasium(problem: Problem) -> bool:
-    """Return whether Gymnasium has a picture of a native problem that has none of its own here.
+    """Return whether Gymnasium has a picture of a native problem without a picture of our own.
 
-    It can be used if the environment keeps its state, as classic control does, in `state`.
+    It is usable if the environment keeps its state in `state`, as classic control does.
     """
     if not problem.native or problem.dynamics in SCENES:
         return False
@@ -65,7 +61,7 @@ def drawn_by_gymnasium(problem: Problem) -> bool:
 
 
 def with_frames(problem: Problem, play: Iterator[Transition]) -> Iterator[Transition]:
-    """Yield the steps of an episode, with Gymnasium's pictures where a problem is drawn by it."""
+    """Yield the steps of an episode, with Gymnasium's pictures if it draws the problem."""
     if not drawn_by_gymnasium(problem):
         yield from play
         return

@@ -1,4 +1,6 @@
-"""Arenas with wheeled robots (lengths in mm, y upwards): ErDiscrim, ErPredprey, ErStaybehind."""
+"""Draw arenas with wheeled robots (lengths in mm, y upwards):
+ErDiscrim, ErPredprey, ErStaybehind.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,7 @@ from botschool.arenas.robots import RobotModel
 from botschool.render.scene import Scene, draws
 from botschool.render.shapes import arc, arrow, rectangle, ring
 
-# --- What the pictures of all arenas with wheeled robots share: lengths in mm, y upwards.
+# --- The common part of all arenas with wheeled robots: lengths in mm, y upwards.
 
 
 CAMERA_SECTORS = 8
@@ -19,7 +21,7 @@ CAMERA_SECTORS = 8
 
 @dataclass(frozen=True)
 class Look:
-    """How a robot looks. Its observation starts with the infrared, then the camera readings."""
+    """The appearance of a robot. Its observation starts with infrared, then camera readings."""
 
     name: str
     colour: str
@@ -30,14 +32,14 @@ class Look:
 class ArenaScene(Scene):
     """An arena with walls and robots: trails, infrared, camera and wheels.
 
-    An infrared reading glows as a wedge that grows with it; a camera sector is a piece of a ring
-    around the robot. The state starts with x, y and heading of every robot and ends with the
-    number of steps; the observation is all robots', the action two wheels a robot.
+    An infrared reading is a glowing wedge that grows with it. A camera sector is a piece of a ring
+    around the robot. The state starts with x, y and heading of every robot and ends with the number
+    of steps. The observation covers all robots; the action has two wheels per robot.
     """
 
     fps = 10.0
     side: float
-    """The arena's width, and its height unless `tall` says otherwise."""
+    """The arena's width; also its height, unless `tall` is set."""
     tall: float = 0.0
     looks: tuple[Look, ...]
     trail: int
@@ -71,10 +73,10 @@ class ArenaScene(Scene):
         self.closeups = tuple((look.name, pose, 10 * model.radius) for look, model, pose in cast)
 
     def _add_ground(self) -> None:
-        """What the floor looks like."""
+        """Add the floor."""
 
     def _add_gradient(self) -> None:
-        """A floor that darkens away from the centre, as ground sensors read it."""
+        """Add a floor that darkens away from the centre, as ground sensors read it."""
         middle = (self.side / 2, self.side / 2)
         self.add("polygon", rectangle(0.0, 0.0, self.side, self.side), "shade", opacity=0.6)
         for share in np.linspace(1.0, 0.1, 10):
@@ -82,7 +84,7 @@ class ArenaScene(Scene):
             self.add("disc", [middle], "floor", radius=float(radius), opacity=0.18)
 
     def _add_objects(self, poses: list[int]) -> None:
-        """What stands in the arena; `poses` are the robots'."""
+        """Add the objects in the arena; `poses` are the robots'."""
 
     def _add_sensors(self, look: Look, model: RobotModel, pose: int) -> None:
         self._add_infrared(model, pose)
@@ -90,7 +92,7 @@ class ArenaScene(Scene):
             self._add_camera(pose, 1.55 * model.radius, 1.85 * model.radius, "camera")
 
     def _sensed(self, look: Look, model: RobotModel, readings: np.ndarray) -> list[float]:
-        """Return the numbers of what `_add_sensors` added; readings: of this robot, 0 to 1."""
+        """Return the numbers of the shapes of `_add_sensors`; readings: of this robot, 0 to 1."""
         nrays = len(model.directions)
         numbers = infrared_numbers(model, readings[:nrays])
         return numbers + list(readings[nrays : nrays + CAMERA_SECTORS] if look.camera else [])
@@ -166,7 +168,7 @@ class ArenaScene(Scene):
         return [*numbers, *action]
 
     def _objects(self, state: np.ndarray, reward: float) -> list[float]:
-        """Return the numbers of what `_add_objects` added."""
+        """Return the numbers of the shapes of `_add_objects`."""
         return []
 
 
@@ -180,7 +182,7 @@ def infrared_numbers(model: RobotModel, readings: np.ndarray) -> list[float]:
 
 @draws("ErDiscrim")
 class DiscrimScene(ArenaScene):
-    """ErDiscrim: the cylinder, and around it the zone in which the robot is rewarded."""
+    """ErDiscrim: the cylinder, and the zone around it in which the robot is rewarded."""
 
     state_size, side, trail, scale_bar = 6, 400.0, 120, 100.0
     looks = (Look("robot", "blue", observations=8),)
@@ -188,7 +190,7 @@ class DiscrimScene(ArenaScene):
 
     @property
     def zone(self) -> float:
-        """Distance of the centres below which there is a reward."""
+        """Return the distance of the centres below which there is a reward."""
         return self.models[0].radius + self.CYLINDER + 60.0
 
     def _add_objects(self, poses: list[int]) -> None:
@@ -213,8 +215,7 @@ class DiscrimScene(ArenaScene):
 class PredpreyScene(ArenaScene):
     """ErPredprey: the floor darkens away from the centre, as the ground sensors read it.
 
-    A ring marks where the predator caught the prey, which a reward other than 0 tells; then they
-    touch.
+    A ring marks the place of a catch, known by a reward other than 0; then the robots touch.
     """
 
     state_size, side, trail, scale_bar = 7, 3000.0, 80, 500.0
@@ -244,10 +245,10 @@ class PredpreyScene(ArenaScene):
 
 
 def touching(predator: np.ndarray, prey: np.ndarray, apart: float) -> np.ndarray:
-    """Return where a predator that has caught the prey is drawn, x and y: led up to it.
+    """Return the position, x and y, at which to draw a predator that has caught the prey.
 
     The arena does not carry out a move that ends in a collision, so the last poses leave a gap.
-    apart: distance of the centres of robots that touch.
+    apart: distance of the centres of touching robots.
     """
     away = predator - prey
     return prey + away * (apart / np.linalg.norm(away))
@@ -257,15 +258,15 @@ def touching(predator: np.ndarray, prey: np.ndarray, apart: float) -> np.ndarray
 
 
 NEAR, FAR = 340.0, 600.0
-"""Distances of the centres between which the leader has to be."""
+"""Distances of the centres between which the leader should be."""
 
 
 @draws("ErStaybehind")
 class StaybehindScene(ArenaScene):
-    """ErStaybehind: a red disc and the word "blocked" mark a robot that is blocked.
+    """ErStaybehind: a red disc and the word "blocked" mark a blocked robot.
 
-    The piece of a ring before the follower is where the leader has to be; it is green in a step
-    that is rewarded. The floor darkens away from the centre, as the ground sensors read it.
+    The piece of a ring ahead of the follower is where the leader should be; it is green in a
+    rewarded step. The floor darkens away from the centre, as the ground sensors read it.
     """
 
     state_size, side, trail, scale_bar = 9, 3000.0, 80, 500.0
@@ -302,7 +303,7 @@ class StaybehindScene(ArenaScene):
 
 
 def wheels(speed: float, turn: float) -> np.ndarray:
-    """Shares of the greatest speed of the left and the right wheel that a robot's action means."""
+    """Return an action's shares of the greatest speed for the left and the right wheel."""
     forward, turn = (speed + 1) / 2, (turn + 1) / 2
     slower = forward * (1 - 2 * abs(turn - 0.5))
     return np.array([slower, forward] if turn < 0.5 else [forward, slower])

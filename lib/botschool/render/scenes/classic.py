@@ -1,4 +1,4 @@
-"""Classic control: CartPole, envSwingupCustom, ErDpole, Pendulum, Acrobot,
+"""Draw classic control: CartPole, envSwingupCustom, ErDpole, Pendulum, Acrobot,
 MountainCarContinuous.
 """
 
@@ -20,7 +20,7 @@ class Pole:
     """A pole on a cart."""
 
     angle: int
-    """Where in the state its angle is (radians, 0 upright)."""
+    """Index of its angle in the state (radians, 0 upright)."""
     length: float
     """Metres."""
     colour: str = "pole"
@@ -29,10 +29,10 @@ class Pole:
 
 
 class CartScene(Scene):
-    """A cart with poles on a track of +-2.4 m, and the force that pushes it as an arrow.
+    """A cart with poles on a track of +-2.4 m, with the force on it as an arrow.
 
-    The state starts with the cart's position; the force is full at an action of +-1, or with a
-    discrete action always full: 0 to the left, 1 to the right.
+    The state starts with the cart's position. The force is full at an action of +-1; a discrete
+    action always has full force: 0 to the left, 1 to the right.
     """
 
     scale = 110.0
@@ -85,7 +85,7 @@ class CartScene(Scene):
 
 @draws("CartPole-v1")
 def cartpole(robots: tuple) -> Scene:
-    """A pole to keep upright."""
+    """Return the scene of a pole to keep upright."""
     return CartScene(
         [Pole(angle=2, length=1.0)], state_size=4, track_y=300, fps=50.0, discrete=True
     )
@@ -93,14 +93,14 @@ def cartpole(robots: tuple) -> Scene:
 
 @draws("envSwingupCustom")
 def swingup(robots: tuple) -> Scene:
-    """A pole to swing up."""
+    """Return the scene of a pole to swing up."""
     poles = [Pole(angle=2, length=0.6, clockwise=False)]
     return CartScene(poles, state_size=4, track_y=200, fps=100.0)
 
 
 @draws("ErDpole")
 def double_pole(robots: tuple) -> Scene:
-    """Two poles to keep upright."""
+    """Return the scene of two poles to keep upright."""
     poles = [Pole(angle=2, length=1.0), Pole(angle=4, length=0.5, colour="short pole")]
     return CartScene(poles, state_size=6, track_y=300, fps=50.0)
 
@@ -136,7 +136,7 @@ class PendulumScene(Scene):
 
 @draws("Acrobot-v1")
 class AcrobotScene(Scene):
-    """Two links that hang, the height to reach, and the torque at the elbow as a bent arrow."""
+    """Two hanging links, the height to reach, and the torque at the elbow as a bent arrow."""
 
     state_size, fps, scale = 4, 15.0, 90.0
     view = (-2.4, -2.3, 2.4, 2.3)

@@ -1,4 +1,4 @@
-"""ErArena: whatever has been declared."""
+"""Draw ErArena: any declared arena."""
 
 from __future__ import annotations
 
@@ -15,13 +15,14 @@ from botschool.render.shapes import rectangle, ring
 COLOURS = ("blue", "orange", "short pole", "object")
 SECTORS = 8
 CELLS = 8
-"""Along a side, where exploring is paid."""
+"""Cells along a side, for the reward of exploring."""
 
 
 @draws("ErArena")
 class DeclaredScene(ArenaScene):
-    """The arena from above: zones, cells that were explored, walls, lights, cylinders, and robots
-    with what their sensors read. What is rewarded is drawn stronger while it is."""
+    """The arena from above: zones, explored cells, walls, lights, cylinders, and robots with their
+    sensors' readings. Rewarded objects are drawn stronger while they pay.
+    """
 
     trail = 120
 
@@ -82,7 +83,9 @@ class DeclaredScene(ArenaScene):
         )
 
     def _objects(self, state: np.ndarray, reward: float) -> list[float]:
-        """In the order in which `_add_ground` and `_add_objects` reserved them."""
+        """Return the numbers in the order in which `_add_ground` and
+        `_add_objects` reserved them.
+        """
         where = self.plan.spots(state)
         numbers = [float(reward)]
         for kind in self._places:

@@ -1,4 +1,4 @@
-"""The picture of a native problem that nobody has drawn: its observation and action as meters."""
+"""Draw a native problem that has no picture of its own: observation and action as meters."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from botschool.render.shapes import rectangle
 
 
 class MeterScene(Scene):
-    """A row of meters for the observation and one for the action; a disc shows where a value is.
+    """A row of meters for the observation and one for the action; a disc shows each value.
 
-    The middle is 0; values are squashed by x / (1 + |x|), so that any size can be shown.
+    The middle is 0. Values are squashed by x / (1 + |x|), so a meter can show any size.
     """
 
     view = (-0.06, -0.1, 1.56, 1.12)
     scale = 400.0
 
     def __init__(self, info: dict) -> None:
-        """info: as in `_core.native_problems()`."""
+        """Make the meters; info: as in `_core.native_problems()`."""
         super().__init__()
         self.state_size, self.fps = info["states"], 1 / info["seconds"]
         self._seen = info["robots"] * info["observations"]

@@ -1,4 +1,4 @@
-"""PlanarHopper, PlanarWalker2D and PlanarHalfCheetah: bodies that run ahead, seen from the side."""
+"""Draw PlanarHopper, PlanarWalker2D and PlanarHalfCheetah: running bodies, seen from the side."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from botschool.render.shapes import arc, arrow, rectangle
 class PlanarScene(Scene):
     """A body of segments, and the ground's force at each contact point as an arrow.
 
-    The picture goes along with the body; lines on the ground, a metre apart, show how it moves.
+    The picture follows the body; lines on the ground, a metre apart, show how it moves.
     """
 
     scale = 150.0
     HALF_WIDTH, BELOW, ABOVE = 2.0, 0.35, 2.05
     FULL_FORCE = 5.0
-    """Arrows have full length at so many times the body's weight."""
+    """Force at which an arrow has full length, in units of the body's weight."""
 
     def __init__(self, problem: str, body: str, far: int, robots: tuple = ()) -> None:
-        """body: as in `_core.PlanarBody`; far: metres up to which the way is marked."""
+        """Make the picture; body: as in `_core.PlanarBody`; far: metres of ground with marks."""
         super().__init__()
         info, table = INFOS[problem], _core.PlanarBody(body).table
         self.state_size, self.fps = info["states"], 1 / info["seconds"]
@@ -35,7 +35,7 @@ class PlanarScene(Scene):
         self._first_load = self.state_size - len(self._contacts)
         self._add_ground(far)
         poses = [self.pose() for _ in self._segments]
-        # what is called left is behind what is not
+        # draw the left parts behind the right ones
         order = sorted(range(len(poses)), key=lambda i: not self._hidden(i))
         for i in order:
             self._add_segment(i, poses[i])
@@ -45,7 +45,7 @@ class PlanarScene(Scene):
         self.charted = (("feet", tuple(self.value() for _ in self._feet)),)
 
     def body(self) -> dict:
-        """What `_numbers` knows of the body, ready for JSON, for the twin in scenes.js."""
+        """Return `_numbers`' data about the body, ready for JSON, for the twin in scenes.js."""
         return {
             "segments": [[s["parent"], s["x"], s["z"]] for s in self._segments],
             "contacts": [list(contact) for contact in self._contacts],
@@ -120,7 +120,7 @@ NAME = "PlanarBodyBrain-v0"
 RODS = 11
 GRAVITY = 10.0
 PIECE, PIECES, FLAT = 14 / 30, 200, 40
-"""Width of a piece of ground in metres, how many there are, and how many of them are even."""
+"""Width of a piece of ground in metres, number of pieces, and number of flat pieces."""
 START = PIECE * FLAT / 2
 
 
@@ -136,7 +136,7 @@ class ChainState:
         ) = np.split(state, np.cumsum(sizes))  # fmt: skip
 
     def rears(self) -> np.ndarray:
-        """Rear ends of the rods, then the tip of the last, (12, 2)."""
+        """Return the rear ends of the rods, then the tip of the last, (12, 2)."""
         headings = self.position[2:]
         along = self.lengths[:, None] * np.stack([np.cos(headings), np.sin(headings)], axis=1)
         return self.position[:2] + np.concatenate([np.zeros((1, 2)), np.cumsum(along, axis=0)])
@@ -147,22 +147,22 @@ class ChainState:
         return np.interp(x, places, self.heights)
 
     def weight(self) -> float:
-        """Of the whole chain, N."""
+        """Return the weight of the whole chain in N."""
         return GRAVITY * float(self.densities @ (self.lengths * self.thicknesses))
 
 
 class ChainScene(Scene):
     """Rods, the ground's force on their ends as arrows, and a piece of the ground.
 
-    The picture goes along with the body; signs on the ground tell the metres from the start.
+    The picture follows the body; signs on the ground show the metres from the start.
     """
 
     scale, BELOW, ABOVE, HALF_WIDTH = 30.0, 2.5, 7.5, 10.0
     DEEP = 12.0
-    """How far the ground goes down, in widths of a piece."""
+    """Depth of the drawn ground, in widths of a piece."""
     SIGN_EVERY = 5
     FULL_FORCE = 2.0
-    """Arrows have full length at so many times the body's weight."""
+    """Force at which an arrow has full length, in units of the body's weight."""
 
     def __init__(self, robots: tuple = ()) -> None:
         super().__init__()
@@ -172,7 +172,7 @@ class ChainScene(Scene):
         self._pieces = round(2 * self.HALF_WIDTH / PIECE) + 2
         self._signs = range(-self.SIGN_EVERY, int(PIECE * PIECES - START) + 1, self.SIGN_EVERY)
         for _ in range(self._pieces):
-            # wider below, so that no gap opens between pieces that lean away from each other
+            # wider below, so that no gap opens between pieces with different slopes
             slab = [(0.0, 0.0), (1.0, 0.0), (3.0, -self.DEEP), (-2.0, -self.DEEP)]
             pose, length = self.pose(), self.value()
             self.add("polygon", slab, "ground", pose=pose, size=length)
