@@ -1,12 +1,13 @@
 #include "crew.hpp"
 
+#include <chrono>
 #include <system_error>
 
 namespace botschool::policy_gradient {
 namespace {
 
-/// Rounds of spinning: about 20 microseconds, what a short step takes.
-constexpr int kSpins = 500;
+/// About twice what it takes to wake a thread: longer waits are rare, and then sleeping is cheaper.
+constexpr std::chrono::microseconds kSpin{100};
 
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -16,16 +17,19 @@ void pause() {
 
 template <class Ready>
 bool spin(const Ready& ready) {
-  for (int i = 0; i < kSpins; ++i) {
-    if (ready()) return true;
-    pause();
-  }
+  const auto end = std::chrono::steady_clock::now() + kSpin;
+  do {
+    for (int i = 0; i < 16; ++i) {
+      if (ready()) return true;
+      pause();
+    }
+  } while (std::chrono::steady_clock::now() < end);
   return ready();
 }
 
 }  // namespace
 
-Crew::Crew(int threads) {
+Crew::Crew(int threads) : spins_(threads <= static_cast<int>(std::thread::hardware_concurrency())) {
   try {
     for (int t = 1; t < threads; ++t) others_.emplace_back([this, t] { loop(t); });
   } catch (const std::system_error&) {
@@ -34,50 +38,51 @@ Crew::Crew(int threads) {
 }
 
 Crew::~Crew() {
-  quit_ = true;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    ++round_;
+    quit_ = true;
   }
   wake_.notify_all();
   for (auto& thread : others_) thread.join();
 }
 
 void Crew::share(int tasks) {
-  tasks_ = tasks;
-  next_ = 0;
-  busy_ = static_cast<int>(others_.size());
-  ++round_;
-  if (asleep_ > 0) {  // a thread that falls asleep now looks at round_ first, under the mutex
+  unfinished_ = tasks;
+  waiting_ = tasks;
+  if (asleep_ > 0) {  // a thread that falls asleep now looks at waiting_ first, under the mutex
     const std::lock_guard<std::mutex> lock(mutex_);
     wake_.notify_all();
   }
   work(0);
-  const auto ready = [this] { return busy_ == 0; };
-  if (spin(ready)) return;
+  const auto ready = [this] { return unfinished_ == 0; };
+  if (spins_ && spin(ready)) return;
   std::unique_lock<std::mutex> lock(mutex_);
   done_.wait(lock, ready);
 }
 
+/// A task that was taken keeps share() from returning, so that call_ and work_ belong to it.
 void Crew::work(int thread) {
-  for (int task; (task = next_.fetch_add(1)) < tasks_;) call_(work_, task, thread);
-}
-
-void Crew::loop(int thread) {
-  for (unsigned seen = 0;; ++seen) {
-    const auto ready = [&] { return round_ != seen; };
-    if (!spin(ready)) {
-      std::unique_lock<std::mutex> lock(mutex_);
-      ++asleep_;
-      wake_.wait(lock, ready);
-      --asleep_;
-    }
-    if (quit_) return;
-    work(thread);
-    if (--busy_ == 0) {
+  for (int left = waiting_; left > 0;) {
+    if (!waiting_.compare_exchange_weak(left, left - 1)) continue;
+    call_(work_, left - 1, thread);
+    if (--unfinished_ == 0 && thread > 0) {
       const std::lock_guard<std::mutex> lock(mutex_);
       done_.notify_one();
     }
+    left = waiting_;
+  }
+}
+
+void Crew::loop(int thread) {
+  const auto ready = [this] { return waiting_ > 0 || quit_; };
+  while (!quit_) {
+    if (!spins_ || !spin(ready)) {
+      std::unique_lock<std::mutex> lock(mutex_);
+      ++asleep_;
+      if (!ready()) wake_.wait(lock);
+      --asleep_;
+    }
+    work(thread);
   }
 }
 

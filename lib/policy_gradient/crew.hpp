@@ -9,8 +9,9 @@
 
 namespace botschool::policy_gradient {
 
-/// Steps are short, so that waiting for the next one begins by spinning; after a while a thread sleeps,
-/// for the machine may have other work.
+/// Steps are short, so a thread waits for the next one by spinning; after a while it sleeps, for the
+/// machine may have other work. Nobody waits for a thread that has no task: where others keep the
+/// cores busy, the caller does all tasks itself.
 class Crew {
  public:
   explicit Crew(int threads);
@@ -37,15 +38,16 @@ class Crew {
   void work(int thread);
   void loop(int thread);
 
-  std::vector<std::thread> others_;
-  std::atomic<unsigned> round_{0};
-  std::atomic<int> next_{0}, busy_{0}, asleep_{0};
+  const bool spins_;                         ///< whether each thread can have a core
+  alignas(64) std::atomic<int> waiting_{0};  ///< tasks that no thread has taken
+  alignas(64) std::atomic<int> unfinished_{0};
+  std::atomic<int> asleep_{0};
   std::atomic<bool> quit_{false};
   std::mutex mutex_;
   std::condition_variable wake_, done_;
-  int tasks_ = 0;
   void (*call_)(const void*, int, int) = nullptr;
   const void* work_ = nullptr;
+  std::vector<std::thread> others_;
 };
 
 }  // namespace botschool::policy_gradient

@@ -111,13 +111,13 @@ bool Learner::step(const float* gradient, double learning_rate) {
   return true;
 }
 
-/// A random order (Fisher and Yates 1938).
-void Learner::shuffle(int epoch) {
-  std::iota(order_.begin(), order_.end(), 0);
-  for (std::uint32_t i = static_cast<std::uint32_t>(order_.size()) - 1; i > 0; --i) {
+/// A random order of n samples (Fisher and Yates 1938).
+void Learner::shuffle(int epoch, int* order, int n) const {
+  std::iota(order, order + n, 0);
+  for (std::uint32_t i = static_cast<std::uint32_t>(n) - 1; i > 0; --i) {
     const Block block = philox(h_.seed + (updates >> 32 << 32), static_cast<std::uint32_t>(updates),
                                Stream::shuffle, static_cast<std::uint32_t>(epoch), i);
-    std::swap(order_[i], order_[std::uint64_t(block.word[0]) * (i + 1) >> 32]);
+    std::swap(order[i], order[std::uint64_t(block.word[0]) * (i + 1) >> 32]);
   }
 }
 
@@ -126,15 +126,18 @@ Update Learner::update(const Batch& samples, int n, double learning_rate, double
   Update result;
   result.learning_rate = learning_rate;
   result.clip_range = clip_range;
-  order_.resize(n);
+  const int ahead = std::min(crew_.threads(), h_.n_epochs);  // orders drawn side by side
+  orders_.resize(std::size_t(ahead) * n);
   Indicators sum;
   bool stopped = false;
   for (int epoch = 0; epoch < h_.n_epochs && !stopped && result.finite; ++epoch) {
-    shuffle(epoch);
+    int* order = &orders_[std::size_t(epoch % ahead) * n];
+    if (epoch % ahead == 0)
+      crew_.run(ahead, [&](int i, int) { shuffle(epoch + i, order + std::size_t(i) * n, n); });
     for (int from = 0; from < n && !stopped && result.finite; from += h_.batch_size) {
       const int size = std::min(h_.batch_size, n - from);
       const Indicators found =
-          loss(samples, &order_[from], size, clip_range, clip_range_vf, nullptr, nullptr);
+          loss(samples, order + from, size, clip_range, clip_range_vf, nullptr, nullptr);
       add(sum, found);
       result.loss = found.policy_loss + h_.vf_coef * found.value_loss - h_.ent_coef * found.entropy;
       ++result.minibatches;

@@ -48,7 +48,7 @@ class Learner {
   std::uint64_t updates = 0;
 
  private:
-  void shuffle(int epoch);
+  void shuffle(int epoch, int* order, int n) const;
 
   const Kernels& kernels_;
   const Hyperparameters& h_;
@@ -56,7 +56,7 @@ class Learner {
   std::vector<std::unique_ptr<Workspace>> workspaces_;
   std::vector<float> parts_;  ///< a gradient for each chunk
   std::vector<Indicators> found_;
-  std::vector<int> order_;
+  std::vector<int> orders_;  ///< of the samples, for several epochs
 };
 
 }  // namespace botschool::policy_gradient
