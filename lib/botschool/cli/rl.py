@@ -54,6 +54,15 @@ RlPolicy = Annotated[
     ),
 ]
 
+RlBeside = Annotated[
+    Path | None,
+    typer.Option(help="Show an evolved robot of this experiment beside it.", metavar="FILE.ini"),
+]
+RlGenotype = Annotated[
+    Path | None,
+    typer.Option("-g", "--genotype", help="With --beside: the robot.", metavar="FILE.npy"),
+]
+
 
 @app.command(
     "train",
@@ -240,6 +249,8 @@ def rl_enjoy(
     exp_id: RlNumber = 0,
     load_best: RlBest = False,
     policy: RlPolicy = None,
+    beside: RlBeside = None,
+    genotype: RlGenotype = None,
 ) -> None:
     """Play new episodes with a trained agent: returns, mean and standard deviation.
 
@@ -247,7 +258,8 @@ def rl_enjoy(
     """
     from botschool.rl.watch import Asked, enjoy_command
 
-    asked = Asked(run, output, env, algo, exp_id, last and not load_best, policy)
+    last = last and not load_best
+    asked = Asked(run, output, env, algo, exp_id, last, policy, beside, genotype)
     enjoy_command(asked, episodes, seed, render)
 
 
@@ -270,13 +282,16 @@ def rl_video(
         int | None, typer.Option("--steps", "-n", min=1, help="Film at most this many steps.")
     ] = None,
     policy: RlPolicy = None,
+    beside: RlBeside = None,
+    genotype: RlGenotype = None,
 ) -> None:
     """Film new episodes of a trained agent."""
     from botschool.rl.watch import Asked, video_command
 
     if algo is not None and file.is_dir():  # the chapter's spelling: -f logs
         output, file = file, Path("agent.mp4")
-    asked = Asked(run, output, env, algo, exp_id, last and not load_best, policy)
+    last = last and not load_best
+    asked = Asked(run, output, env, algo, exp_id, last, policy, beside, genotype)
     video_command(asked, episodes, seed, file, steps)
 
 

@@ -102,6 +102,14 @@ def with_caption(frame: np.ndarray, episode: int, transition: Transition) -> np.
     return np.vstack([frame, to_frame(strip)])
 
 
+def with_title(frame: np.ndarray, title: str) -> np.ndarray:
+    """Return the frame with a line above it. Returns a new frame; its sides stay even."""
+    strip = blank(frame.shape[1], CAPTION_HEIGHT)
+    size = 20 if frame.shape[1] >= 400 else 14
+    write_text(strip, title, (8, (CAPTION_HEIGHT - size) // 2 + 2), size)
+    return np.vstack([to_frame(strip), frame])
+
+
 def caption(episode: int, transition: Transition) -> tuple[str, str, str, str]:
     """Return the texts of `with_caption`."""
     returns = f"return {transition.total:.1f}"

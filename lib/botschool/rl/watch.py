@@ -25,6 +25,8 @@ from botschool.terminal import has_display, readable
 if TYPE_CHECKING:
     from rich.table import Table
 
+    from botschool.rl.beside import Beside
+
 NEW_EPISODES_SEED = 200_000
 """Added to the seed: training and choosing the best model use no such episodes."""
 
@@ -44,8 +46,12 @@ class Player:
         self.env = env or self.settings.env
         self.agent = Agent.load(model, env, policy)
         self.seed = seed
+        self.name = f"trained ({self.settings.algo}) {model.parent.name}"
         self.returns: list[float] = []
         self.lengths: list[int] = []
+
+    named = False
+    """Whether lines of text begin with the name: where two are shown."""
 
     def play(self, episodes: int) -> None:
         """Play the first episodes, BATCH of them in lockstep, and print their returns."""
@@ -86,7 +92,12 @@ class Player:
     def _keep(self, total: float, steps: int) -> None:
         self.returns.append(total)
         self.lengths.append(steps)
-        print(f"episode {len(self.returns)}  return {readable(total)}  steps {steps}", flush=True)
+        episode = f"{self._begin}episode {len(self.returns)}"
+        print(f"{episode}  return {readable(total)}  steps {steps}", flush=True)
+
+    @property
+    def _begin(self) -> str:
+        return f"{self.name}  " if self.named else ""
 
     def frames(self, episodes: int) -> Iterator[np.ndarray]:
         """Yield pictures of the first episodes, with a caption."""
@@ -109,7 +120,7 @@ class Player:
         """Print mean and standard deviation over the episodes played."""
         if self.returns:
             print(
-                f"mean {readable(float(np.mean(self.returns)))}  "
+                f"{self._begin}mean {readable(float(np.mean(self.returns)))}  "
                 f"standard deviation {readable(float(np.std(self.returns)))}"
                 f"  steps {np.mean(self.lengths):.1f}  episodes {len(self.returns)}"
             )
@@ -142,6 +153,23 @@ class Asked:
     """Use the last model instead of the best one."""
     policy: str | None = None
     """The agent's policy as module:Class, if it is the user's own."""
+    beside: Path | None = None
+    """Experiment file of an evolved robot to show beside it."""
+    genotype: Path | None = None
+    """With `beside`: the robot."""
+
+    def shown(self, seed: int) -> Player | Beside:
+        """Return the agent, or both that are to be shown. Raises BotschoolError."""
+        if (self.beside is None) != (self.genotype is None):
+            raise BotschoolError(
+                "--beside FILE.ini and -g ROBOT.npy show an evolved robot together: give both."
+            )
+        player = self.player(seed)
+        if self.beside is None:
+            return player
+        from botschool.rl.beside import Beside, Evolved
+
+        return Beside(player, Evolved(self.beside, self.genotype, player))
 
     def player(self, seed: int) -> Player:
         """Return the player of this agent. Raises BotschoolError."""
@@ -201,7 +229,7 @@ def enjoy_command(asked: Asked, episodes: int, seed: int, render: str | None) ->
         )
     if render not in (None, "human", "none"):
         raise BotschoolError(f"--render is '{render}', but must be human or none.")
-    player = asked.player(seed)
+    player = asked.shown(seed)
     if render == "human" or (render is None and has_display()):
         from botschool.render.window import show
 
@@ -219,7 +247,7 @@ def video_command(
     from botschool.render.video import VIDEO_SUFFIXES, write_video
 
     check_output(output, VIDEO_SUFFIXES)
-    player = asked.player(seed)
+    player = asked.shown(seed)
     write_video(output, islice(player.frames(episodes), steps), player.fps)
     print(f"video: {output}")
     player.print_summary()
