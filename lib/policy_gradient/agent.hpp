@@ -1,4 +1,4 @@
-// A policy and a critic: where their parameters stand in one vector, and the memory that a thread
+// A policy and a critic (section 2 of walkthroughs/ppo.py): where their parameters stand in one vector, and the memory that a thread
 // needs to compute with them. An optional body of hidden layers comes before both.
 #pragma once
 

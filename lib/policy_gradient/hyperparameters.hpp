@@ -1,4 +1,4 @@
-// The hyperparameters of a training, named as in Stable-Baselines3.
+// The hyperparameters of a training, named as in Stable-Baselines3: section 1 of walkthroughs/ppo.py.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The loss of PPO and its gradient, for a chunk of a minibatch (Schulman and others 2017).
+// The loss of PPO and its gradient, for a chunk of a minibatch (Schulman and others 2017): section 5
+// of walkthroughs/ppo.py.
 #pragma once
 
 #include "distribution.hpp"

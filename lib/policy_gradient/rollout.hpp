@@ -1,4 +1,5 @@
-// What environments experienced, and what acting in them needs. Plain data: arrays belong to Experience.
+// What environments experienced, and what acting in them needs; section 3 of walkthroughs/ppo.py.
+// Plain data: arrays belong to Experience.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// One training of a native problem: an agent, its experience and its learner.
+// One training of a native problem: an agent, its experience and its learner; section 6 of
+// walkthroughs/ppo.py.
 #pragma once
 
 #include <memory>
