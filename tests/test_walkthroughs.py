@@ -1,9 +1,11 @@
 """The walkthroughs: scripts that students read and run."""
 
 import importlib
+import re
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -420,3 +422,123 @@ def layers_of(policy):
     return [
         *networks.policy_net[::2], policy.action_net, *networks.value_net[::2], policy.value_net
     ]  # fmt: skip
+
+
+# ------------------------------------------------------------------- PPO and its twin in C++
+TWIN = Path(__file__).parents[1] / "lib" / "policy_gradient"
+BOTH_HAVE = {
+    1: ["Hyperparameters"],
+    2: ["Agent"],
+    3: ["Rollout", "Experience", "collect"],
+    4: ["advantages_of"],
+    5: ["Learner", "update", "loss"],
+    6: ["Training"],
+}
+"""Section -> names that both sides define in it, in this order."""
+
+
+def sections_of_the_walkthrough():
+    """Number -> text of each section."""
+    text = (WALKTHROUGHS / "ppo.py").read_text(encoding="utf-8")
+    _, *parts = re.split(r"^# (\d)\. .*$", text, flags=re.MULTILINE)
+    return {int(n): part for n, part in zip(parts[::2], parts[1::2], strict=True)}
+
+
+def sections_of_the_twin():
+    """Number -> text of the headers that name the section in their first lines."""
+    found: dict[int, str] = {}
+    for path in sorted(TWIN.glob("*.hpp"), key=lambda path: (path.stem != "rollout", path.stem)):
+        text = path.read_text(encoding="utf-8")
+        head = " ".join(text.split("#pragma once")[0].replace("//", " ").split())
+        named = re.search(r"sections? (\d)(?: and (\d))? of walkthroughs/ppo\.py", head)
+        for number in filter(None, named.groups() if named else ()):
+            found[int(number)] = found.get(int(number), "") + text
+    return found
+
+
+def test_the_twin_has_the_same_sections_and_names():
+    ours, twins = sections_of_the_walkthrough(), sections_of_the_twin()
+    assert sorted(ours) == sorted(twins) == sorted(BOTH_HAVE)
+    for number, names in BOTH_HAVE.items():
+        patterns = r"^ *(?:class|def) (\w+)", r"(?:class|struct|\w[&>]*) (\w+)(?: \{|\()"
+        for pattern, text in zip(patterns, (ours[number], twins[number]), strict=True):
+            defined = re.findall(pattern, text, flags=re.MULTILINE)
+            wanted = [{"Training": "train"}.get(n, n) if "def" in pattern else n for n in names]
+            assert [name for name in defined if name in wanted] == wanted, (number, pattern)
+
+
+def test_the_twin_has_the_same_hyperparameters_and_rollout():
+    import ppo
+
+    from botschool import _core
+
+    native, python = _core.PolicyGradientHyperparameters(), ppo.Hyperparameters()
+    others = {"env", "total_timesteps", "learning_rate", "anneal", "nhiddens"}
+    names = [name for name in vars(python) if name not in others]
+    header = sections_of_the_twin()[1]
+    assert [n for n in re.findall(r"(\w+) = [^;]*;", header) if n in names] == names
+    for name in set(names) - {"clip_range"}:  # which goes with each update
+        assert getattr(native, name) == getattr(python, name), name
+    columns = [each.name for each in fields(ppo.Rollout)]
+    struct = re.search(r"struct Rollout \{(.*?)\n\};", sections_of_the_twin()[3], re.DOTALL)
+    assert [n for n in re.findall(r"(\w+)\s*=\s*nullptr", struct[1]) if n in columns] == columns
+
+
+@pytest.mark.parametrize("env", ["CartPole-v1", "Pendulum-v1"])
+def test_the_twin_computes_the_same(env):
+    """The same weights and minibatches: advantages, losses, gradients, steps of Adam."""
+    import ppo
+
+    from botschool.rl.native import PPO
+
+    shared = {"n_steps": 250, "batch_size": 125, "gamma": 0.95, "gae_lambda": 0.8}
+    shared |= {"learning_rate": 0.003, "clip_range": 0.01, "ent_coef": 0.01}
+    native = PPO(env, seed=3, n_envs=4, net_arch=[16, 16], **shared)
+    h = ppo.Hyperparameters(env=env, n_envs=4, nhiddens=16, anneal=0, **shared)
+    envs = ppo.Experience(h).envs
+    agent = ppo.Agent(envs.single_observation_space, envs.single_action_space, h.nhiddens)
+    ours = native.weights
+    parts = {name: each for name, each in ours.items() if name == "log_std"}
+    for net, layer, kind in product(("actor", "critic"), range(3), ("weight", "bias")):
+        parts[f"{net}.{2 * layer}.{kind}"] = ours[f"{net}.{layer}.{kind}"]
+    agent.load_state_dict({name: torch.tensor(each) for name, each in parts.items()})
+    found = native.collect()
+    columns = {name: torch.tensor(each) for name, each in vars(found).items()}
+    advantages, returns = columns.pop("advantages"), columns.pop("returns")
+    assert {0, 2} <= set(columns["ended"].unique().tolist()) or env == "CartPole-v1"
+    columns["ended"] = (columns["ended"] > 0).float()
+    if env == "CartPole-v1":
+        columns["actions"] = columns["actions"][..., 0]
+    data = ppo.Rollout(**columns)
+    torch.testing.assert_close(
+        ppo.advantages_of(data, h.gamma, h.gae_lambda), advantages, atol=1e-5, rtol=1e-5
+    )
+    policy = agent.policy(data.observations)
+    torch.testing.assert_close(policy.log_prob(data.actions), data.log_probs, atol=2e-6, rtol=2e-6)
+    torch.testing.assert_close(agent.value(data.observations), data.values, atol=2e-6, rtol=2e-6)
+    learner = ppo.Learner(agent, h)
+    samples = (data.observations, data.actions, data.log_probs, advantages, returns)
+    order = np.random.default_rng(1).permutation(1000).reshape(8, 125)
+    for step, rows in enumerate(order):
+        batch = [column.flatten(0, 1)[torch.tensor(rows)] for column in samples]
+        loss, indicators = learner.loss(*batch, h.clip_range)
+        learner.optimiser.zero_grad()
+        loss.backward()
+        mine = native.loss(native.minibatch(rows))
+        assert mine.loss == pytest.approx(loss.item(), abs=1e-4, rel=1e-5)
+        same = {"policy_loss": "policy_gradient_loss", "entropy": "entropy_loss"}
+        for name in ("policy_loss", "value_loss", "entropy", "approx_kl", "clip_fraction"):
+            sign = -1 if name == "entropy" else 1
+            theirs = sign * indicators[same.get(name, name)]
+            assert getattr(mine, name) == pytest.approx(theirs, abs=1e-4, rel=1e-5), (step, name)
+        for name, weight in agent.named_parameters():
+            net, layer, kind = (*name.split("."), "", "")[:3]
+            own = f"{net}.{int(layer) // 2}.{kind}" if layer else name
+            gradient = torch.tensor(mine.gradients[own])
+            torch.testing.assert_close(weight.grad, gradient, atol=1e-4, rtol=1e-3, msg=own)
+        torch.nn.utils.clip_grad_norm_(agent.parameters(), h.max_grad_norm)
+        learner.optimiser.step()
+        native.step(mine.gradient)
+    assert indicators["clip_fraction"] > 0  # the policy has left the one that collected
+    for name, each in parts.items():
+        torch.testing.assert_close(agent.state_dict()[name], torch.tensor(each), atol=1e-4, rtol=0)
