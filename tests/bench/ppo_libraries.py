@@ -209,6 +209,7 @@ def compare(envs: list[str], seeds: range) -> None:
         for seed in seeds:
             for name, list_ in found.items():
                 list_.append(measure(name, env, seed))
+                print(env, name, seed, list_[-1], file=sys.stderr, flush=True)
         for name, runs in found.items():
             print(f"| {env} | {LIBRARIES[name]} | {' | '.join(columns(env, runs))} |", flush=True)
 
