@@ -56,8 +56,12 @@ class Evolved(Player):
         yield from self._steps(number, pictures=True)
 
     def _steps(self, number: int, pictures: bool) -> Iterator[Transition]:
-        last, start = None, (self._seed(number), 0)
-        for last in self._problem.play(self._policy, *self._robot, *start, self._most, pictures):
+        last, seed = None, self._seed(number)
+        genotype, normalisation = self._robot
+        steps = self._problem.play(
+            self._policy, genotype, normalisation, seed, 0, self._most, pictures
+        )
+        for last in steps:
             yield last
         if last is not None:
             self._keep(last.total, last.step)
