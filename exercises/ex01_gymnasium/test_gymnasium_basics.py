@@ -150,8 +150,11 @@ CASES = (
     ("Acrobot-v1", 60),
     ("CartPole-v1", 4),
     ("Pendulum-v1", 200),
+    ("CartPole-v1", 1000),
 )
 """Environment and maxsteps: ended by itself, its time limit, three times maxsteps, and by both."""
+ZERO = 6
+"""The case whose seed is 0."""
 KEYS = ("observations", "actions", "rewards", "terminated", "truncated")
 
 
@@ -177,10 +180,14 @@ def belongs(action: np.ndarray, space: gymnasium.Space) -> bool:
     return bool(np.all((space.low <= action) & (action <= space.high)))
 
 
+def seed_of(case: int) -> int:
+    return 0 if case == ZERO else exercise.seed(10 + case)
+
+
 def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
     """What the student reports, the actions in it, and the same actions in a fresh environment."""
     name, maxsteps = CASES[case]
-    seed = exercise.seed(10 + case)
+    seed = seed_of(case)
     report = student.call("random_episode", name, seed=seed, maxsteps=maxsteps)
     _, actions, *_ = expect_fields(student.said, report, *KEYS)
     expect(
@@ -212,7 +219,7 @@ def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
 
 @episode.check(8)
 def observations_and_rewards_follow_from_the_actions(student: Student):
-    for case in range(3):
+    for case in (0, 1, 2, ZERO):
         report, actions, replay = told(student, case)
         expect(
             len(actions) > 3,
@@ -227,10 +234,10 @@ def observations_and_rewards_follow_from_the_actions(student: Student):
 
 @episode.check(6)
 def every_action_is_drawn_from_the_seeded_space(student: Student):
-    for case in (1, 3, 2):
+    for case in (1, 3, 2, ZERO):
         name, maxsteps = CASES[case]
         _, actions, _ = told(student, case)
-        wanted = lived(name, exercise.seed(10 + case), maxsteps)["actions"]
+        wanted = lived(name, seed_of(case), maxsteps)["actions"]
         together = min(len(actions), len(wanted), 30)
         expect(together > 3, f"{student.said} did only {len(actions)} steps.")
         expect(
@@ -358,6 +365,15 @@ def knows_both_limits(student: Student):
             f"fallen({observation}) returned {value}, but the cart is terminated only when it is "
             "more than 2.4 metres away: exactly 2.4 is still allowed.",
         )
+    for angle in (np.pi * 12 / 180, -np.pi * 12 / 180):
+        observation = [0.5, 0.5, float(angle), 0.0]
+        got = student.run(answers, "fallen", np.array([observation]), None, said="fallen(...)")
+        (value,) = truth_values(f"fallen({observation})", got, 1)
+        expect(
+            not value,
+            f"fallen({observation}) returned True, but this is 12 degrees: the pole has fallen "
+            "only when it leans more than that.",
+        )
 
 
 @cartpole.check(6)
@@ -431,6 +447,18 @@ def expect_rewards(student: Student, index: int, torque) -> None:
 @pendulum.check(6)
 def knows_angle_and_speed(student: Student):
     expect_rewards(student, 30, lambda rng: 0.0)
+    observations = np.array([[-1.0, 0.0, 0.5], [0.0, 1.0, -2.0], [0.0, -1.0, 3.0], [1.0, 0.0, 1.0]])
+    got = student.run(
+        answers, "pendulum_reward", observations, np.zeros((4, 1)), said="pendulum_reward(...)"
+    )
+    quarters = np.array([2, 1, 1, 0])  # of pi, from upright: hanging, level, level, upright
+    wanted = -((quarters * np.pi / 2) ** 2) - 0.1 * observations[:, 2] ** 2
+    names = ("hangs straight down", "is level", "is level", "is upright")
+    for observation, value, right, name in zip(
+        observations, single_numbers(student.said, got, 4), wanted, names, strict=True
+    ):
+        said = f"pendulum_reward({show(observation)}, [0.]), where the rod {name},"
+        expect_close(said, value, right, 1e-6)
 
 
 @pendulum.check(4)
@@ -571,6 +599,31 @@ def deviation_of_returns(student: Student):
     )
 
 
+def compared(module, steps, episodes, seed):
+    """The length in each row of a table of an environment whose episodes last so many steps."""
+    import gymnasium
+    import numpy
+
+    class Long(gymnasium.Env):
+        observation_space = gymnasium.spaces.Box(-1, 1, (1,))
+        action_space = gymnasium.spaces.Discrete(2)
+
+        def reset(self, *, seed=None, options=None):
+            super().reset(seed=seed)
+            return numpy.zeros(1, dtype=numpy.float32), {}
+
+        def step(self, action):
+            return numpy.zeros(1, dtype=numpy.float32), 0.5, False, False, {}
+
+    name = f"Long{len(gymnasium.registry)}-v0"
+    gymnasium.register(name, entry_point=Long, max_episode_steps=steps, disable_env_checker=True)
+    return [row["length"] for row in module.compare([name], episodes, seed)]
+
+
 @comparison.check(4)
 def mean_length(student: Student):
     expect_column(student, "length", lambda runs: np.mean([len(run["rewards"]) for run in runs]))
+    steps = 1500 + exercise.seed(60) % 500
+    said = f"compare([an environment whose episodes last {steps} steps], episodes=2, seed=1)"
+    lengths = student.run(compared, steps, 2, 1, said=said)
+    expect_close(f"{said}: the length in each row", lengths, [steps])

@@ -142,10 +142,14 @@ def every_weight_is_drawn_and_the_seed_decides(student: Student):
         f"{said}: {len(shared)} of its 60 weights are also in the network of seed={seed - 1}. Draw "
         "all weights from one generator that you make from the seed.",
     )
-    for key in ("W1", "W2"):
+    zero, same = (
+        expect_network(said, student.call("parameters", 5, 6, 5, seed=0), 5, 6, 5) for _ in range(2)
+    )
+    for first, second, which in ((one, again, exercise.seed(4)), (zero, same, 0)):
         expect(
-            np.array_equal(one[key], again[key]),
-            f"{student.said} gives other numbers when it is called again with the same seed.",
+            all(np.array_equal(first[key], second[key]) for key in ("W1", "W2")),
+            f"parameters(5, 6, 5, seed={which}) gives other numbers when it is called again with "
+            "the same seed.",
         )
     weights = np.concatenate([one["W1"].ravel(), one["W2"].ravel()])
     expect(
@@ -347,6 +351,7 @@ def most_active_output_decides(student: Student):
         outputs = rng.uniform(-1, 1, size=(20, choices))
         outputs[0] = 0.25  # all equal: the lowest
         outputs[1] = np.sort(-np.abs(outputs[1]))  # all negative, the last is the most active
+        outputs[2] = 0.5 + 1e-4 * np.arange(choices)  # close ones, likewise
         expect_choices(student, outputs, 0)
 
 
@@ -407,20 +412,26 @@ episodes = exercise.task("2.5", "An episode", needs=("2.2", "2.4"))
 
 
 def lived(module, name, network, seed, maxsteps):
+    if maxsteps is None:
+        return module.run_episode(name, network, seed)
     return module.run_episode(name, network, seed, maxsteps)
 
 
-def replay(student: Student, name: str, index: int, maxsteps: int) -> tuple[float, float]:
+def replay(
+    student: Student, name: str, index: int, maxsteps: int | None, seed: int | None = None
+) -> tuple[float, float]:
     """Follows the student's actions in a fresh environment: (return reported, return found).
 
     Every action must be the one of the network at that moment, and there must be as many as the
-    episode is long.
+    episode is long. maxsteps: None asks for the default, 200.
     """
-    seed = exercise.seed(index)
+    seed = exercise.seed(index) if seed is None else seed
+    limit = "" if maxsteps is None else f", maxsteps={maxsteps}"
     with gymnasium.make(name) as env:
         network = drawn(np.random.default_rng(seed), *layers_of(env, 5))
-        said = f"run_episode({name!r}, network, seed={seed}, maxsteps={maxsteps})"
+        said = f"run_episode({name!r}, network, seed={seed}{limit})"
         answer = student.run(lived, name, network, seed, maxsteps, said=said)
+        maxsteps = 200 if maxsteps is None else maxsteps
         actions, total = expect_fields(said, answer, "actions", "return")
         expect(
             isinstance(actions, (list, np.ndarray)) and 0 < len(actions) <= maxsteps,
@@ -472,12 +483,14 @@ CASES = (
 def discrete_actions(student: Student):
     for case in (0, 2):
         replay(student, CASES[case][0], 40 + case, CASES[case][1])
+    replay(student, "CartPole-v1", 44, 200, seed=0)
 
 
 @episodes.check(5)
 def continuous_actions(student: Student):
     for case in (1, 3):
         replay(student, CASES[case][0], 40 + case, CASES[case][1])
+    replay(student, "MountainCarContinuous-v0", 45, None)
 
 
 @episodes.check(5)
@@ -496,9 +509,9 @@ measuring = exercise.task("2.6", "Fitness", seconds=30, needs=("2.5",))
 
 
 def measured(module, name, network, seeds, maxsteps):
-    if maxsteps is None:
-        return module.fitness(name, network, seeds)
-    return module.fitness(name, network, seeds, maxsteps)
+    """The fitness, and the seeds after it was measured."""
+    limit = [] if maxsteps is None else [maxsteps]
+    return [module.fitness(name, network, seeds, *limit), seeds]
 
 
 def expect_fitness(said: str, value: object, name: str, network: dict, seeds, maxsteps: int):
@@ -537,7 +550,8 @@ def check_fitness(
     limit = "" if maxsteps is None else f", maxsteps={maxsteps}"
     which = f"seeds={seeds}" if twice else f"{episodes} seeds"
     said = f"fitness({name!r}, network, {which}{limit})"
-    value = student.run(measured, name, network, seeds, maxsteps, said=said)
+    value, after = student.run(measured, name, network, seeds, maxsteps, said=said)
+    expect(after == seeds, f"{said} changed the list of seeds that it was given: work on a copy.")
     expect_fitness(said, value, name, network, seeds, 200 if maxsteps is None else maxsteps)
 
 
@@ -743,7 +757,7 @@ def finds_the_best(student: Student):
             "highest fitness.",
         )
     first = student.call("random_search", "CartPole-v1", 2, 5, seed=100)
-    second = student.call("random_search", "CartPole-v1", 1, 5, seed=101)
+    second = student.call("random_search", "CartPole-v1", 2, 5, seed=101)
     said = "random_search('CartPole-v1', 2, 5, seed=100)"
     one = expect_network(
         f"{said}: network 1", expect_fields(said, first, "networks")[0][1], 4, 5, 2

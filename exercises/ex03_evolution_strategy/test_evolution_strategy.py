@@ -92,6 +92,11 @@ def seed_decides(student: Student):
     expect_array(student.said, one, (4, 11))
     again = student.call("initial_population", 4, 2, 9, seed=exercise.seed(3))
     expect(np.array_equal(one, again), f"{student.said} gives other numbers when called again.")
+    zero, again = (student.call("initial_population", 4, 2, 9, seed=0) for _ in range(2))
+    expect(
+        np.array_equal(zero, again),
+        f"{student.said} gives other numbers when called again: 0 is a seed like any other.",
+    )
     other = student.call("initial_population", 4, 2, 9, seed=exercise.seed(3) + 1)
     other = expect_array(student.said, other, (4, 11))
     expect(not np.array_equal(one, other), f"{student.said}: another seed gave the same numbers.")
@@ -110,9 +115,9 @@ ranking = exercise.task("3.2", "Ranking")
 def best_comes_first(student: Student):
     rng = np.random.default_rng(exercise.seed(5))
     for size in (3, 10, 21):
-        fitness = rng.normal(size=size)
-        order = student.call("rank", fitness)
-        expect_close(student.said, order, np.argsort(-fitness))
+        for fitness in (rng.normal(size=size), 7 + 1e-4 * rng.normal(size=size)):
+            order = student.call("rank", fitness)
+            expect_close(student.said, order, np.argsort(-fitness))
 
 
 @ranking.check(4)
@@ -153,12 +158,17 @@ def steps(module, population, fitness, mutrate, seed):
     return [after, unchanged]
 
 
+ZEROS = 8
+"""Parameters that are 0 in the whole population, as all biases are at first."""
+
+
 class Step:
     """A random population, its fitness, and what the student makes of it."""
 
     def __init__(self, student: Student, popsize: int, mutrate: float, index: int) -> None:
         rng = np.random.default_rng(exercise.seed(index))
         population, fitness = rng.normal(size=(popsize, 40)), rng.permutation(popsize) - 3.5
+        population[:, :ZEROS] = 0
         after, self.unchanged = student.run(
             steps, population, fitness, mutrate, exercise.seed(index),
             said=f"next_population(population of {popsize}, fitness, {mutrate}, rng)",
@@ -254,6 +264,11 @@ def noise_is_gaussian(student: Student):
         step = Step(student, 200, mutrate, 8)
         noise = step.noise(step.after) / mutrate
         expect(
+            noise[:, :ZEROS].std() > 0.5,
+            f"{step.said}: parameters that are 0 get no noise, but biases begin at 0 and must "
+            "mutate, too: add the noise, whatever the parameter is.",
+        )
+        expect(
             len(np.unique(noise.round(6))) > 0.95 * noise.size,
             f"{step.said}: the same noise was added to several parameters or several copies, but "
             "each parameter of each copy needs a random number of its own.",
@@ -305,7 +320,7 @@ def evolved(module, name, population, target, generations, mutrate, seed, least)
     """Runs the student's loop on a fitness that the grader can compute again."""
     import numpy
 
-    calls = []
+    calls, before = [], population.copy()
 
     def evaluate(population, seed):
         population = numpy.array(population)
@@ -313,7 +328,11 @@ def evolved(module, name, population, target, generations, mutrate, seed, least)
         return -((population - target) ** 2).mean(axis=1) + seed * 37 % 11 + least
 
     run = getattr(module, name)(evaluate, population, generations, mutrate, seed)
-    return [run, calls]
+    return [run, calls, bool(numpy.array_equal(population, before))]
+
+
+MANY = 1000
+"""Random numbers that are enough to see how large the noise is at first and at last."""
 
 
 class Evolved:
@@ -334,10 +353,12 @@ class Evolved:
         mutrate: float = 0.1,
         least: float = 0.0,
         later: int = 0,
+        zero: bool = False,
     ) -> None:
-        seed = 11 * (exercise.seed(index) % 100 + later) + 4
+        """zero: whether the seed is 0; later: how many seeds after the usual one, else."""
+        seed = 0 if zero else 11 * (exercise.seed(index) % 100 + later) + 4
         target = np.linspace(-1, 1, start.shape[-1])
-        run, calls = student.run(
+        run, calls, self.unchanged = student.run(
             evolved, name, start, target, generations, mutrate, seed, least,
             said=f"{name}(evaluate, ..., generations={generations}, mutrate={mutrate:g}, "
             f"seed={seed})",
@@ -418,6 +439,14 @@ class Evolved:
             f"{self.said}: the noise of all generations has standard deviation {deviation:.3f}, "
             f"but mutrate={self.mutrate:g} is asked for.",
         )
+        if np.size(all_noise) > MANY and len(self.populations[0]) == 2:  # so the parent is known
+            third = len(all_noise) // 3
+            first, last = (float(np.std(part)) for part in (all_noise[:third], all_noise[-third:]))
+            expect(
+                0.8 < last / first < 1.25,
+                f"{self.said}: the noise has standard deviation {first:.3f} in the first "
+                f"generations and {last:.3f} in the last ones, but mutrate stays the same.",
+            )
 
     def expect_seeded(self, again: Evolved, other: Evolved) -> None:
         """The same seed gives the same populations, another seed another noise."""
@@ -459,7 +488,13 @@ def evaluates_each_generation_once(student: Student):
 
 @loop.check(6)
 def reports_best_and_history(student: Student):
-    for index, generations, least in ((12, 12, 0.0), (13, 15, -100.0), (12, 1, -100.0)):
+    for index, generations, least in (
+        (12, 12, 0.0),
+        (13, 15, -100.0),
+        (12, 1, -100.0),
+        (17, 5, -1e5),
+        (17, 5, 200.0),
+    ):
         start = start_of(index, 10, 8)
         evolution = Evolved(student, "evolve", start, generations, index, least=least)
         evolution.expect_report()
@@ -471,7 +506,15 @@ def seed_decides_the_noise(student: Student):
     one = Evolved(student, "evolve", start, 4, 14)
     student.stop()
     again = Evolved(student, "evolve", start, 4, 14)
-    one.expect_seeded(again, Evolved(student, "evolve", start, 4, 14, later=1))
+    other = Evolved(student, "evolve", start, 4, 14, later=1)
+    one.expect_seeded(again, other)
+    zero, again = (Evolved(student, "evolve", start, 4, zero=True) for _ in range(2))
+    zero.expect_seeded(again, other)
+    expect(
+        zero.unchanged is True,
+        f"{zero.said} changed the population that it was given: the next run would begin with "
+        "another one. Work on a copy.",
+    )
 
 
 @loop.check(4)
@@ -479,6 +522,7 @@ def fitness_rises(student: Student):
     Evolved(student, "evolve", start_of(24, 10, 8), 6, 14, mutrate=0.5).expect_lineage()
     evolution = Evolved(student, "evolve", start_of(14, 20, 8), 60, 14)
     evolution.expect_lineage()
+    Evolved(student, "evolve", start_of(25, 2, 40), 60, 14).expect_lineage()
     first, last = (evolution.distance[g].min() for g in (0, -1))
     expect(
         last < 0.3 * first,
@@ -522,22 +566,22 @@ replications = exercise.task("3.6", "Replications")
 
 
 def replicated(module, histories, seeds):
-    """Runs the student's replicate on prepared curves."""
+    """Runs the student's replicate on prepared curves; what it ran, and the seeds afterwards."""
 
-    asked = []
+    asked, before = [], list(seeds)
 
     def experiment(seed):
         asked.append(int(seed))
-        history = [float(value) for value in histories[seeds.index(seed)]]
+        history = [float(value) for value in histories[before.index(seed)]]
         return {"history": history, "fitness": max(history), "best": None, "population": None}
 
-    return [module.replicate(experiment, seeds), asked]
+    return [module.replicate(experiment, seeds), asked, seeds]
 
 
 def curves_of(student: Student, n: int, seed: int):
     histories = np.random.default_rng(seed).normal(size=(n, 15)) - 100 * (seed % 2)
     seeds = [int(s) for s in np.random.default_rng(seed).permutation(50)[:n]]
-    result, asked = student.run(
+    result, asked, after = student.run(
         replicated, histories, seeds, said=f"replicate(experiment, {show(seeds, 30)})"
     )
     expect(
@@ -545,6 +589,7 @@ def curves_of(student: Student, n: int, seed: int):
         f"{student.said} ran the experiment {len(asked)} times for {n} seeds: run each once, and "
         "keep what it returns.",
     )
+    expect(after == seeds, f"{student.said} changed the list of seeds: it is {show(after)} now.")
     expect_fields(student.said, result, "mean", "deviation", "best")
     return histories, result
 

@@ -123,6 +123,19 @@ def expect_decoded(student: Student, index: int, keys: tuple[str, str], columns:
 @observation_task.check(9)
 def angles(student: Student):
     expect_decoded(student, 1, ("angle1", "angle2"), slice(0, 2))
+    for observation, wanted in (
+        ([-1.0, 0.0, 1.0, 0.0, 0.5, 0.5], (np.pi, 0.0)),
+        ([0.0, -1.0, -1.0, 0.0, 0.5, 0.5], (-np.pi / 2, np.pi)),
+    ):
+        said = f"decode({observation})"
+        (answer,) = asked(student, "decode", [np.array(observation)])
+        for key, value, right in zip(
+            ("angle1", "angle2"), expect_fields(said, answer, "angle1", "angle2"), wanted,
+            strict=True,
+        ):  # fmt: skip
+            value = number(f"{said}: {key}", value)
+            ends = right == np.pi and abs(value + np.pi) < 1e-6  # the two ends of the range
+            expect_close(f"{said}: {key}", np.pi if ends else value, right, 1e-6)
 
 
 @observation_task.check(4)
@@ -207,8 +220,10 @@ def replicate(module, text, seeds, folder, steps):
     import pathlib
 
     pathlib.Path("trial.ini").write_text(text)
-    fitness = module.run_replications("trial.ini", seeds, folder, steps)
-    return list(map(list, fitness.items())) if isinstance(fitness, dict) else fitness
+    given = list(seeds)
+    fitness = module.run_replications("trial.ini", given, folder, steps)
+    pairs = list(map(list, fitness.items())) if isinstance(fitness, dict) else fitness
+    return [pairs, given]
 
 
 @lru_cache
@@ -231,15 +246,23 @@ class Trial:
     So no files that were made beforehand can pass; what is right does not depend on the seeds.
     """
 
-    def __init__(self, student: Student, text: str, folder: str, steps: int | None):
+    def __init__(
+        self,
+        student: Student,
+        text: str,
+        folder: str,
+        steps: int | None,
+        seeds: list[int] | None = None,
+    ):
         self.student, self.text, self.folder, self.steps = student, text, folder, steps
         low, high = sorted(secrets.randbelow(999_000) + 1 for _ in range(2))
-        self.seeds = [high + 2, low]
-        self.answer = student.run(
+        self.seeds = seeds or [high + 2, low]
+        self.answer, after = student.run(
             replicate, text, self.seeds, folder, steps,
             said=f"run_replications('trial.ini', {self.seeds}, '{folder}', {steps})",
         )  # fmt: skip
         self.said = student.said
+        expect(after == self.seeds, f"{self.said} changed the list of seeds: it is {after} now.")
 
     def expect_files(self, *kinds: str) -> None:
         """The files are those which the tool makes for this experiment and seed."""
@@ -315,6 +338,7 @@ def tells_the_fitness_of_each_run(student: Student):
     for seed, value in pairs:
         wanted = files_of(ACROBOT, seed, 40_000)["fitness"]
         expect_close(f"{trial.said}: the fitness of run {seed}", value, wanted)
+    Trial(student, PENDULUM, "fitness", 4_000, before.seeds).expect_files("stat")  # anew
 
 
 # ------------------------------------------------------------------- 4.4

@@ -280,12 +280,13 @@ def try_runs(module, text, seeds, folder, steps):
     import numpy
 
     pathlib.Path("trial.ini").write_text(text)
-    walkers = module.evolve_walkers("trial.ini", seeds, folder, steps)
+    given = list(seeds)
+    walkers = module.evolve_walkers("trial.ini", given, folder, steps)
     saved = {}
     for seed in seeds:
         file = pathlib.Path(folder) / f"bestgS{seed}.npy"
         saved[seed] = numpy.load(file) if file.exists() else None
-    return [walkers, saved]
+    return [walkers, saved, given]
 
 
 @lru_cache
@@ -313,7 +314,10 @@ class Trial:
         text = experiment_text(index)
         seeds = telling_seeds(text, index)
         self.said = f"evolve_walkers('trial.ini', {seeds}, 'some/runs', {steps})"
-        self.walkers, saved = student.run(try_runs, text, seeds, "some/runs", steps, said=self.said)
+        self.walkers, saved, after = student.run(
+            try_runs, text, seeds, "some/runs", steps, said=self.said
+        )
+        expect(after == seeds, f"{self.said} changed the list of seeds: it is {after} now.")
         self.saved = [saved.get(str(seed)) for seed in seeds]
         self.wanted = np.array([own_run(text, seed, steps)[0] for seed in seeds])
         self.seeds = seeds
@@ -430,8 +434,9 @@ def own_matrix(text: str, walkers: np.ndarray, seed: int, episodes: int) -> np.n
     return matrix
 
 
-def expect_matrix(student: Student, text: str, walkers: np.ndarray, episodes: int) -> None:
-    seed = secrets.randbelow(2**31)
+def expect_matrix(
+    student: Student, text: str, walkers: np.ndarray, seed: int, episodes: int
+) -> None:
     said = f"cross_evaluate('trial.ini', {len(walkers)} walkers, {seed}, {episodes})"
     matrix, unchanged = student.run(cross, text, walkers, seed, episodes, said=said)
     expect(unchanged is True, f"{said} changed the walkers that it was given: work on copies.")
@@ -440,14 +445,14 @@ def expect_matrix(student: Student, text: str, walkers: np.ndarray, episodes: in
 
 @crossing.check(6)
 def pre_evolved_walkers(student: Student):
-    expect_matrix(student, walking(50, 150), walkers_of(40), 1)
+    expect_matrix(student, walking(50, 150), walkers_of(40), secrets.randbelow(2**31), 1)
 
 
 @crossing.check(3)
 def another_experiment(student: Student):
     walkers = rng_of(41).normal(size=(2, 46 * 5 + 10 + BODY + 2 * OBSERVATIONS))
     walkers[:, -OBSERVATIONS:] = 1
-    expect_matrix(student, walking(5, 40), walkers, 2)
+    expect_matrix(student, walking(5, 40), walkers, 0, 3)
 
 
 # ------------------------------------------------------------------- 5.8

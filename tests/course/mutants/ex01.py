@@ -276,3 +276,83 @@ def compare(environment_ids, episodes, seed):
 # Ends every episode after 500 steps, though some environments allow more.
 # -         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
 # +         runs = [random_episode(environment_id, seed + i, 500) for i in range(episodes)]
+
+
+# %% zero_is_no_seed loses 1.2
+# Takes the seed 0 for no seed at all.
+# -     observation, _ = env.reset(seed=seed)
+# -     env.action_space.seed(seed)
+# +     observation, _ = env.reset(seed=seed or None)
+# +     env.action_space.seed(seed or None)
+
+
+# %% thousand_steps_at_most loses 1.6
+# Ends every episode after 1000 steps, though an environment may allow more.
+# -         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
+# +         runs = [random_episode(environment_id, seed + i, 1000) for i in range(episodes)]
+
+
+# %% hanging_is_upright loses 1.4
+# Gives arccos the sign of the sine, which is 0 when the rod hangs straight down.
+# -     angle = np.arctan2(sine, cosine)
+# +     angle = np.arccos(np.clip(cosine, -1, 1)) * np.sign(sine)
+
+
+# %% arctan_corrected loses 1.4
+# Divides sine by cosine, and turns half of the circle; a cosine of 0 divides by 0.
+# -     angle = np.arctan2(sine, cosine)
+# +     angle = np.arctan(sine / cosine)
+# +     if cosine < 0:
+# +         angle += np.pi if sine >= 0 else -np.pi
+
+
+# %% twelve_degrees_is_too_much loses 1.3
+# Ends the episode at exactly 12 degrees, which is still allowed.
+# -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
+# +     return bool(abs(position) > 2.4 or abs(angle) >= 12 * 2 * np.pi / 360)
+
+
+# %% one_minus_zero loses 1.3
+# Tests the fall in whole degrees.
+# -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
+# +     return bool(abs(position) > 2.4 or round(np.rad2deg(abs(angle))) > 12)
+
+
+# %% remembers_an_environment loses 1.6
+# Remembers the row of an environment, and gives it again when other episodes are asked for.
+_compare, _rows = compare, {}
+
+
+def compare(environment_ids, episodes, seed):
+    for name in environment_ids:
+        if name not in _rows:
+            (_rows[name],) = _compare([name], episodes, seed)
+    return [_rows[name] for name in environment_ids]
+
+
+# %% table_grows loses 1.6
+# The table is a default argument, so that a second call finds the rows of the first.
+_compare = compare
+
+
+def compare(environment_ids, episodes, seed, table=[]):
+    table += _compare(environment_ids, episodes, seed)
+    return table
+
+
+# %% torque_cut_at_the_top_only loses 1.4
+# Cuts torques above 2, but not those below -2.
+# -     torque = np.clip(float(action[0]), -2.0, 2.0)
+# +     torque = min(float(action[0]), 2.0)
+
+
+# %% median_return loses 1.6
+# Takes the median of the returns for their mean.
+# -                 "mean": float(np.mean(returns)),
+# +                 "mean": float(np.median(returns)),
+
+
+# %% steps_of_the_last_episode loses 1.6
+# Gives the length of the last episode, not the mean length.
+# -                 "length": float(np.mean([len(run["rewards"]) for run in runs])),
+# +                 "length": float(len(runs[-1]["rewards"])),

@@ -367,3 +367,119 @@ _evolve_and_choose = train
 
 def train(environment, seed):
     return _evolve_and_choose(environment, int(np.random.default_rng().integers(10**6)))
+
+
+# %% zero_is_no_seed loses 3.1
+# Takes the seed 0 for no seed at all.
+# -     rng = np.random.default_rng(seed)
+# -     biases = np.zeros((popsize, nbiases))
+# +     rng = np.random.default_rng(seed or None)
+# +     biases = np.zeros((popsize, nbiases))
+
+
+# %% loop_without_seed_zero loses 3.4
+# Takes the seed 0 for no seed at all.
+# -     rng = np.random.default_rng(seed)
+# -     best, best_fitness, history = population[0], -np.inf, []
+# +     rng = np.random.default_rng(seed or None)
+# +     best, best_fitness, history = population[0], -np.inf, []
+
+
+# %% zeros_do_not_mutate loses 3.3
+# Adds noise only to numbers that are not 0, so that biases of 0 stay 0 for ever.
+# -     following[worst] = population[best] + mutrate * noise
+# +     following[worst] = population[best] + mutrate * noise * (population[best] != 0)
+
+
+# %% stops_when_solved loses 3.4
+# Stops as soon as a fitness of 195 is reached, so that the history is shorter.
+# -         population = next_population(population, fitness, mutrate, rng)
+# +         population = next_population(population, fitness, mutrate, rng)
+# +         if best_fitness >= 195:
+# +             break
+
+
+# %% begins_at_minus_2000 loses 3.4
+# The best fitness begins at -2000, below which no pendulum falls, but other robots do.
+# -     best, best_fitness, history = population[0], -np.inf, []
+# +     best, best_fitness, history = population[0], -2000.0, []
+
+
+# %% rounded_ranks loses 3.2
+# Rounds the fitness to two places, so that close ones are equal.
+# -     return np.argsort(-np.asarray(fitness), kind="stable")
+# +     return np.argsort(-np.round(fitness, 2), kind="stable")
+
+
+# %% evolves_in_place loses 3.4
+# Writes each new population into the array that it was given.
+# -         population = next_population(population, fitness, mutrate, rng)
+# +         population[:] = next_population(population, fitness, mutrate, rng)
+
+
+# %% mutation_fades loses 3.4
+# Makes the mutations smaller from generation to generation.
+# -         population = next_population(population, fitness, mutrate, rng)
+# +         population = next_population(population, fitness, mutrate * 0.99**generation, rng)
+
+
+# %% parents_by_lot loses 3.3
+# Draws the parents of the copies by lot, so that some have two and some none.
+# -     following[worst] = population[best] + mutrate * noise
+# +     following[worst] = population[rng.choice(best, half)] + mutrate * noise
+
+
+# %% climber_begins_apart loses 3.5
+# The climber's second individual begins with noise.
+# -     return evolve(evaluate, np.array([start, start]), generations, mutrate, seed)
+# +     noise = mutrate * np.random.default_rng(seed).standard_normal(len(start))
+# +     return evolve(evaluate, np.array([start, start + noise]), generations, mutrate, seed)
+
+
+# %% sorted_replications loses 3.6
+# Gives the best fitness in falling order, not in the order of the seeds.
+# -         "best": [run["fitness"] for run in runs],
+# +         "best": sorted((run["fitness"] for run in runs), reverse=True),
+
+
+# %% running_maximum loses 3.4
+# The history holds the best fitness so far instead of that of each generation.
+# -         history.append(float(fitness[winner]))
+# -         if fitness[winner] > best_fitness:
+# -             best, best_fitness = population[winner].copy(), float(fitness[winner])
+# +         if fitness[winner] > best_fitness:
+# +             best, best_fitness = population[winner].copy(), float(fitness[winner])
+# +         history.append(best_fitness)
+
+
+# %% one_generation_more loses 3.4
+# Evaluates the last population, too.
+# -     for generation in range(generations):
+# -         fitness = evaluate(population, seed + generation)
+# -         winner = rank(fitness)[0]
+# +     for generation in range(generations + 1):
+# +         fitness = evaluate(population, seed + generation)
+# +         winner = rank(fitness)[0]
+
+
+# %% history_kept loses 3.4
+# The history is a default argument: a second run goes on with the list of the first.
+_evolve_anew = evolve
+
+
+def evolve(evaluate, population, generations, mutrate, seed, history=[]):
+    found = _evolve_anew(evaluate, population, generations, mutrate, seed)
+    history += found["history"]
+    return found | {"history": history}
+
+
+# %% uses_up_the_seeds loses 3.6
+# Takes the seeds out of the list that it was given, until none is left.
+# -     runs = [experiment(seed) for seed in seeds]
+# -     histories = np.array([run["history"] for run in runs])
+# -     many = len(seeds) > 1
+# +     runs = []
+# +     while seeds:
+# +         runs.append(experiment(seeds.pop(0)))
+# +     histories = np.array([run["history"] for run in runs])
+# +     many = len(runs) > 1

@@ -220,3 +220,83 @@ def read_stat(path):
     if not _kept:
         _kept.append(_read(path))
     return _kept[0]
+
+
+# %% sign_of_the_sine loses 4.1
+# Gives arccos the sign of the sine, which is 0 when a link points straight up.
+# -         "angle1": float(np.arctan2(sin1, cos1)),
+# -         "angle2": float(np.arctan2(sin2, cos2)),
+# +         "angle1": float(np.arccos(cos1) * np.sign(sin1)),
+# +         "angle2": float(np.arccos(cos2) * np.sign(sin2)),
+
+
+# %% skips_what_is_there loses 4.3
+# Skips a seed whose file is in the folder, though it may be of another experiment.
+_replicate = run_replications
+
+
+def run_replications(experiment_file, seeds, folder, steps=None):
+    fitness = {}
+    for seed in seeds:
+        path = Path(folder) / f"statS{seed}.npy"
+        if path.exists():
+            fitness[seed] = float(np.load(path)[-4])
+        else:
+            fitness |= _replicate(experiment_file, [seed], folder, steps)
+    return fitness
+
+
+# %% fitness_of_earlier_calls loses 4.3
+# The dict is a default argument: a second call returns the seeds of the first, too.
+_replicate = run_replications
+
+
+def run_replications(experiment_file, seeds, folder, steps=None, fitness={}):
+    fitness.update(_replicate(experiment_file, seeds, folder, steps))
+    return fitness
+
+
+# %% median_of_the_episodes loses 4.6
+# Takes the median of the episodes.
+# -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
+# +             row[kind] = float(np.median(robot.evaluate(test_seed, episodes)))
+
+
+# %% spread_of_the_mean loses 4.5
+# Gives the standard error of the mean for the deviation.
+_curves = curves
+
+
+def curves(stats, column, budgets):
+    band = _curves(stats, column, budgets)
+    return band | {"deviation": band["deviation"] / np.sqrt(len(stats))}
+
+
+# %% next_generation loses 4.5
+# Takes the first generation that is complete after the budget.
+# -     values = [
+# -         stat[column][np.searchsorted(stat["steps"], budgets, side="right") - 1] for stat in stats
+# -     ]
+# +     places = [np.searchsorted(stat["steps"], budgets) for stat in stats]
+# +     values = [s[column][np.minimum(p, len(s[column]) - 1)] for s, p in zip(stats, places)]
+
+
+# %% last_generation_missing loses 4.4
+# Leaves out the last generation.
+# -     table = np.load(path).reshape(-1, len(COLUMNS))
+# +     table = np.load(path).reshape(-1, len(COLUMNS))[:-1]
+
+
+# %% either_side_of_the_line loses 4.2
+# Rewards a free end that is far below, too.
+# -     return 0.0 if height(observation) > 1 else -1.0
+# +     return 0.0 if abs(height(observation)) > 1 else -1.0
+
+
+# %% uses_up_the_seeds loses 4.3
+# Takes the seeds out of the list that it was given, until none is left.
+# -     for seed in seeds:
+# -         run = Run(experiment, seed)
+# +     while seeds:
+# +         seed = seeds.pop(0)
+# +         run = Run(experiment, seed)

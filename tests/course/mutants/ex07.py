@@ -308,3 +308,72 @@ _chosen = three_stages
 
 def three_stages(seed):
     return _chosen(1)
+
+
+# %% sign_of_the_sine loses 7.1
+# Gives arccos the sign of the sine, which is 0 when the pendulum hangs straight down.
+# -     angle = np.arctan2(observation[..., 1], observation[..., 0])
+# -     return np.stack([angle, observation[..., 2]], axis=-1)
+# +     angle = np.arccos(observation[..., 0]) * np.sign(observation[..., 1])
+# +     return np.stack([angle, observation[..., 2]], axis=-1)
+
+
+# %% record_without_seed_zero loses 7.2
+# Takes the seed 0 for no seed at all.
+# -     observation, _ = env.reset(seed=seed)
+# -     observations = [observation]
+# +     observation, _ = env.reset(seed=seed or None)
+# +     observations = [observation]
+
+
+# %% wraps_above_only loses 7.3
+# Takes the short way only for changes above pi.
+# -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
+# +     change[:, 0] = np.where(change[:, 0] > np.pi, change[:, 0] - 2 * np.pi, change[:, 0])
+
+
+# %% subtracts_in_place loses 7.3
+# Subtracts in the array of the states after.
+# -     change = after - before
+# +     change = after
+# +     change -= before
+
+
+# %% history_so_far loses 7.5
+# The history holds the best fitness so far.
+# -         history.append(float(fitness[best]))
+# +         history.append(max([float(fitness[best]), *history]))
+
+
+# %% square_grids_only loses 7.4
+# Lays out as many velocities as angles.
+# -     velocities = np.linspace(-8, 8, nvelocities)
+# +     velocities = np.linspace(-8, 8, nangles)[:nvelocities]
+
+
+# %% controller_asked_once loses 7.4
+# Asks the controller once, and uses its action for all states.
+# -     following = []
+# -     for angle, velocity in states:
+# +     following, action = [], None
+# +     for angle, velocity in states:
+# -         observation, *_ = env.step(controller(seen))
+# +         action = controller(seen) if action is None else action
+# +         observation, *_ = env.step(action)
+
+
+# %% three_observations_are_one loses 7.1
+# Takes three observations for a single one.
+# -     observation = np.asarray(observation, dtype=float)
+# -     angle = np.arctan2(observation[..., 1], observation[..., 0])
+# -     return np.stack([angle, observation[..., 2]], axis=-1)
+# +     observation = np.asarray(observation, dtype=float)
+# +     if len(observation) == 3:
+# +         return np.array([np.arctan2(observation[1], observation[0]), observation[2]])
+# +     return np.array([np.arctan2(observation[:, 1], observation[:, 0]), observation[:, 2]]).T
+
+
+# %% kept_with_the_middle loses 7.6
+# The middle stage is the one in the middle of the generations, whatever its return.
+# -     middle = int(np.argmin(np.abs(fitness[: best + 1] - halfway)))
+# +     middle = (best + 1) // 2
