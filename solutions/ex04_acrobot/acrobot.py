@@ -136,7 +136,9 @@ def run_replications(
     """Run the experiment once with each seed and leave the files of all runs in the folder.
 
     Make the folder, and those above it, if they do not exist. Files of other runs in the folder
-    stay; an earlier run with the same seed is done anew, and its files are replaced. Returns a dict: seed -> best post-evaluated fitness of that run.
+    stay; an earlier run with the same seed is done anew, and its files are replaced.
+
+    Returns a dict: seed -> best post-evaluated fitness of that run.
     """
     ### BEGIN SOLUTION task 4.3: run the replications
     Path(folder).mkdir(parents=True, exist_ok=True)

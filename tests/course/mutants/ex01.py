@@ -335,7 +335,7 @@ def compare(environment_ids, episodes, seed):
 _compare = compare
 
 
-def compare(environment_ids, episodes, seed, table=[]):
+def compare(environment_ids, episodes, seed, table=[]):  # noqa: B006
     table += _compare(environment_ids, episodes, seed)
     return table
 

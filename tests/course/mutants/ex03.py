@@ -467,7 +467,7 @@ def train(environment, seed):
 _evolve_anew = evolve
 
 
-def evolve(evaluate, population, generations, mutrate, seed, history=[]):
+def evolve(evaluate, population, generations, mutrate, seed, history=[]):  # noqa: B006
     found = _evolve_anew(evaluate, population, generations, mutrate, seed)
     history += found["history"]
     return found | {"history": history}

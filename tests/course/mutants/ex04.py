@@ -251,7 +251,7 @@ def run_replications(experiment_file, seeds, folder, steps=None):
 _replicate = run_replications
 
 
-def run_replications(experiment_file, seeds, folder, steps=None, fitness={}):
+def run_replications(experiment_file, seeds, folder, steps=None, fitness={}):  # noqa: B006
     fitness.update(_replicate(experiment_file, seeds, folder, steps))
     return fitness
 

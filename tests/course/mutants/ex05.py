@@ -352,7 +352,7 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 _evolve_walkers = evolve_walkers
 
 
-def evolve_walkers(experiment_file, seeds, folder, steps=None, found=[]):
+def evolve_walkers(experiment_file, seeds, folder, steps=None, found=[]):  # noqa: B006
     found += list(_evolve_walkers(experiment_file, seeds, folder, steps))
     return np.array(found)
 
