@@ -174,6 +174,30 @@ def test_the_smallest_failing_case_is_told(messages):
     assert "To try it: spread([1.0, 4.0])" in first
 
 
+COSTS = "import numpy as np\ndef cost(rate, table): return rate * np.abs(table).sum(axis=1)\n"
+
+
+def test_a_call_that_is_too_long_is_made_smaller(messages):
+    """To one row for which the answer differs from ours, with few digits and without what fits."""
+    exercise = Exercise(3, "Three", FILE)
+    first = exercise.task("3.1", "First", seconds=5)
+    table = np.random.default_rng(1).uniform(0, 1, (30, 4))
+    table[20, 2] = -0.51234567
+
+    @first.check(100)
+    def costs(student):
+        wanted = 2 * np.abs(table).sum(axis=1)
+        expect_close("cost(2, table)", student.call("cost", 2, table), wanted)
+
+    without_abs = COSTS.replace("np.abs(table)", "table")
+    assert "To try it" not in messages(without_abs, exercise)[0]  # the grader has no solution
+    exercise.knows(COSTS)
+    (told,) = messages(without_abs, exercise)
+    assert "To try it: cost(2, np.array([[" in told
+    assert "-0.512" in told and "-0.5123" not in told
+    assert told.count("expected") == 2
+
+
 def test_a_cause_is_guessed_from_two_calls(messages):
     text = RIGHT + "def spread(x): return -float(np.std(x, ddof=1))\n"
     sign = "Right but for the sign"

@@ -51,7 +51,7 @@ def answers(module, name, questions):
 
 def asked(student: Student, name: str, questions: np.ndarray) -> list:
     said = f"{name}(parameters of a body)"
-    given, changed = student.run(answers, name, questions, said=said)
+    given, changed = student.run(answers, name, questions, said=said, call=(name, questions[0]))
     expect(isinstance(given, list) and len(given) == len(questions), f"{said} gave no answers.")
     expect(
         changed == 0,

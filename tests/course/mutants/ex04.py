@@ -222,14 +222,6 @@ def read_stat(path):
     return _kept[0]
 
 
-# %% sign_of_the_sine loses 4.1
-# Gives arccos the sign of the sine, which is 0 when a link points straight up.
-# -         "angle1": float(np.arctan2(sin1, cos1)),
-# -         "angle2": float(np.arctan2(sin2, cos2)),
-# +         "angle1": float(np.arccos(cos1) * np.sign(sin1)),
-# +         "angle2": float(np.arccos(cos2) * np.sign(sin2)),
-
-
 # %% skips_what_is_there loses 4.3
 # Skips a seed whose file is in the folder, though it may be of another experiment.
 _replicate = run_replications

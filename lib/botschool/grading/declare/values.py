@@ -108,24 +108,31 @@ def argument(value: Any) -> str:
         return numbers(value, 5) if value.size <= FEW else f"<array {value.shape}>"
     if isinstance(value, (list, tuple)) and len(repr_of(value)) > 40:
         return f"<list of {len(value)}>"
+    if isinstance(value, dict) and len(repr_of(value)) > 40:
+        return f"<dict: {', '.join(map(str, list(value)[:4]))}{', ...' if len(value) > 4 else ''}>"
     return show(value, 40)
 
 
-def pasted(name: str, arguments: tuple, options: dict) -> str:
-    """A call that can be pasted into Python after `import numpy as np`; "" if it is too long."""
-    values = [paste(value) for value in (*arguments, *options.values())]
+def pasted(
+    name: str, arguments: tuple, options: dict, longest: int = MAX_CALL, most: int = PASTED
+) -> str:
+    """A call that can be pasted into Python after `import numpy as np`; "" if it is too long.
+
+    most: numbers in an argument.
+    """
+    values = [paste(value, most) for value in (*arguments, *options.values())]
     if not all(values):
         return ""
     names = [""] * len(arguments) + [f"{key}=" for key in options]
     parts = [key + value for key, value in zip(names, values, strict=True)]
     text = f"{name}({', '.join(parts)})"
-    return text if len(text) <= MAX_CALL else ""
+    return text if len(text) <= longest else ""
 
 
-def paste(value: Any) -> str:
+def paste(value: Any, most: int = PASTED) -> str:
     """A value as Python; "" if it is too large."""
     if isinstance(value, np.ndarray):
-        if value.size > PASTED:
+        if value.size > most:
             return ""
         if value.ndim == 0:
             return repr(value.item())
@@ -134,13 +141,13 @@ def paste(value: Any) -> str:
     if isinstance(value, (np.generic,)):
         return repr(value.item())
     if isinstance(value, dict):
-        pairs = [(key, paste(each)) for key, each in value.items()]
-        if len(pairs) > PASTED or not all(text for _, text in pairs):
+        pairs = [(key, paste(each, most)) for key, each in value.items()]
+        if len(pairs) > most or not all(text for _, text in pairs):
             return ""
         return "{" + ", ".join(f"{key!r}: {text}" for key, text in pairs) + "}"
     if isinstance(value, (list, tuple)):
-        parts = [paste(each) for each in value[: PASTED + 1]]
-        return "" if len(parts) > PASTED or not all(parts) else f"[{', '.join(parts)}]"
+        parts = [paste(each, most) for each in value[: most + 1]]
+        return "" if len(parts) > most or not all(parts) else f"[{', '.join(parts)}]"
     text = repr_of(value)
     return text if len(text) <= 120 else ""
 

@@ -24,6 +24,7 @@ from botschool.grading.judge.looking import (
     looked_at_again,
     processor_time_limit,
 )
+from botschool.grading.judge.smallest import smallest_case
 from botschool.grading.run.confined import MachineFault, machine_fault
 from botschool.grading.run.failures import Origin
 from botschool.grading.run.student import Student
@@ -34,6 +35,8 @@ TOLD = "Your code answers exactly as with this known mistake:"
 """Before the sentence of a known mistake."""
 CHECK_SECONDS = 20
 """Processor time that a check may use in the grader's own thread; our solutions need up to 3."""
+SHORT = 120
+"""Characters of a call that is not made smaller."""
 MAX_DIAGNOSED, LOOKING_SECONDS = 2, 6.0
 """Failed checks of a task whose calls are made twice; processor time to look at failures again."""
 
@@ -123,8 +126,12 @@ def _grade_task(
         for at, failure in failed:
             cause = "" if told else failure.cause
             problems[at] = f"{failure.text}\n  {cause}" if cause else failure.text
-        for at, failure in [pair for pair in failed if pair[1].pasted][:1]:
-            problems[at] += f"\n  To try it: {failure.pasted}"
+        for at, failure in [pair for pair in failed if pair[1].told][:1]:
+            text = ""
+            if len(failure.pasted) > SHORT or not failure.pasted:
+                text = smallest_case(task, known.solution, file.name, failure.direct, again, server)
+            if text or failure.pasted:
+                problems[at] += f"\n  To try it: {text or failure.pasted}"
         for at, failure in [] if told else _diagnosable(failed):
             problems[at] += looked_at_again(failure, again)
     except Wrong as error:

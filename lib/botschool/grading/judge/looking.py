@@ -45,6 +45,16 @@ class Failure:
     """Whether the submission gave an answer to the last call."""
     cause: str = ""
     """What the answers look like."""
+    direct: dict[str, Any] = field(default_factory=dict)
+    """The call of the function; {} if a driver made it."""
+
+    shown: bool = False
+    """Whether the text shows the whole call."""
+
+    @property
+    def told(self) -> bool:
+        """Whether the call, or a smaller one, is worth telling: it was answered in little time."""
+        return bool(self.pasted) or (self.quick and bool(self.direct) and not self.shown)
 
     @property
     def name(self) -> str:
@@ -63,7 +73,9 @@ def failure_of(error: Wrong, check: Check, student: Student, seconds: float) -> 
     if pasted and not isinstance(error, Mismatch):
         pasted += f" returned {show(student.answer)}"
     quick = answered and seconds < MAX_SECONDS
-    return Failure(text, check, quick, student.request, pasted, answered)
+    failure = Failure(text, check, quick, student.request, pasted, answered)
+    failure.direct, failure.shown = student.direct, bool(student.pasted) and not pasted
+    return failure
 
 
 @dataclass
@@ -75,6 +87,7 @@ class Case:
     request: bytes
     pasted: str
     cause: str
+    direct: dict[str, Any]
     certain: bool
     """Whether one case is enough: the check itself names the mistake, by many numbers."""
 
@@ -92,8 +105,9 @@ def look_for_causes(failures: list[Failure], student: Student) -> None:
     for failure in failures:
         own = sorted((c for c in cases if c.check is failure.check), key=lambda c: len(c.request))
         for case in own[:1]:
-            failure.text = case.text
-            failure.pasted = "" if case.pasted in case.text else case.pasted
+            failure.text, failure.direct = case.text, case.direct
+            failure.shown = bool(case.pasted) and case.pasted in case.text
+            failure.pasted = "" if failure.shown else case.pasted
             if case.certain or len(calls[_DIGITS.sub("", case.cause)]) >= INPUTS:
                 failure.cause = case.cause
 
@@ -108,7 +122,8 @@ def _cases(checks: list[Check], student: Student) -> list[Case]:
         certain = cause in error.mistakes and Comparison(error.got, error.wanted).varied > 2
         request = pack({key: student.request[key] for key in ("name", "arguments")})
         if len(found) < MAX_CASES:
-            found.append(Case(check, str(error), request, student.pasted, cause, certain))
+            text, pasted, direct = str(error), student.pasted, student.direct
+            found.append(Case(check, text, request, pasted, cause, direct, certain))
 
     try:
         for check in checks:

@@ -56,7 +56,13 @@ class DirectStudent:
         self.said = f"{name}(...)"
         return getattr(self._module, name)(*arguments, **options)
 
-    def run(self, driver: Callable[..., Any], *arguments: Any, said: str | None = None) -> Any:
+    def run(
+        self,
+        driver: Callable[..., Any],
+        *arguments: Any,
+        said: str | None = None,
+        call: tuple[Any, ...] | None = None,
+    ) -> Any:
         """Calls a driver with the submission's module."""
         self.said = said or f"{driver.__name__}(...)"
         return driver(self._module, *arguments)

@@ -70,6 +70,8 @@ class Student:
         """The same to paste into Python; "" if it is too long, or no call of a function."""
         self.request: dict[str, Any] = {}
         """The last one."""
+        self.direct: dict[str, Any] = {}
+        """The last call of a function as a request, if a driver made it, too; else {}."""
         self.answer: Any = None
         """To the last request."""
         self.changed = ""
@@ -90,15 +92,26 @@ class Student:
         shown = [*map(argument, arguments), *(f"{k}={argument(v)}" for k, v in options.items())]
         self.said = f"{name}({', '.join(shown)})"
         self.pasted = pasted(name, arguments, options)
-        return self._request({"name": name, "arguments": arguments, "options": options})
+        self.direct = {"name": name, "arguments": arguments, "options": options}
+        return self._request(self.direct)
 
-    def run(self, driver: Callable[..., Any], *arguments: Any, said: str | None = None) -> Any:
+    def run(
+        self,
+        driver: Callable[..., Any],
+        *arguments: Any,
+        said: str | None = None,
+        call: tuple[Any, ...] | None = None,
+    ) -> Any:
         """Runs a function of the grader's inside the child, as driver(student_module, ...).
 
         The driver must import what it needs itself. What it reports is no more trustworthy than
-        the submission: check it again.
+        the submission: check it again. call: the name of the function that it calls and the
+        arguments, if it calls one; learners can then try it.
         """
-        self.said, self.pasted = said or f"{driver.__name__}(...)", ""
+        self.said, self.pasted, self.direct = said or f"{driver.__name__}(...)", "", {}
+        if call is not None:
+            self.pasted = pasted(call[0], call[1:], {})
+            self.direct = {"name": call[0], "arguments": call[1:], "options": {}}
         return self._request(_driven(driver, *arguments))
 
     def ask(self, request: dict[str, Any]) -> Any:

@@ -91,7 +91,8 @@ def given_back(c: Comparison) -> str | None:
 @detector
 def exchanged(c: Comparison) -> str | None:
     """What is expected here stands in another place of the answer."""
-    for place, part in parts(c.answer) if c.telling else ():
+    counted = c.wanted.ndim == 0 and c.wanted == np.round(c.wanted)  # equal by chance, perhaps
+    for place, part in parts(c.answer) if c.telling and not counted else ():
         found = arrays(part)
         if len(found) == 1 and alike(found[0], c.wanted) and not c.same(found[0]):
             return f"What belongs here is returned as {place}: are the two exchanged?"

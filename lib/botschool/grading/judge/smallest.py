@@ -1,0 +1,163 @@
+"""The smallest failing call: a few rows of the arguments for which a submission and ours differ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+from botschool.errors import BotschoolError
+from botschool.grading.declare.checks import Wrong, expect_close
+from botschool.grading.declare.exercise import Task
+from botschool.grading.declare.values import pasted, show
+from botschool.grading.judge.alike import distance
+from botschool.grading.run.student import Student
+from botschool.sandbox import ForkServer
+
+SECONDS = 2.0
+"""Of processor time for all calls of ours, and of the submission."""
+MOST_ROWS = 60
+"""Single rows that are tried."""
+PREFIXES = (1, 2, 3, 4, 6, 8)
+"""So many of the first rows are tried."""
+LONGEST, MOST = 640, 72
+"""Characters of a call that is told, and numbers in an argument of it."""
+DIGITS = (3, 5, 17)
+"""That fractions in such a call have, the first with which the answers differ."""
+APART = 1e-4
+"""Relative difference of two answers that are told as different."""
+Cut = Callable[[np.ndarray], np.ndarray]
+
+
+def smallest_case(
+    task: Task,
+    solution: str,
+    name: str,
+    request: dict[str, Any],
+    found: Student,
+    server: ForkServer,
+) -> str:
+    """Return a sentence about a small call that the submission answers wrongly, or "".
+
+    solution: our text of the file `name`; request: a call of a function with arrays that was
+    answered wrongly; found: the submission, whose time counts for nothing.
+    """
+    calls = [*_smaller(request), request]
+    if not solution or not request:
+        return ""
+    with TemporaryDirectory(prefix="botschool-") as folder:
+        file = Path(folder) / name
+        file.write_text(solution, encoding="utf-8")
+        ours = None
+        try:
+            ours = Student(file, SECONDS, task.memory, server, True, refused=task.refused)
+            return next((text for call in calls if (text := _told(call, found, ours))), "")
+        except (BotschoolError, Wrong, OSError):  # of the machine, or no time is left
+            return ""
+        finally:
+            if ours is not None:
+                ours.close()
+
+
+def _told(call: dict[str, Any], found: Student, ours: Student) -> str:
+    """Return what is wrong about a call; "" if both agree, or one of them cannot answer."""
+    for digits in DIGITS:
+        simple = _rounded(call, digits)
+        parts = simple["name"], tuple(simple["arguments"]), simple["options"]
+        text = pasted(*parts, LONGEST, MOST)
+        if not text or ours.seconds_left <= 0 or found.seconds_left <= 0:
+            continue
+        try:
+            right, got = ours.ask(simple), found.ask(simple)
+        except Wrong:
+            continue
+        if distance(got, right) > APART and _finite(got) >= _finite(right):
+            return _difference(text, got, right)
+    return ""
+
+
+def _finite(answer: Any) -> bool:
+    """Return whether an answer holds no NaN and no infinity."""
+    if isinstance(answer, dict):
+        answer = list(answer.values())
+    if isinstance(answer, list) and not all(isinstance(each, (int, float)) for each in answer):
+        return all(map(_finite, answer))
+    try:
+        return bool(np.isfinite(answer).all())
+    except TypeError:
+        return True
+
+
+def _difference(said: str, got: Any, right: Any) -> str:
+    """Return a sentence about the first part of two answers that differs."""
+    if isinstance(got, dict) and isinstance(right, dict):
+        for key in right:
+            if key in got and distance(got[key], right[key]) > APART:
+                return _difference(f"{said}: {key}", got[key], right[key])
+    try:
+        expect_close(said, got, right, APART)
+    except Wrong as error:
+        return str(error)
+    return f"{said} returned {show(got)}, but {show(right)} was expected."
+
+
+def _smaller(request: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Yield the call with one row of its arrays, then with the first few rows (and columns)."""
+    arrays = [*_arrays(list(request["arguments"])), *_arrays(request["options"])]
+    lengths = [len(array) for array in arrays]
+    if not lengths or max(lengths) < 2:
+        return
+    rows = max(set(lengths), key=lengths.count)
+    square = all(array.ndim == 2 and array.shape[0] == array.shape[1] for array in arrays)
+    for i in range(0 if square else min(rows, MOST_ROWS)):
+        yield _cut(request, partial(_some, rows=rows, first=i, many=1))
+    for many in PREFIXES:
+        if many < rows:
+            cut = partial(_corner, many=many) if square else partial(_some, rows=rows, many=many)
+            yield _cut(request, cut)
+
+
+def _some(array: np.ndarray, rows: int, many: int, first: int = 0) -> np.ndarray:
+    """Return so many rows of an array; one more of an array that has one more than others."""
+    more = len(array) - rows
+    return array[first : first + many + more] if more in (0, 1) else array
+
+
+def _corner(array: np.ndarray, many: int) -> np.ndarray:
+    return array[:many, :many]
+
+
+def _arrays(value: Any) -> list[np.ndarray]:
+    """Return the arrays in a value of plain data that have rows."""
+    if isinstance(value, np.ndarray):
+        return [value] if value.ndim else []
+    if isinstance(value, dict):
+        value = list(value.values())
+    return [each for part in value for each in _arrays(part)] if isinstance(value, list) else []
+
+
+def _cut(value: Any, cut: Cut) -> Any:
+    """Return a value of plain data with all of its arrays cut."""
+    if isinstance(value, np.ndarray):
+        return cut(value) if value.ndim else value
+    if isinstance(value, dict):
+        return {key: _cut(each, cut) for key, each in value.items()}
+    return [_cut(each, cut) for each in value] if isinstance(value, (list, tuple)) else value
+
+
+def _rounded(value: Any, digits: int) -> Any:
+    """Return a value of plain data with so many digits in all of its fractions."""
+    if isinstance(value, float):
+        return float(f"{value:.{digits}g}")
+    if isinstance(value, np.ndarray) and value.dtype.kind == "f":
+        texts = [f"{each:.{digits}g}" for each in value.ravel()]
+        return np.array(texts, dtype=value.dtype).reshape(value.shape)
+    if isinstance(value, dict):
+        return {key: _rounded(each, digits) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_rounded(each, digits) for each in value]
+    return value
