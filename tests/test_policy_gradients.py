@@ -267,6 +267,7 @@ def test_running_moments_are_numpys():
 def test_bad_hyperparameters_are_sentences():
     for options, word in (
         ({"n_epoch": 3}, "n_epochs"),
+        ({"n_epochs": 10**20}, "whole number"),
         ({"gamma": 1.2}, "gamma"),
         ({"net_arch": [0]}, "net_arch"),
         ({"net_arch": [8] * 9}, "net_arch"),

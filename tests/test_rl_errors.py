@@ -153,6 +153,21 @@ def test_a_model_with_other_layers_is_refused(copy, refused):
     refused("rl", "enjoy", copy.path, says="not a model of this training")
 
 
+def test_settings_of_an_unknown_algorithm_are_refused(copy, refused):
+    changed = Settings.load(copy.config)
+    changed.algo = "p p p ppo"
+    changed.save(copy.config)
+    refused("rl", "enjoy", copy.path, says="no algorithm 'p p p ppo'")
+
+
+def test_a_model_whose_numbers_are_not_finite_is_refused(copy, refused):
+    agent = Agent.load(copy.best)
+    for weight in agent.model.policy.parameters():
+        weight.data.fill_(float("nan"))
+    agent.model.save(copy.best)
+    refused("rl", "enjoy", copy.path, says="not finite")
+
+
 def test_no_object_in_a_model_is_ever_loaded(copy):
     """A zip with an object that would run code, where Stable-Baselines3 keeps its own ones."""
     import base64

@@ -110,6 +110,13 @@ def test_a_broken_file_says_so(tmp_path):
         Model(str(tmp_path / "bad.urdf"))
 
 
+def test_a_file_that_crashes_pybullet_says_so(tmp_path, refused):
+    """A joint without a child: PyBullet ends the process that loads it."""
+    path = tmp_path / "arm.urdf"
+    path.write_text(ARM.replace("<child link=", "<child lijk=", 1))
+    refused("showrobot", path, "--sheet", tmp_path / "a.png", says=["arm.urdf", "PyBullet crashes"])
+
+
 def test_without_a_display(monkeypatch, refused):
     if sys.platform != "linux":
         pytest.skip("elsewhere there is a display")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import subprocess
 import sys
 import threading
 from collections.abc import Iterator
@@ -130,6 +131,21 @@ def load_model(client: int, path: Path, flags: tuple[str, ...] = (), **options) 
         raise BotschoolError(
             f"{path} cannot be read as a robot model: it is damaged, or lacks a file that it names."
         ) from None
+
+
+def check_model(path: Path) -> None:
+    """Load a model in a process of its own: PyBullet crashes on some damaged files.
+
+    Raises BotschoolError if it does.
+    """
+    code = "import sys; from botschool.envs import bullet; from pathlib import Path; "
+    code += "bullet.load_model(bullet.connect(), Path(sys.argv[1]))"
+    done = subprocess.run([sys.executable, "-c", code, str(path)], capture_output=True)
+    if done.returncode < 0:
+        raise BotschoolError(
+            f"{path} cannot be read as a robot model: PyBullet crashes on it. Check that each "
+            "joint names its parent and its child, and that both are links of the file."
+        )
 
 
 def load_floor(client: int, path: Path) -> int:

@@ -186,6 +186,7 @@ def find_model(name: str) -> tuple[Path, tuple[str, ...]]:
     if Path(name).suffix.lower() in bullet.FORMATS:
         if not Path(name).is_file():
             raise BotschoolError(f"There is no model file {name}.")
+        bullet.check_model(Path(name))
         return Path(name), ()
     if path := _of_pybullet(word):
         return path, ()

@@ -99,11 +99,20 @@ class Agent:
     ) -> tuple[np.ndarray, Any]:
         """Return the most likely actions for observations (n, ...), and the new state of an lstm.
 
-        starts: bool, shape (n,), true where an episode begins.
+        starts: bool, shape (n,), true where an episode begins. Raises BotschoolError where a
+        network gives no finite numbers.
         """
         if self._normalise is not None:
             observations = self._normalise(observations)
-        return self.model.predict(observations, state, starts, deterministic=True)
+        try:
+            return self.model.predict(observations, state, starts, deterministic=True)
+        except ValueError as error:
+            if "invalid values" not in str(error):
+                raise
+            raise BotschoolError(
+                "The network gives numbers that are not finite: the model is damaged, or its "
+                "training diverged. Take the other model of its folder, or train again."
+            ) from None
 
 
 def _native(path: Path, settings: Settings, env: str | None) -> NativeAgent:

@@ -216,6 +216,7 @@ def algorithm_class(algo: str, policy: str, discrete: bool = False) -> type[Base
 
     Hindsight experience replay is SAC with goals, or DQN for discrete actions.
     """
+    check_algorithm(algo)
     require("torch", "stable_baselines3")
     if algo in CONTRIB or (algo == "ppo" and has_memory(policy)):
         require("sb3_contrib")

@@ -119,7 +119,7 @@ def _grade_task(
         result.missing = student.missing
         failures = [failure for _, failure in failed]
         if any(failure.answered for failure in failures):
-            limits = LOOKING_SECONDS, task.memory, server, True
+            limits = min(LOOKING_SECONDS, task.seconds), task.memory, server, True
             again = Student(file, *limits, origin, references, task.refused)
             told = known_mistake(task, cheap, known, again, file.name, server)
             look_for_causes(failures, again)

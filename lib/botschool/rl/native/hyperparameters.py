@@ -122,7 +122,7 @@ def at(value: float | str | None, progress: float) -> float:
 
 
 def _whole(name: str, value: Any) -> None:
-    if type(value) is not int or value < 1:
+    if type(value) is not int or not 1 <= value < 2**31:
         raise _wrong(name, value, "a whole number of at least 1")
 
 
