@@ -187,6 +187,7 @@ WRONG = [
     OUTCOME | {"fitness": None},
     OUTCOME | {"fitness": np.arange(4, dtype=np.float32)},
     OUTCOME | {"moments": 5},
+    *({key: OUTCOME[key] for key in OUTCOME if key != missing} for missing in OUTCOME),
 ]
 
 

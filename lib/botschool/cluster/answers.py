@@ -35,8 +35,8 @@ def read(data: bytes, kinds: Sequence[str] = tuple(SHAPES)) -> dict[str, Any]:
     if kind is None:
         raise ValueError("the answer is of no known kind")
     for name, types in SHAPES[kind].items():
-        if not isinstance(answer.get(name), types):
-            raise ValueError(f"the answer's {name} is of another type")
+        if name not in answer or not isinstance(answer[name], types):
+            raise ValueError(f"the answer's {name} is missing, or of another type")
     if not all(CHECKS[kind](answer)):
         raise ValueError(f"the answer's values are impossible: {kind}")
     return answer
