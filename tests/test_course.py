@@ -379,11 +379,11 @@ def test_play_is_what_stepping_gives():
     ("predators", "pairs", "said"),
     [
         (robots(2)[0], [(0, 0)], "The predators have the shape (4977,)"),
-        (robots(2)[:, 1:], [(0, 0)], "but (individuals, 4977)"),
+        (robots(2)[:, 1:], [(0, 0)], "use (individuals, 4977)"),
         (robots(2), [(0.0, 0.0)], "whole numbers"),
         (robots(2), [0, 1], "shape (chases, 2)"),
         (robots(2), [(2, 0)], "there are 2 predators and 3 prey"),
-        (robots(2), [(0, -1)], "somebody who is not there"),
+        (robots(2), [(0, -1)], "an index that does not exist"),
     ],
 )
 def test_play_says_what_is_wrong(predators, pairs, said):

@@ -90,7 +90,7 @@ HOSTILE = {
         "shape",
     ),
     "nan": ("def double(x): return x * float('nan')", "NaN"),
-    "strings": ("def double(x): return [str(2 * v) for v in x]", "no array of numbers"),
+    "strings": ("def double(x): return [str(2 * v) for v in x]", "not an array of numbers"),
     "object": ("def double(x): return object()", "object of type object"),
     "broken": ("def double(x) return x", "Not graded: mend the file first"),
     "exits when loaded": ("raise SystemExit(0)", "Not graded: mend the file first"),
@@ -389,7 +389,7 @@ def test_a_script_and_a_notebook_that_fail_in_part_are_judged_alike(course, tmp_
         assert "line 1 of the cell 'print(1 / 0)'" in notebook.banner
     else:
         assert "def broken(:\n               ^\n  SyntaxError: " in as_script.banner
-        assert "is no Python: left out (total, broken)." in as_script.banner
+        assert "is not Python: left out (total, broken)." in as_script.banner
         assert as_script.tasks[1].message.startswith("total cannot be read: the part from line")
         assert as_notebook[1].message.startswith("total cannot be read: the cell 'def total")
 

@@ -294,7 +294,7 @@ def test_release_stops_at_a_leak(course, tmp_path, place, what):
     }[what]
     (course / place).write_text(f"# a note\n\n      {leak}\n")
     assert find_leaks(course, [course / place])
-    with pytest.raises(BotschoolError, match="tells a part of a solution"):
+    with pytest.raises(BotschoolError, match="contains a part of a solution"):
         release(course, tmp_path / "copy")
     assert not list(tmp_path.glob("*copy*"))
 
@@ -304,7 +304,7 @@ def test_release_needs_a_place_of_its_own(course, tmp_path):
         with pytest.raises(BotschoolError):
             release(course, course / place)
     (tmp_path / "file").touch()
-    with pytest.raises(BotschoolError, match="no folder"):
+    with pytest.raises(BotschoolError, match="is not a folder"):
         release(course, tmp_path / "file")
     (tmp_path / "empty").mkdir()
     assert release(course, tmp_path / "empty").files > 0
@@ -420,7 +420,7 @@ def test_answers_after_full_marks(course, tmp_path, monkeypatch):
         one_sentence(code, errors, words)
         assert out == ""
 
-    refused("not in this copy")
+    refused("This copy has no answers")
     assert release(course, copy, with_answers=True).written == 1
     packed = file.with_name("ANSWERS.packed")
     assert "measured" not in packed.read_text()
@@ -473,7 +473,7 @@ def test_start_and_reset(course, tmp_path, monkeypatch, released):
     code, out, _ = call("start", "3", cwd=root)
     assert code == 0 and "Exercise 3. Tiny" in out and f"exercises/{FOLDER}/README.md" in out
     assert "make notebook-ex3" in out
-    assert "as it began.\n" in call("reset", "3", cwd=root)[1]
+    assert "back at its beginning.\n" in call("reset", "3", cwd=root)[1]
     for number in (1, 2):
         file.write_text(f"{SOLUTION}# {number}\n")
         code, out, _ = call("reset", "3", cwd=root)
@@ -482,7 +482,7 @@ def test_start_and_reset(course, tmp_path, monkeypatch, released):
         assert kept.read_text() == f"{SOLUTION}# {number}\n"
     file.unlink()
     code, out, _ = call("start", "3", cwd=root)
-    assert code == 0 and "has been made" in out and file.read_text() == skeleton
+    assert code == 0 and "botschool has made it" in out and file.read_text() == skeleton
     if released:
         (root / MANIFEST).unlink()
         file.write_text(SOLUTION)
@@ -616,7 +616,7 @@ def test_grade_all_makes_a_secret_and_keeps_it(course, tmp_path, monkeypatch):
 
     out, first = grade_class()
     secret = course / ".botschool" / "secret"
-    assert f"made a secret for the grading seeds and keep it in {secret}" in out
+    assert f"made a secret for the grading seeds and keeps it in {secret}" in out
     assert len(secret.read_text().strip()) == 32 and secret.stat().st_mode & 0o77 == 0
     out, again = grade_class()
     assert f"follow from the secret in {secret}." in out and again == first
@@ -632,7 +632,7 @@ def test_grade_all_makes_a_secret_and_keeps_it(course, tmp_path, monkeypatch):
 def test_a_secret_that_cannot_be_kept(tmp_path, monkeypatch):
     monkeypatch.delenv("BOTSCHOOL_GRADING_SEED", raising=False)
     made = [grading_secret(tmp_path / "nowhere") for _ in range(2)]
-    assert made[0][0] != made[1][0] and "cannot be kept" in made[0][1]
+    assert made[0][0] != made[1][0] and "cannot keep a secret" in made[0][1]
 
 
 def test_page_names():

@@ -72,7 +72,7 @@ CASES = {
     "all axes": (lambda r: ((t := table(r)).sum(), t.sum(axis=1)[:1], (t[:1],)), ""),
     "a forgotten copy": (lambda r: (np.tile((w := table(r))[-1], (5, 1)), w), ".copy()"),
     "nothing changes": (lambda r: (np.tile((w := table(r))[0], (5, 1)), w), "nothing changes"),
-    "rows alike": (lambda r: (np.tile(line(r, 3), (5, 1)), table(r)), "All rows are alike"),
+    "rows alike": (lambda r: (np.tile(line(r, 3), (5, 1)), table(r)), "All rows are equal"),
     "numbers alike": (lambda r: (np.full(6, 0.3), line(r)), "All numbers are the same"),
     "last for best": (
         lambda r: ((h := line(r, 20) + 9 * (np.arange(20) == 5))[-1], h.max(), (), {"h": h}),
@@ -91,9 +91,9 @@ CASES = {
     "another order": (
         lambda r: ((w := np.sort(line(r, 8)))[[3, 1, 0, 2, 7, 5, 6, 4]], w), "another order"
     ),
-    "wrong sign": (lambda r: (-(w := line(r)), w), "turned around"),
-    "wrong sign of a number": (lambda r: (-(w := r.normal()), w), "turned around"),
-    "sign lost": (lambda r: (np.abs(w := np.array([*line(r), -9, 9])), w), "is lost"),
+    "wrong sign": (lambda r: (-(w := line(r)), w), "reversed"),
+    "wrong sign of a number": (lambda r: (-(w := r.normal()), w), "reversed"),
+    "sign lost": (lambda r: (np.abs(w := np.array([*line(r), -9, 9])), w), "have lost theirs"),
     "some signs": (lambda r: (-(w := np.abs(line(r))) * [1, -1, 1, 1, 1, 1], w), "sign of 5 of 6"),
     "one more": (lambda r: ((w := r.integers(3, 12, 5)) + 1, w), "one more than expected"),
     "one less": (lambda r: ((w := int(r.integers(3, 12))) - 1, w), "one less than expected"),

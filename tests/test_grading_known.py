@@ -160,7 +160,7 @@ def test_mistakes_that_import_something_come_last():
 
 def test_a_mistake_that_fits_no_more_is_left_out(messages):
     text = MISTAKES.replace("# -     spread_marks", "# -     another_marks", 1)
-    with pytest.raises(ValueError, match="must hold this once"):
+    with pytest.raises(ValueError, match="must hold these lines exactly once"):
         read_cases(3, text)[0].of(SOLUTION)
     assert TOLD not in messages(RIGHT + BY_N, declared(mistakes=text))[0]
     half = "def spread(x): return (max(x) - min(x)) / 2\n"
@@ -200,7 +200,7 @@ def test_a_call_that_is_too_long_is_made_smaller(messages):
 
 def test_a_cause_is_guessed_from_two_calls(messages):
     text = RIGHT + "def spread(x): return -float(np.std(x, ddof=1))\n"
-    sign = "Right but for the sign"
+    sign = "Only the sign"
     assert sign in messages(text, declared(mistakes=""))[0]
     assert sign not in messages(text, declared(inputs=((1.0, 4.0),), mistakes=""))[0]
     assert sign not in messages(text, declared(inputs=((1.0, 4.0),) * 2, mistakes=""))[0]

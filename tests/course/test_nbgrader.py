@@ -256,9 +256,9 @@ def test_grade_cell_says_what_is_missing(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("BOTSCHOOL_COURSE", str(building.ROOT))
     assert grade_cell("3.1") == 0.0
     said = capsys.readouterr()
-    assert "save it there" in said.out and said.err == ""
+    assert "save the notebook there" in said.out and said.err == ""
     assert grade_cell("nonsense") == 0.0
-    assert "names no task" in capsys.readouterr().out
+    assert "is not a task" in capsys.readouterr().out
 
 
 # ------------------------------------------------------------------- nbgrader
@@ -392,7 +392,7 @@ def test_test_cells_work_in_a_kernel(third, script_points, tmp_path, monkeypatch
         assert {stream.name for stream in streams} == {"stdout"}
         said = "".join(stream.text for stream in streams)
         assert f"Task {task}." in said
-        assert ("not what is saved" in said) == (task != "3.1")
+        assert ("code that is not saved" in said) == (task != "3.1")
 
 
 def test_the_command_says_what_to_do_next(tmp_path):

@@ -1,4 +1,4 @@
-"""Grading: exercises, the isolated runner, scores. A grader file needs only what is named here."""
+"""Grade exercises in isolated processes; grader files import only the names listed here."""
 
 from botschool.grading.declare.checks import (
     Mismatch,

@@ -1,4 +1,4 @@
-"""What the subcommands of grading do."""
+"""Run the grading subcommands."""
 
 from __future__ import annotations
 
@@ -50,7 +50,9 @@ def grade_command(what: str, submission: str | None, as_json: bool, debug: bool)
     asked = selected(what)
     if debug and (len(asked) > 1 or len(next(iter(asked.values()))) != 1):
         number = next(iter(asked))
-        raise BotschoolError(f"--debug runs one task: say which, as botschool grade {number}.1")
+        raise BotschoolError(
+            f"--debug runs one task: name it, for example botschool grade {number}.1"
+        )
     done = [_grade_one(n, tasks, submission, as_json, debug) for n, tasks in asked.items()]
     if as_json and not debug:
         shown = [found for _, found in done]
@@ -88,9 +90,9 @@ def _grade_one(
 
 
 def _found(exercise: Exercise, submission: str | None, tasks: list[Task]) -> tuple[Watched, str]:
-    """Return the file to grade, and a sentence on the secret for the work of others.
+    """Return the file to grade, and a sentence on the secret for other people's work.
 
-    What somebody else handed in is found as grade-all finds it, and the class is closed to it.
+    Other people's work is located as grade-all does it, and the class folder is closed to it.
     """
     number, root = exercise.number, course_root()
     if submission is None:
@@ -111,9 +113,9 @@ def _found(exercise: Exercise, submission: str | None, tasks: list[Task]) -> tup
 
 
 def _prepare_for_others(exercise: Exercise, file: Path) -> str:
-    """Let the seeds follow from a secret, and close the class, for the work of somebody else.
+    """Derive the seeds from a secret and close the class folder, to grade somebody else's work.
 
-    Returns a sentence on where the secret is.
+    Return a sentence on where the secret is.
     """
     exercise.secret, kept = secret_for_others(course_root())
     student = file.resolve() if file.is_dir() else file.resolve().parent
@@ -124,18 +126,19 @@ def _prepare_for_others(exercise: Exercise, file: Path) -> str:
 
 
 def _warn_of_unconfined(file: Path) -> None:
-    """Say that somebody's file runs with the user's rights, unless it belongs to the course."""
+    """Warn that somebody's file runs with the user's rights, unless it belongs to the course."""
     if not file.resolve().is_relative_to(course_root().resolve()):
         print(
-            f"{plain(str(file))} runs without the sandbox, with all your rights (files, network): "
-            "stop now with Ctrl-C if you have not read it; 'botschool grade' confines it.",
+            f"{plain(str(file))} runs without the sandbox, with all your rights (files, "
+            "network): stop now with Ctrl-C if you have not read it. 'botschool grade' "
+            "confines it.",
             file=sys.stderr,
             flush=True,
         )
 
 
 def debug_task(exercise: Exercise, id: str, file: Path) -> bool:
-    """Runs a task's checks in this process, without limits and points."""
+    """Run a task's checks in this process, without limits and points."""
     task = exercise.find(id)
     student = DirectStudent(file)
     try:
@@ -154,7 +157,7 @@ def debug_task(exercise: Exercise, id: str, file: Path) -> bool:
 
 
 def hint_command(what: str) -> None:
-    """Prints the hints of a task that were shown before, and the next one."""
+    """Print the hints of a task that were shown before, and the next one."""
     from rich.markdown import Markdown
     from rich.padding import Padding
 
@@ -162,7 +165,9 @@ def hint_command(what: str) -> None:
 
     number, task = _named(what)
     if not task:
-        raise BotschoolError(f"Hints are given for a task: say which, as botschool hint {number}.1")
+        raise BotschoolError(
+            f"A hint belongs to a task: name it, for example botschool hint {number}.1"
+        )
     exercise = load_exercise(number)
     title = exercise.find(what).title
     hints, many, new = next_hints(what, course_root())
@@ -185,7 +190,7 @@ def hint_command(what: str) -> None:
 
 @exits_on_signals()
 def progress_command(again: bool, workers: int | None) -> None:
-    """Prints the table of all exercises, as they were last graded; again: grades them now."""
+    """Print the table of all exercises with their last points; again: grade them now."""
     from botschool.grading.report.progress import stored_result, summary, table
 
     root = course_root()
@@ -201,7 +206,7 @@ def progress_command(again: bool, workers: int | None) -> None:
 
 
 def _grade_own(root: Path, workers: int | None, console: Console) -> dict[int, dict]:
-    """Grades and remembers the student's own files: exercise number -> result."""
+    """Grade the student's own files and store the results: exercise number -> result."""
     jobs = {}
     for number in exercise_numbers(root):
         with contextlib.suppress(BotschoolError):
@@ -224,7 +229,7 @@ def _points(result: Result) -> list[tuple[str, int, int]]:
 @exits_on_signals()
 @temporary_files_within()
 def watch_command(what: str, submission: str | None) -> None:
-    """Grades after every save, until Ctrl-C."""
+    """Grade after every save, until Ctrl-C."""
     from botschool.grading.report.screen import watch
 
     number, task = _named(what)
@@ -245,7 +250,7 @@ def watch_command(what: str, submission: str | None) -> None:
         raise KeyboardInterrupt
 
     def wait(seconds: float) -> None:
-        if asked:  # Python drops an exception that meets a destructor
+        if asked:  # Python drops an exception raised in a destructor
             raise KeyboardInterrupt
         time.sleep(seconds)
 
@@ -262,9 +267,9 @@ def watch_command(what: str, submission: str | None) -> None:
 
 
 def start_command(what: str, notebook: bool) -> None:
-    """Says what an exercise is, where its files are and what to do; makes a missing file.
+    """Print what an exercise is, where its files are and what to do; make a missing file.
 
-    notebook: then opens it as a notebook, until Ctrl-C.
+    notebook: whether to open it as a notebook, until Ctrl-C.
     """
     from botschool.grading.copies.starting import open_notebook, start
 
@@ -276,7 +281,7 @@ def start_command(what: str, notebook: bool) -> None:
     for does, path in (("Read", file.parent / "README.md"), ("Write into", file)):
         console.print(f"  {does:<11}{os.path.relpath(path)}", markup=False)
     if made:
-        console.print("  (it was missing and has been made)")
+        console.print("  (it was missing; botschool has made it)")
     console.print(f"  {'Grade':<11}botschool grade {number}, or botschool watch {number}")
     console.print(f"  {'A hint':<11}botschool hint {number}.1")
     console.print(f"  {'A notebook':<11}make notebook-ex{number} opens your file as one")
@@ -286,20 +291,20 @@ def start_command(what: str, notebook: bool) -> None:
 
 
 def reset_command(what: str) -> None:
-    """Puts a student's file back to its beginning and keeps the old one."""
+    """Put a student's file back to its beginning and keep the old one."""
     from botschool.grading.copies.starting import reset
 
     file, kept = reset(_named(what)[0], course_root())
     name = os.path.relpath(file)
     if kept is None:
-        print(f"{name} is as it began.")
+        print(f"{name} is back at its beginning.")
     else:
-        print(f"{name} is as it began; yours is kept as {os.path.relpath(kept)}.")
+        print(f"{name} is back at its beginning; your version is kept as {os.path.relpath(kept)}.")
 
 
 @temporary_files_within()
 def show_command(what: str, submission: str | None, opens: bool) -> None:
-    """Runs a finished exercise, names what it has made, and opens it."""
+    """Run a finished exercise, name what it has made, and open it."""
     from botschool.grading.report.progress import answers
     from botschool.grading.report.showing import make_page, open_page, show
 
@@ -332,7 +337,7 @@ def _size(path: Path) -> str:
 
 
 def answers_command(what: str) -> None:
-    """Prints what the solution measured, after full marks."""
+    """Print what the solution measured, after full marks."""
     from rich.markdown import Markdown
 
     from botschool.grading.report.progress import answers
@@ -342,19 +347,20 @@ def answers_command(what: str) -> None:
 
 
 def trust_command(folder: Path) -> None:
-    """Remember that the user trusts a course. Raises BotschoolError where there is none."""
+    """Remember that the user trusts a course. Raises BotschoolError if the folder holds none."""
     if not (folder / "exercises").is_dir():
-        raise BotschoolError(f"{folder} holds no exercises/: name the folder of a course.")
+        raise BotschoolError(f"{folder} holds no exercises/: name a course's folder.")
     trust(folder)
-    print(f"{folder.resolve()}: botschool will run this course's graders.")
+    print(f"{folder.resolve()}: botschool now runs this course's graders.")
 
 
 def _named(what: str) -> tuple[int, str]:
-    """ "3.2" -> (3, "2"); "3" -> (3, ""). Raises BotschoolError."""
+    """Return "3.2" as (3, "2") and "3" as (3, ""). Raises BotschoolError."""
     number, dot, task = what.partition(".")
     good = [part.isascii() and part.isdigit() and len(part) < 4 for part in (number, task)]
     if not good[0] or (dot and not good[1]):
         raise BotschoolError(
-            f"'{what[:30]}' names no exercise: give its number, as 3, or a task, as 3.2."
+            f"'{what[:30]}' names no exercise: give its number, for example 3, or a task, "
+            "for example 3.2."
         )
     return int(number), task

@@ -1,4 +1,4 @@
-"""A course folder for nbgrader, generated from the solutions."""
+"""Generate a course folder for nbgrader from the solutions."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from botschool.output import written_whole
 
 CONFIG = "nbgrader_config.py"
 GENERATED = ".generated.json"
-"""In the course folder: the digest of every notebook as it was generated, to know edited ones."""
+"""A file in the course folder: the digest of every generated notebook, to recognise edited ones."""
 _CONFIG_TEXT = '''\
 """How nbgrader grades this course. Made by `make nbgrader` once, then yours to change."""
 
@@ -48,9 +48,9 @@ may stand anywhere: keep what takes long out of the cells that define functions.
 
 
 def nbgrader_command(folder: Path) -> None:
-    """Makes the course folder and says what to do in it."""
+    """Make the course folder and print how to use it."""
     for path in make_course(course_root(), folder):
-        print(f"left alone, because it was edited: {path}")
+        print(f"not changed, because it was edited: {path}")
     command = os.path.relpath(Path(sys.executable).parent / "nbgrader", folder.resolve())
     print(
         f"Course folder: {folder}   In it, for exercise 3:\n"
@@ -62,20 +62,22 @@ def nbgrader_command(folder: Path) -> None:
 
 
 def make_course(root: Path, folder: Path) -> list[Path]:
-    """Writes nbgrader's configuration and source notebooks; returns notebooks left alone.
+    """Write nbgrader's configuration and source notebooks; return the notebooks left alone.
 
-    Notebooks that the instructor has edited are never touched, nor is an existing configuration.
-    Raises BotschoolError.
+    The function leaves edited notebooks and an existing configuration as they are. Raises
+    BotschoolError.
     """
     try:
         import nbformat
     except ImportError:
         raise BotschoolError(
-            "nbgrader and jupytext are needed: pip install 'botschool[course]' installs them."
+            "nbgrader and jupytext are missing: install them with pip install 'botschool[course]'."
         ) from None
     numbers = [n for n in exercise_numbers(root) if list(_solutions(root, n))]
     if not numbers:
-        raise BotschoolError(f"{root} holds no solutions to make notebooks of.")
+        raise BotschoolError(
+            f"{root} holds no solutions to make notebooks of: run this in the repository."
+        )
     digests = _read_digests(folder / GENERATED)
     edited = []
     for number in numbers:
@@ -104,7 +106,7 @@ def make_course(root: Path, folder: Path) -> list[Path]:
 def _beside(folder: Path, exercise: Exercise) -> dict[str, str]:
     """Return the files that let a student grade away from the repository: a course of its own.
 
-    That is the packed grader, the text and the hints, as path from the notebook -> content.
+    These are the packed grader, the text and the hints, as path from the notebook -> content.
     """
     found = {}
     for path in sorted([*folder.glob("test_*.py"), *folder.glob("*.md")]):
@@ -116,7 +118,7 @@ def _beside(folder: Path, exercise: Exercise) -> dict[str, str]:
 
 
 def configure(c: Any, folder: Path, course: Path) -> None:
-    """Sets nbgrader's options for a course folder made from the repository `course`."""
+    """Set nbgrader's options for a course folder made from the repository `course`."""
     from nbconvert.preprocessors.sanitize import SanitizeHTML
     from nbgrader.converters import Autograde, GenerateAssignment, GenerateFeedback
     from nbgrader.coursedir import CourseDirectory
@@ -131,13 +133,13 @@ def configure(c: Any, folder: Path, course: Path) -> None:
 
     os.environ["BOTSCHOOL_COURSE"] = str(Path(course).resolve())
     close_class(folder)
-    # nbgrader calls `alembic`, which lies beside it, by its name alone
+    # nbgrader calls `alembic` by its name alone, which lies beside it
     os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     c.CourseDirectory.course_id = "botschool"
     c.CourseDirectory.root = str(folder)
     c.CourseDirectory.ignore = [
         *_default(CourseDirectory, "ignore"),
-        *map(glob.escape, _links(folder / "submitted")),  # they may lead to solutions
+        *map(glob.escape, _links(folder / "submitted")),  # links may lead to solutions
     ]
     c.GenerateAssignment.preprocessors = [
         ClearToSkeleton if step is ClearSolutions else step
@@ -162,7 +164,7 @@ def configure(c: Any, folder: Path, course: Path) -> None:
 
 
 def notebook(solution: str, exercise: Exercise) -> Any:
-    """The source notebook of an exercise: the solution, each task followed by its test cell."""
+    """Return an exercise's source notebook: the solution, each task followed by its test cell."""
     import jupytext
     from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
@@ -184,7 +186,7 @@ def notebook(solution: str, exercise: Exercise) -> Any:
         last.update({task: len(cells) for task in tasks})
     if set(last) - {task.id for task in exercise.tasks}:
         raise BotschoolError(
-            f"Exercise {exercise.number}: the solution names tasks that the grader does not have."
+            f"Exercise {exercise.number}: the solution's tasks differ from the grader's."
         )
     place = 0
     after: dict[int, list[Any]] = {}
@@ -205,7 +207,7 @@ def notebook(solution: str, exercise: Exercise) -> Any:
 
 
 def _marks(name: str, points: int | None = None) -> dict[str, Any]:
-    """nbgrader's metadata (schema 3) of an answer cell, or of a test cell worth some points."""
+    """Return nbgrader's metadata (schema 3) of an answer cell, or of a test cell with points."""
     test = points is not None
     marks = {
         "grade": test,
@@ -219,7 +221,7 @@ def _marks(name: str, points: int | None = None) -> dict[str, Any]:
 
 
 def _slug(text: str, taken: set[str]) -> str:
-    """A cell id made of the cell's first line, the same in every generation."""
+    """Return a cell id from the cell's first line, the same in every generation."""
     words = re.findall(r"[a-z0-9]+", next(iter(text.strip().splitlines()), "").lower())
     return _unused("-".join(["cell", *words])[:50].rstrip("-"), taken)
 
@@ -238,13 +240,13 @@ def _default(application: Any, option: str) -> list[Any]:
 
 
 def _links(folder: Path) -> list[str]:
-    """Files in submissions that are symbolic links."""
+    """Return the symbolic links among the files of submissions."""
     found = (os.path.join(top, name) for top, _, names in os.walk(folder) for name in names)
     return [path for path in found if os.path.islink(path)]
 
 
 def _solutions(root: Path, number: int) -> list[Path]:
-    """The exercise's solution file, if there is one."""
+    """Return the exercise's solution file in a list; [] if there is none."""
     folder = root / "solutions" / folder_of(number, root).name
     path = folder / load_exercise(number, root).file
     return [path] if path.is_file() else []
@@ -256,7 +258,9 @@ def _read_digests(path: Path) -> dict[str, str]:
     except FileNotFoundError:
         return {}
     except ValueError:
-        raise BotschoolError(f"{path} is damaged: remove it and run make nbgrader again.") from None
+        raise BotschoolError(
+            f"{path} is damaged: remove it, then run make nbgrader again."
+        ) from None
 
 
 def _write(path: Path, text: str) -> None:

@@ -1,4 +1,4 @@
-"""Grading in a notebook: what its test cells call, and its code as a submission."""
+"""Grade a notebook: test cells call `grade_cell`, and the notebook's code is the submission."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from botschool.grading.run.confined import MachineFault, close_class, fork_serve
 from botschool.grading.run.notebooks import code_cells
 
 MAX_PRINTED = 1500
-"""Characters of what a task's code printed that are shown."""
+"""Characters to show of what a task's code printed."""
 
 
 def report(result: TaskResult, banner: str = "") -> str:
-    """What a test cell prints; banner: why the notebook cannot be loaded."""
+    """Return what a test cell prints; banner: why the notebook cannot be loaded."""
     lines = [banner] if banner and result.points < result.max_points else []
     lines += [f"Task {result.id}. {result.title}: {result.points} of {result.max_points} points"]
     if result.message:
@@ -40,17 +40,17 @@ def report(result: TaskResult, banner: str = "") -> str:
 
 
 class NotGraded(BotschoolError):
-    """This machine cannot grade; a notebook shows the sentence, without a traceback."""
+    """This machine cannot grade; a notebook shows the sentence without a traceback."""
 
     def _render_traceback_(self) -> list[str]:
         return [f"Not graded: {self}"]
 
 
 def grade_cell(task: str) -> float:
-    """Grades a task of the notebook in the present folder, as saved; prints why points are missing.
+    """Grade a task of the notebook in this folder, as saved; print why points are missing.
 
-    Returns the points, so that nbgrader gives them as partial credit. Raises NotGraded where this
-    machine cannot grade, since that is no 0.
+    Return the points, which nbgrader takes as partial credit. Raises NotGraded if this machine
+    cannot grade, so that nbgrader does not count it as 0.
     """
     with contextlib.redirect_stderr(io.StringIO()), warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -68,8 +68,8 @@ def grade_cell(task: str) -> float:
 def _grade_here(task: str) -> float:
     number = task.partition(".")[0]
     if not number.isdigit():
-        raise BotschoolError(f"'{task}' names no task: give one as '3.2'.")
-    try:  # what is missing here says nothing about the answer
+        raise BotschoolError(f"'{task}' is not a task: name one, for example '3.2'.")
+    try:  # the answer may be right, although this machine lacks something
         exercise = load_exercise(int(number))
         asked = exercise.find(task)
         exercise.require([asked])
@@ -79,7 +79,10 @@ def _grade_here(task: str) -> float:
     path = Path.cwd() / Path(exercise.file).with_suffix(".ipynb")
     sources = code_cells(path)
     if _changed(sources):
-        print("What you ran is not what is saved: save the notebook (Ctrl+S), run this cell again.")
+        print(
+            "You have run code that is not saved: save the notebook (Ctrl+S), then run this cell "
+            "again."
+        )
     with (
         fork_server(exercise.imports) as server,
         Submission(path, server, sources, exercise.file, exercise=exercise) as submission,
@@ -90,9 +93,9 @@ def _grade_here(task: str) -> float:
 
 
 def _prepare_for_others(exercise: Exercise) -> None:
-    """Let the seeds follow from a secret, and close the class, where an instructor grades.
+    """Derive the seeds from a secret and close the class folder, if an instructor grades.
 
-    That is where the course has its solutions, or nbgrader runs the notebook.
+    An instructor's course has its solutions, or nbgrader runs the notebook.
     """
     root = course_root()
     if (root / "solutions").is_dir() or os.environ.get("NBGRADER_EXECUTION") == "autograde":
@@ -103,7 +106,7 @@ def _prepare_for_others(exercise: Exercise) -> None:
 
 
 def _changed(sources: list[str]) -> bool:
-    """Whether a function was last run in a form that the saved notebook does not hold."""
+    """Return whether the last run of a function differs from the saved notebook."""
     with contextlib.suppress(NameError, AttributeError):
         ran = get_ipython().history_manager.input_hist_raw  # type: ignore[name-defined]  # noqa: F821
         last = {name: cell.strip() for cell in ran for name in _defined(cell)}

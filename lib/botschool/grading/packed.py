@@ -1,9 +1,8 @@
-"""Graders and answers in the students' copy: packed, so that nobody reads one there by accident.
+"""Pack the graders and answers of the students' copy, so that nobody reads one by accident.
 
-A grader computes again what a task asks for, and has our solution and its known mistakes: the tasks
-that others need are taken from it, and the mistakes are tried where an answer is wrong. This hides
-them from readers, not from somebody who is determined to unpack them: what counts is graded
-elsewhere.
+A grader computes what a task asks for, and holds our solution and its known mistakes. It takes the
+tasks that others need from the solution, and tries the mistakes on a wrong answer. Packing does not
+stop somebody who is determined to unpack: points that count are graded elsewhere.
 """
 
 from __future__ import annotations
@@ -19,14 +18,14 @@ from pathlib import Path
 from typing import Any
 
 PACKED = "ANSWERS.packed"
-"""In an exercise's folder of the copy, if the instructor allows it."""
+"""A file in an exercise's folder of the copy, if the instructor allows it."""
 
 
 def pack(grader: str, solution: str = "", mistakes: str = "") -> str:
-    """The text of a Python file that declares the same exercise as this one.
+    """Return the text of a Python file that declares the same exercise as a grader file.
 
-    solution, mistakes: what the exercise knows, packed with it. Its extras stay readable, since
-    `make test-exN` must know them before there is a Python.
+    solution, mistakes: what the exercise knows, packed with it. The extras stay readable, because
+    `make test-exN` reads them before there is a Python.
     """
     all_of_it = json.dumps([grader, solution, mistakes]).encode()
     packed = base64.b85encode(zlib.compress(all_of_it, 9)).decode()
@@ -41,26 +40,26 @@ def pack(grader: str, solution: str = "", mistakes: str = "") -> str:
 
 
 def is_packed(text: str) -> bool:
-    """Whether a Python file has been packed."""
+    """Return whether a Python file is packed."""
     return "from botschool.grading.packed import " in text
 
 
 def unpack(file: str, packed: str) -> Any:
-    """The exercise that a packed grader declares; `file` is where it lies."""
+    """Return the exercise that a packed grader declares; file: the grader's path."""
     source, *known = json.loads(zlib.decompress(base64.b85decode(packed)))
     name = str(Path(file).with_suffix(".unpacked"))
-    # so that the source of its drivers can be sent to a child
+    # so that a child can be sent the source of its drivers
     linecache.cache[name] = (len(source), None, source.splitlines(keepends=True), name)
     module = types.ModuleType(f"unpacked_{Path(file).stem}")
     module.__file__ = file
-    sys.modules[module.__name__] = module  # dataclasses look their module up
+    sys.modules[module.__name__] = module  # dataclasses look up their module
     exec(compile(source, name, "exec", dont_inherit=True), vars(module))
     module.exercise.knows(*known)
     return module.exercise
 
 
 def pack_module(text: str) -> str:
-    """The text of a Python file with the same names in it as this one."""
+    """Return the text of a packed Python file that defines the same names as this one."""
     lines = "\n".join(f'    "{line}"' for line in pack_answers(text).split())
     return (
         '"""A part of the check, packed because it computes what you are asked for."""\n\n'
@@ -70,16 +69,16 @@ def pack_module(text: str) -> str:
 
 
 def restore(names: dict[str, Any], packed: str) -> None:
-    """Define what `pack_module` has packed."""
+    """Define the names of a packed module."""
     exec(compile(unpack_answers(packed), names["__file__"], "exec", dont_inherit=True), names)
 
 
 def pack_answers(text: str) -> str:
-    """The text so that nobody reads it by accident."""
+    """Return the text in a form that nobody reads by accident."""
     packed = base64.b85encode(zlib.compress(text.encode(), 9)).decode()
     return "\n".join(packed[at : at + 90] for at in range(0, len(packed), 90)) + "\n"
 
 
 def unpack_answers(packed: str) -> str:
-    """The text again. Raises ValueError or zlib.error."""
+    """Return the text of a packed answer. Raises ValueError or zlib.error."""
     return zlib.decompress(base64.b85decode("".join(packed.split()))).decode()

@@ -3,7 +3,7 @@
 
 # %% sign_lost loses 4.1
 # The angles come from the cosine alone, so their sign is lost.
-# says: sign: that of negative values is lost
+# says: sign is wrong: negative values have lost theirs
 def decode(observation):
     return {
         "angle1": float(np.arccos(np.clip(observation[0], -1, 1))),

@@ -233,7 +233,7 @@ def freeze(since):
 
 # %% frozen_is_forgotten loses 6.6
 # Empties the memory instead of freezing it.
-# says: All of it is 0
+# says: All values are 0
 def freeze(since):
     return lambda step, before, after: after if step < since else np.zeros_like(after)
 

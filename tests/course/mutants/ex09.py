@@ -28,7 +28,7 @@ def alive_bonus(robot, height, pitch, touching):
 
 # %% progress_backwards loses 9.1
 # Progress is positive when the robot goes away.
-# says: sign: it is turned around
+# says: sign is wrong: it is reversed
 def progress(distance, duration):
     return (distance[1:] - distance[:-1]) / duration
 

@@ -183,7 +183,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 # %% sign_of_the_loss loses 13.2
 # Makes the surrogate small instead of large.
-# says: Right but for the sign
+# says: Only the sign
 _policy_loss = policy_loss
 
 

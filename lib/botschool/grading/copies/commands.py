@@ -1,4 +1,4 @@
-"""What the subcommands that make copies of the course do."""
+"""Run the subcommands that make copies of the course."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from botschool.paths import MATERIAL, material
 
 
 def course_command(folder: Path, exercises: str) -> None:
-    """Make a copy of the course that the installed botschool grades, or bring it up to date."""
+    """Make a copy of the course that the installed botschool grades, or update it."""
     _copy(material(), folder, exercises, compiled=False)
     print(f"Begin with: cd {quote(str(folder))}; botschool start 1")
 
 
 def release_command(folder: Path, exercises: str, answers: bool, wheels: list[Path]) -> None:
-    """Make the students' copy of the repository, or bring it up to date."""
+    """Make the students' copy of the repository, or update it."""
     root = material() if material().name == MATERIAL else course_root()
     with contextlib.suppress(BotschoolError):
         root = course_root()
     if answers and not (root / "solutions").is_dir():
-        raise BotschoolError("The answers are in the repository only: release the copy there.")
+        raise BotschoolError("Only the repository has the answers: run release there.")
     for wheel in wheels:
         if not wheel.is_file() or wheel.suffix != ".whl":
-            raise BotschoolError(f"{wheel} is no wheel: name a file botschool-....whl.")
+            raise BotschoolError(f"{wheel} is not a wheel: name a file botschool-....whl.")
     _copy(root, folder, exercises, answers=answers, wheels=wheels)
 
 
@@ -42,9 +42,9 @@ def _copy(
 ) -> None:
     asked = selected(exercises, root)
     if any(asked.values()):
-        raise BotschoolError(f"'{exercises[:30]}' names a task: an exercise is released whole.")
+        raise BotschoolError(f"'{exercises[:30]}' names a task: release works on whole exercises.")
     numbers = None if exercises == "all" else set(asked)
     done = release(root, folder, numbers, answers, compiled=compiled, wheels=wheels)
     for path in done.edited:
-        print(f"left alone, because it was edited: {path}")
+        print(f"not changed, because it was edited: {path}")
     print(f"{folder}: {done.files} files for students, {done.written} of them new or changed.")

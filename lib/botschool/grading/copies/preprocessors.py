@@ -1,6 +1,6 @@
-"""What nbgrader does with our notebooks in our way: parts of its pipeline.
+"""Replace parts of nbgrader's pipeline by our own.
 
-`configure` (nbgrader.py) puts them into place.
+`configure` (nbgrader.py) installs them.
 """
 
 from __future__ import annotations
@@ -30,20 +30,20 @@ from botschool.grading.notebook import report
 from botschool.grading.run.confined import fork_server
 
 ANSWER, TEST = "task-", "test-"
-"""How the grade ids of answer cells and test cells begin; task-3-2 is tested by test-3-2."""
+"""Prefixes of the grade ids of answer cells and test cells; test-3-2 tests task-3-2."""
 
 MAX_NOTEBOOK = 50 * 2**20
-"""Bytes, with its pictures."""
-UNREADABLE = "What was handed in is no notebook, or is too large: there is nothing to grade."
+"""Bytes of a notebook with its pictures."""
+UNREADABLE = "The submission is not a notebook, or is too large: there is nothing to grade."
 
 
 def task_of(grade_id: str) -> str:
-    """The task that a test cell grades: 3.2 of test-3-2."""
+    """Return the task that a test cell grades: 3.2 for test-3-2."""
     return grade_id.removeprefix(TEST).replace("-", ".")
 
 
 class ClearToSkeleton(NbGraderPreprocessor):
-    """Replaces solution regions as in the skeletons, so that a notebook says the same."""
+    """Replace solution regions as in the skeletons, so that notebooks and scripts say the same."""
 
     def preprocess_cell(self, cell: NotebookNode, resources: dict, index: int) -> tuple:
         if cell.cell_type == "code" and BEGIN in cell.source:
@@ -52,7 +52,7 @@ class ClearToSkeleton(NbGraderPreprocessor):
 
 
 class TolerantExporter(NotebookExporter):
-    """Reads any file as a notebook: one without cells, if it is none."""
+    """Read any file as a notebook; a file that is none becomes a notebook without cells."""
 
     def from_filename(self, filename: str, resources: dict | None = None, **options: Any) -> tuple:
         return super().from_filename(filename, resources, linked=os.path.islink(filename))
@@ -63,7 +63,7 @@ class TolerantExporter(NotebookExporter):
                 raise ValueError
             nb = nbformat.read(stream, as_version=4)
             metadata, _ = dict(nb.metadata), list(nb.cells)
-        except Exception:  # of a file that may hold anything
+        except Exception:  # for a file that may hold anything
             nb, metadata = new_notebook(cells=[new_markdown_cell(UNREADABLE)]), {}
         kernel = {name: metadata[name] for name in ("kernelspec",) if name in metadata}
         nb.metadata = NotebookNode(kernel, language_info={"name": "python"})
@@ -71,10 +71,10 @@ class TolerantExporter(NotebookExporter):
 
 
 class Restore(NbGraderPreprocessor):
-    """Makes a submitted notebook anew from the texts of its cells.
+    """Rebuild a submitted notebook from the texts of its cells.
 
-    Whatever became of metadata, test cells and outputs: each answer and test cell of the
-    assignment is there once, with the assignment's points.
+    The result has each answer and test cell of the assignment once, with the assignment's points,
+    whatever happened to metadata, test cells and outputs.
     """
 
     def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
@@ -105,7 +105,7 @@ class Restore(NbGraderPreprocessor):
 
 
 def _assignment_cell(source: Any, points: float | None) -> NotebookNode:
-    """An answer cell (no points) or a test cell, as the gradebook knows it."""
+    """Return an answer cell (no points) or a test cell, as the gradebook knows it."""
     test = points is not None
     marks = {
         "grade": test,
@@ -122,7 +122,7 @@ def _assignment_cell(source: Any, points: float | None) -> NotebookNode:
 
 
 def _read(cell: Any) -> tuple[str, str, str]:
-    """Kind, text and grade id of a cell that may be anything."""
+    """Return kind, text and grade id of a cell that may be anything."""
     cell = cell if isinstance(cell, dict) else {}
     source = cell.get("source", "")
     if isinstance(source, list):
@@ -136,7 +136,7 @@ def _read(cell: Any) -> tuple[str, str, str]:
 
 
 def _place(cells: list[NotebookNode], task: str) -> int:
-    """Where a task's test belongs: behind the last cell that is not of a later task."""
+    """Return the index for a task's test: after the last cell that belongs to no later task."""
     later, place = len(cells), 0
     for index, cell in reversed(list(enumerate(cells))):
         if grade_id := _grade_id(cell):
@@ -152,10 +152,10 @@ def _order(task: str) -> list[int]:
 
 
 class Grade(NbGraderPreprocessor):
-    """Fills in the outputs of test cells, in place of running the notebook.
+    """Fill in the outputs of test cells instead of running the notebook.
 
-    The isolated grader takes the code from the notebook itself, so none of it is run here: what
-    a notebook does to its kernel does not matter.
+    The isolated grader takes the code from the notebook. nbgrader's kernel runs none of it, so
+    nothing that a notebook does to its kernel matters.
     """
 
     def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
@@ -187,8 +187,8 @@ def _grade_id(cell: NotebookNode) -> str:
 def _fill(cell: NotebookNode, count: int, result: TaskResult, banner: str) -> None:
     if float(cell.metadata.nbgrader["points"]) != result.max_points:
         raise BotschoolError(
-            f"Task {result.id} is now worth {result.max_points} points, but not in the assignment: "
-            "run make nbgrader and nbgrader generate_assignment --force."
+            f"Task {result.id} is now worth {result.max_points} points, but not in the "
+            "assignment: run make nbgrader and nbgrader generate_assignment --force."
         )
     cell.execution_count = count
     points = repr(float(result.points))

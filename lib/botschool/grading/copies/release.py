@@ -1,4 +1,4 @@
-"""A copy of the repository for students: everything to build and work with, and no answers."""
+"""Copy the repository for students: everything to build and work with, and no answers."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ RELEASED = (
     "lib", "data", "exercises", "tools", "docs", "Makefile", "pyproject.toml", "constraints.txt",
     "LICENSE", ".gitignore",
 )  # fmt: skip
-"""At the top of the repository; everything else stays (envs/ is what exercise 10 builds)."""
+"""At the top of the repository; other files are not copied (exercise 10 builds envs/)."""
 COMPILED = re.compile(r"lib/|pyproject\.toml$|tools/(material|build_backend)")
-"""What only a copy has that compiles botschool."""
+"""Only in a copy that compiles botschool."""
 WHEELS = "wheels"
-"""In a copy that installs botschool: its wheels."""
+"""In a copy that installs botschool: a folder for its wheels."""
 MANIFEST = ".release.json"
-"""In the copy: the digest of every file as it was released, and the skeletons' texts."""
+"""In the copy: the digest of every released file, and the skeletons' texts."""
 START = "exercises/README.md"
-"""Where students start: this is the copy's own README.md too."""
+"""The students' start page; the copy gets it as README.md, too."""
 _WITHHELD = re.compile(
     r"docs/(reports/)?(instructor|answer|solution|architecture|algorithms|chapter|cluster|results\.|evolution)"
     r"|^lib/(?!botschool/labs/lab\d\d\.).*\.md$|^docs/book/|^tools/(figures|studies)/"
@@ -46,19 +46,19 @@ _WITHHELD = re.compile(
 _NOT_RELEASED = re.compile(
     r"^[^\n]*\bBEGIN NOT RELEASED\b.*?\bEND NOT RELEASED\b[^\n]*\n", re.DOTALL | re.MULTILINE
 )
-"""Lines of a text that the copy does not have."""
+"""Lines of a text that are left out of the copy."""
 
 
 @dataclass
 class Released:
-    """What a release has done."""
+    """Result of a release."""
 
     files: int
-    """How many the copy has."""
+    """Number of files in the copy."""
     written: int
-    """How many of them are new or changed."""
+    """Number of new or changed files."""
     edited: list[str] = field(default_factory=list)
-    """Those that were left alone, because they are not as they were released."""
+    """Files that were left alone, because somebody has edited them."""
 
 
 def release(
@@ -70,19 +70,20 @@ def release(
     compiled: bool = True,
     wheels: Sequence[Path] = (),
 ) -> Released:
-    """Makes the copy, or brings it up to date. numbers: exercises; None is all of them.
+    """Make the copy, or update it.
 
-    root: the repository, or the material of an installed package. with_answers: their solutions'
-    texts come packed, to be shown after full marks. trusted: whether the user may run the copy's
-    graders where it is. compiled: whether the copy has botschool's source and compiles it; else it
-    uses botschool as installed, or installs one of the wheels.
+    root: the repository, or the material of an installed package.
+    numbers: the exercises; None for all.
+    with_answers: whether to pack the solutions' texts, which students see after full marks.
+    trusted: whether the user may run the copy's graders at its place.
+    compiled: whether the copy gets botschool's source and compiles it; otherwise it uses the
+    installed botschool, or installs one of the wheels.
 
-    A new copy is made whole or not at all. In one that is there already, exercises that it has
-    stay, and files that were edited since are left alone; .git is never touched. Raises
-    BotschoolError.
+    The function makes a new copy as a whole or not at all. An existing copy keeps its exercises,
+    files that somebody has edited, and .git. Raises BotschoolError.
     """
     root, target = root.resolve(), target.absolute()
-    check_trusted(root)  # a repository's settings name programs that git runs
+    check_trusted(root)  # a repository's settings may name programs that git runs
     manifest = _check(root, target)
     compiled = compiled and not wheels and (root / "lib").is_dir()
     for number in sorted(numbers or ()):
@@ -103,8 +104,8 @@ def release(
         if leaks:
             path, line = leaks[0]
             raise BotschoolError(
-                f"{path.relative_to(made)} tells a part of a solution ('{line[:60]}'): nothing was "
-                "released; take it out and try again."
+                f"{path.relative_to(made)} contains a part of a solution ('{line[:60]}'): "
+                "nothing was released. Remove that part and try again."
             )
         files = _digests(made)
         skeletons = {
@@ -119,7 +120,7 @@ def release(
             if target.is_dir():
                 target.rmdir()
             made.rename(target)
-            with suppress(BotschoolError):  # else the copy can be used all the same, elsewhere
+            with suppress(BotschoolError):  # the copy still works in other places
                 if trusted:
                     trust(target)
             return Released(len(files), len(files))
@@ -127,43 +128,43 @@ def release(
             return _update(made, target, manifest, files)
         except OSError as error:
             raise BotschoolError(
-                f"{error.filename} cannot be written ({error.strerror}): the copy is not up to "
+                f"Cannot write {error.filename} ({error.strerror}): the copy is not up to "
                 "date yet, try again."
             ) from None
 
 
 def _check(root: Path, target: Path) -> dict[str, str]:
-    """The digests of a copy that is there, {} for a new one. Raises BotschoolError."""
+    """Return the digests of an existing copy, {} for a new one. Raises BotschoolError."""
     if not (root / "solutions").is_dir() and root != material():
-        raise BotschoolError(f"{root} holds no solutions: it is a student's copy already.")
+        raise BotschoolError(f"{root} is a student's copy already: run this in the repository.")
     if target.is_symlink() or (target.exists() and not target.is_dir()):
-        raise BotschoolError(f"{target} is no folder: name a new one.")
+        raise BotschoolError(f"{target} is not a folder: name a new one.")
     for name in (*RELEASED, "solutions"):
         if target.resolve().is_relative_to(root / name):
-            raise BotschoolError(f"{target} lies inside the course's {name}: choose another place.")
+            raise BotschoolError(f"{target} is inside the course's {name}: choose another place.")
     if not target.is_dir() or {path.name for path in target.iterdir()} <= {".git"}:
         return {}
     if not (target / MANIFEST).is_file():
         raise BotschoolError(
-            f"{target} is not empty, and no copy made by botschool release: name a new folder."
+            f"{target} is not empty and not a copy made by botschool release: name a new folder."
         )
     try:
         return dict(json.loads((target / MANIFEST).read_text(encoding="utf-8"))["files"])
     except (OSError, ValueError, KeyError, TypeError):
         raise BotschoolError(
-            f"{target / MANIFEST} is damaged, so it cannot be told what was edited: name a new "
-            "folder."
+            f"{target / MANIFEST} is damaged, so edited files cannot be recognised: name a "
+            "new folder."
         ) from None
 
 
 @contextmanager
 def _temporary(target: Path) -> Iterator[Path]:
-    """A folder beside the target, removed at the end if it is still there."""
+    """Yield a folder beside the target; remove it at the end if it is still there."""
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         made = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent))
     except OSError as error:
-        raise BotschoolError(f"{target} cannot be made ({error.strerror}).") from None
+        raise BotschoolError(f"Cannot make {target} ({error.strerror}).") from None
     try:
         yield made
     finally:
@@ -172,14 +173,14 @@ def _temporary(target: Path) -> Iterator[Path]:
 
 
 def _skeletons_of(root: Path) -> list[str]:
-    """The paths of the files that students write into."""
+    """Return the paths of the files that students write into."""
     if (root / "solutions").is_dir():
         return [place.relative_to(root).as_posix() for _, place in pairs(root)]
     return list(json.loads((root / MANIFEST).read_text(encoding="utf-8"))["skeletons"])
 
 
 def _build(root: Path, made: Path, numbers: set[int], compiled: bool) -> None:
-    """Writes the whole copy into an empty folder."""
+    """Write the whole copy into an empty folder."""
     for path in released_files(root, numbers):
         if not compiled and COMPILED.match(path.relative_to(root).as_posix()):
             continue
@@ -206,7 +207,7 @@ def _build(root: Path, made: Path, numbers: set[int], compiled: bool) -> None:
 
 
 def _packed(grader: str, root: Path, folder: str) -> str:
-    """A grader packed with what it knows: its solution, and the wrong ones."""
+    """Return a grader packed with its solution and the wrong ones."""
     file = re.search(r'file="([^"]+)"', grader)
     if is_packed(grader) or not file:
         return grader
@@ -217,7 +218,7 @@ def _packed(grader: str, root: Path, folder: str) -> str:
 
 
 def pack_measures(package: Path, target: Path) -> None:
-    """Pack what the laboratories check measures with; target: the package that gets it."""
+    """Pack the modules that check laboratories; target: the package that receives them."""
     for measures in package.glob("labs/lab[0-9][0-9].py"):
         text = measures.read_text(encoding="utf-8")
         place = target / measures.relative_to(package)
@@ -230,9 +231,9 @@ _LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s:]+)(#[^)\s]*)?\)")
 
 
 def _leave_out_what_no_text_shows(made: Path) -> None:
-    """Remove replays that no exercise links to and pictures that no text shows, and links to them.
+    """Remove replays without a link and pictures without a text, and links to missing files.
 
-    A link to a file that the copy does not have becomes plain text.
+    A link to a file that the copy lacks becomes plain text.
     """
     texts = {path: path.read_text(encoding="utf-8") for path in made.rglob("*.md")}
     kept = {
@@ -251,7 +252,7 @@ def _leave_out_what_no_text_shows(made: Path) -> None:
 
 
 def _if_there(link: re.Match, folder: Path) -> str:
-    """A link as it is, or its text where there is no such file."""
+    """Return a link unchanged, or only its text if the file does not exist."""
     return link[0] if (folder / link[3]).exists() else link[2]
 
 
@@ -264,7 +265,7 @@ def _add_answers(root: Path, made: Path, numbers: set[int]) -> None:
 
 
 def _change(path: Path, change) -> None:
-    """Rewrites a text file, if it is one."""
+    """Rewrite a file, if it is text."""
     try:
         text = path.read_bytes().decode()
     except UnicodeDecodeError:
@@ -275,7 +276,7 @@ def _change(path: Path, change) -> None:
 
 
 def _rows(text: str, folder: Path) -> str:
-    """A text without those rows of its tables that link to exercises which are not there."""
+    """Return a text without table rows that link to missing exercises."""
     return "".join(
         line
         for line in text.splitlines(keepends=True)
@@ -285,7 +286,7 @@ def _rows(text: str, folder: Path) -> str:
 
 
 def _update(made: Path, target: Path, before: dict[str, str], files: dict[str, str]) -> Released:
-    """Brings files up to date that are as they were released, and removes those given up."""
+    """Update files that nobody has edited, and remove files that are no longer released."""
     done = Released(len(files), 0)
     for name, digest in files.items():
         present = _digest(target, name)
@@ -308,13 +309,16 @@ def _update(made: Path, target: Path, before: dict[str, str], files: dict[str, s
 
 
 def _digests(folder: Path) -> dict[str, str]:
-    """path -> digest of all files in a folder."""
+    """Return path -> digest of all files in a folder."""
     names = (path.relative_to(folder) for path in sorted(folder.rglob("*")) if path.is_file())
     return {name.as_posix(): _digest(folder, name.as_posix()) for name in names}
 
 
 def _digest(folder: Path, name: str) -> str | None:
-    """Of a file's content; None if nothing is there, "" if it is no plain file or behind a link."""
+    """Return the digest of a file's content.
+
+    None if nothing is there, "" if it is not a plain file or is behind a link.
+    """
     place = folder
     for part in Path(name).parts:
         place = place / part
@@ -328,7 +332,7 @@ def _digest(folder: Path, name: str) -> str | None:
 
 
 def released_files(root: Path, numbers: set[int] | None = None) -> list[Path]:
-    """What is copied; the exercises' own files are generated anew."""
+    """Return the files to copy, without the exercises' own files, which are generated."""
     generated = {place for _, place in pairs(root)}
     return [
         path
@@ -343,7 +347,7 @@ def released_files(root: Path, numbers: set[int] | None = None) -> list[Path]:
 
 
 def _number(path: Path, root: Path) -> int | None:
-    """The exercise that a file belongs to, if it does to one."""
+    """Return the exercise that a file belongs to; None if it belongs to none."""
     found = re.match(
         r"(?:exercises|docs/images/course)/ex(\d\d)_", path.relative_to(root).as_posix()
     )
@@ -351,7 +355,7 @@ def _number(path: Path, root: Path) -> int | None:
 
 
 def _candidates(root: Path) -> list[Path]:
-    """Files that belong to the repository: without what git ignores, where there is git."""
+    """Return the repository's files, without those that git ignores, if there is git."""
     command = ["git", "-C", str(root), "ls-files", "-z", "--cached", "--others"]
     try:
         done = subprocess.run([*command, "--exclude-standard"], capture_output=True, check=True)

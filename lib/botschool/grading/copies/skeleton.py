@@ -1,5 +1,4 @@
-"""Skeletons: what students get, generated from the solutions, their single source; and files that
-repeat what only a solution says."""
+"""Generate skeletons for students from the solutions, and find files that repeat a solution."""
 
 from __future__ import annotations
 
@@ -14,14 +13,14 @@ from botschool.output import written_whole
 
 BEGIN, END = "### BEGIN SOLUTION", "### END SOLUTION"
 GENERATED = ".skeletons.json"
-"""In exercises/: the digest of every skeleton as it was generated, to know edited ones."""
+"""In exercises/: the digest of every generated skeleton, to recognise edited ones."""
 
 
 def skeleton(solution: str) -> str:
-    """The text of a solution file with every solution region replaced.
+    """Return the text of a solution file with every solution region replaced.
 
     `### BEGIN SOLUTION task 3.2: rank the population` ... `### END SOLUTION` becomes
-    `raise NotImplementedError("task 3.2: rank the population")`. Raises ValueError when regions
+    `raise NotImplementedError("task 3.2: rank the population")`. Raises ValueError for regions that
     are nested, open or without a task.
     """
     lines, inside = [], False
@@ -29,7 +28,7 @@ def skeleton(solution: str) -> str:
         if BEGIN in line:
             found = re.fullmatch(rf"(\s*){BEGIN} (task \d+\.\d+: .+)", line)
             if inside or not found:
-                raise ValueError(f"line {number}: '{BEGIN} task N.T: what to do' is needed here")
+                raise ValueError(f"line {number}: write '{BEGIN} task N.T: what to do' here")
             lines.append(f'{found[1]}raise NotImplementedError("{found[2]}")')
             inside = True
         elif END in line:
@@ -44,15 +43,15 @@ def skeleton(solution: str) -> str:
 
 
 def pairs(root: Path) -> list[tuple[Path, Path]]:
-    """(solution, skeleton) files of every exercise."""
+    """Return (solution, skeleton) files of every exercise."""
     found = sorted(root.glob("solutions/ex[0-9][0-9]_*/*.py"))
     return [(path, root / "exercises" / path.relative_to(root / "solutions")) for path in found]
 
 
 def write_skeletons(root: Path) -> list[Path]:
-    """Writes every skeleton that is absent or as it was generated; returns those left alone.
+    """Write every skeleton that is missing or unedited; return the edited ones.
 
-    A file that a student has edited is never touched.
+    The function never touches a file that a student has edited.
     """
     digests_file = root / "exercises" / GENERATED
     digests = json.loads(digests_file.read_text()) if digests_file.exists() else {}
@@ -86,14 +85,14 @@ def _digest(text: str) -> str:
 
 
 _MIN_LEAK, _TOGETHER = 60, 3
-"""Characters, and consecutive lines, of a solution that may not occur elsewhere."""
+"""Characters, and consecutive lines, of a solution that no other file may contain."""
 
 
 def find_leaks(root: Path, files: Iterable[Path]) -> list[tuple[Path, str]]:
-    """(file, line) where a file repeats what only a solution says.
+    """Return (file, line) for each file that repeats what only a solution says.
 
-    That is: consecutive lines of a solution region (three, or all if there are fewer) that are
-    long enough together, or a long line of a solution's README.
+    That is: consecutive lines of a solution region (three, or all if there are fewer) that are long
+    enough together, or a long line of a solution's README.
     """
     tales = _tell_tales(root)
     found = []
@@ -111,7 +110,7 @@ def find_leaks(root: Path, files: Iterable[Path]) -> list[tuple[Path, str]]:
 
 
 def _tell_tales(root: Path) -> set[tuple[str, ...]]:
-    """Runs of lines that only a solution has."""
+    """Return the runs of lines that only a solution has."""
     tales = set()
     for solution, _ in pairs(root):
         text = solution.read_text(encoding="utf-8")
@@ -126,5 +125,5 @@ def _tell_tales(root: Path) -> set[tuple[str, ...]]:
 
 
 def _lines(text: str) -> list[str]:
-    """Lines without their indentation and blanks, empty ones left out."""
+    """Return the lines that are not empty, without indentation and blanks."""
     return [" ".join(line.split()) for line in text.splitlines() if line.strip()]

@@ -1,4 +1,4 @@
-"""A student's file at its beginning, and as a notebook: `botschool start` and `botschool reset`."""
+"""Restore a student's file, or open it as a notebook (`botschool start` and `reset`)."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from botschool.output import save_bytes
 
 
 def original(number: int, root: Path) -> str:
-    """The skeleton of an exercise's file: of its solution, or as it was released.
+    """Return the skeleton of an exercise's file, from its solution or from the release.
 
-    Raises BotschoolError where there is neither.
+    Raises BotschoolError if there is neither.
     """
     folder, file = folder_of(number, root).name, load_exercise(number, root).file
     solution = root / "solutions" / folder / file
@@ -33,12 +33,13 @@ def original(number: int, root: Path) -> str:
         return released["skeletons"][f"exercises/{folder}/{file}"]
     except (OSError, ValueError, KeyError, TypeError):
         raise BotschoolError(
-            f"How {file} began is not kept here ({MANIFEST} is missing or damaged)."
+            f"The original of {file} is not kept here ({MANIFEST} is missing or damaged): get a "
+            "new copy."
         ) from None
 
 
 def start(number: int, root: Path) -> tuple[Path, bool]:
-    """The student's file, and whether it was missing and has been made. Raises BotschoolError."""
+    """Return the student's file, and whether this call has made it. Raises BotschoolError."""
     file = folder_of(number, root) / load_exercise(number, root).file
     if file.exists():
         return file, False
@@ -47,9 +48,9 @@ def start(number: int, root: Path) -> tuple[Path, bool]:
 
 
 def reset(number: int, root: Path) -> tuple[Path, Path | None]:
-    """Puts the student's file back to its beginning.
+    """Put the student's file back to its beginning.
 
-    Returns it and what the old one is called now, None if it was as it began (or missing). Raises
+    Return it and the old version's path, or None if the file was missing or unedited. Raises
     BotschoolError.
     """
     text = original(number, root)
@@ -70,22 +71,22 @@ VIEWER = {
 
 
 def notebook_command(file: Path, root: Path) -> list[str]:
-    """Opens a file of the course as a notebook in JupyterLab; what is saved stays Python."""
+    """Return the command that opens a file in JupyterLab as a notebook; saving keeps it Python."""
     place = quote(file.resolve().relative_to(root.resolve()).as_posix())
-    root_user = hasattr(os, "geteuid") and os.geteuid() == 0  # as in many containers
+    root_user = hasattr(os, "geteuid") and os.geteuid() == 0  # usual in containers
     return [
         sys.executable,
         "-m",
         "jupyterlab",
         *(["--allow-root"] if root_user else []),
         f"--ServerApp.root_dir={root.resolve()}",
-        # a workspace of its own: another may have the file open as text
+        # a separate workspace, because another one may have the file open as text
         f"--LabApp.default_url=/lab/workspaces/{file.stem}/tree/{place}",
     ]
 
 
 def notebook_variables(root: Path) -> dict[str, str]:
-    """What JupyterLab finds in the environment: VIEWER, for this course, in a folder of ours.
+    """Return environment variables for JupyterLab: VIEWER, for this course, in a folder of ours.
 
     Raises BotschoolError.
     """
@@ -93,23 +94,25 @@ def notebook_variables(root: Path) -> dict[str, str]:
         folder = make_state(root.resolve()) / "jupyter"
         (folder / "labconfig").mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise BotschoolError(f"{root} cannot be written to ({error.strerror}).") from None
+        raise BotschoolError(
+            f"Cannot write to {root} ({error.strerror}): change its permissions."
+        ) from None
     save_bytes(folder / "labconfig" / "default_setting_overrides.json", json.dumps(VIEWER).encode())
     others = filter(None, [os.environ.get("JUPYTER_CONFIG_PATH")])
     return os.environ | {"JUPYTER_CONFIG_PATH": os.pathsep.join([str(folder), *others])}
 
 
 def open_notebook(number: int, file: Path, root: Path) -> None:
-    """Runs JupyterLab with the file open, until Ctrl-C. Raises BotschoolError."""
+    """Run JupyterLab with the file open, until Ctrl-C. Raises BotschoolError."""
     if not all(map(find_spec, ("jupyterlab", "jupytext"))):
         raise BotschoolError(
             "A notebook needs JupyterLab and jupytext: install them and open it with 'make "
             f"notebook-ex{number}'."
         )
-    before = signal.signal(signal.SIGINT, lambda *_: None)  # Ctrl-C is JupyterLab's
+    before = signal.signal(signal.SIGINT, lambda *_: None)  # JupyterLab handles Ctrl-C
     try:
         done = subprocess.run(notebook_command(file, root), env=notebook_variables(root))
     finally:
         signal.signal(signal.SIGINT, before)
     if done.returncode != 0:
-        raise BotschoolError("JupyterLab ended with an error, see above.")
+        raise BotschoolError("JupyterLab ended with an error (see above).")

@@ -1,1 +1,1 @@
-"""Declare an exercise: its tasks, and what its checks say about answers."""
+"""Declare an exercise: its tasks, and the sentences of its checks about answers."""

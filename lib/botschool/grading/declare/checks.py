@@ -1,4 +1,4 @@
-"""What grader files say about answers, in sentences for the learner."""
+"""Check answers for grader files, in sentences for the learner."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Wrong(Exception):
 
 
 class Mismatch(Wrong):
-    """An answer that differs from what was expected; `diagnosis` looks for a likely cause."""
+    """An answer differs from the expected one; `diagnosis` looks for a likely cause."""
 
     def __init__(
         self,
@@ -37,7 +37,7 @@ _keep: ContextVar[Callable[[Mismatch], None] | None] = ContextVar("keep", defaul
 
 @contextmanager
 def keeping(keep: Callable[[Mismatch], None]) -> Iterator[None]:
-    """Let a check go on behind an answer that differs, in the block; `keep` is given each."""
+    """Let a check continue after a wrong answer within the block; pass each one to `keep`."""
     token = _keep.set(keep)
     try:
         yield
@@ -46,24 +46,24 @@ def keeping(keep: Callable[[Mismatch], None]) -> Iterator[None]:
 
 
 def _found(mismatch: Mismatch) -> None:
-    """Raises it, or keeps it."""
+    """Raise the mismatch, or keep it."""
     if (keep := _keep.get()) is None:
         raise mismatch
     keep(mismatch)
 
 
 class NotDone(Wrong):
-    """The task has not been started: the skeleton's NotImplementedError came back."""
+    """The task is not started: the skeleton still raises NotImplementedError."""
 
 
 def expect(condition: bool, sentence: str) -> None:
-    """Raises Wrong(sentence) unless the condition holds."""
+    """Raise Wrong(sentence) unless the condition holds."""
     if not condition:
         raise Wrong(sentence)
 
 
 def expect_fields(said: str, value: Any, *keys: str) -> list[Any]:
-    """The values of these keys of a dict, which may have others."""
+    """Return the values of these keys of a dict, which may have other keys."""
     expect(isinstance(value, dict), f"{said} {_came(said)} {kind(value)}, but a dict is needed.")
     for key in keys:
         if key not in value:
@@ -74,7 +74,7 @@ def expect_fields(said: str, value: Any, *keys: str) -> list[Any]:
 
 
 def expect_array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
-    """The value as a float64 array of this shape, all finite; `said` names the call."""
+    """Return the value as a finite float64 array of this shape; said: the name of the call."""
     array = _array(said, value, shape)
     if array.shape != shape:
         hint = diagnosis.of_shapes(array.shape, shape)
@@ -92,12 +92,12 @@ def expect_close(
     tolerance: float = 1e-9,
     mistakes: dict[str, Any] | None = None,
 ) -> None:
-    """The value equals the expected number or array, within a relative and absolute tolerance.
+    """Raise Mismatch unless the value equals the expected number or array.
 
-    Fractions in single precision may be as far off as single precision is (see `_allowed`).
-
-    mistakes: what typical mistakes make of it, each by a sentence that names the mistake ("The
-    biases are left out."). Raises Mismatch, for which a likely cause is looked for.
+    tolerance: relative and absolute. Fractions in single precision may differ by as much as single
+    precision does (see `_allowed`).
+    mistakes: a sentence that names a typical mistake ("The biases are left out.") -> the answer
+    that it leads to.
     """
     wanted = np.asarray(expected, dtype=np.float64)
     array = _array(said, value, wanted.shape)
@@ -111,7 +111,7 @@ def expect_close(
 
 
 def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
-    """The value as an array of numbers, of any shape."""
+    """Return the value as an array of numbers, of any shape."""
     if value is None or isinstance(value, (str, dict)):
         raise Wrong(_but(said, value, shape))
     try:
@@ -120,16 +120,16 @@ def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
         array = np.asarray(None)
     if array.dtype.kind not in "biuf":
         raise Wrong(
-            f"{said} {_came(said)} {kind(value)}, which is no array of numbers: one of shape "
-            f"{shape} is needed."
+            f"{said} {_came(said)} {kind(value)}, which is not an array of numbers: one of "
+            f"shape {shape} is needed."
         )
     return array.astype(np.float64)
 
 
 def _allowed(got: np.ndarray, wanted: np.ndarray, tolerance: float) -> np.ndarray:
-    """How far off each number may be; numbers that all fit into float32 may be as far as those are.
+    """Return how far each number may differ; single precision is allowed if all fit into float32.
 
-    That is a share of 1e-5, or 1e-6 of the largest number. Whole numbers stay exact.
+    That is a relative difference of 1e-5, or 1e-6 of the largest number. Whole numbers stay exact.
     """
     allowed = tolerance * (1 + np.abs(wanted))
     with np.errstate(over="ignore"):
@@ -140,7 +140,7 @@ def _allowed(got: np.ndarray, wanted: np.ndarray, tolerance: float) -> np.ndarra
 
 
 def _but(said: str, value: Any, shape: tuple[int, ...]) -> str:
-    """The sentence about a value of another kind or shape."""
+    """Return the sentence about a value of another kind or shape."""
     needed = f"an array of shape {shape}" if shape else "a single number"
     if value is None:
         end = "" if _came(said) == "is" else ": does it end without `return`?"
@@ -160,7 +160,7 @@ def _not_finite(said: str, array: np.ndarray, bad: np.ndarray) -> str:
         "infinity": "a division by 0, the logarithm of 0, or np.exp of a large number",
     }
     many = f" ({int(bad.sum())} of {bad.size} numbers are NaN or infinity)" if bad.size > 1 else ""
-    return f"{said} holds NaN or infinity: {what}{place}{many}. It comes of {causes[what]}."
+    return f"{said} holds NaN or infinity: {what}{place}{many}. The cause is {causes[what]}."
 
 
 def _unequal(said: str, got: np.ndarray, wanted: np.ndarray, close: np.ndarray) -> str:
@@ -182,12 +182,12 @@ def _unequal(said: str, got: np.ndarray, wanted: np.ndarray, close: np.ndarray) 
 
 
 def _came(said: str) -> str:
-    """The verb: `said` names a call, as "rank(x)", or a part of an answer, as "play(x): best"."""
+    """Return the verb after a call, "rank(x)", or after a part of an answer, "play(x): best"."""
     return "is" if "): " in said else "returned"
 
 
 def plain(text: str) -> str:
-    """A submission's text without what would steer a terminal or turn the writing around."""
+    """Return a submission's text without characters that control a terminal or reverse the text."""
     return "".join(c if c in "\n\t" or c.isprintable() or c == " " else "\ufffd" for c in text)
 
 
@@ -195,9 +195,9 @@ ENDS = ("terminated", "truncated")
 
 
 def expect_ends(said: str, got: tuple[Any, Any], wanted: tuple[bool, bool], why: str) -> None:
-    """`terminated` and `truncated` are as wanted, truth values; `said` names the call.
+    """Raise Wrong unless `terminated` and `truncated` are the expected truth values.
 
-    why: what stands before the right value, as "the environment said".
+    said: the name of the call. why: the words before the right value, as "the environment said".
     """
     for name, value, right in zip(ENDS, got, wanted, strict=True):
         if not isinstance(value, bool) or value != right:
@@ -206,32 +206,32 @@ def expect_ends(said: str, got: tuple[Any, Any], wanted: tuple[bool, bool], why:
 
 
 def mixed_up(got: tuple[Any, Any], wanted: tuple[bool, bool]) -> str:
-    """A sentence about what was taken for what; "" if it is none of the usual mistakes."""
+    """Return a sentence about a usual mistake with the two values; "" if it is none."""
     got = tuple(got)
     if got == wanted or not all(isinstance(each, bool) for each in got):
         return ""
     if got == wanted[::-1]:
         return (
-            "The two are exchanged: an episode is terminated when the problem itself has ended, "
-            "and truncated when only its time is over."
+            "The two are exchanged: terminated means that the problem itself has ended, "
+            "truncated that only its time is over."
         )
     if got == (True, True):
         rest = {
-            (True, False): ": what ended by itself is not truncated.",
-            (False, True): ": when only the time is over, terminated stays False.",
+            (True, False): ": an episode that ended by itself is not truncated.",
+            (False, True): ": if only the time is over, terminated stays False.",
         }
         return f"Both are True, as the old `done` was{rest.get(wanted, '.')}"
     if got == (False, True) and wanted == (False, False):
         return (
-            "truncated tells that the environment's own time limit is over; who stops earlier, "
-            "after as many steps as were asked for, truncates nothing."
+            "truncated means that the environment's own time limit is over. Stopping "
+            "earlier, after the requested number of steps, truncates nothing."
         )
     return ""
 
 
 def went_on(terminated: bool, truncated: bool) -> str:
-    """A sentence for an answer that goes on after this end of an episode; "" if it was none."""
+    """Return a sentence if an answer goes on after the end of an episode; "" if it does not."""
     if terminated == truncated:
         return ""
     one, other = ENDS if terminated else ENDS[::-1]
-    return f"It was {one} there, not {other}: an episode is over when either of the two is True."
+    return f"It was {one} there, not {other}: an episode ends when either of the two is True."

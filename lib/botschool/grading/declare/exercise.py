@@ -1,4 +1,4 @@
-"""Exercises, their tasks and checks, and where to find them; what is installed for them."""
+"""Define exercises, tasks and checks, find them, and check what is installed for them."""
 
 from __future__ import annotations
 
@@ -21,32 +21,32 @@ from botschool.grading.declare.trust import check_trusted
 from botschool.paths import course_root
 
 STATE = ".botschool"
-"""In the course folder: what the commands remember."""
+"""A folder in the course for what the commands store."""
 POINTS = 100
-"""What every exercise is worth."""
+"""Points of every exercise."""
 ABSENT = "botschool.grading.run.absent"
-"""What a submission finds imported where packages are missing that its exercise imports."""
+"""The module that replaces packages which are not installed but which a submission imports."""
 MISTAKES = "tests/course/mutants"
-"""Of a course: the wrong solutions of its exercises, which the students' copy has packed."""
+"""A course's folder of wrong solutions of the exercises; the students' copy has them packed."""
 
 
 Check = Callable[[Any], None]
-"""A function of a Student (run/student.py) that raises Wrong when the check is not passed."""
+"""A function of a Student (run/student.py) that raises Wrong if the student fails the check."""
 
 
 Number = int | str
-"""Of an exercise, or the name of a laboratory as lab9."""
+"""Number of an exercise, or name of a laboratory, such as lab9."""
 
 
 def called(number: Number) -> str:
-    """Exercise 3, or Laboratory 9."""
+    """Return the name: Exercise 3, or Laboratory 9."""
     text = str(number)
     return f"Laboratory {text[3:]}" if text.startswith("lab") else f"Exercise {text}"
 
 
 @dataclass
 class Task:
-    """A numbered task of an exercise: its checks are run one after another in one child."""
+    """A numbered task of an exercise; one child runs its checks one after another."""
 
     id: str
     title: str
@@ -56,11 +56,11 @@ class Task:
     """Tasks whose functions a submission calls in this one."""
     refused: tuple[str, ...] = ()
     extras: tuple[str, ...] = ()
-    """Those of the exercise that the task needs."""
+    """The exercise's extras that the task needs."""
     checks: list[tuple[int, str, Check]] = field(default_factory=list)
 
     def check(self, points: int) -> Callable:
-        """Decorates a check: a function of a Student that raises Wrong when it is not passed."""
+        """Return a decorator for a check: a function of a Student that raises Wrong if it fails."""
 
         def keep(function: Check) -> Check:
             self.checks.append((points, function.__name__, function))
@@ -94,12 +94,12 @@ class Exercise:
         imports: tuple[str, ...] = (),
         extras: tuple[str, ...] = (),
     ) -> None:
-        """What the exercise is called, the file that students write, and what it needs.
+        """Declare the exercise's title, the file that students write, and its needs.
 
-        imports: modules that take long to import; no task's time is used up by them. extras: of
-        pyproject.toml, whose packages the exercise needs; `make test-exN` reads them from the
-        grader's text, so they stand there as extras=("rl",), and installs them. A grader imports
-        these packages inside its functions, so that it can be loaded without them.
+        imports: modules that take long to import; their import costs no task any time.
+        extras: of pyproject.toml, whose packages the exercise needs. `make test-exN` reads them
+        from the grader's text, in the form extras=("rl",), and installs them. A grader imports
+        these packages inside its functions, so that it loads without them.
         """
         self.number = number
         self.title = title
@@ -109,16 +109,16 @@ class Exercise:
         self.extras = extras
         self.tasks: list[Task] = []
         self.secret = ""
-        """What the grading seeds follow from; "" for BOTSCHOOL_GRADING_SEED, or else DEFAULT."""
+        """The secret for the seeds; "" for BOTSCHOOL_GRADING_SEED, or else DEFAULT."""
         self.work = ""
-        """A digest of what is graded: under a secret, seeds follow from it, too."""
+        """A digest of the submission: under a secret, the seeds depend on it, too."""
         self.references = ""
-        """Our own functions of the tasks that others need, as a Python file (references.py)."""
+        """A Python file with our own functions of the tasks that others need (references.py)."""
         self.known = Known(number)
-        """Our solution and its known mistakes, which are tried where an answer is wrong."""
+        """Our solution and its known mistakes, to compare with wrong answers."""
 
     def knows(self, solution: str, mistakes: str = "") -> None:
-        """Takes references and known mistakes from the texts of a solution and of wrong ones."""
+        """Take references and known mistakes from the texts of a solution and of wrong ones."""
         self.known = Known(self.number, solution, mistakes)
         needed = {id for task in self.tasks for id in task.needs}
         self.references = pruned(solution, needed)
@@ -133,20 +133,21 @@ class Exercise:
         refused: tuple[str, ...] = (),
         packages: tuple[str, ...] | None = None,
     ) -> Task:
-        """Adds a task; seconds: processor time of all its checks; memory: MB beyond the imports.
+        """Add a task.
 
-        needs: ids of tasks whose functions students call in this one. If one of these does not
-        pass, this one is also graded with ours in its place.
-        refused: functions of libraries that are the answer, as of refused.refuse.
-        packages: the exercise's extras that this task needs; None for all. The task is graded
-        where the others are not installed.
+        seconds: processor time of all its checks. memory: MB beyond the imports.
+        needs: ids of tasks whose functions students call in this one. If one of these fails, this
+        task is also graded with our functions in its place.
+        refused: library functions that would answer the task, as in refused.refuse.
+        packages: the exercise's extras that this task needs; None for all. Packages of other extras
+        may be missing.
         """
         extras = self.extras if packages is None else packages
         self.tasks.append(Task(id, title, seconds, memory, needs, refused, extras))
         return self.tasks[-1]
 
     def needed(self, task: Task) -> list[Task]:
-        """The tasks that a task builds on, directly or by way of others, in their order."""
+        """Return the tasks that a task needs, directly or indirectly, in the exercise's order."""
         found: set[str] = set()
         waiting = [*task.needs]
         while waiting:
@@ -158,16 +159,16 @@ class Exercise:
     def require(self, tasks: Iterable[Task] | None = None) -> None:
         """Raise BotschoolError that says what to install if one of the tasks lacks a package.
 
-        tasks: None for all that the exercise has, and for what its file does when it is run.
+        tasks: None for all of the exercise, and for running its file.
         """
         wanted = self.extras
         if tasks is not None:
             wanted = tuple(e for e in self.extras if any(e in task.extras for task in tasks))
         if missing := missing_packages(wanted):
             raise BotschoolError(
-                f"Exercise {self.number} needs {listed(missing)}: install what it needs with "
-                f"'make test-ex{self.number}' or 'pip install botschool[{','.join(wanted)}]'."
-                f"{_only_on(wanted)}"
+                f"Exercise {self.number} needs {listed(missing)}: install this with 'make "
+                f"test-ex{self.number}' or 'pip install "
+                f"botschool[{','.join(wanted)}]'.{_only_on(wanted)}"
             )
 
     def require_some(self, tasks: Iterable[Task]) -> None:
@@ -177,10 +178,10 @@ class Exercise:
             self.require(tasks)
 
     def seed(self, index: int) -> int:
-        """A grading seed; they follow from the instructor's secret (secret.py) and the submission.
+        """Return a grading seed, which follows from the instructor's secret and the submission.
 
-        So what feedback tells of the inputs of one submission helps no other one, nor the same
-        one after a change. A student's own work has the same seeds each time.
+        Feedback about the inputs of one submission therefore helps no other submission, nor the
+        same one after a change. A student's own work has the same seeds each time.
         """
         secret = self.secret or os.environ.get(VARIABLE) or DEFAULT
         key = f"{secret}:{self.number}:{index}"
@@ -190,7 +191,7 @@ class Exercise:
         return int.from_bytes(digest[:4], "little") % 2**31
 
     def find(self, task: str) -> Task:
-        """The task with that id. Raises BotschoolError."""
+        """Return the task with that id. Raises BotschoolError."""
         for each in self.tasks:
             if each.id == task:
                 return each
@@ -210,15 +211,15 @@ def cannot_be_graded(task: Task) -> str:
 
 
 def _only_on(extras: tuple[str, ...]) -> str:
-    """Return a sentence on where packages can be had that not every system has."""
+    """Return a sentence on packages that exist for some systems only; "" if there are none."""
     here = sys.platform == "linux" and sys.version_info < (3, 12)
     if "pybullet" not in extras or here:
         return ""
-    return " PyBullet comes ready to install for Linux with Python 3.10 or 3.11 only."
+    return " PyBullet has wheels for Linux with Python 3.10 or 3.11 only."
 
 
 def folder_of(number: int, root: Path | None = None) -> Path:
-    """exercises/exNN_name. Raises BotschoolError."""
+    """Return exercises/exNN_name. Raises BotschoolError."""
     root = root or course_root()
     found = sorted((root / "exercises").glob(f"ex{number:02d}_*"))
     if not found:
@@ -228,15 +229,15 @@ def folder_of(number: int, root: Path | None = None) -> Path:
 
 
 def exercise_numbers(root: Path) -> list[int]:
-    """The exercises that are there: those with a grader."""
+    """Return the numbers of the exercises with a grader."""
     graders = (root / "exercises").glob("ex[0-9][0-9]_*/test_*.py")
     return sorted({int(path.parent.name[2:4]) for path in graders})
 
 
 def load_exercise(number: int, root: Path | None = None) -> Exercise:
-    """What the exercise's grader file declares.
+    """Run an exercise's grader file and return the exercise that it declares.
 
-    Runs that file. Raises BotschoolError where there is none, or for a course without trust.
+    Raises BotschoolError if there is no such file, or if the user does not trust the course.
     """
     check_trusted(root or course_root())
     folder = folder_of(number, root)
@@ -259,9 +260,9 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
 
 
 def selected(text: str, root: Path | None = None) -> dict[int, tuple[str, ...]]:
-    """Return what "3", "3.2", "1-3,7" or "all" names: exercises, and the tasks of each.
+    """Return the exercises that "3", "3.2", "1-3,7" or "all" names, and the tasks of each.
 
-    () stands for all tasks. Raises BotschoolError for what is not there.
+    () stands for all tasks. Raises BotschoolError for an exercise or task that does not exist.
     """
     root = root or course_root()
     if text.strip() == "all":
@@ -273,8 +274,8 @@ def selected(text: str, root: Path | None = None) -> dict[int, tuple[str, ...]]:
         )
         if not match:
             raise BotschoolError(
-                f"'{text[:30]}' names no exercise: give its number, as 3, a task, as 3.2, or "
-                "several exercises, as 1-3,7."
+                f"'{text[:30]}' names no exercise: give its number, for example 3, a task, "
+                "for example 3.2, or several exercises, for example 1-3,7."
             )
         first = int(match[1])
         for number in range(first, int(match[3] or first) + 1):
@@ -286,25 +287,27 @@ def selected(text: str, root: Path | None = None) -> dict[int, tuple[str, ...]]:
         for task in tasks:
             load_exercise(number, root).find(task)
     if not found:
-        raise BotschoolError(f"'{text[:30]}' names no exercise: the smaller number comes first.")
+        raise BotschoolError(f"'{text[:30]}' is not a range: write the smaller number first.")
     return dict(sorted(found.items()))
 
 
 def submission_place(submission: str, root: Path) -> Path:
     """Return the folder or file that --submission names; `solutions` is the reference.
 
-    Raises BotschoolError where there is none.
+    Raises BotschoolError if it does not exist.
     """
     base = Path(submission)
     if submission == "solutions" and not base.is_dir():
         base = root / "solutions"
     if not base.exists():
-        raise BotschoolError(f"There is no {submission}: name a folder with --submission FOLDER.")
+        raise BotschoolError(
+            f"{submission} does not exist: name a folder with --submission FOLDER."
+        )
     return base
 
 
 def submission_file(number: int, submission: str | None, root: Path | None = None) -> Path:
-    """The file to grade: the student's own, the reference (`solutions`), or in another folder."""
+    """Return the file to grade: the student's own, the reference (`solutions`), or another one."""
     root = root or course_root()
     folder, exercise = folder_of(number, root), load_exercise(number, root)
     if submission is None:
@@ -322,7 +325,7 @@ def submission_file(number: int, submission: str | None, root: Path | None = Non
 
 
 def make_state(root: Path) -> Path:
-    """The folder of what the commands remember. Raises OSError where it cannot be written to."""
+    """Make and return the folder of what the commands store. Raises OSError if that fails."""
     folder = root / STATE
     if not folder.is_dir():
         folder.mkdir()
@@ -341,7 +344,7 @@ def secret_for_others(root: Path) -> tuple[str, str]:
 
 
 def missing_packages(extras: tuple[str, ...]) -> list[str]:
-    """The names of those packages, as installed botschool's own metadata lists them."""
+    """Return the names of the missing packages, as botschool's own metadata lists them."""
     try:
         requirements = metadata.requires("botschool") or []
     except metadata.PackageNotFoundError:

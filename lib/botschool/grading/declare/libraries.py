@@ -1,8 +1,8 @@
-"""The ways that are not the student's: functions of libraries that are the answer to a task.
+"""List library functions that are the answer to a task, so that students write it themselves.
 
-A grader gives them to `Exercise.task(refused=...)`, and the exercise's text says so. What differs
-from the student's way in more than a call, a grader must find by what it asks: differences of a
-loss in the place of its gradient, for example, are wrong as soon as the loss is large beside it
+A grader gives these lists to `Exercise.task(refused=...)`, and the exercise's text says so. Other
+forbidden ways need other questions in the grader: it recognises finite differences in place of a
+gradient, for example, because they become wrong as soon as the loss is large beside the gradient
 (exercise 11).
 """
 

@@ -1,6 +1,6 @@
-"""Known mistakes of an exercise: the wrong solutions that prove its grader, as graders replay them.
+"""Read the known mistakes of an exercise: wrong solutions that prove its grader.
 
-tests/course/mutants/exNN.py holds the wrong solutions of an exercise, tests/course/alternatives
+tests/course/mutants/exNN.py holds an exercise's wrong solutions, tests/course/alternatives holds
 right ones in other styles. A case is a section of the file:
 
     # %% noise_of_the_first_only loses 16.2, 16.3
@@ -10,15 +10,14 @@ right ones in other styles. A case is a section of the file:
     # +     noise = rng.normal(0, 0.1)
 
 The first line gives the name and the tasks that lose points; an alternative loses none. The second
-line says what is wrong, as a sentence for the learner: a grader says it where a submission answers
+line says what is wrong, as a sentence for the learner: a grader prints it if a submission answers
 exactly as this case does (grading/judge/known.py). Lines with `-` are lines of the solution, which
-must hold them once and without a gap; the lines with `+` take their place; the next `-` begins
-another change. Code that follows is put behind the solution's functions: what it defines takes the
-place of the solution's.
+must hold them exactly once and without a gap; the lines with `+` replace them; the next `-` begins
+another change. Code that follows is put after the solution's functions and redefines them.
 
-`says` is optional: what the message of the first of these tasks must say. `this` is the second
-line; anything else is a regular expression for the words of a check, or the second line if that is
-said.
+`says` is optional: what the message of the first of these tasks must say. `this` stands for the
+second line; anything else is a regular expression for the words of a check, or for the second line
+if the message has it.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 THIS = "this"
-"""What the second line `says`."""
+"""The word with which a case `says` its second line."""
 _TITLE = re.compile(r"(\w+)(?: loses (\d+\.\d+(?:, \d+\.\d+)*))?")
 _IMPORT = re.compile(r"^\s*(import|from) ", re.MULTILINE)
 _MAIN = re.compile(r'^if __name__ == "__main__":', re.MULTILINE)
@@ -41,12 +40,12 @@ class Case:
     number: int
     name: str
     loses: tuple[str, ...]
-    """Tasks."""
+    """Tasks that lose points."""
     what: str
     """What is wrong or different, in a sentence."""
     says: str | None
     changes: tuple[tuple[str, str], ...]
-    """Lines of the solution, and the lines that take their place."""
+    """Lines of the solution, and the lines that replace them."""
     code: str
 
     def __str__(self) -> str:
@@ -56,37 +55,37 @@ class Case:
         """Return the text of the submission. Raises ValueError if a change does not fit."""
         for old, new in self.changes:
             if solution.count("\n" + old) != 1:
-                raise ValueError(f"{self}: the solution must hold this once:\n{old}")
+                raise ValueError(f"{self}: the solution must hold these lines exactly once:\n{old}")
             solution = solution.replace("\n" + old, "\n" + new)
         return inserted(solution, self.code) if self.code else solution
 
 
 @dataclass(frozen=True)
 class Known:
-    """What a grader knows of an exercise: its solution, and the texts of its wrong solutions."""
+    """An exercise's solution, and the texts of its wrong solutions, for the grader."""
 
     number: int = 0
     solution: str = ""
     mistakes: str = ""
 
     def of(self, task: str) -> list[Case]:
-        """Return the mistakes that cost a task points, those made in this task first.
+        """Return the mistakes that cost a task points: first those made in this task.
 
-        Those that import something come last: that may take longer than all others.
+        Mistakes that import something come last, because imports may take long.
         """
         found = [case for case in read_cases(self.number, self.mistakes) if task in case.loses]
         return sorted(found, key=lambda c: (bool(_IMPORT.search(c.code)), c.loses.index(task)))
 
 
 def inserted(text: str, addition: str) -> str:
-    """Return a file's text with something added behind its functions, before its main part."""
+    """Return a file's text with an addition after its functions, before its main part."""
     found = _MAIN.search(text)
     at = found.start() if found else len(text)
     return f"{text[:at]}\n{addition}\n\n{text[at:]}"
 
 
 def read_cases(number: int, text: str, make: type[Case] = Case) -> list[Case]:
-    """Return all cases of a file of an exercise's cases. Raises ValueError."""
+    """Return the cases of an exercise's file of cases. Raises ValueError."""
     _, *parts = re.split(r"^# ?%% ?(.*)\n", text, flags=re.MULTILINE)
     return [
         make(number, *_parts(f"exercise {number}", title, body))
@@ -95,7 +94,7 @@ def read_cases(number: int, text: str, make: type[Case] = Case) -> list[Case]:
 
 
 def _parts(where: str, title: str, text: str) -> tuple:
-    """Return what follows the number in a Case; text: what follows the section's first line."""
+    """Return the fields of a Case after its number; text: the section after its first line."""
     found = _TITLE.fullmatch(title)
     if not found:
         raise ValueError(f"{where}: write '# %% NAME loses N.2, N.4', not '# %% {title}'")
@@ -103,11 +102,11 @@ def _parts(where: str, title: str, text: str) -> tuple:
     head = re.match(r"(?:#.*\n)*", text).group()
     what, *lines = [line[2:] for line in head.splitlines()]
     if not re.match(r"\w", what):
-        raise ValueError(f"{where}: {name}: the second line says what is wrong or different")
+        raise ValueError(f"{where}: {name}: the second line must say what is wrong or different")
     says = [line[6:] for line in lines if line.startswith("says: ")]
     edits = re.findall(r"^# ([-+])(?: (.*))?\n", head, re.MULTILINE)
     if len(says) + len(edits) != len(lines):
-        raise ValueError(f"{where}: {name}: a comment that is neither says, - nor +")
+        raise ValueError(f"{where}: {name}: a comment must begin with says, - or +")
     changes = []
     for is_old, group in groupby(edits, key=lambda edit: edit[0] == "-"):
         block = "".join(f"{line}\n" for _, line in group)

@@ -1,13 +1,13 @@
-"""The parts of a solution that stand in for a submission's functions which do not pass yet.
+"""Extract the parts of a solution that replace a submission's failing functions.
 
-A task that declares needs=("3.2",) calls functions of task 3.2. When it fails and 3.2 has failed,
-too, it is graded again with our 3.2 in the place of the learner's: one mistake costs once.
+A task that declares needs=("3.2",) calls functions of task 3.2. If both fail, the task is graded
+again with our 3.2 in place of the learner's: one mistake costs points once.
 
-What a hostile submission gains by that: in this one attempt its process holds our functions of the
-tasks needed and of no others; those of the task that is graded are left out by `pruned`. It may
-call or read them, for the points of this task, which is the meaning. It cannot carry them to
-another task: every attempt has a process and a folder of its own, both confined and thrown away,
-and nothing that is printed, drawn or said in exceptions during this attempt is shown.
+A hostile submission gains little. In this one attempt its process holds our functions of the needed
+tasks only; `pruned` leaves out those of the graded task. The submission may call or read them to
+earn the points of this task, which is the purpose. It cannot carry them to another task: every
+attempt has a confined process and folder of its own that are thrown away, and nothing that this
+attempt prints, draws or raises is shown.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _FUNCTIONS = (ast.FunctionDef, ast.ClassDef)
 
 
 def functions_of(solution: str) -> dict[str, list[str]]:
-    """task -> the functions and classes that belong to it alone."""
+    """Return task -> the functions and classes that belong to it alone."""
     found: dict[str, list[str]] = {}
     lines = solution.split("\n")
     for node in ast.parse(solution).body:
@@ -33,9 +33,9 @@ def functions_of(solution: str) -> dict[str, list[str]]:
 
 
 def pruned(solution: str, tasks: Iterable[str]) -> str:
-    """The functions of these tasks as a Python file, with all they use of the solution's file.
+    """Return the functions of these tasks as a Python file, with all they use of the solution.
 
-    Functions of other tasks are left out in any case.
+    Functions of other tasks are left out.
     """
     tasks, lines, functions = set(tasks), solution.split("\n"), functions_of(solution)
     nodes = [
@@ -56,7 +56,7 @@ def pruned(solution: str, tasks: Iterable[str]) -> str:
 
 
 def _tasks(lines: list[str], node: ast.stmt) -> set[str]:
-    """Those that a function or class is written for."""
+    """Return the tasks for which a function or class is written."""
     if not isinstance(node, _FUNCTIONS):
         return set()
     return set(_REGION.findall("\n".join(lines[node.lineno - 1 : node.end_lineno])))

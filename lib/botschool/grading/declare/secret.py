@@ -1,4 +1,4 @@
-"""The secret that grading seeds follow from, so that answers cannot be recorded beforehand."""
+"""Keep the secret behind the grading seeds, so that nobody can record answers beforehand."""
 
 from __future__ import annotations
 
@@ -7,17 +7,18 @@ import secrets
 from pathlib import Path
 
 VARIABLE = "BOTSCHOOL_GRADING_SEED"
-"""Of the environment: the instructor's own secret."""
+"""Environment variable with the instructor's own secret."""
 DEFAULT = "botschool"
-"""What students grade with."""
+"""The secret for students' own grading."""
 FILE = "secret"
-"""In the course's state folder: the secret that was made for an instructor without one."""
+"""A file in the course's state folder: the secret made for an instructor without one."""
 
 
 def grading_secret(state: Path) -> tuple[str, str]:
-    """(the secret to grade a class with, a sentence on where it is; "" for the instructor's own).
+    """Return (the secret to grade a class with, a sentence on where it is).
 
-    state: the folder that keeps it; one that is not there, or cannot be written to, keeps none.
+    The sentence is "" for the instructor's own secret. state: the folder that keeps the secret; a
+    missing or read-only folder keeps none.
     """
     given = os.environ.get(VARIABLE)
     if given:
@@ -35,10 +36,10 @@ def grading_secret(state: Path) -> tuple[str, str]:
             file.write(f"{made}\n")
     except OSError as error:
         return made, (
-            f"{VARIABLE} is not set, and a secret for the grading seeds cannot be kept in {place} "
+            f"{VARIABLE} is not set, and {place} cannot keep a secret for the grading seeds "
             f"({error.strerror}): the next grading will use other seeds."
         )
     return made, (
-        f"{VARIABLE} is not set: made a secret for the grading seeds and keep it in {place}; "
-        "students must not see it."
+        f"{VARIABLE} is not set: botschool made a secret for the grading seeds and keeps it "
+        f"in {place}; do not show it to students."
     )

@@ -1,8 +1,8 @@
-"""Which courses' graders may run: a grader runs as the user, unconfined.
+"""Decide which courses' graders may run: a grader runs with the user's rights, unconfined.
 
-A folder with exercises/ may be a course, or what a student has handed in. Trusted are the course
+A folder with exercises/ may be a course, or a student's submission. Trusted courses are the one
 that botschool is installed from (a checkout, or a student's copy, after `make`), the one that
-BOTSCHOOL_COURSE names, and those that the user has named with `botschool trust` or has made with
+BOTSCHOOL_COURSE names, and those that the user has named with `botschool trust` or made with
 `botschool release`.
 """
 
@@ -18,11 +18,11 @@ from botschool.output import save_bytes
 from botschool.paths import material
 
 FILE = "trusted.json"
-"""In the user's folder of settings: the courses that he trusts."""
+"""A file in the user's settings folder: the courses that the user trusts."""
 
 
 def check_trusted(root: Path) -> None:
-    """Raise BotschoolError, which says what to do, for a course that the user does not trust."""
+    """Raise BotschoolError for a course that the user does not trust."""
     root = root.resolve()
     named = os.environ.get("BOTSCHOOL_COURSE")
     if root == material() or (named and root == Path(named).resolve()):
@@ -30,8 +30,8 @@ def check_trusted(root: Path) -> None:
     if str(root) in _trusted():
         return
     raise BotschoolError(
-        f"botschool does not know the course in {root}, and its graders run as programs of yours: "
-        f"if you trust whoever made it, say 'botschool trust {quote(str(root))}'."
+        f"botschool does not know the course in {root}, and its graders run with all your "
+        f"rights: if you trust its author, run 'botschool trust {quote(str(root))}'."
     )
 
 
@@ -41,13 +41,15 @@ def trust(root: Path) -> None:
     try:
         place.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise BotschoolError(f"{place} cannot be written ({error.strerror}).") from None
+        raise BotschoolError(
+            f"Cannot write {place} ({error.strerror}): change its permissions."
+        ) from None
     known = sorted({*_trusted(), str(root.resolve())})
     save_bytes(place, json.dumps(known, indent=1).encode())
 
 
 def _trusted() -> list[str]:
-    """Return the remembered courses; a damaged file holds none."""
+    """Return the remembered courses; a damaged file counts as empty."""
     try:
         found = json.loads(_place().read_bytes())
     except (OSError, ValueError):

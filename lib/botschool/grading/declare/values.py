@@ -1,6 +1,6 @@
-"""Values in words, for sentences about answers: what they are, few numbers of many, calls to paste.
+"""Put values into words, for sentences about answers: kinds, a few numbers, calls to paste.
 
-All of it takes bounded work, whatever a submission returns.
+The work is bounded, whatever a submission returns.
 """
 
 from __future__ import annotations
@@ -11,17 +11,17 @@ from typing import Any
 import numpy as np
 
 FEW = 6
-"""Numbers of an array that are all shown."""
+"""Numbers of an array that is shown whole."""
 PASTED = 24
-"""Numbers in an argument of a call that can be pasted; characters of others."""
+"""Numbers in an argument of a call to paste; characters of other arguments."""
 MAX_CALL = 300
-"""Characters of a call that can be pasted."""
+"""Characters of a call to paste."""
 DIGITS = 6
-"""At least; more where two numbers differ only in later ones."""
+"""Digits at least; more if two numbers differ only in later ones."""
 
 
 class _Short(reprlib.Repr):
-    """repr() in bounded work: of a value that holds others, again and again the same perhaps."""
+    """Bound the work of repr() for a value that holds others, perhaps the same ones many times."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -39,7 +39,7 @@ class _Short(reprlib.Repr):
 
 
 def show(value: Any, longest: int = 60) -> str:
-    """A value in a few words."""
+    """Return a value in a few words."""
     if isinstance(value, np.ndarray):
         if value.size > FEW:
             start = numbers(value.ravel()[:4], 5)
@@ -52,13 +52,13 @@ def show(value: Any, longest: int = 60) -> str:
 
 
 def numbers(array: np.ndarray, digits: int) -> str:
-    """A small array in one line; digits: behind the point, at most."""
+    """Return a small array in one line; digits: after the point, at most."""
     text = np.array2string(array, precision=digits, separator=", ", threshold=8)
     return " ".join(text.split()).replace("[ ", "[").replace(" ,", ",")
 
 
 def kind(value: Any) -> str:
-    """What a value is: "a list of 3 numbers", "an array of shape (3,) (float64)"."""
+    """Return what a value is: "a list of 3 numbers", "an array of shape (3,) (float64)"."""
     if isinstance(value, np.ndarray):
         return f"an array of shape {value.shape} ({value.dtype.name})"
     if isinstance(value, list):
@@ -85,7 +85,7 @@ def _kind_of_list(value: list) -> str:
 
 
 def apart(one: float, other: float) -> tuple[str, str]:
-    """Two different numbers with as many digits as they differ in."""
+    """Return two different numbers with as many digits as they need to differ."""
     for digits in range(DIGITS, 18):
         texts = f"{one:.{digits}g}", f"{other:.{digits}g}"
         if texts[0] != texts[1]:
@@ -94,7 +94,7 @@ def apart(one: float, other: float) -> tuple[str, str]:
 
 
 def arrays_apart(one: np.ndarray, other: np.ndarray) -> tuple[str, str]:
-    """Two small arrays of the same shape, likewise."""
+    """Return two small arrays of the same shape, with as many digits as they need to differ."""
     for digits in range(5, 18):
         texts = numbers(one, digits), numbers(other, digits)
         if texts[0] != texts[1]:
@@ -103,7 +103,7 @@ def arrays_apart(one: np.ndarray, other: np.ndarray) -> tuple[str, str]:
 
 
 def argument(value: Any) -> str:
-    """An argument in the name of a call: few numbers, or the shape."""
+    """Return an argument for the name of a call: few numbers, or the shape."""
     if isinstance(value, np.ndarray):
         return numbers(value, 5) if value.size <= FEW else f"<array {value.shape}>"
     if isinstance(value, (list, tuple)) and len(repr_of(value)) > 40:
@@ -116,9 +116,9 @@ def argument(value: Any) -> str:
 def pasted(
     name: str, arguments: tuple, options: dict, longest: int = MAX_CALL, most: int = PASTED
 ) -> str:
-    """A call that can be pasted into Python after `import numpy as np`; "" if it is too long.
+    """Return a call to paste into Python after `import numpy as np`; "" if it is too long.
 
-    most: numbers in an argument.
+    longest: characters. most: numbers in an argument.
     """
     values = [paste(value, most) for value in (*arguments, *options.values())]
     if not all(values):
@@ -130,7 +130,7 @@ def pasted(
 
 
 def paste(value: Any, most: int = PASTED) -> str:
-    """A value as Python; "" if it is too large."""
+    """Return a value as Python; "" if it is too large."""
     if isinstance(value, np.ndarray):
         if value.size > most:
             return ""
@@ -153,5 +153,5 @@ def paste(value: Any, most: int = PASTED) -> str:
 
 
 def repr_of(value: Any) -> str:
-    """repr() in bounded work."""
+    """Return repr() of a value, with bounded work."""
     return _Short().repr(value)

@@ -1,1 +1,1 @@
-"""Judge a submission: points for each task, and what is missing."""
+"""Judge a submission: points for each task, and the reasons for missing points."""

@@ -1,4 +1,4 @@
-"""Whether two answers are the same, and whether a difference between two tells anything."""
+"""Compare two answers, and tell whether their difference proves anything."""
 
 from __future__ import annotations
 
@@ -8,19 +8,21 @@ from typing import Any
 import numpy as np
 
 MAX_LEAVES = 20_000
-"""Arrays, numbers and texts in an answer that is compared."""
+"""Arrays, numbers and texts of an answer to compare, at most."""
 TIE, TINY = 1e-6, 1e-9
-"""Relative differences: that of answers which are the same to rounding, single precision included;
-that which no rounding makes in double precision."""
+"""Relative differences: TIE is rounding, single precision included; TINY is more than any rounding
+in double precision.
+"""
 SHARE = 1e-3
-"""Two answers are the same only if they differ by less than this share of what they differ from
-ours."""
+"""Two answers are the same only if their difference is below this share of their difference from
+ours.
+"""
 
 
 def distance(one: Any, other: Any) -> float:
-    """Return the largest relative difference of two answers; infinity if they are built otherwise.
+    """Return the largest relative difference of two answers; infinity if their structure differs.
 
-    A list of numbers is an array, whole numbers are numbers.
+    A list of numbers counts as an array, a whole number as a number.
     """
     first, second = _leaves(one), _leaves(other)
     if first is None or second is None or len(first) != len(second):
@@ -29,13 +31,13 @@ def distance(one: Any, other: Any) -> float:
 
 
 def fits(got: Any, made: Any, ours: Any) -> bool:
-    """Return whether `made` is `got` to rounding, and not only because all are nearly `ours`."""
+    """Return whether `made` equals `got` to rounding, unless both are nearly `ours`."""
     error, effect = distance(got, made), distance(got, ours)
     return error <= TIE and (effect <= TIE or error <= SHARE * effect)
 
 
 def weight(got: Any, made: Any, ours: Any) -> float:
-    """Return how much it tells that `made` fits `got`: 1, or 1/2 if it is a yes or no, or 0."""
+    """Return how much proof a fit of `made` to `got` is: 1, 1/2 for a yes or no, or 0."""
     effect = distance(got, ours)
     if effect <= TINY or distance(got, made) > SHARE * effect:
         return 0.0
@@ -46,7 +48,7 @@ def weight(got: Any, made: Any, ours: Any) -> float:
 
 
 def _leaves(value: Any) -> list[tuple[str, Any]] | None:
-    """(its place, an array or a value that is no number) of all parts; None if there are many."""
+    """Return (place, an array or another value) of all parts; None if there are many."""
     found: list[tuple[str, Any]] = []
     waiting = [("", value)]
     while waiting:
@@ -77,7 +79,7 @@ def _numbers(value: Any) -> np.ndarray | str:
 
 
 def _table(value: Any) -> np.ndarray | None:
-    """A list of lists or arrays of numbers that have the same length."""
+    """Return a list of equally long lists or arrays as an array; None for anything else."""
     if not value or not all(isinstance(each, (list, tuple, np.ndarray)) for each in value):
         return None
     try:
@@ -88,7 +90,7 @@ def _table(value: Any) -> np.ndarray | None:
 
 
 def _apart(one: tuple[str, Any], other: tuple[str, Any]) -> float:
-    """The relative difference of two leaves."""
+    """Return the relative difference of two leaves."""
     (place, a), (where, b) = one, other
     if place != where or isinstance(a, np.ndarray) != isinstance(b, np.ndarray):
         return math.inf

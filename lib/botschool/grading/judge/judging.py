@@ -1,4 +1,4 @@
-"""A task's checks on a submission's file: points, and sentences about what is missing."""
+"""Run a task's checks on a submission's file: points, and sentences about missing ones."""
 
 from __future__ import annotations
 
@@ -32,18 +32,18 @@ from botschool.sandbox import ForkServer
 
 T = TypeVar("T")
 TOLD = "Your code answers exactly as with this known mistake:"
-"""Before the sentence of a known mistake."""
+"""The line before the sentence of a known mistake."""
 CHECK_SECONDS = 20
-"""Processor time that a check may use in the grader's own thread; our solutions need up to 3."""
+"""Processor seconds of a check in the grader's own thread; our solutions need up to 3."""
 SHORT = 120
-"""Characters of a call that is not made smaller."""
+"""Characters of a call that needs no smaller one."""
 MAX_DIAGNOSED, LOOKING_SECONDS = 2, 6.0
-"""Failed checks of a task whose calls are made twice; processor time to look at failures again."""
+"""Failed checks of a task whose calls are repeated; processor seconds for a second look."""
 
 
 @dataclass
 class TaskResult:
-    """What a submission got for a task."""
+    """A submission's result for a task."""
 
     id: str
     title: str
@@ -56,13 +56,13 @@ class TaskResult:
     missing: list[str] = field(default_factory=list)
     """What this system could not confine, in words."""
     pictures: list[tuple[str, bytes]] = field(default_factory=list)
-    """(name, PNG) of those beside the submission's file after the task."""
+    """(name, PNG) of the pictures beside the submission's file after the task."""
     graded: bool = True
     """Whether this machine has what the task needs."""
 
 
 class GraderFault(BotschoolError):
-    """A check failed by a fault of its own, not by what a submission did."""
+    """A check itself has a fault; the submission did not cause it."""
 
 
 def grade_task(
@@ -74,11 +74,12 @@ def grade_task(
     references: dict | None = None,
     known: Known | None = None,
 ) -> TaskResult:
-    """Runs a task's checks on a file, in a child of its own; alone: as of `grade`.
+    """Run a task's checks on a file, in a child of its own; alone: as in `grade`.
 
-    origin: where the lines of the file come from. references: as of Student; nothing is then shown
-    of what the submission prints, draws, or says in exceptions. known: mistakes that are tried
-    where a check fails. Raises BotschoolError.
+    origin: where the lines of the file come from.
+    references: as in Student; with them, nothing is shown of what the submission prints, draws or
+    says in exceptions.
+    known: mistakes to try if a check fails. Raises BotschoolError.
     """
     attempt = partial(_grade_task, task, file, server, origin, references, known or Known())
     return tried_twice(attempt, alone)
@@ -140,7 +141,7 @@ def _grade_task(
         for used in (student, again):
             if used is not None:
                 used.close()
-    # the same exception at the same line is said once, though several checks meet it
+    # report the same exception at the same line once, though several checks meet it
     said: dict[str, str] = {}
     for each in problems:
         said.setdefault(each.partition(" raised ")[2] or each, each)
@@ -151,7 +152,7 @@ def _grade_task(
 
 
 def _diagnosable(failed: list[tuple[int, Failure]]) -> list[tuple[int, Failure]]:
-    """The first failures without a known cause, one of each function."""
+    """Return the first failure of each function without a known cause."""
     by_name = {
         each.name: (at, each) for at, each in reversed(failed) if each.quick and not each.cause
     }
@@ -159,7 +160,7 @@ def _diagnosable(failed: list[tuple[int, Failure]]) -> list[tuple[int, Failure]]
 
 
 def _problem(task: Task, check: Callable[[Student], None], student: Student) -> Failure | None:
-    """Why a check is not passed; None when it is."""
+    """Return why a check fails; None if it passes."""
     answers = student.answers
     before = student.seconds_left
     student.changed = ""
@@ -183,14 +184,15 @@ def _problem(task: Task, check: Callable[[Student], None], student: Student) -> 
 
 
 def _unjudged(task: Task, student: Student, answers: int, error: Exception) -> str:
-    """An exception in a check: a sentence. Raises GraderFault if no answer can have caused it."""
+    """Return a sentence on a check's exception. Raises GraderFault if no answer can cause it."""
     said = f"{type(error).__name__}: {str(error)[:200]}"
-    # with nothing from the submission at hand, or by a name that is not there
+    # before the submission answered, or by an unknown name
     if student.answers == answers or isinstance(error, (NameError, ImportError)):
         place = traceback.extract_tb(error.__traceback__)[-1]
         raise GraderFault(
             f"The grader of task {task.id} has a fault, which is not the submission's "
-            f"({said}, in {Path(place.filename).name} line {place.lineno}): it must be mended."
+            f"({said}, in {Path(place.filename).name} line {place.lineno}): report it to your "
+            "instructor."
         ) from error
     return (
         f"{student.said} returned something that cannot be judged ({said}). If it is what the "
@@ -199,7 +201,7 @@ def _unjudged(task: Task, student: Student, answers: int, error: Exception) -> s
 
 
 def tried_twice(attempt: Callable[[bool], T], alone: bool) -> T:
-    """attempt(whether it was tried before), once more after a MachineFault if nobody else runs."""
+    """Call attempt(tried before); repeat it once after a MachineFault if nobody else runs."""
     try:
         return attempt(False)
     except MachineFault:

@@ -1,9 +1,8 @@
-"""A task's known mistakes, tried where a check fails: which of them answers as the submission does?
+"""Try a task's known mistakes if a check fails, to find one that answers as the submission does.
 
-Nothing of it counts for points. Our solution is run through the checks, in a confined child like
-any submission; the calls that it gets are made of the submission again, and of each known mistake.
-A mistake is told if all its answers are the submission's, and if at least two of them, to different
-calls, are others than ours.
+The result never changes the points. The checks run on our solution in a confined child; its calls
+are repeated on the submission and on each known mistake. A mistake is reported if all its answers
+equal the submission's, and if at least two of them, to different calls, differ from ours.
 """
 
 from __future__ import annotations
@@ -25,11 +24,11 @@ from botschool.sandbox import ForkServer
 from botschool.sandbox.protocol import unpack
 
 SECONDS = 2.0
-"""Of processor time for all that is tried of a task."""
+"""Processor seconds for all attempts of a task."""
 MOST = 16
-"""Mistakes of a task that are tried."""
+"""Mistakes of a task to try."""
 INPUTS = 2
-"""Different calls, at least, that must tell of a mistake."""
+"""Different calls that must point to a mistake, at least."""
 Check = Callable[[Student], None]
 
 
@@ -52,8 +51,8 @@ def known_mistake(
 ) -> str:
     """Return the sentence of the known mistake that explains a submission's answers, or "".
 
-    checks: those of the task that took little time; submission: a Student whose time counts for
-    nothing; name: of its file.
+    checks: the task's quick checks. submission: a Student whose time does not count. name: its
+    file's.
     """
     cases = known.of(task.id)[:MOST]
     if not cases:
@@ -72,7 +71,7 @@ def known_mistake(
                 return ""
             texts = ((case.what, _changed(case, known.solution)) for case in cases)
             return next((what for what, text in texts if _explains(ours, text, calls)), "")
-        except (BotschoolError, Wrong, OSError):  # of the machine, or no time is left
+        except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
             return ""
         finally:
             if ours is not None:
@@ -80,7 +79,7 @@ def known_mistake(
 
 
 def _calls(ours: Student, checks: Iterable[Check]) -> list[Call]:
-    """Return the calls that the checks make of our solution."""
+    """Return the calls that the checks make to our solution."""
     ours.trace = []
     for check in checks:
         try:
@@ -93,7 +92,7 @@ def _calls(ours: Student, checks: Iterable[Check]) -> list[Call]:
 
 
 def _changed(case: Case, solution: str) -> str:
-    """Return the text of a mistake; "" if it does not fit the solution any more."""
+    """Return the text of a mistake; "" if it no longer fits the solution."""
     try:
         return case.of(solution)
     except ValueError:
@@ -119,7 +118,7 @@ def _explains(ours: Student, text: str, calls: list[Call]) -> bool:
 
 
 def answered(module, text, requests):
-    """In the child of our solution: the answers of another text in its place."""
+    """Return another text's answers; runs in the child of our solution."""
     import sys
     import types
 
@@ -133,7 +132,7 @@ def answered(module, text, requests):
 
 
 def _tells(calls: list[Call], answers: list[Any]) -> bool:
-    """Return whether answers that fit the submission's tell of a mistake, on enough inputs."""
+    """Return whether answers that fit the submission's prove a mistake, on enough inputs."""
     told: dict[bytes, float] = {}
     for call, answer in zip(calls, answers, strict=True):
         told[call.request] = max(told.get(call.request, 0.0), weight(call.got, answer, call.ours))

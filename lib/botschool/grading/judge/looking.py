@@ -1,4 +1,4 @@
-"""Failed checks, looked at for a likely cause; and the limit of processor time that checks have."""
+"""Look for a likely cause of failed checks, and limit the processor time of checks."""
 
 from __future__ import annotations
 
@@ -21,26 +21,26 @@ from botschool.grading.run.student import Student
 from botschool.sandbox.protocol import pack
 
 MAX_SECONDS = 0.5
-"""Of processor time that a check may have taken whose call is made again."""
+"""Processor seconds of a check whose call is repeated, at most."""
 MAX_CASES = 50
-"""Wrong answers of a task that are looked at."""
+"""Wrong answers of a task to look at."""
 INPUTS = 2
-"""Different calls that must look alike before a cause is guessed."""
+"""Different calls that must show the same cause before it is reported."""
 Check = Callable[[Student], None]
 _DIGITS = re.compile(r"[-+]?\d[\d.e+-]*")
 
 
 @dataclass
 class Failure:
-    """A check that was not passed."""
+    """A check that failed."""
 
     text: str
     check: Check | None = None
     quick: bool = False
-    """Whether the call is worth another look: it was answered, in little time."""
+    """Whether the call is worth another look: the submission answered it in little time."""
     request: dict[str, Any] = field(default_factory=dict)
     pasted: str = ""
-    """The call, to paste, if the text does not show it."""
+    """The call to paste, if the text does not show it."""
     answered: bool = False
     """Whether the submission gave an answer to the last call."""
     cause: str = ""
@@ -58,14 +58,14 @@ class Failure:
 
     @property
     def name(self) -> str:
-        """Of the function called, or of the driver."""
+        """Return the name of the called function, or of the driver."""
         return str(self.request.get("name"))
 
 
 def failure_of(error: Wrong, check: Check, student: Student, seconds: float) -> Failure:
-    """What a check's exception says.
+    """Return the Failure for a check's exception.
 
-    seconds: of processor time that the submission used in this check.
+    seconds: processor time of the submission in this check.
     """
     text = str(error)
     answered = not isinstance(error, NotDone) and student.answer is not None
@@ -80,7 +80,7 @@ def failure_of(error: Wrong, check: Check, student: Student, seconds: float) -> 
 
 @dataclass
 class Case:
-    """An answer that differs from what a check expects."""
+    """An answer that differs from the expected one."""
 
     check: Check
     text: str
@@ -89,14 +89,14 @@ class Case:
     cause: str
     direct: dict[str, Any]
     certain: bool
-    """Whether one case is enough: the check itself names the mistake, by many numbers."""
+    """Whether one case is enough: the check itself names the mistake, with many numbers."""
 
 
 def look_for_causes(failures: list[Failure], student: Student) -> None:
-    """Run quick checks again to their end, and let each failure tell its smallest case.
+    """Run quick checks again to their end, and add to each failure its smallest case.
 
-    And its cause, if a detector gives the same one for two different calls. student: the submission
-    anew, whose time counts for nothing.
+    Also add the cause, if a detector finds the same one for two different calls. student: the
+    submission in a new child, whose time does not count.
     """
     cases = _cases([each.check for each in failures if each.quick and each.check], student)
     calls: dict[str, set[bytes]] = {}
@@ -133,25 +133,25 @@ def _cases(checks: list[Check], student: Student) -> list[Case]:
                     check(student)
             except TookTooLong:
                 continue
-            except Mismatch as error:  # raised by the check itself
+            except Mismatch as error:  # the check itself raised it
                 if len(found) == before:
                     keep(error)
-            except Exception as error:  # also by going on behind a wrong answer
+            except Exception as error:  # perhaps because it continued after a wrong answer
                 if len(found) == before and not isinstance(error, Wrong):
                     raise
-    except Exception:  # of the machine: it will show itself again, or does not matter here
+    except Exception:  # a fault of the machine: it will appear again, or does not matter here
         return []
     return found
 
 
 def looked_at_again(failure: Failure, student: Student) -> str:
-    """What two more calls with the same arguments tell, as lines to add; "" if nothing.
+    """Return lines on what two more calls with the same arguments show; "" if nothing.
 
-    student: as of look_for_causes.
+    student: as in look_for_causes.
     """
     try:
         found = student.twice(failure.request)
-    except Exception:  # of the machine: it will show itself again, or does not matter here
+    except Exception:  # a fault of the machine: it will appear again, or does not matter here
         found = None
     if found is None:
         return ""
@@ -159,8 +159,8 @@ def looked_at_again(failure: Failure, student: Student) -> str:
     text = ""
     if not same(first, second):
         text += (
-            "\n  Called twice with the same arguments it gives different answers: random numbers "
-            "that do not come from the seed, or something kept from call to call."
+            "\n  Two calls with the same arguments give different answers: random numbers "
+            "do not come from the seed, or something kept from call to call changes them."
         )
     if "driver" not in failure.request and isinstance(found["arguments"], list):
         for number, (before, after) in enumerate(
@@ -168,14 +168,14 @@ def looked_at_again(failure: Failure, student: Student) -> str:
         ):
             if isinstance(before, (np.ndarray, list, dict)) and not same(before, after):
                 text += (
-                    f"\n  It changes its argument number {number} in place, which others go on "
-                    "using: work on a copy (.copy())."
+                    f"\n  It changes its argument number {number} in place, which others go "
+                    "on using: work on a copy (.copy())."
                 )
     return text
 
 
 def same(one: Any, other: Any) -> bool:
-    """Whether two values of plain data are equal, bit by bit; tuples and lists are alike."""
+    """Return whether two values of plain data are equal, bit by bit; tuples equal lists."""
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
         if not (isinstance(one, np.ndarray) and isinstance(other, np.ndarray)):
             return False
@@ -189,20 +189,20 @@ def same(one: Any, other: Any) -> bool:
 
 
 POLL_SECONDS = 0.5
-"""Of processor time of the whole process, between two looks."""
+"""Processor seconds of the whole process between two checks."""
 
 
 class TookTooLong(BaseException):
-    """The block was ended; no `except Exception` inside it catches this."""
+    """The time limit ends the block; no `except Exception` inside it catches this."""
 
 
 @contextmanager
 def processor_time_limit(seconds: float) -> Iterator[None]:
-    """Raises TookTooLong in the block when this thread has used so much processor time.
+    """Raise TookTooLong in the block when this thread has used so much processor time.
 
-    Only in the main thread, where Python runs signal handlers; elsewhere there is no limit. A call
-    into a library is interrupted when it returns. The threads of a library do not count: there
-    may be many that wait busily.
+    The limit works only in the main thread, where Python runs signal handlers. A call into a
+    library is interrupted when it returns. A library's threads do not count: many of them may wait
+    busily.
     """
     main = threading.current_thread() is threading.main_thread()
     if not main or not hasattr(signal, "setitimer"):
@@ -217,7 +217,7 @@ def processor_time_limit(seconds: float) -> Iterator[None]:
 
     before = signal.signal(signal.SIGPROF, end)
     try:
-        # again and again, since Python drops an exception that meets a destructor
+        # repeatedly, because Python drops an exception raised in a destructor
         signal.setitimer(signal.ITIMER_PROF, min(seconds, POLL_SECONDS), POLL_SECONDS)
         yield
     finally:

@@ -1,4 +1,4 @@
-"""What a student hands in, and what it gets."""
+"""Grade a student's submission of an exercise."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from botschool.sandbox.inside import read_inside
 from botschool.sandbox.scratch import MAX_COPIED
 
 LOADING_SECONDS = 10
-"""Processor time for all that a file or a notebook does besides defining functions."""
+"""Processor seconds of all code in a file or a notebook outside functions."""
 _CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
 _DEFINITION = re.compile(r"^(async def|def|class)\b", re.MULTILINE)
 _NAME = re.compile(r"^\s*(?:async\s+def|def|class)\s+(\w+)", re.MULTILINE)
@@ -34,13 +34,13 @@ _NOT_GRADED = "Not graded: mend the file first, as said above."
 
 @dataclass
 class Result:
-    """What a submission got for an exercise."""
+    """A submission's result for an exercise."""
 
     exercise: int
     title: str
     tasks: list[TaskResult]
     banner: str = ""
-    """What is to be mended before anything else: why the file cannot be loaded."""
+    """What must be mended first: why the file cannot be loaded."""
 
     @property
     def points(self) -> int:
@@ -56,7 +56,7 @@ class Result:
         return list(dict.fromkeys(each for task in self.tasks for each in task.missing))
 
     def to_json(self) -> dict:
-        """The form of `botschool grade --json`."""
+        """Return the form of `botschool grade --json`."""
         shown = ("id", "title", "points", "max_points", "message")
         tasks = [
             {name: getattr(task, name) for name in shown}
@@ -81,12 +81,13 @@ def grade(
     alone: bool = True,
     announce: Callable[[str], None] = lambda banner: None,
 ) -> Result:
-    """Grade a submission's file, a script or a notebook; report each task as soon as it is judged.
+    """Grade a submission's file, a script or a notebook; report each task once it is judged.
 
-    announce: is called before, with the banner if there is one. tasks: else all; server: else one
-    is made and closed.
-    alone: whether no others are graded at the same time; what may be the fault of the machine is
-    then tried once more. Raises BotschoolError, of which MachineFault says that it was its fault.
+    tasks: None for all. server: None for one that is made and closed here.
+    alone: whether no other submission is graded at the same time; then a possible fault of the
+    machine leads to a second try.
+    announce: called first, with the banner if there is one.
+    Raises BotschoolError, or MachineFault for a fault of the machine.
     """
     if server is None:
         with fork_server(exercise.imports) as own:
@@ -104,10 +105,10 @@ def grade(
 
 
 class Submission:
-    """A file, ready to be graded: as it is if it can be loaded, else what its cells define.
+    """A submission's file, ready to be graded; if it cannot be loaded, only its definitions.
 
-    So a part that fails, or is no Python, costs no points of others: alike in a script, whose
-    cells begin at lines `# %%`, and in a notebook.
+    A part that fails, or is not Python, then costs only its own points. This holds for notebooks
+    and for scripts, whose cells begin at lines `# %%`.
     """
 
     def __init__(
@@ -119,10 +120,11 @@ class Submission:
         alone: bool = True,
         exercise: Exercise | None = None,
     ) -> None:
-        """sources: of a notebook (the file), the texts of its code cells; name: of its script.
+        """Take the file.
 
-        alone: as of `grade`. exercise: what its tasks need of each other is graded with our
-        functions, too.
+        sources: the texts of the code cells, if the file is a notebook. name: of the notebook's
+        script.
+        alone: as in `grade`. exercise: for the functions that its tasks need of each other.
         """
         self._alone = alone
         self._given = file
@@ -137,7 +139,7 @@ class Submission:
         self._lost: dict[str, str] = {}
         self._failure = ""
         self.banner = ""
-        """Why the file, or a part of it, cannot be loaded; in some lines."""
+        """Why the file, or a part of it, cannot be loaded, in some lines."""
 
     def __enter__(self) -> Submission:
         if self._exercise is not None:
@@ -155,7 +157,7 @@ class Submission:
         shutil.rmtree(self._base, ignore_errors=True)
 
     def grade(self, task: Task) -> TaskResult:
-        """Grades a task; lines in the message are those of the file, or of a notebook's cell."""
+        """Grade a task; the message gives lines of the file, or of a notebook's cell."""
         if self._exercise is not None and (reason := cannot_be_graded(task)):
             return TaskResult(task.id, task.title, 0, task.max_points, reason, graded=False)
         if self._failure:
@@ -174,7 +176,7 @@ class Submission:
         return grade_task(task, file, self._server, self._alone, origin, references, known)
 
     def _with_references(self, task: Task, result: TaskResult) -> TaskResult:
-        """The result, or a better one with our functions of tasks that do not pass."""
+        """Return the result, or a better one with our functions for failing tasks."""
         exercise, own = self._exercise, f"not done yet: task {task.id}:"
         if not exercise.references or not task.needs or own in result.message:
             return result
@@ -204,7 +206,7 @@ class Submission:
         return result
 
     def _digest(self) -> str:
-        """Return what tells this submission from others; "" for one that cannot be copied."""
+        """Return a digest of this submission's content; "" if it cannot be copied."""
         try:
             files = content_digest(self._given, self._sources)
         except (Wrong, OSError):
@@ -229,14 +231,14 @@ class Submission:
             raise Wrong(_NOT_GRADED)
         self._write(defined)
         self.banner += (
-            "\nUntil then only functions, classes and imports count, with the names that they use."
+            "\nUntil then, only functions, classes and imports count, with the names that they use."
         )
         parts = self._sources if self._sources is not None else _CELL.split(self._text())
         for number in defined.left_out:
             part = self._cell(number)
             names = _NAME.findall(parts[number - 1])
             lost = f" ({', '.join(names)})" if names else ""
-            self.banner += f"\n{part[:1].upper()}{part[1:]} is no Python: left out{lost}."
+            self.banner += f"\n{part[:1].upper()}{part[1:]} is not Python: left out{lost}."
             self._lost |= dict.fromkeys(names, part)
 
     def _text(self) -> str:
@@ -244,7 +246,7 @@ class Submission:
         return content.decode("utf-8", "replace").replace("\r\n", "\n")
 
     def _cells(self) -> list[str]:
-        """Of a script; notes the line before each."""
+        """Return a script's cells; store the line before each."""
         cells = _CELL.split(self._text())
         self._starts = [0]
         for cell in cells:
@@ -264,7 +266,7 @@ class Submission:
         self._file.write_bytes(script.text.encode("utf-8", "replace"))
 
     def _place(self, line: int) -> str:
-        """Where a line of the script stands in the file, or in which cell of the notebook."""
+        """Return the place of a script's line: in the file, or in a cell of the notebook."""
         if not 1 <= line <= len(self._script.places):
             return f"line {line}"
         number, inside = self._script.places[line - 1]
@@ -282,9 +284,9 @@ class Submission:
 
 
 def _trouble(file: Path, server: ForkServer, origin: Origin, tried: bool) -> Wrong | None:
-    """Why a submission's file cannot be loaded; None if it can.
+    """Return why a submission's file cannot be loaded; None if it can.
 
-    Raises Wrong when it may not be.
+    Raises Wrong if it must not be loaded.
     """
 
     def loads(module):

@@ -1,6 +1,6 @@
-"""A student's feedback as a web page: one file, without scripts, readable offline and printed.
+"""Write a student's feedback as a web page: one file without scripts, readable offline and printed.
 
-All that comes from a submission is escaped; the page may load nothing.
+The page escapes everything that comes from a submission, and may load nothing.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from botschool.grading.declare.exercise import called
 
 GENERATOR = "botschool grade-all"
 MAX_LINES = 60
-"""Of what a task printed."""
+"""Lines to show of what a task printed."""
 
 _PAGE = Template("""<!DOCTYPE html>
 <html lang="en">
@@ -102,7 +102,7 @@ $message$printed</div>
 
 
 def page(student: str, results: list[dict[str, Any]], notes: Sequence[str] = ()) -> str:
-    """Return the page; results as of batch.Grades, notes: sentences for its head."""
+    """Return the page; results: as in batch.Grades, notes: sentences for its head."""
     return _PAGE.substitute(
         generator=GENERATOR,
         student=escape(student),
@@ -118,7 +118,7 @@ def _notes(notes: Sequence[str]) -> str:
 
 
 def _points(results: list[dict[str, Any]]) -> str:
-    """The sum, or a dash if one of them was not graded."""
+    """Return the sum, or a dash if an exercise was not graded."""
     graded = all(result["graded"] for result in results)
     return f"{sum(float(result['points']) for result in results):g}" if graded else "&ndash;"
 

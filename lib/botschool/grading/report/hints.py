@@ -1,4 +1,4 @@
-"""Hints, one more each time. A HINTS.md has a section `## N.T` with a numbered list per task."""
+"""Show one more hint each time. HINTS.md has a section `## N.T` with a numbered list per task."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _ITEM = re.compile(r"^(\d+)[.)]\s+")
 
 
 def read_hints(text: str) -> dict[str, list[str]]:
-    """task -> its hints, from the text of a HINTS.md."""
+    """Return task -> its hints, from the text of a HINTS.md."""
     hints: dict[str, list[str]] = {}
     task, fenced = None, False
     for line in text.splitlines():
@@ -40,17 +40,17 @@ def _unindented(hint: str) -> str:
 
 
 def next_hints(task: str, root: Path) -> tuple[list[str], int, bool]:
-    """(hints of a task to show now, how many there are, whether the last one is new).
+    """Return (hints to show now, number of hints, whether the last shown one is new).
 
-    Remembers in the course folder how many were shown. Raises BotschoolError.
+    The course folder stores how many hints were shown. Raises BotschoolError.
     """
     path = folder_of(int(task.split(".")[0]), root) / FILE
     try:
         hints = read_hints(path.read_text(encoding="utf-8")).get(task)
     except OSError:
-        raise BotschoolError(f"There are no hints: {path} cannot be read.") from None
+        raise BotschoolError(f"Cannot read the hints in {path}: restore the file.") from None
     if not hints:
-        raise BotschoolError(f"There are no hints for task {task} in {path}.")
+        raise BotschoolError(f"Task {task} has no hints in {path}.")
     place = _memory(root)
     shown = _read(place)
     before = shown.get(task, 0)
@@ -61,7 +61,7 @@ def next_hints(task: str, root: Path) -> tuple[list[str], int, bool]:
 
 
 def _memory(root: Path) -> Path:
-    """Where it is kept how many hints were shown: the course folder, or else the user's."""
+    """Return the file that counts the hints shown: in the course folder, or else in the user's."""
     try:
         return make_state(root) / "hints.json"
     except OSError:

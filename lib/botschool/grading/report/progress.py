@@ -1,4 +1,4 @@
-"""What was graded last: stored, in one table of all exercises; and the answers after full marks."""
+"""Store the last points, show them as one table, and show the answers after full marks."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ CHANGED, UNKNOWN = "changed since", "not graded yet"
 
 
 def stored_result(number: int, root: Path) -> dict[str, Any]:
-    """An exercise as it was last graded, without grading: a result as of batch.Grades.
+    """Return an exercise's last result without grading it, as in batch.Grades.
 
-    Its "state" is CHANGED if the file is not as it was graded, UNKNOWN if no task was graded,
-    else "". A file as it began has 0 points. "problem" says that the file is missing.
+    Its "state" is CHANGED if the file has changed since, UNKNOWN if no task was graded, else "". An
+    unedited file has 0 points. "problem" says that the file is missing.
     """
     exercise = load_exercise(number, root)
     tasks = [
@@ -75,14 +75,17 @@ def _untouched(number: int, root: Path, file: Path) -> bool:
 
 
 def table(results: dict[int, dict[str, Any]]) -> Table:
-    """A line for each; results: exercise number -> result as of batch.Grades or stored_result."""
+    """Return a table with a line per exercise.
+
+    results: exercise number -> result as in batch.Grades or from stored_result.
+    """
     shown = Table(box=None, pad_edge=False, padding=(0, 1), header_style="dim")
     shown.add_column("", justify="right", no_wrap=True, min_width=2)
     shown.add_column("exercise", no_wrap=True, overflow="ellipsis", min_width=21)
     shown.add_column("points", no_wrap=True, min_width=_BAR)
     shown.add_column("", justify="right", no_wrap=True, min_width=3)
     shown.add_column("tasks", justify="right", no_wrap=True, min_width=5)
-    shown.add_column("next")  # the only one that gives way, to a problem told in a sentence
+    shown.add_column("next")  # the only column that shrinks, to make room for the text of a problem
     for number in sorted(results):
         shown.add_row(str(number), *_row(results[number]))
     return shown
@@ -116,7 +119,7 @@ def _bar(part: float) -> str:
 
 
 def summary(results: dict[int, dict[str, Any]]) -> str:
-    """The lines below the table."""
+    """Return the lines below the table."""
     points = sum(result["points"] for result in results.values())
     maximum = sum(result["max_points"] for result in results.values())
     lines = [f"[bold]{points} of {maximum} points[/]"]
@@ -136,11 +139,11 @@ def summary(results: dict[int, dict[str, Any]]) -> str:
 
 
 FOLDER = "last"
-"""In the folder of what the commands remember: a file for each exercise."""
+"""A folder in the commands' state folder, with a file for each exercise."""
 
 
 def digest(file: Path) -> str:
-    """Of all files that are handed in with this one; "" if they cannot be read."""
+    """Return a digest of the submission's files; "" if they cannot be read."""
     found = hashlib.sha256()
     try:
         for path in submission_files(file):
@@ -153,9 +156,9 @@ def digest(file: Path) -> str:
 
 
 def remember(root: Path, number: int, points: Iterable[tuple[str, int, int]], graded: str) -> None:
-    """Stores (task, points, most points); graded: the digest of what was graded.
+    """Store (task, points, maximum points); graded: the digest of the graded files.
 
-    Tasks that were not graded now keep what they have. What cannot be stored is dropped.
+    Tasks that were not graded now keep their points. Errors in storing are ignored.
     """
     tasks = _read(root, number)
     for task, reached, most in points:
@@ -168,10 +171,10 @@ def remember(root: Path, number: int, points: Iterable[tuple[str, int, int]], gr
 
 
 def recall(root: Path, exercise: Exercise) -> tuple[list[dict[str, Any]], set[str]] | None:
-    """An exercise's tasks as they were last graded, None if none of them was.
+    """Return the last results of an exercise's tasks, and the digests of the graded files.
 
-    Gives their id, title, points (0 where a task was not graded) and max_points; and the digests
-    of what was graded.
+    Each result has id, title, points (0 for a task that was not graded) and max_points. Return None
+    if no task was graded.
     """
     stored = _read(root, exercise.number)
     tasks, digests = [], set()
@@ -196,7 +199,7 @@ def _place(root: Path, number: int) -> Path:
 
 
 def _read(root: Path, number: int) -> dict[str, dict[str, Any]]:
-    """task -> points, max_points, digest; what is damaged counts as not stored."""
+    """Return task -> points, max_points, digest; damaged entries are left out."""
     try:
         found = json.loads(_place(root, number).read_bytes())
         return {
@@ -212,28 +215,30 @@ def _read(root: Path, number: int) -> dict[str, dict[str, Any]]:
 
 
 def answers(number: int, root: Path) -> str:
-    """What is shown after full marks, as Markdown.
+    """Return the text shown after full marks, as Markdown.
 
-    Raises BotschoolError where it is not there, or when the student's file, as it was last
-    graded, has not all points.
+    Raises BotschoolError if the text is missing, or if the student's last result has not all
+    points.
     """
     exercise, folder = load_exercise(number, root), folder_of(number, root)
     packed, plain = folder / PACKED, root / "solutions" / folder.name / "README.md"
     if not packed.is_file() and not plain.is_file():
         raise BotschoolError(
-            f"The answers to exercise {number} are not in this copy: your instructor gives them."
+            f"This copy has no answers to exercise {number}: ask your instructor for them."
         )
     tasks = (recall(root, exercise) or ([],))[0]
     points = sum(task["points"] for task in tasks)
     maximum = sum(task.max_points for task in exercise.tasks)
     if points < maximum:
         raise BotschoolError(
-            f"The answers to exercise {number} are shown when 'botschool grade {number}' has given "
-            f"you all points; so far it has given {points} of {maximum}."
+            f"The answers to exercise {number} need all points from 'botschool grade "
+            f"{number}'; you have {points} of {maximum}."
         )
     try:
         if packed.is_file():
             return unpack_answers(packed.read_text(encoding="ascii"))
         return plain.read_text(encoding="utf-8")
     except (OSError, ValueError, zlib.error):
-        raise BotschoolError(f"{packed} is damaged: ask for the file anew.") from None
+        raise BotschoolError(
+            f"{packed} is damaged: ask your instructor for the file again."
+        ) from None

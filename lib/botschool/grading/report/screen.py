@@ -1,4 +1,4 @@
-"""What a learner sees of a grading on the screen; grading again after every save."""
+"""Show a learner the grading on the screen, and grade again after every save."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ from botschool.grading.run.confined import fork_server
 from botschool.sandbox import ForkServer
 
 MAX_MESSAGE_LINES = 12
-"""Lines of a task's message on the screen."""
+"""Lines to show of a task's message."""
 MAX_OUTPUT_LINES = 8
-"""Lines of what a task's code printed."""
+"""Lines to show of what a task's code printed."""
 
 
 class Screen:
-    """Prints each task when it is judged, then the points and what to do next."""
+    """Print each task once it is judged, then the points and the next step."""
 
     def __init__(self, console: Console | None = None) -> None:
         self.console = console or Console(highlight=False)
         self._file = Path()
 
     def start(self, number: int, title: str, file: Path, notes: Sequence[str] = ()) -> None:
-        """Print the heading. notes: sentences on how the file was found."""
+        """Print the heading; notes: sentences on how the file was found."""
         file = file.resolve()
         self._file = file.relative_to(Path.cwd()) if file.is_relative_to(Path.cwd()) else file
         self.console.print(f"[bold]Exercise {number}. {escape(title)}[/]")
@@ -42,14 +42,14 @@ class Screen:
             self.console.print(f"[yellow]{escape(note)}[/]", soft_wrap=True)
 
     def banner(self, text: str) -> None:
-        """What is to be mended before anything else."""
+        """Print what must be mended before anything else."""
         first, *others = text.splitlines()
         self.console.print(f"[bold red]{escape(first)}[/]")
         for line in others:
             self.console.print(Padding(escape(line), (0, 0, 0, 1)))
 
     def task(self, result: TaskResult) -> None:
-        """One task: its points, and why some are missing."""
+        """Print one task: its points, and why some are missing."""
         mark = {True: "[green]✓[/]", False: "[red]✗[/]"}[result.points == result.max_points]
         if result.message.startswith("not done yet") and result.points == 0:
             mark = "[dim]·[/]"
@@ -64,9 +64,9 @@ class Screen:
             self._indented(printed.splitlines(), MAX_OUTPUT_LINES, "dim")
 
     def end(self, result: Result, whole: bool = True) -> None:
-        """Points, the next step, and what this system could not confine.
+        """Print the points, the next step, and what this system could not confine.
 
-        whole: the tasks are all that the exercise has.
+        whole: whether these are all tasks of the exercise.
         """
         if result.missing:
             self.console.print(f"[yellow]{notice(result.missing)}[/]")
@@ -107,7 +107,7 @@ class Screen:
 def counting(
     what: str, console: Console
 ) -> Iterator[tuple[Callable[[int], None], Callable[[], None]]]:
-    """A progress bar on a terminal: gives start(count) and step(). It vanishes at the end."""
+    """Show a progress bar on a terminal within the block; yield start(count) and step()."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
     columns = (f"{what}", BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
@@ -118,14 +118,14 @@ def counting(
 
 
 def say_missing(console: Console, results: list[dict]) -> None:
-    """Print what the system could not confine while these were graded, if anything."""
+    """Print what the system could not confine during these gradings, if anything."""
     missing = list(dict.fromkeys(each for result in results for each in result["missing"]))
     if missing:
         console.print(f"[yellow]{notice(missing)}[/]")
 
 
 def notice(missing: list[str]) -> str:
-    """What the grader could not confine on this system, in a sentence; "" if nothing."""
+    """Return a sentence on what this system cannot confine; "" if it can confine everything."""
     if not missing:
         return ""
     return (
@@ -135,35 +135,35 @@ def notice(missing: list[str]) -> str:
 
 
 POLL_SECONDS = 0.3
-"""Between two looks whether the student has saved."""
+"""Seconds between two checks whether the student has saved."""
 
 
 class Saved(Exception):
-    """The file was saved while it was being graded."""
+    """The student saved the file while it was being graded."""
 
 
 def stamp(place: Path) -> tuple:
-    """Changes when a file, or one of the scripts and notebooks in a folder, is saved."""
+    """Return a value that changes when a file, or a script or notebook in a folder, is saved."""
     found = []
     for path in sorted([*place.glob("*.py"), *place.glob("*.ipynb")]) or [place]:
         try:
             status = path.stat()
             found.append((path.name, status.st_mtime_ns, status.st_size))
-        except OSError:  # an editor is replacing it
+        except OSError:  # an editor replaces the file
             continue
     return tuple(found)
 
 
 class Watched(NamedTuple):
-    """What is graded after every save."""
+    """What `watch` grades after every save."""
 
     file: Path
     shown: Path
-    """What it is called."""
+    """Its name on the screen."""
     notes: Sequence[str]
     """Sentences on how it was found."""
     place: Path
-    """The file or folder in which it is saved."""
+    """The file or folder to watch for saves."""
 
 
 def watch(
@@ -173,7 +173,7 @@ def watch(
     screen: Screen,
     wait: Callable[[float], None] = time.sleep,
 ) -> None:
-    """Grades now and after every save, for ever; `wait` is called between two looks."""
+    """Grade now and after every save, for ever; call `wait` between two checks."""
     with fork_server(exercise.imports) as server:
         while True:
             found = find()

@@ -1,4 +1,4 @@
-"""Runs a finished exercise from beginning to end, in results/exNN, and shows what it has made."""
+"""Run a finished exercise as a whole in results/exNN, and show what it has made."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from botschool.output import save_bytes
 from botschool.paths import course_root
 
 _UNFINISHED = re.compile(r"^ *raise NotImplementedError\([\"']task (\d+\.\d+)\b", re.MULTILINE)
-"""What a skeleton has where an answer is to be written."""
+"""The line that stands for a missing answer in a skeleton."""
 _PATIENCE = 30
-"""Seconds between the lines that say that a long run goes on."""
+"""Seconds between two messages that a long run continues."""
 PAGE = "all.html"
-"""In results/exNN: what was made, on one page."""
+"""The page in results/exNN that shows everything the run has made."""
 _TAGS = {
     ".png": '<img src="{0}" alt="{1}">',
     ".mp4": '<video src="{0}" controls loop></video>',
@@ -39,10 +39,10 @@ figure { margin: 2rem 0 } figcaption { color: #555 }
 
 
 def show(number: int, file: Path | None = None, root: Path | None = None) -> list[Path]:
-    """Runs a file, a script or a notebook (None: the student's own); returns what it made.
+    """Run a script or a notebook (None: the student's own); return the files it has made.
 
-    Says every 30 seconds on stderr that it still runs. Raises BotschoolError when tasks of the file
-    are not done yet, and when it ends with an error.
+    A line on stderr says every 30 seconds that it still runs. Raises BotschoolError if tasks of the
+    file are not done yet, or if it ends with an error.
     """
     root = (root or course_root()).resolve()
     load_exercise(number, root).require()
@@ -59,34 +59,34 @@ def show(number: int, file: Path | None = None, root: Path | None = None) -> lis
     # PyTorch's threads fight for busy cores
     if _run(file, folder, {"OMP_NUM_THREADS": "1"} | os.environ | variables) != 0:
         raise BotschoolError(
-            f"{file.name} ended with an error, see above; is it finished? 'botschool grade "
-            f"{number}' says so."
+            f"{file.name} ended with an error (see above): check with 'botschool grade "
+            f"{number}' that it is finished."
         )
     return [path for path, stamp in _stamps(folder).items() if before.get(path) != stamp]
 
 
 def _script_of(notebook: Path) -> Path:
-    """The code of a notebook as a script, in a folder of its own."""
+    """Write a notebook's code as a script in a folder of its own; return the script."""
     script = Path(tempfile.mkdtemp(prefix=PREFIX)) / notebook.with_suffix(".py").name
     script.write_text("\n\n\n".join(code_cells(notebook)) + "\n", encoding="utf-8")
     return script
 
 
 def _require_finished(file: Path, number: int) -> None:
-    """Raise BotschoolError if a task's place in the skeleton is still empty."""
+    """Raise BotschoolError if an answer in the skeleton is still missing."""
     tasks = list(
         dict.fromkeys(_UNFINISHED.findall(file.read_text(encoding="utf-8", errors="replace")))
     )
     if tasks:
         named = f"task {tasks[0]} is" if len(tasks) == 1 else f"tasks {', '.join(tasks)} are"
         raise BotschoolError(
-            f"{named} not done yet in {file.name}: 'botschool show {number}' runs a finished file, "
-            f"'botschool grade {number}' says what is done."
+            f"{named} not done yet in {file.name}. 'botschool show {number}' runs a finished "
+            f"file; 'botschool grade {number}' lists what is done."
         )
 
 
 def _run(file: Path, folder: Path, variables: dict[str, str]) -> int:
-    """Run a file in a folder and return its exit code; say now and then that it still runs."""
+    """Run a file in a folder and return its exit code; say regularly that it still runs."""
     start = time.monotonic()
     with subprocess.Popen([sys.executable, str(file)], cwd=folder, env=variables) as process:
         while True:
@@ -105,9 +105,9 @@ def _stamps(folder: Path) -> dict[Path, int]:
 
 
 def make_page(number: int, made: list[Path], root: Path | None = None) -> Path | None:
-    """Writes PAGE with the pictures, films and replays among `made`; None if there are none.
+    """Write PAGE with the pictures, films and replays of `made`; return None if there are none.
 
-    Files in folders of results/exNN, as those of runs, are left out. Raises BotschoolError.
+    Files in folders of results/exNN, such as those of runs, are left out. Raises BotschoolError.
     """
     root = (root or course_root()).resolve()
     title = f"Exercise {number}. {load_exercise(number, root).title}"
@@ -127,9 +127,9 @@ def make_page(number: int, made: list[Path], root: Path | None = None) -> Path |
 
 
 def open_page(page: Path) -> bool:
-    """Opens a page in the browser ($BROWSER or the system's own); False where there is no display.
+    """Open a page in the browser ($BROWSER or the system's); return False without a display.
 
-    Uses xdg-open, open or the like, as the system has it.
+    The function calls xdg-open, open or the like, depending on the system.
     """
     if sys.platform in ("darwin", "win32"):
         there = "SSH_CONNECTION" not in os.environ

@@ -1,7 +1,7 @@
-"""Put stand-ins in the place of PyBullet's modules where PyBullet is not installed.
+"""Replace PyBullet's modules by stand-ins if PyBullet is not installed.
 
-A submission that imports PyBullet can then be loaded, and the tasks that simulate nothing can be
-graded. Every function of a stand-in raises ModuleNotFoundError.
+A submission that imports PyBullet then loads, and tasks that simulate nothing can be graded.
+Every function of a stand-in raises ModuleNotFoundError.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ NAMES = ("pybullet", "pybullet_data")
 
 
 class Absent(ModuleType):
-    """A module of which every name is a function that raises."""
+    """A module in which every name is a function that raises."""
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        if name == "getDataPath":  # of pybullet_data, called while a file is loaded
+        if name == "getDataPath":  # of pybullet_data, called during the import of a submission
             return lambda: ""
         return self._raises(name)
 

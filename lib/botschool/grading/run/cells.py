@@ -1,8 +1,8 @@
-"""A notebook's code cells as a Python file. Needs nothing but the standard library.
+"""Turn a notebook's code cells into a Python file, with the standard library alone.
 
-Run as a program it reads a JSON list of cell sources and writes {"whole": ..., "definitions": ...},
-each a Script as a dict; in a process of its own, since what Python's parser does with a hostile
-text is not certain.
+As a program, it reads a JSON list of cell sources and writes {"whole": ..., "definitions": ...},
+each a Script as a dict. It runs in a process of its own, because a hostile text may crash Python's
+parser.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ class Script:
 
     text: str = ""
     places: list[list[int]] = field(default_factory=list)
-    """Of each line: the number of its code cell, and the line within that; both from 1."""
+    """For each line: the number of its code cell, and the line within the cell; both from 1."""
     left_out: list[int] = field(default_factory=list)
-    """Numbers of the code cells that are no Python."""
+    """Numbers of the code cells that are not Python."""
 
     def add(self, number: int, text: str) -> None:
         lines = [*text.split("\n"), ""]
@@ -49,7 +49,7 @@ class Script:
 
 
 def scripts(sources: list[str]) -> tuple[Script, Script]:
-    """The whole code of a notebook, and its definitions alone.
+    """Return the whole code of a notebook, and its definitions alone.
 
     Raises Unreadable.
     """
@@ -65,12 +65,12 @@ def scripts(sources: list[str]) -> tuple[Script, Script]:
         )
         made = json.loads(done.stdout)
     except (subprocess.SubprocessError, ValueError):
-        raise Unreadable("The notebook's code cannot be read by Python.") from None
+        raise Unreadable("Python cannot read the notebook's code.") from None
     return Script(**made["whole"]), Script(**made["definitions"])
 
 
 def whole(sources: list[str]) -> Script:
-    """All that the cells hold, in order."""
+    """Return all code of the cells, in order."""
     script = Script()
     for number, source in enumerate(sources, 1):
         script.add(number, plain_python(source))
@@ -78,9 +78,9 @@ def whole(sources: list[str]) -> Script:
 
 
 def definitions(sources: list[str]) -> Script:
-    """The imports, functions and classes of the cells, and the global names that these use.
+    """Return the imports, functions and classes of the cells, and the globals that these use.
 
-    What only runs (calls, loops, pictures) is left out, and so are cells that are no Python.
+    Code that only runs (calls, loops, pictures) is left out, and so are cells that are not Python.
     """
     script = Script()
     cells: dict[int, tuple[str, list[ast.stmt]]] = {}
@@ -98,7 +98,7 @@ def definitions(sources: list[str]) -> Script:
 
 
 def plain_python(source: str) -> str:
-    """A cell without the lines that only IPython knows, and without the lines of test cells."""
+    """Return a cell without lines that only IPython understands and without lines of test cells."""
     text = _TEST.sub(r"\1pass", source.replace("\r\n", "\n").replace("\r", "\n"))
     if re.match(r"\s*%%", text) and not _PYTHON_CELL.match(text.lstrip()):
         return "\n".join("# " + line for line in text.split("\n"))
@@ -125,7 +125,7 @@ def _parsed(text: str) -> ast.Module | None:
 
 
 def _kept(body: list[ast.stmt]) -> set[int]:
-    """Ids of the statements that define, or that bind a name which a kept statement uses."""
+    """Return ids of the statements that define, or that bind a name which a kept statement uses."""
     always = (ast.Import, ast.ImportFrom, ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
     kept: set[int] = set()
     needed: set[str] = set()
@@ -142,7 +142,7 @@ def _kept(body: list[ast.stmt]) -> set[int]:
 
 
 def _names(node: ast.stmt) -> tuple[set[str], set[str]]:
-    """Global names that a statement binds or changes, and those that it uses."""
+    """Return the global names that a statement binds or changes, and those that it uses."""
     bound, used = set(), set()
     try:
         tables = [symtable.symtable(ast.unparse(node), "<cell>", "exec")]
@@ -169,7 +169,7 @@ def _names(node: ast.stmt) -> tuple[set[str], set[str]]:
 
 
 def _without(text: str, dropped: list[ast.stmt]) -> str:
-    """A cell with some of its top-level statements replaced by `pass`, each line where it was."""
+    """Return a cell with some top-level statements replaced by `pass`; lines keep their numbers."""
     lines = [line.encode() for line in text.split("\n")]
     for node in reversed(dropped):
         first, last = node.lineno - 1, node.end_lineno - 1

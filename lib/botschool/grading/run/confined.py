@@ -1,4 +1,4 @@
-"""How grading uses the sandbox: its imports, files, what it may read, and its exceptions."""
+"""Define how grading uses the sandbox: imports, files, readable places and exceptions."""
 
 from __future__ import annotations
 
@@ -21,26 +21,26 @@ from botschool.sandbox.errors import CannotRead
 from botschool.sandbox.inside import read_inside
 from botschool.sandbox.scratch import MAX_COPIED, regular_files
 
-# PyTorch's threads fight for busy cores, and the course's networks are too small to share out: on a
-# busy machine, 4,096 steps of PPO take 18.4 s with all threads and 0.9 s with one
+# PyTorch's threads compete for busy cores, and the course's networks are too small for threads:
+# on a busy machine, 4,096 steps of PPO take 18.4 s with all threads and 0.9 s with one
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 IMPORTS = ("gymnasium.envs.classic_control", "numpy.random", "botschool.evolution.run")
-"""Modules that every submission finds imported."""
+"""Modules that are imported before a submission runs."""
 _PRIVATE = ("solutions", "exercises", "tests", "results", "build", ".git", ".botschool")
-"""Of a course folder: what no submission may read."""
+"""The parts of a course folder that no submission may read."""
 
 
 CLASS = "BOTSCHOOL_CLASS"
-"""Of the environment: folders that close_class has closed, as JSON."""
+"""The environment variable with the folders that close_class has closed, as JSON."""
 
 
 class MachineFault(BotschoolError):
-    """What this machine did, and no submission: it was short of memory or disk, or killed."""
+    """The machine failed, not the submission: it lacked memory or disk, or killed a process."""
 
 
 class Unread(Wrong):
-    """What was handed in cannot be read, which says nothing about it."""
+    """The submission's files cannot be read, so nothing is known about them."""
 
 
 SHORTAGES = tuple(
@@ -51,7 +51,7 @@ SHORTAGES = tuple(
 
 @contextmanager
 def translated() -> Iterator[None]:
-    """Raises Wrong for what is refused, MachineFault for what this machine cannot do."""
+    """Raise Wrong for refused files, MachineFault for what this machine cannot do."""
     try:
         yield
     except CannotRead as error:
@@ -65,18 +65,18 @@ def translated() -> Iterator[None]:
 
 
 def machine_fault(error: OSError | MemoryError) -> MachineFault | Exception:
-    """What to raise for an error of the grader itself: a MachineFault if something is short."""
+    """Return the exception for an error of the grader: a MachineFault if something is short."""
     if isinstance(error, OSError) and error.errno not in SHORTAGES:
         return error
     reason = getattr(error, "strerror", None) or "not enough memory"
     return MachineFault(
-        f"The grader could not go on ({reason}): free some memory and disk space, or use fewer "
-        "workers (-w), and grade again."
+        f"The grader could not go on ({reason}): free some memory and disk space, or use "
+        "fewer workers (-w), and grade again."
     )
 
 
 def fork_server(imports: Iterable[str] = ()) -> ForkServer:
-    """imports: names of modules beside IMPORTS. Raises BotschoolError."""
+    """Start a fork server; imports: modules beside IMPORTS. Raises BotschoolError."""
     with translated():
         return ForkServer([*IMPORTS, *imports])
 
@@ -88,31 +88,31 @@ def start_child(
     limits: Limits,
     references: dict[str, Any] | None = None,
 ) -> Child:
-    """A child for a submission's file, given where it was handed in. Raises BotschoolError."""
+    """Start a child for a submission's file, given by its original path. Raises BotschoolError."""
     with translated():
         return Child(server, scratch, file.name, limits, readable(file), references)
 
 
 def scratch_copy(file: Path) -> Scratch:
-    """A copy of the files of a submission. Raises Wrong when they are too many or too large."""
+    """Copy a submission's files. Raises Wrong if they are too many or too large."""
     with translated():
         return Scratch(file, _is_grader)
 
 
 def submission_files(file: Path) -> list[Path]:
-    """The files that a submission consists of: those beside its file and in sub-folders.
+    """Return a submission's files: its file, those beside it and those in sub-folders.
 
-    Links, hidden files, caches and graders are left out. Raises Wrong when it is too much.
+    Links, hidden files, caches and graders are left out. Raises Wrong if there are too many.
     """
     with translated():
         return regular_files(file, _is_grader)
 
 
 def content_digest(file: Path, sources: Iterable[str] | None = None) -> hashlib._Hash:
-    """Return a hash of names and contents of a submission's files, which may go on.
+    """Return a hash of names and contents of a submission's files, open for more data.
 
-    sources: of a notebook, the texts of its cells, which stand for its file. Raises Wrong as
-    submission_files does, and OSError.
+    sources: for a notebook, the texts of its cells, which replace its file. Raises Wrong like
+    submission_files, and OSError.
     """
     digest = hashlib.sha256()
     for path in submission_files(file):
@@ -131,10 +131,10 @@ def _is_grader(name: str, depth: int) -> bool:
 
 
 def close_class(*folders: Path) -> None:
-    """Close the folders that hold submissions and their grades to all of them, in this process.
+    """Forbid submissions to read these folders of submissions and grades, in this process.
 
-    The folder of temporary files is closed, too: the copies of others lie there. Raises
-    BotschoolError for a folder that submissions must read.
+    This also closes the folder of temporary files, which holds the copies of other submissions.
+    Raises BotschoolError for a folder that submissions must read.
     """
     data = material() / "data"
     closed = [folder.resolve() for folder in folders]
@@ -142,17 +142,17 @@ def close_class(*folders: Path) -> None:
     closed.append(temporary.parent if temporary.name.startswith(PREFIX) else temporary)
     if data in closed:
         raise BotschoolError(
-            f"The submissions stand among the course's files in {data}, which each submission may "
+            f"The submissions are inside the course's {data}, which every submission may "
             "read: move them into a folder of their own."
         )
     os.environ[CLASS] = json.dumps([str(folder) for folder in closed])
 
 
 def readable(file: Path) -> list[Path]:
-    """What a submission may read beside its copy.
+    """Return what a submission may read beside its copy.
 
-    Not the course, nor the place where `file` was handed in, even if those lie below one of the
-    system's folders; nor what close_class has named.
+    The course, the original folder of `file`, and what close_class has named stay closed, even
+    inside one of the system's folders.
     """
     import botschool._core
 

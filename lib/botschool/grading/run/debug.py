@@ -1,4 +1,4 @@
-"""A submission in this very process: for breakpoints, never for points."""
+"""Run a submission in this process, for breakpoints, never for points."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from botschool.grading.run.confined import scratch_copy
 
 
 class DirectStudent:
-    """Has the methods of Student that checks use; exceptions come through as they are.
+    """Offer the methods of Student that checks use, and let exceptions through unchanged.
 
-    The code is that of the student's own file, where a debugger looks for breakpoints; the present
-    folder and `__file__` are in a copy, so that nothing is left beside it.
+    The code comes from the student's own file, so that breakpoints work. The working folder and
+    `__file__` are in a copy, so that nothing is left beside the student's file.
     """
 
     seconds_left = float("inf")
     said = "your file"
 
     def __init__(self, file: Path) -> None:
-        """Raises what loading the file raises, and Wrong when it is too large."""
+        """Load the file. Raises what loading raises, and Wrong if the file is too large."""
         file = file.resolve()
         self._scratch = scratch_copy(file)
         self._before = Path.cwd()
@@ -38,7 +38,7 @@ class DirectStudent:
 
     def _load(self, file: Path) -> Any:
         sys.dont_write_bytecode = True
-        sys.path.append(str(file.parent))  # for files of the student's beside it
+        sys.path.append(str(file.parent))  # for the student's files beside it
         loader = SourceFileLoader("student", str(file))
         module = module_from_spec(spec_from_loader("student", loader))
         sys.modules["student"] = module
@@ -47,12 +47,12 @@ class DirectStudent:
         return module
 
     def close(self) -> None:
-        """Goes back to the folder before and removes the copy."""
+        """Return to the former folder and remove the copy."""
         os.chdir(self._before)
         self._scratch.remove()
 
     def call(self, name: str, *arguments: Any, **options: Any) -> Any:
-        """Calls a function of the submission."""
+        """Call a function of the submission."""
         self.said = f"{name}(...)"
         return getattr(self._module, name)(*arguments, **options)
 
@@ -63,12 +63,12 @@ class DirectStudent:
         said: str | None = None,
         call: tuple[Any, ...] | None = None,
     ) -> Any:
-        """Calls a driver with the submission's module."""
+        """Call a driver with the submission's module."""
         self.said = said or f"{driver.__name__}(...)"
         return driver(self._module, *arguments)
 
     def scratch(self, name: str) -> Path:
-        """A file that the submission has written."""
+        """Return a file that the submission has written."""
         try:
             return self._scratch.copy(name)
         except OSError:

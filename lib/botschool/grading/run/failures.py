@@ -1,4 +1,4 @@
-"""Sentences about what went wrong in a submission's own code, with the learner's own lines."""
+"""Explain errors in a submission's code in sentences, with the learner's own lines."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from botschool.grading.run.confined import submission_files
 from botschool.sandbox.inside import read_inside
 
 Place = Callable[[int], str]
-"""From a line of the file to words for the learner."""
+"""Return words for the learner for a line of the file."""
 MAX_LINE = 100
-"""Characters of a line that is shown."""
+"""Characters to show of a line."""
 MAX_FILE = 2**20
-"""Characters of a file whose lines are shown."""
+"""Characters of a file whose lines may be shown."""
 MAX_CALLS = 3
-"""Places on the way to where the program was."""
+"""Calls to show on the way to where the program was."""
 _NO_NUMBERS = {
     "Tensor": "a tensor: .detach().numpy() or .item() gives its numbers",
     "Parameter": "a tensor: .detach().numpy() or .item() gives its numbers",
@@ -42,12 +42,12 @@ _NO_NUMBERS = {
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a file comes from that was made of parts of another."""
+    """The origin of a file that was made of parts of another one."""
 
     place: Place | None = None
-    """Words for a line of it; else its name and the line's number are said."""
+    """Words for a line of it; without them, its name and the line's number."""
     lost: dict[str, str] = field(default_factory=dict)
-    """Functions that stand in parts which are no Python -> words for the part."""
+    """Functions in parts that are not Python -> words for the part."""
 
 
 _ADVICE = (
@@ -68,7 +68,7 @@ _ADVICE = (
     ),
     (
         r"for .*: 'list' and|bad operand type for unary .*'list'|multiply sequence by non-int",
-        "A list is no array: np.array(...) makes one that can be computed with.",
+        "A list is not an array: np.array(...) makes an array for calculations.",
     ),
     (
         r"'float' object cannot be interpreted|(indices must be|expected a sequence of) integers",
@@ -84,20 +84,20 @@ _ADVICE = (
         "The parts of an array must have the same length: print the length of each.",
     ),
 )
-"""Patterns of what exceptions say -> what that mostly means to a beginner."""
+"""Patterns of exceptions' messages -> what they usually mean to a beginner."""
 
 
 class SourceLines:
-    """The lines of a submission's files, as they were handed in."""
+    """The lines of a submission's files, as handed in."""
 
     def __init__(self, file: Path, origin: Origin, quiet: bool = False) -> None:
-        """quiet: whether nothing is to be shown of what exceptions say."""
+        """Read the lines; quiet: whether to show nothing of exceptions' messages."""
         self._file, self._place = file, origin.place
         self.lost, self.quiet = origin.lost, quiet
         self._texts: dict[str, list[str]] = {}
 
     def at(self, name: str, line: int) -> tuple[str, str]:
-        """(where it is in words, the text) of a line of a file in the submission's folder."""
+        """Return (the place in words, the text) of a line of a file in the submission's folder."""
         name = plain(name)[:80]
         own = name == self._file.name and self._place is not None
         where = self._place(line) if own else f"{name}:{line}"
@@ -106,16 +106,16 @@ class SourceLines:
         return where, plain(text.expandtabs(4))
 
     def shown(self, name: Any, line: Any) -> str:
-        """A line to put below a sentence; "" if there is none."""
+        """Return a line to put below a sentence; "" if there is none."""
         if not isinstance(name, str) or type(line) is not int:
             return ""
         where, text = self.at(name, line)
         return f"\n  {where}: {text.strip()[:MAX_LINE]}" if text.strip() else f"\n  {where}"
 
     def lines(self, name: str = "") -> list[str]:
-        """Return the lines of the submission's file, or of another one that was handed in with it.
+        """Return the lines of the submission's file, or of another submitted file.
 
-        `name` may come from the child. What is no file of the submission has no lines.
+        `name` may come from the child. A file outside the submission has no lines.
         """
         name = name or self._file.name
         if name not in self._texts:
@@ -135,14 +135,14 @@ class SourceLines:
         return {path.relative_to(self._file.parent).as_posix() for path in files}
 
     def defined(self, name: str) -> int | None:
-        """The line of the file where a function or class of this name begins, indented or not."""
+        """Return the line where a function or class of this name begins, indented or not."""
         pattern = re.compile(rf"\s*(async\s+def|def|class)\s+{re.escape(name)}\b")
         found = [n for n, line in enumerate(self.lines(), 1) if pattern.match(line)]
         return found[0] if found else None
 
 
 def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
-    """The exception for a child's answer that tells of one (sandbox.exceptions.explain)."""
+    """Return the exception for a child's answer about an exception (sandbox.exceptions.explain)."""
     name, text, near, call = (
         plain(str(answer.get(key) or "")[:500]) for key in ("error", "text", "near", "call")
     )
@@ -164,14 +164,14 @@ def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
             "the exercise's file gives it."
         )
     colon = f": {text}" if text else ""
-    # not about a line of the grader's own
+    # drop the line if it is the grader's own
     means = [advice for pattern, advice in _ADVICE if place and re.search(pattern, text)][:1]
     below = place + "".join(f"\n  {advice}" for advice in means)
     return Wrong(f"{said} raised {name}{colon}{_suggested(near, text)}{below}")
 
 
 def where_it_was(calls: list[tuple[str, int]], source: SourceLines) -> str:
-    """Lines to put below a sentence: where a program was, and who called that."""
+    """Return lines to put below a sentence: where the program was, and from where it was called."""
     text = ""
     for number, (name, line) in enumerate(calls[:MAX_CALLS]):
         shown = source.shown(name, line).strip()
@@ -180,7 +180,7 @@ def where_it_was(calls: list[tuple[str, int]], source: SourceLines) -> str:
 
 
 class Unloadable(Wrong):
-    """The file cannot be loaded; `banner` says so to the learner, with its line and a caret."""
+    """The file cannot be loaded; `banner` tells the learner why, with the line and a caret."""
 
     def __init__(
         self, name: str, text: str, near: str, answer: dict[str, Any], source: SourceLines
@@ -190,14 +190,14 @@ class Unloadable(Wrong):
         known = isinstance(file, str) and type(line) is int
         where = f"\n{_marked(file, line, answer.get('column'), source)}" if known else ""
         syntax = name in ("SyntaxError", "IndentationError", "TabError")
-        what = "Your file is no Python yet" if syntax else "Your file cannot be loaded"
+        what = "Your file is not Python yet" if syntax else "Your file cannot be loaded"
         self.banner = f"{what}. Mend this first:{where}\n  {name}{colon}{_suggested(near, text)}"
         at = f" in {source.at(file, line)[0]}" if known else ""
         super().__init__(f"Your file cannot be loaded: {name}{at}{colon}")
 
 
 def _marked(file: str, line: int, column: Any, source: SourceLines) -> str:
-    """A line with a caret below it."""
+    """Return a line with a caret below it."""
     where, text = source.at(file, line)
     shown = f"  {where}\n    {text.strip()[:MAX_LINE]}"
     if type(column) is not int or column < 1:
@@ -209,12 +209,12 @@ def _marked(file: str, line: int, column: Any, source: SourceLines) -> str:
 def _missing(name: str, near: str, source: SourceLines) -> str:
     text = f"there is no function {name} in your file"
     if part := source.lost.get(name):
-        return f"{name} cannot be read: {part} is no Python, as said above."
+        return f"{name} cannot be read: {part} is not Python (see above)."
     if line := source.defined(name):
         where, code = source.at(source._file.name, line)
         inner = code != code.lstrip()
         why = "it is indented, and so belongs to what is above it" if inner else "it is not reached"
-        return f"{text}: one stands at {where}, but {why}."
+        return f"{text}: there is one at {where}, but {why}."
     if near:
         return f"{text}; there is {near}: give it the name {name} again."
     return f"{text}: its name must be as the exercise's file gives it."

@@ -1,4 +1,4 @@
-"""The code of a saved notebook."""
+"""Read the code of a saved notebook."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from botschool.errors import BotschoolError
 
 
 def code_cells(path: Path) -> list[str]:
-    """The texts of a notebook's code cells. Raises BotschoolError."""
+    """Return the texts of a notebook's code cells. Raises BotschoolError."""
     try:
         cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
         code = [cell["source"] for cell in cells if cell["cell_type"] == "code"]
         return ["".join(source) for source in code]
     except (OSError, ValueError, LookupError, TypeError, RecursionError):
         raise BotschoolError(
-            f"There is no notebook {path.name} in the folder {path.parent}: save it there under "
+            f"There is no {path.name} in the folder {path.parent}: save the notebook there under "
             "this name, then run this cell again."
         ) from None

@@ -1,18 +1,18 @@
-"""Functions of libraries that a task refuses, since they are what students are to write."""
+"""Refuse library functions that students must write themselves."""
 
 from __future__ import annotations
 
 
 def refuse(module, names):
-    """In the child: a function of this name raises a sentence, from wherever it was imported.
+    """Make functions of these names raise a sentence, from wherever they were imported.
 
-    names: as "package.module:function" or "package.module:Class.method". Those of modules that are
-    not imported yet follow as soon as they are, and each time that the file of such a module is
-    executed: by an import, by one after sys.modules was emptied, or by a loader that the submission
-    makes itself. Functions keep their identity and get other code, so that a name bound before is
-    refused, too; one that is not written in Python has no code, so another takes its place there
-    and among the names of the submission. Sent to the child as source (Student.run), so it imports
-    what it needs itself.
+    names: as "package.module:function" or "package.module:Class.method". Functions of a module that
+    is imported later are refused at its import, and whenever its file is executed again: by an
+    import, by one after sys.modules was emptied, or by a loader that the submission makes. A Python
+    function keeps its identity and gets other code, so a name bound earlier is refused, too. A
+    function that is not written in Python has no code: another one replaces it in its module and in
+    the submission. The function runs in the child and is sent there as source (Student.run), so it
+    does its own imports.
     """
     import contextlib
     import functools
@@ -43,19 +43,19 @@ def refuse(module, names):
             function.__code__ = names["make"]().__code__
 
     def replace(owner, last, function, sentence):
-        """Put another function in the place of one that is not written in Python."""
+        """Replace a function that is not written in Python."""
 
         def refused(*arguments, **options):
             raise RuntimeError(sentence)
 
-        with contextlib.suppress(TypeError, AttributeError):  # a type that is not either
+        with contextlib.suppress(TypeError, AttributeError):  # a type in C cannot change
             setattr(owner, last, refused)
         for name, value in list(vars(module).items()):
             if value is function:
                 setattr(module, name, refused)
 
     def file_of(name):
-        """The file of a module, found without importing what it is in; None if there is none."""
+        """Return a module's file, without importing its package; None if there is none."""
         where = None
         for at in range(1, name.count(".") + 2):
             spec = PathFinder.find_spec(".".join(name.split(".")[:at]), where)

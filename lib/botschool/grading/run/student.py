@@ -1,4 +1,4 @@
-"""A submission, in a child process of its own: calls in, plain data out."""
+"""Run a submission in a child process: calls go in, plain data comes out."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ from botschool.sandbox.usage import is_full
 
 
 class Student:
-    """The file of a submission, ready to be called.
+    """A submission's file, ready to be called.
 
-    All calls together are limited to `seconds` of processor time, and generously in the time that
-    passes (sandbox.Allowance). A child that died, hung or was killed is replaced at the next call,
-    so that later checks are judged on their own.
+    All calls together may use `seconds` of processor time, and some more of the time that passes
+    (sandbox.Allowance). If a child dies, hangs or is killed, the next call starts another one, so
+    that later checks are judged independently.
     """
 
     def __init__(
@@ -45,13 +45,14 @@ class Student:
         references: dict[str, Any] | None = None,
         refused: tuple[str, ...] = (),
     ) -> None:
-        """memory: MB of address space; server: else one of its own; refused: as of Exercise.task.
+        """Prepare the submission. Raises Wrong if it is too large.
 
-        origin: where the lines of the file come from, if that is made of parts of another.
-        references: of sandbox.Child, functions to put in the place of the submission's own.
-        tried: whether a fault that may be the machine's has been met before, and the submission
-        is to blame if it comes again and nothing speaks against the machine.
-        Raises Wrong when the submission is too large.
+        memory: MB of address space. server: a fork server; None starts one. refused: as in
+        Exercise.task.
+        origin: where the lines of the file come from, if it is made of parts of another one.
+        references: as in sandbox.Child, functions that replace the submission's own.
+        tried: whether a fault that may be the machine's has happened before; then a second one
+        counts against the submission, unless the machine is known to be at fault.
         """
         self._file = Path(file)
         self._memory = memory * 2**20
@@ -63,21 +64,21 @@ class Student:
         self.missing: list[str] = []
         """What this system could not confine, in words."""
         self.answers = 0
-        """How many requests the submission has answered."""
+        """Number of requests that the submission has answered."""
         self.said = "your file"
         """The last call, as the learner would write it."""
         self.pasted = ""
-        """The same to paste into Python; "" if it is too long, or no call of a function."""
+        """The last call to paste into Python; "" if it is too long, or not a function call."""
         self.request: dict[str, Any] = {}
-        """The last one."""
+        """The last request."""
         self.direct: dict[str, Any] = {}
-        """The last call of a function as a request, if a driver made it, too; else {}."""
+        """The last function call as a request, also one that a driver made; else {}."""
         self.answer: Any = None
-        """To the last request."""
+        """The answer to the last request."""
         self.changed = ""
-        """The first call that changed an array, list or dict that it was given, in a sentence."""
+        """A sentence on the first call that changed an array, list or dict of its caller."""
         self.trace: list[tuple[bytes, bytes]] | None = None
-        """Packed requests with their packed answers, once this is a list."""
+        """Packed requests and their packed answers, if this is a list."""
         self._references = references
         self._source = SourceLines(self._file, origin or Origin(), quiet=references is not None)
         self._scratch = scratch_copy(self._file)
@@ -85,9 +86,9 @@ class Student:
         self._own: ForkServer | None = None
 
     def call(self, name: str, *arguments: Any, **options: Any) -> Any:
-        """Calls a function of the submission; what it returns, as plain data.
+        """Call a function of the submission; return its result as plain data.
 
-        Raises Wrong with a sentence when it fails, hangs or returns something else.
+        Raises Wrong with a sentence if the call fails, hangs or returns something else.
         """
         shown = [*map(argument, arguments), *(f"{k}={argument(v)}" for k, v in options.items())]
         self.said = f"{name}({', '.join(shown)})"
@@ -102,11 +103,11 @@ class Student:
         said: str | None = None,
         call: tuple[Any, ...] | None = None,
     ) -> Any:
-        """Runs a function of the grader's inside the child, as driver(student_module, ...).
+        """Run a function of the grader in the child, as driver(student_module, ...).
 
-        The driver must import what it needs itself. What it reports is no more trustworthy than
-        the submission: check it again. call: the name of the function that it calls and the
-        arguments, if it calls one; learners can then try it.
+        The driver must import what it needs. The submission can forge what the driver reports:
+        check it. call: name and arguments of the function that the driver calls, if it calls one;
+        learners can then try it.
         """
         self.said, self.pasted, self.direct = said or f"{driver.__name__}(...)", "", {}
         if call is not None:
@@ -115,14 +116,14 @@ class Student:
         return self._request(_driven(driver, *arguments))
 
     def ask(self, request: dict[str, Any]) -> Any:
-        """Makes a request of another Student's trace; its answer. Raises Wrong."""
+        """Repeat a request from another Student's trace and return the answer. Raises Wrong."""
         self.said = str(request["name"])
         return self._request(request)
 
     def twice(self, request: dict[str, Any]) -> dict[str, Any] | None:
-        """The answers to a request that is made twice, and its arguments after the first time.
+        """Make a request twice; return both answers and the arguments after the first time.
 
-        {"answers", "arguments"}, or None when that fails. Nothing that counts depends on it.
+        The keys are "answers" and "arguments"; None if a request fails. No points depend on it.
         """
         try:
             found = self._request(request | {"twice": True})
@@ -133,16 +134,16 @@ class Student:
 
     @property
     def printed(self) -> str:
-        """The beginning of what the submission has printed."""
+        """Return the beginning of what the submission has printed."""
         return self._printed + (self._child.printed() if self._child else "")
 
     @property
     def seconds_left(self) -> float:
-        """What is left of the time."""
+        """Return the seconds left."""
         return self._allowance.left
 
     def scratch(self, name: str) -> Path:
-        """A file that the submission has written beside its own, as a copy that stays as it is."""
+        """Copy a file that the submission has written beside its own; return the copy's path."""
         try:
             return self._scratch.copy(name)
         except OSError as error:
@@ -152,18 +153,18 @@ class Student:
             raise Wrong(f"{self.said} should have written the file {name}, but has not.") from None
 
     def pictures(self) -> list[tuple[str, bytes]]:
-        """(name, content) of the PNG files beside the submission's file; few and small ones."""
+        """Return (name, content) of a few small PNG files beside the submission's file."""
         return self._scratch.pictures()
 
     def stop(self) -> None:
-        """Kills the child, if there is one; the next call starts another."""
+        """Kill the child, if there is one; the next call starts another."""
         if self._child is not None:
             self._child.kill()
             self._printed = self.printed
             self._child = None
 
     def close(self) -> None:
-        """Kills the child and removes the scratch copy."""
+        """Kill the child and remove the scratch copy."""
         self.stop()
         if self._own is not None:
             self._own.close()
@@ -196,7 +197,7 @@ class Student:
             ) from None
         except ValueError:
             self.stop()
-            raise Wrong(f"{self.said} sent back something that is no plain data.") from None
+            raise Wrong(f"{self.said} sent back something that is not plain data.") from None
         if answer is None:
             reason = self._child.ending()
             self._blame_the_machine_for_a_kill()
@@ -207,7 +208,7 @@ class Student:
         if "error" in answer:
             raise explained(answer, self.said, self._source)
         if "value" not in answer:
-            raise Wrong(f"{self.said} sent back something that is no plain data.")
+            raise Wrong(f"{self.said} sent back something that is not plain data.")
         self.answer = answer["value"]
         if answer.get("changed") and not self.changed:
             number = answer["changed"][0] if isinstance(answer["changed"], list) else "?"
@@ -220,7 +221,7 @@ class Student:
         return self.answer
 
     def _blame_the_machine_for_a_kill(self) -> None:
-        """Raises MachineFault for one that the grader did not make."""
+        """Raise MachineFault if something other than the grader has killed the child."""
         if not self._child.was_killed():
             return
         memory = self._child.memory_ran_out()
@@ -232,7 +233,7 @@ class Student:
             )
 
     def _blame_the_machine_for_a_full_disk(self, answer: dict[str, Any]) -> None:
-        """Raises MachineFault if the submission could not write because of others."""
+        """Raise MachineFault if other programs have filled the disk."""
         full = os.strerror(errno.ENOSPC) in str(answer.get("text"))
         if full and (is_full(self._scratch.root) or not self._tried):
             raise MachineFault(
@@ -241,6 +242,6 @@ class Student:
 
 
 def _driven(driver: Callable[..., Any], *arguments: Any) -> dict[str, Any]:
-    """The request that runs a driver."""
+    """Return the request that runs a driver."""
     source = textwrap.dedent(inspect.getsource(driver))
     return {"driver": source, "name": driver.__name__, "arguments": arguments}

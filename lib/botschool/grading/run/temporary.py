@@ -1,4 +1,4 @@
-"""Temporary folders that do not stay, though their process is killed."""
+"""Make temporary folders that are removed later even if their process is killed."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from pathlib import Path
 from botschool.sandbox.scratch import remove_tree
 
 PREFIX = "botschool-grading-"
-"""Of the folders' names. The lock on a folder tells whether its process lives."""
+"""Prefix of the folders' names. The lock on a folder shows that its process lives."""
 
 
 @contextmanager
 def temporary_folder() -> Iterator[Path]:
-    """Remove the folders of processes that have died; give a new one until the end."""
+    """Yield a new folder, and remove folders of dead processes; the new one goes at the end."""
     sweep()
     folder, lock = _locked()
     try:
@@ -29,7 +29,7 @@ def temporary_folder() -> Iterator[Path]:
 
 @contextmanager
 def temporary_files_within() -> Iterator[None]:
-    """Let all temporary files of this process lie in such a folder."""
+    """Put all temporary files of this process into such a folder within the block."""
     with temporary_folder() as folder:
         before, tempfile.tempdir = tempfile.tempdir, str(folder)
         try:
@@ -62,7 +62,7 @@ def _locked() -> tuple[Path, int]:
             fcntl.flock(descriptor, fcntl.LOCK_EX)
         if folder.is_dir():
             return folder, descriptor
-        os.close(descriptor)  # another process has swept it in between
+        os.close(descriptor)  # another process has removed it in between
 
 
 def _opened(folder: Path) -> int:

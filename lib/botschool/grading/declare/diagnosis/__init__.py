@@ -1,11 +1,11 @@
-"""Likely causes of a wrong answer: what was got against what was wanted.
+"""Find likely causes of a wrong answer by comparing it with the right one.
 
 A detector is a function of a Comparison. It returns a sentence if the cause that it knows explains
-the whole difference, to rounding, and None otherwise. They are asked in the order of places.py
-(shapes, values that stand elsewhere, order) and then of numbers.py (what was made of the right
-numbers), and the first sentence is said. A sentence names the mistake, never the right numbers.
-To add one: write the function, decorate it with @detector, and give its example in
-tests/test_grading_diagnosis.py, which also sees to it that all are silent about random numbers.
+the whole difference, to rounding, and None otherwise. `diagnose` asks the detectors of places.py
+(shapes, values in other places, order), then those of numbers.py (what was computed from the right
+numbers), and returns the first sentence. A sentence names the mistake, never the right numbers.
+To add a detector, write the function, decorate it with @detector, and give its example in
+tests/test_grading_diagnosis.py. That test also checks that no detector explains random numbers.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ def diagnose(
     answer: Any = None,
     mistakes: dict[str, Any] | None = None,
 ) -> str:
-    """A sentence about the likely cause, or "".
+    """Return a sentence about the likely cause, or "".
 
-    mistakes: sentence -> what this mistake makes of the answer; these are looked at first.
+    mistakes: sentence -> the answer that this mistake leads to; these are tried first.
     """
     got, wanted = np.asarray(got, dtype=np.float64), np.asarray(wanted, dtype=np.float64)
     sizes_fit = 0 < got.size <= MAX_NUMBERS and 0 < wanted.size <= MAX_NUMBERS

@@ -1,4 +1,4 @@
-"""A wrong answer beside the right one, and what a detector of likely causes is."""
+"""Compare a wrong answer with the right one, for detectors of likely causes."""
 
 from __future__ import annotations
 
@@ -10,49 +10,49 @@ from typing import Any
 import numpy as np
 
 MAX_NUMBERS = 1_000_000
-"""In an answer that is looked at."""
+"""Numbers of an answer to look at, at most."""
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """Two arrays of finite float64 that differ, and what was asked."""
+    """Two different arrays of finite float64, with the arguments of the call."""
 
     got: np.ndarray
     wanted: np.ndarray
     arguments: tuple = ()
-    """Of the call."""
+    """Arguments of the call."""
     answer: Any = None
     """The whole answer, of which `got` may be a part."""
 
     def same(self, candidate: Any) -> bool:
-        """Whether the answer is this, to rounding (single precision included)."""
+        """Return whether the wrong answer equals this, to rounding (single precision included)."""
         return alike(self.got, candidate)
 
     @property
     def in_rows(self) -> bool:
-        """Whether both have the same shape, with three rows at least."""
+        """Return whether both have the same shape, with at least three rows."""
         return self.got.shape == self.wanted.shape and self.got.ndim > 0 and len(self.got) > 2
 
     @cached_property
     def varied(self) -> int:
-        """How many different numbers were wanted, without 0: what little there is proves little."""
+        """Return how many different numbers other than 0 are expected; few numbers prove little."""
         return len(np.unique(self.wanted[self.wanted != 0]))
 
     @cached_property
     def telling(self) -> bool:
-        """Whether a factor or formula cannot fit by chance: not just a number or two like 1/2."""
+        """Return whether no factor or formula fits by chance; one fits a few numbers like 1/2."""
         parts = 60 * self.wanted
         simple = np.abs(parts - np.round(parts)).max() < 1e-9 and np.abs(parts).max() < 1200
         return self.varied >= (3 if simple else 1)
 
     @cached_property
     def given(self) -> list[np.ndarray]:
-        """The arrays of numbers among the arguments, and in lists and dicts there."""
+        """Return the arrays of numbers among the arguments, also inside lists and dicts."""
         return [each for each in arrays(self.arguments, 0) if each.size <= MAX_NUMBERS]
 
     @cached_property
     def counts(self) -> list[int]:
-        """Numbers of things: lengths of the arguments and the answer, and small integers."""
+        """Return counts at hand: lengths of the arguments and the answer, small integers."""
         found = set(self.wanted.shape)
         found |= {len(each) for each in self.arguments if isinstance(each, (list, dict))}
         for each in self.given:
@@ -63,7 +63,7 @@ class Comparison:
 
 
 def alike(one: Any, other: Any) -> bool:
-    """Whether two arrays are the same, to rounding."""
+    """Return whether two arrays are the same, to rounding."""
     one, other = np.asarray(one, dtype=np.float64), np.asarray(other, dtype=np.float64)
     if one.shape != other.shape or not np.all(np.isfinite(other)):
         return False
@@ -72,7 +72,7 @@ def alike(one: Any, other: Any) -> bool:
 
 
 def arrays(value: Any, depth: int = 0) -> list[np.ndarray]:
-    """The arrays of numbers in a value of plain data; a list of numbers is one."""
+    """Return the arrays of numbers in a value of plain data; a list of numbers is an array."""
     if isinstance(value, np.ndarray):
         return [value.astype(np.float64)] if value.dtype.kind in "biuf" else []
     if isinstance(value, (int, float)) and not isinstance(value, bool):
@@ -88,7 +88,7 @@ def arrays(value: Any, depth: int = 0) -> list[np.ndarray]:
 
 
 def parts(answer: Any, depth: int = 0) -> list[tuple[str, Any]]:
-    """(its name, value) of the parts of an answer that are numbers or arrays of them; a few."""
+    """Return (name, value) of a few parts of an answer that are numbers or arrays of numbers."""
     found: list[tuple[str, Any]] = []
     if depth > 2 or not isinstance(answer, (dict, list)):
         return found
@@ -106,7 +106,7 @@ Detector = Callable[[Comparison], "str | None"]
 
 
 def adding_to(detectors: list[Detector]) -> Callable[[Detector], Detector]:
-    """A decorator that puts functions at the end of this list."""
+    """Return a decorator that appends functions to this list."""
 
     def add(function: Detector) -> Detector:
         detectors.append(function)

@@ -1,4 +1,4 @@
-"""Detectors of numbers that are made of the right ones, and of where the difference is."""
+"""Detect numbers computed from the right ones, and the places where the difference is."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ DETECTORS: list[Detector] = []
 detector = adding_to(DETECTORS)
 
 FEW = 3
-"""Smaller counts say nothing about where the counting begins."""
+"""Smaller counts do not show where the counting begins."""
 
-# --- numbers that are made of the right ones
+# --- numbers computed from the right ones
 
 
 @detector
 def wrong_sign(c: Comparison) -> str | None:
     if c.same(-c.wanted):
-        return "Right but for the sign: it is turned around."
+        return "Only the sign is wrong: it is reversed."
     if c.got.shape == c.wanted.shape and alike(np.abs(c.got), np.abs(c.wanted)):
         wrong = int(np.sum(np.sign(c.got) != np.sign(c.wanted)))
         if np.all(c.got >= 0) and c.varied:
-            return "Right but for the sign: that of negative values is lost."
-        return f"Right but for the sign of {wrong} of {c.got.size} values."
+            return "Only the sign is wrong: negative values have lost theirs."
+        return f"Only the sign of {wrong} of {c.got.size} values is wrong."
     return None
 
 
@@ -56,7 +56,7 @@ def whole_turns(c: Comparison) -> str | None:
         return None
     turns = (c.got - c.wanted) / (2 * np.pi)
     if np.any(np.abs(turns) > 0.5) and np.allclose(turns, np.round(turns), rtol=0, atol=1e-6):
-        return "Right but for whole turns of 2 pi: in which range is the angle asked for?"
+        return "Right except for whole turns of 2 pi: in which range must the angle be?"
     return None
 
 
@@ -66,10 +66,15 @@ def a_known_factor(c: Comparison) -> str | None:
         return None
     each = "Each number is" if c.wanted.ndim else "It is"
     known = (
-        (2.0, "twice what was expected: is a factor 1/2 missing, or a sum taken for a mean of 2?"),
+        (
+            2.0,
+            "twice what was expected: is a factor 1/2 missing, or is it a sum instead of a mean "
+            "of 2?",
+        ),
         (
             0.5,
-            "half of what was expected: is a factor 1/2 too much, or a mean of 2 taken for a sum?",
+            "half of what was expected: is a factor 1/2 too much, or is it a mean of 2 "
+            "instead of a sum?",
         ),
         (1 / np.log(2), "in bits: the natural logarithm (np.log) is asked for, not np.log2."),
         (1 / np.log(10), "by np.log10: the natural logarithm (np.log) is asked for."),
@@ -100,7 +105,9 @@ _FORMULAS: tuple[tuple[Callable[[np.ndarray], np.ndarray], str], ...] = (
     (np.exp, "It is the exponential of what was expected: is np.log missing?"),
     (np.arctanh, "It is what was expected before tanh: apply np.tanh at the end."),
     (
-        lambda x: np.where(np.abs(x) < 4, np.tanh(x), np.nan),  # far out tanh is 1 for all
+        lambda x: np.where(
+            np.abs(x) < 4, np.tanh(x), np.nan
+        ),  # for large numbers, tanh is always 1
         "It is the tanh of what was expected: one tanh too much.",
     ),
     (
@@ -131,8 +138,8 @@ def rounded(c: Comparison) -> str | None:
     for function in (np.trunc, np.floor, np.round):
         if np.array_equal(c.got, function(c.wanted)) and np.any(c.got):
             return (
-                "The fractions are cut off: whole numbers were kept. An array of integers (as made "
-                "of [0, 0], or with dtype=int) cannot hold others; // divides without rest."
+                "The fractions are cut off. An array of integers (made of [0, 0], or with "
+                "dtype=int) cannot hold fractions, and // drops them."
             )
     return None
 
@@ -142,9 +149,9 @@ def added_up(c: Comparison) -> str | None:
     if not c.in_rows:
         return None
     if c.same(np.cumsum(c.wanted, axis=0)):
-        return "Each value holds those before it, too: something is not set back to 0."
+        return "Each value includes those before it: is something not set back to 0?"
     if c.same(np.cumsum(c.wanted[::-1], axis=0)[::-1]):
-        return "Each value holds those after it, too."
+        return "Each value includes those after it."
     return None
 
 
@@ -177,7 +184,7 @@ def a_constant_added(c: Comparison) -> str | None:
 
 @detector
 def at_one_end(c: Comparison) -> str | None:
-    """Only one of many differs, at an end."""
+    """Return a sentence if only one of many numbers differs, at an end."""
     if not c.in_rows:
         return None
     if alike(c.got[1:], c.wanted[1:]):
@@ -189,7 +196,7 @@ def at_one_end(c: Comparison) -> str | None:
 
 @detector
 def not_where_negative(c: Comparison) -> str | None:
-    """Right where a sign is positive, or the other way round: half of the cases was forgotten."""
+    """Return a sentence if numbers are right for one sign only: half of the cases is missing."""
     if c.got.shape != c.wanted.shape or c.got.size < 6:
         return None
     right = np.isclose(c.got, c.wanted, rtol=1e-5, atol=1e-9)

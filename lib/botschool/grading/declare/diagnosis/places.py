@@ -1,4 +1,4 @@
-"""Detectors of shapes, of values that stand in another place, and of order."""
+"""Detect wrong shapes, values in other places, and wrong order."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ detector = adding_to(DETECTORS)
 
 
 def of_shapes(got: tuple[int, ...], wanted: tuple[int, ...]) -> str:
-    """A sentence about two shapes, without their numbers; "" if they tell nothing."""
+    """Return a sentence about two shapes, without their numbers; "" if they show no cause."""
     if len(got) == 2 and got == wanted[::-1]:
         return "Rows and columns are exchanged: transpose it (.T)."
     if [n for n in got if n != 1] == [n for n in wanted if n != 1]:
@@ -78,7 +78,7 @@ def other_shape(c: Comparison) -> str | None:
     return of_shapes(c.got.shape, c.wanted.shape) if c.got.shape != c.wanted.shape else None
 
 
-# --- other values that are at hand
+# --- other values at hand
 
 
 @detector
@@ -90,8 +90,8 @@ def given_back(c: Comparison) -> str | None:
 
 @detector
 def exchanged(c: Comparison) -> str | None:
-    """What is expected here stands in another place of the answer."""
-    counted = c.wanted.ndim == 0 and c.wanted == np.round(c.wanted)  # equal by chance, perhaps
+    """Return a sentence if the expected value stands in another place of the answer."""
+    counted = c.wanted.ndim == 0 and c.wanted == np.round(c.wanted)  # perhaps equal by chance
     for place, part in parts(c.answer) if c.telling and not counted else ():
         found = arrays(part)
         if len(found) == 1 and alike(found[0], c.wanted) and not c.same(found[0]):
@@ -128,7 +128,7 @@ _SUMMARIES: dict[str, Callable[[np.ndarray], Any]] = {
 
 @detector
 def another_summary(c: Comparison) -> str | None:
-    """One number is made of many, but another one than is asked for: the last for the best."""
+    """Return a sentence if another summary was taken: the last value instead of the best."""
     if c.wanted.ndim or c.got.ndim or not c.telling:
         return None
     for values in (*arrays(c.answer), *c.given):
@@ -149,7 +149,7 @@ def another_summary(c: Comparison) -> str | None:
 @detector
 def all_zero(c: Comparison) -> str | None:
     if not np.any(c.got) and c.wanted.size > 1:
-        return "All of it is 0, though it should not be: was it ever filled in?"
+        return "All values are 0, but they should not be: does your code ever fill them in?"
     return None
 
 
@@ -166,12 +166,12 @@ def rows_alike(c: Comparison) -> str | None:
     )  # fmt: skip
     if which == "last":
         return (
-            "All rows are alike, and are the last one: the same array was kept again and again. "
-            "Keep a copy each time (.copy())."
+            "All rows equal the last one: the same array was kept each time. Keep a copy "
+            "each time (.copy())."
         )
     if which:
-        return "All rows are alike, and are the first one: nothing changes on the way."
-    return "All rows are alike, but they should differ."
+        return "All rows equal the first one: nothing changes on the way."
+    return "All rows are equal, but they should differ."
 
 
 @detector
@@ -196,7 +196,7 @@ def shifted_by_one(c: Comparison) -> str | None:
 
 @detector
 def places_for_order(c: Comparison) -> str | None:
-    """argsort for ranks, or ranks for argsort."""
+    """Return a sentence if argsort stands for ranks, or ranks for argsort."""
     if c.got.ndim != 1 or c.got.shape != c.wanted.shape or len(np.unique(c.wanted)) < len(c.wanted):
         return None
     if len(c.got) < 3 or not alike(np.sort(c.got), np.sort(c.wanted)):
@@ -204,8 +204,8 @@ def places_for_order(c: Comparison) -> str | None:
     got, wanted = (np.argsort(np.argsort(each)) for each in (c.got, c.wanted))
     if np.array_equal(got[wanted], np.arange(len(got))):
         return (
-            "An order and the places in it are mixed up: argsort tells who comes first, second, "
-            "..., and the argsort of that tells which place each one has."
+            "An order and the places in it are mixed up: argsort tells which one comes "
+            "first, second, ..., and the argsort of that tells which place each one has."
         )
     return None
 
