@@ -1,7 +1,7 @@
-"""Grades many submissions, each in a process of its own, and keeps results by content.
+"""Grade many submissions, each in a process of its own, and cache results by content.
 
-A submission that breaks or holds up its grader's process harms no other one. What was graded
-before is not graded again until the submission, the grader or botschool changes.
+A submission that crashes or blocks its grader's process harms no other one. A submission is graded
+again only if it, the grader or botschool has changed.
 """
 
 from __future__ import annotations
@@ -43,31 +43,32 @@ from botschool.sandbox.scratch import remove_tree
 from botschool.sandbox.server import interpreter
 
 MAX_KEPT = 5000
-"""Results that are remembered; those not asked for longest are forgotten first."""
+"""Results in the cache; it drops those that were not asked for longest."""
 SPARE_SECONDS = 60
 WALL_FACTOR = 5
-"""A grader's process may take so many times the limits of its tasks, with 5 seconds more for each,
-and SPARE_SECONDS: in the time that passes, with other programs beside it."""
+"""A grader's process may take this many times the limits of its tasks, plus 5 seconds for each task
+and SPARE_SECONDS, in the time that passes, with other programs running.
+"""
 MACHINE_FAULT = 75
 """Exit code of a grader's process, as EX_TEMPFAIL of sysexits.h."""
 
 
 @dataclass(frozen=True)
 class Job:
-    """A submission's file, of an exercise."""
+    """A submission's file of an exercise."""
 
     number: Number
     file: Path
     tasks: tuple[str, ...] = ()
-    """Those to grade; () for all."""
+    """Tasks to grade; () for all."""
 
 
 class Grades:
-    """Grades submissions of the course in a folder, and remembers their results.
+    """Grade submissions of the course in a folder, and cache their results.
 
     A result is a dict: exercise, title, points, max_points, tasks (with what they printed),
-    pictures ([name, base64]), missing, problem (why there are no points; ""), and graded: False
-    if the grader or its machine is to blame for that, so that the 0 points mean nothing.
+    pictures ([name, base64]), missing, problem (why there are no points; ""), and graded: False if
+    the grader or its machine failed, so that the 0 points mean nothing.
     """
 
     def __init__(
@@ -77,8 +78,10 @@ class Grades:
         secret: str | None = None,
         laboratories: Mapping[Number, Exercise] = MappingProxyType({}),
     ) -> None:
-        """fresh: grade again what was graded before; secret: else BOTSCHOOL_GRADING_SEED's.
+        """Prepare grading.
 
+        fresh: whether to grade again what the cache holds. secret: None for
+        BOTSCHOOL_GRADING_SEED's.
         laboratories: graded like exercises, by a program of their own.
         """
         self._root = root
@@ -91,7 +94,7 @@ class Grades:
         self._stopped = threading.Event()
 
     def exercise(self, number: Number) -> Exercise:
-        """The exercise as its grader declares it."""
+        """Return the exercise as its grader declares it."""
         if number not in self._exercises:
             assert isinstance(number, int)
             self._exercises[number] = load_exercise(number, self._root)
@@ -103,10 +106,10 @@ class Grades:
         workers: int,
         report: Callable[[Job, dict], None] = lambda job, result: None,
     ) -> dict[Job, dict[str, Any]]:
-        """The results of all jobs; reports each as soon as it is there.
+        """Return the results of all jobs; report each as soon as it is there.
 
-        Where the machine was at fault (MachineFault, a grader that was killed or took too long)
-        a job is done again at the end, while nothing else runs.
+        After a fault of the machine (MachineFault, a grader that was killed or took too long), the
+        job runs again at the end, while no other job runs.
         """
         results, again = {}, []
         with temporary_folder() as self._temporary, ThreadPoolExecutor(workers) as pool:
@@ -138,7 +141,7 @@ class Grades:
                 path.unlink()
 
     def _result(self, job: Job, alone: bool = False) -> dict[str, Any] | None:
-        """None: to be done again, alone."""
+        """Return a job's result; None if it must run again, alone."""
         try:
             key = self._key(job)
         except Wrong as error:
@@ -223,8 +226,8 @@ class Grades:
     ) -> dict[str, Any]:
         """Return a result without points.
 
-        graded: whether they are what the submission deserves; else it was not graded.
-        tasks: those that are asked for; () for all.
+        graded: whether the submission deserves no points; otherwise it was not graded.
+        tasks: the tasks to grade; () for all.
         """
         exercise = self.exercise(number)
         asked = [task for task in exercise.tasks if not tasks or task.id in tasks]
@@ -248,7 +251,7 @@ class Grades:
 
 
 def to_record(result: Result) -> dict[str, Any]:
-    """A result as plain data, without pictures that come twice."""
+    """Return a result as plain data, without repeated pictures."""
     tasks = [asdict(task) for task in result.tasks]
     pictures = {}
     for task in tasks:
@@ -271,7 +274,7 @@ def to_record(result: Result) -> dict[str, Any]:
 
 @functools.lru_cache(maxsize=64)
 def _versions(root: Path, number: Number) -> str:
-    """What a result depends on beside the submission."""
+    """Return what a result depends on beside the submission."""
     stamps = [sys.version, str(number)]
     own: list[Path] = []
     if isinstance(number, int):
@@ -298,12 +301,12 @@ def _of_exercise(number: str, file: Path, tasks: list[str], alone: bool) -> dict
 
 
 def serve(grade: Callable[[str, Path, list[str], bool], dict[str, Any]]) -> None:
-    """Grades a file (argument 2) of an exercise (argument 1); the result goes to stdout as JSON.
+    """Grade a file (argument 2) of an exercise (argument 1); write the result to stdout as JSON.
 
-    Argument 3: a pipe's descriptor; when its other end is closed, the grading is ended.
-    Argument 4: "alone" if nothing else is graded meanwhile. Argument 5: the tasks to grade, with
+    Argument 3: a pipe's descriptor; the grading ends when its other end closes.
+    Argument 4: "alone" if no other grading runs meanwhile. Argument 5: the tasks to grade, with
     commas between; "" for all.
-    The exit code is MACHINE_FAULT if the machine was at fault.
+    The exit code is MACHINE_FAULT after a fault of the machine.
     """
     number, file, lifeline = sys.argv[1], Path(sys.argv[2]), int(sys.argv[3])
     threading.Thread(target=_end_with, args=(lifeline,), daemon=True).start()
@@ -326,6 +329,6 @@ def serve(grade: Callable[[str, Path, list[str], bool], dict[str, Any]]) -> None
 
 
 def _end_with(pipe: int) -> None:
-    """Ends this process, and so its fork server and children, when a pipe is closed."""
+    """End this process, and so its fork server and children, when a pipe closes."""
     os.read(pipe, 1)
     os._exit(1)

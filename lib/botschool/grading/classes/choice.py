@@ -1,4 +1,4 @@
-"""The file of an exercise among all that a person handed in."""
+"""Choose the file of an exercise among all files that a person handed in."""
 
 from __future__ import annotations
 
@@ -31,19 +31,19 @@ MAX_TEXT = 4 * 2**20
 MAX_LISTED = 30
 """Names in a list of files."""
 SUFFIXES = (".py", ".ipynb", ".txt", ".pyw", ".html", ".htm", ".md", ".json", ".zip", "")
-"""Of files that may hold an exercise, under a wrong name, too."""
+"""Suffixes of files that may hold an exercise, even under a wrong name."""
 DATA = (
     ".npy", ".npz", ".csv", ".json", ".ini", ".png", ".jpg", ".jpeg", ".gif", ".svg", ".dat", ".pt",
     ".pth", ".onnx", ".yaml", ".yml", ".toml", ".xml", ".urdf", ".stl", ".obj", ".mp4",
 )  # fmt: skip
-"""Suffixes of files that a program reads or has made."""
+"""Suffixes of data files, which a program reads or writes."""
 _STUB = re.compile(r"raise NotImplementedError\(\s*['\"]task \d")
 _NAMES = re.compile(r"^(?:async +def|def|class) +(\w+)", re.MULTILINE)
 _OLD = re.compile(r"old|backup|\bbak\b|orig|before|skeleton|template", re.IGNORECASE)
 
 
 class Wanted:
-    """What an exercise asks for: the name of its file, and the file as it was given out."""
+    """The name of an exercise's file, and the file as students got it."""
 
     number: Number
     file: str
@@ -72,7 +72,7 @@ class Wanted:
     def choose(
         self, handed: Handed, new_folder: Callable[[], Path], newest_first: bool = False
     ) -> Choice:
-        """Return the file to grade. newest_first: of a platform that numbers attempts."""
+        """Return the file to grade; newest_first: whether the platform numbers attempts."""
         return choose(handed, self, new_folder, newest_first)
 
 
@@ -97,14 +97,14 @@ class Candidate:
 
     @cached_property
     def suffix(self) -> str:
-        """Of its name, without what a system has put behind it."""
+        """Return the name's suffix, without additions of a system."""
         name = re.sub(r"(?i)(\.py|\.ipynb)\.txt$", r"\1", self.file.name)
         suffix = re.search(r"\.\w+$", name)
         return suffix[0].lower() if suffix else ""
 
     @cached_property
     def text(self) -> str:
-        """Its code, or the notebook as it is."""
+        """Return its code, or a notebook's JSON."""
         text = decoded(self.content)[0]
         if self.suffix == ".md":
             return code_of_fences(text)
@@ -116,7 +116,7 @@ class Candidate:
 
     @cached_property
     def is_notebook(self) -> bool:
-        """By what it holds: a script may be called a notebook, and a notebook a script."""
+        """Return whether its content is a notebook, whatever its name."""
         named = self.suffix == ".ipynb" and self.text.lstrip().startswith("{")
         return named or is_notebook(self.text)
 
@@ -131,18 +131,18 @@ class Candidate:
 
     @cached_property
     def shared(self) -> float:
-        """Which part of the skeleton's functions it defines."""
+        """Return the share of the skeleton's functions that it defines."""
         names = self.wanted.names
         return len(names & set(_NAMES.findall(self.code))) / len(names) if names else 0.0
 
     @cached_property
     def differs(self) -> bool:
-        """Whether it is not as it was given out."""
+        """Return whether it differs from the file that students got."""
         lines = code_lines(self.code)
         return bool(lines) and (not self.wanted.known or lines != self.wanted.lines)
 
     def fits(self) -> bool:
-        """Return whether it is the exercise's by its name or by what it defines."""
+        """Return whether its name or its definitions are the exercise's."""
         name = self.file.name.lower()
         if self.suffix not in SUFFIXES or name.startswith("test_"):
             return False
@@ -153,7 +153,7 @@ class Candidate:
         return not others and self.shared >= 0.6 and len(self.wanted.names) > 1
 
     def rank(self, newest_first: bool) -> tuple:
-        """Return a key: the larger, the rather it is what the person wants to be graded."""
+        """Return a sort key: the larger, the more likely the person wants this file graded."""
         place = self.file.shown in self.wanted.places
         left = len(_STUB.findall(self.code))
         number = max(map(int, re.findall(r"\d+", self._addition)), default=0)
@@ -175,7 +175,7 @@ class Candidate:
 
     @cached_property
     def _addition(self) -> str:
-        """What its name has beside the exercise's."""
+        """Return what its name has beside the exercise's."""
         stem = re.sub(r"\.\w+$", "", re.sub(r"(?i)\.txt$", "", self.file.name))
         own = "[^a-z0-9]*".join(self.wanted.stem)
         return re.sub(own, "", stem, count=1, flags=re.IGNORECASE)
@@ -183,26 +183,26 @@ class Candidate:
 
 @dataclass
 class Choice:
-    """What is graded for an exercise, or why nothing is."""
+    """The file to grade for an exercise, or the reason why there is none."""
 
     file: Path | None = None
-    """On the disk, under a name that can be graded."""
+    """Its path on the disk, under a name that can be graded."""
     problem: str = ""
     unread: bool = False
-    """Whether there is a problem that says nothing about the submission."""
+    """Whether the problem lies outside the submission."""
     notes: list[str] = field(default_factory=list)
     """What the reader of the grade must know."""
     used: set[File] = field(default_factory=set)
     changed: bool = False
-    """Whether it is not as it was given out."""
+    """Whether it differs from the file that students got."""
     origin: File | None = None
-    """What the file was, as it was handed in."""
+    """Its name as handed in."""
 
 
 def choose(
     handed: Handed, wanted: Wanted, new_folder: Callable[[], Path], newest_first: bool = False
 ) -> Choice:
-    """Return the file to grade. newest_first: of a platform that numbers attempts."""
+    """Return the file to grade; newest_first: whether the platform numbers attempts."""
     candidates, unread = _candidates(handed, wanted)
     if not candidates:
         if any(_is_of(link, wanted) for link in handed.links):
@@ -236,7 +236,7 @@ def choose(
 
 
 def listed(names: list[str]) -> str:
-    """Return names with commas; of a long list its beginning and the number of the others."""
+    """Return names with commas; of a long list, only its beginning and the number of the others."""
     shown = ", ".join(plain(name) for name in names[:MAX_LISTED])
     return f"{shown} and {len(names) - MAX_LISTED} more" if len(names) > MAX_LISTED else shown
 
@@ -248,9 +248,9 @@ def _is_of(link: str, wanted: Wanted) -> bool:
 
 
 def _candidates(handed: Handed, wanted: Wanted) -> tuple[list[Candidate], bool]:
-    """Return the files that fit, and whether one that may be the exercise's is unreadable.
+    """Return the files that fit, and whether an unreadable one may be the exercise's.
 
-    Those of other names are looked at only where no file of the exercise's name was changed.
+    Files of other names count only if every file of the exercise's name is unchanged.
     """
     named = {file for file in handed.files if wanted.stem in squashed(file.name)}
     found, unread = [], False
@@ -281,7 +281,7 @@ def _nothing(handed: Handed, wanted: Wanted) -> str:
 
 
 def _needed(best: Candidate, beside: list[File]) -> set[File]:
-    """Return the files beside that a program can use: data, and modules that are named in it."""
+    """Return the files beside it that a program can use: data, and modules that it names."""
     used = {file for file in beside if file.name.lower().endswith(DATA)}
     texts, waiting = [best.code], {file for file in beside if file not in used}
     while texts:
@@ -303,7 +303,7 @@ def _settle(
     wanted: Wanted,
     new_folder: Callable[[], Path],
 ) -> None:
-    """Let the file stand under its name, in UTF-8, with the files that lie beside it."""
+    """Store the file under its name, in UTF-8, with the files beside it."""
     encoding = decoded(best.content)[1]
     if best.is_notebook and not best.code:
         choice.problem = f"{plain(best.file.shown)} is no notebook that can be read."

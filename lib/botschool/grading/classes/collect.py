@@ -1,4 +1,4 @@
-"""A whole class: an export of submissions to a table and a page of feedback per student."""
+"""Turn an export of a class's submissions into a table and a page of feedback per student."""
 
 from __future__ import annotations
 
@@ -30,27 +30,27 @@ TABLE, PAGES = "grades.csv", "feedback"
 _FIRST_COLUMNS = ["student", "total"]
 
 Asked = dict[Number, tuple[str, ...]]
-"""Exercises and laboratories, and of each the tasks that are asked for; () for all."""
+"""Exercises and laboratories, each with the tasks to grade; () for all."""
 
 
 @dataclass(frozen=True)
 class Laboratory:
-    """What is graded like an exercise, but by evidence."""
+    """A laboratory: graded like an exercise, but by evidence."""
 
     exercise: Exercise
     """Its title and parts."""
     wanted: Wanted
-    """How it is found among what a person handed in."""
+    """How to find it among a person's files."""
 
 
 @dataclass
 class Class:
-    """What was graded of an export."""
+    """The results of an export."""
 
     rows: list[Graded]
     register: Register
     nobodys: list[str]
-    """Files that belong to nobody."""
+    """Files that belong to no person."""
     notes: list[str]
     written: list[Path] = field(default_factory=list)
     """Files beside the table and the pages."""
@@ -72,11 +72,12 @@ def grade_all(
 ) -> Class:
     """Grade every submission and write grades.csv and feedback/STUDENT.html into `output`.
 
-    download: a folder or a zip file, as of export.read_export. Raises BotschoolError, before it
-    starts, if this machine lacks what an exercise that was handed in needs. secret: of the grading
-    seeds, else as of batch.Grades. start(count) is called with the number of files, report()
-    after each of them. laboratories: those of `asked`; only_handed_in: without those that nobody
-    handed in.
+    download: a folder or a zip file, as in export.read_export. secret: of the grading seeds; None
+    as in batch.Grades. start(count) is called with the number of files, report() after each of
+    them.
+    laboratories: those of `asked`. only_handed_in: whether to leave out laboratories that nobody
+    handed in. Raises BotschoolError before it starts, if this machine lacks what a submitted
+    exercise needs.
     """
     settings = settings or Settings()
     with temporary_folder() as temporary:
@@ -172,9 +173,9 @@ def _grade(
 
 
 def page_names(folders: list[str], keys: list[str] | None = None) -> list[str]:
-    """Return a file name for each person: readable, safe everywhere, and no two alike.
+    """Return a different file name for each person, readable and safe on every system.
 
-    keys: what tells people of one name apart; else the names.
+    keys: what distinguishes people of one name; None for the names.
     """
     names, seen = [], set()
     for folder, key in zip(folders, keys or folders, strict=True):
@@ -214,7 +215,7 @@ def _table(rows: list[Graded], register: Register) -> str:
 
 
 def notes_of(row: Graded) -> str:
-    """Return all that is to be known beside the points."""
+    """Return everything that a reader must know beside the points."""
     notes = []
     for result in row.results:
         if said := " ".join(filter(None, [result["problem"], *result["notes"]])):
@@ -223,7 +224,7 @@ def notes_of(row: Graded) -> str:
 
 
 def _check_own(output: Path, names: list[str]) -> None:
-    """Raises BotschoolError before a file is overwritten that grade-all did not make."""
+    """Raise BotschoolError before overwriting a file that grade-all did not make."""
     own = {TABLE: ",".join(_FIRST_COLUMNS), **{f"{PAGES}/{name}": GENERATOR for name in names}}
     own |= {name: GENERATOR for name in OWN if name.endswith(".html")}
     if not (output / TABLE).exists():  # then the tables beside it are not ours either

@@ -1,4 +1,4 @@
-"""What the subcommands for a whole class do: export and grade-all."""
+"""Run the subcommands for a whole class: export and grade-all."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from botschool.terminal import exits_on_signals
 
 
 def export_command(platform: str, exercises: str, output: Path, wheel: Path | None) -> None:
-    """Write what a platform takes to grade by itself, and say what to do with it."""
+    """Write the files with which a platform grades by itself, and print how to use them."""
     root = course_root()
     asked = selected(exercises, root)
     if any(asked.values()):
@@ -56,12 +56,13 @@ def grade_all_command(
     settings: Path | None = None,
     laboratories: Mapping[Number, Laboratory] = MappingProxyType({}),
 ) -> bool:
-    """Grade a class and say where the results are.
+    """Grade a class and print where the results are.
 
-    exercise: as `selected` takes it, beside names of laboratories; "all" stands for all exercises
-    and those laboratories that somebody handed in.
+    exercise: as in `selected`, or names of laboratories; "all" stands for all exercises and those
+    laboratories that somebody handed in.
 
-    True if all could be graded, and all are on the roster and have handed something in.
+    Return True if all submissions could be graded, and if all students of the roster and nobody
+    else handed in.
     """
     root = course_root()
     asked, labs = _asked(exercise, root, laboratories)
@@ -97,7 +98,7 @@ def grade_all_command(
 def _asked(
     text: str, root: Path, laboratories: Mapping[Number, Laboratory]
 ) -> tuple[dict[Number, tuple[str, ...]], dict[Number, Laboratory]]:
-    """Return what is to be graded, and the laboratories among it. Raises BotschoolError."""
+    """Return what to grade, and the laboratories among it. Raises BotschoolError."""
     if text.strip() == "all":
         every: dict[Number, tuple[str, ...]] = dict(selected(text, root).items())
         return every | dict.fromkeys(laboratories, ()), dict(laboratories)
@@ -123,7 +124,7 @@ def _settings(
     column: str,
     settings: Path | None,
 ) -> Settings:
-    """Return what is known of the class; class.yaml beside the download is found by itself."""
+    """Return the class's settings; the function finds class.yaml beside the download by itself."""
     beside = download.absolute().parent / FILE
     if settings is None and beside.is_file() and not beside.is_symlink():
         settings = beside

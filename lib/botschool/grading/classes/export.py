@@ -1,7 +1,7 @@
-"""Who is in a download: the people of an export, and the files of each.
+"""Find the people in a download, and the files of each.
 
-It understands what Moodle, Canvas, Gradescope, GitHub and nbgrader write, and a folder that holds
-a sub-folder for each student (docs/specification.md, "Collecting submissions").
+It understands the exports of Moodle, Canvas, Gradescope, GitHub and nbgrader, and a folder with a
+sub-folder for each student (docs/specification.md, "Collecting submissions").
 """
 
 from __future__ import annotations
@@ -43,32 +43,32 @@ CODE = (".py", ".ipynb", ".pyw", ".zip")
 
 @dataclass
 class Person:
-    """Somebody who handed something in."""
+    """A person who handed in files."""
 
     student: str
     """The name to show."""
     folder: str
-    """The name of his folder in the export, or the beginning of the names of his files."""
+    """The name of the person's folder in the export, or the prefix of the names of the files."""
     platform: str = ""
     ids: dict[str, str] = field(default_factory=dict)
-    """Of a platform: participant, user, submission, sid, email."""
+    """Ids on a platform: participant, user, submission, sid, email."""
     late: bool = False
-    """Whether the platform says so."""
+    """Whether the platform marks the submission as late."""
     submitted: datetime | None = None
     handed: Handed = field(default_factory=Handed)
     problem: str = ""
-    """Why nothing of it can be graded."""
+    """Why nothing can be graded."""
     upload: list[str] = field(default_factory=list)
     """Names under which the platform takes feedback back."""
 
 
 @dataclass
 class Export:
-    """What a download holds."""
+    """The contents of a download."""
 
     people: list[Person]
     nobodys: list[str]
-    """Files that belong to nobody."""
+    """Files that belong to no person."""
     notes: list[str]
 
 
@@ -105,7 +105,7 @@ def read_export(download: Path, wanted: Iterable[Wanted], new_folder: Callable[[
 
 
 def one_person(place: Path, new_folder: Callable[[], Path]) -> Person:
-    """Return what lies in a folder, a zip file, or is a single file, as somebody's submission."""
+    """Return the content of a folder or a zip file, or a single file, as one submission."""
     people = _People(new_folder)
     names = [place.name] if place.is_file() else [entry.name for entry in _visible(place)]
     if any(_is_of_platform(name) for name in names):
@@ -124,7 +124,7 @@ def one_person(place: Path, new_folder: Callable[[], Path]) -> Person:
 
 
 def _only_zip(top: Path) -> Path | None:
-    """Return the zip file that is all there is in a folder, but for tables of the class."""
+    """Return a folder's only zip file, if nothing else is there but tables of the class."""
     for _ in range(5):
         tables = (".csv", ".yaml", ".yml")
         entries = [e for e in _visible(top) if not e.name.lower().endswith(tables)]
@@ -140,7 +140,7 @@ def _only_zip(top: Path) -> Path | None:
 
 
 def _unpacked(archive: Path, wanted: list[Wanted], new_folder: Callable[[], Path]) -> Path | None:
-    """Return the folder of a platform's zip file in another one; None if it is a submission."""
+    """Return the folder of a platform's zip file inside another one; None for a submission."""
     if _is_of_platform(archive.name):
         return None
     top = new_folder()
@@ -181,7 +181,7 @@ def _is_copy(folder: Path, wanted: list[Wanted]) -> bool:
 
 
 def _descend(top: Path, wanted: list[Wanted], is_zip: bool) -> Path:
-    """Return the folder that holds the people: `top`, or one that is alone in it, at any depth."""
+    """Return the folder that holds the people: `top`, or its only sub-folder, at any depth."""
     inner = top
     for _ in range(8):
         if (inner / "nbgrader_config.py").is_file() and (inner / "submitted").is_dir():
@@ -202,7 +202,7 @@ def _descend(top: Path, wanted: list[Wanted], is_zip: bool) -> Path:
 
 
 def _are_people(folders: list[os.DirEntry], wanted: list[Wanted]) -> bool:
-    """Return whether two folders or more hold an exercise, which are no versions of one."""
+    """Return whether at least two folders hold an exercise without being versions of one."""
     holding = [
         entry
         for entry in folders
@@ -224,7 +224,7 @@ def _holds(folder: Path, name: str) -> bool:
 
 
 class _People:
-    """Gathers people from the entries of a folder."""
+    """Collect people from the entries of a folder."""
 
     def __init__(self, new_folder: Callable[[], Path]) -> None:
         self.found: dict[tuple[str, str], Person] = {}
@@ -232,10 +232,10 @@ class _People:
         self._new_folder = new_folder
         self._collectors: dict[tuple[str, str], Collector] = {}
         self._alike: set[str] = set()
-        """Names of several folders that differ in capitals only, in lower case."""
+        """Names of folders that differ only in capitals, in lower case."""
 
     def entries(self, top: Path, only: list[str] | None = None) -> None:
-        """Add those of a folder. only: names of its entries, else all."""
+        """Add the people of a folder; only: names of its entries, None for all."""
         metadata = read_metadata(top)
         entries = [entry for entry in _visible(top) if only is None or entry.name in only]
         folders = Counter(entry.name.casefold() for entry in entries if _is_folder(entry))
@@ -267,7 +267,7 @@ class _People:
                 self._gradescope(top / name, found["id"], about)
 
     def folder(self, name: str, path: Path) -> None:
-        """Somebody whose folder has his name."""
+        """Add a person whose folder has the person's name."""
         folded = name.casefold()
         key = ("folder", name if folded in self._alike else folded)
         self._person(key, plain(_shown(name)), name)
@@ -333,7 +333,7 @@ def _shown(name: str) -> str:
 
 
 def _without_top(files: list) -> list:
-    """Return the files of a zip file that is one person's, without its name and its only folder."""
+    """Return the files of one person's zip file, without its name and its only folder."""
     from dataclasses import replace
 
     for _ in range(2):
@@ -348,7 +348,7 @@ def _without_top(files: list) -> list:
 
 
 def _clones(folder: Path) -> list[Path]:
-    """Return the repositories in a folder that is none itself, if there are several."""
+    """Return the repositories in a folder that is not one itself, if there are several."""
     if (folder / ".git").exists():
         return []
     try:

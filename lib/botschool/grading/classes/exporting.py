@@ -1,4 +1,4 @@
-"""`botschool export`: folders and zip files with which platforms grade by themselves.
+"""Write folders and zip files with which platforms grade by themselves (`botschool export`).
 
 Each holds a student's copy of the course, with packed graders, and a script that calls
 platforms.py in it.
@@ -96,9 +96,9 @@ _RUNTIME = '{\n "runs-on": "ubuntu-latest",\n "python": "3.11",\n "apt": ["g++",
 def export(
     platform: str, numbers: list[int], text: str, output: Path, root: Path, wheel: Path | None
 ) -> list[Path]:
-    """Write what a platform takes into a folder, and return it; text: how `numbers` were named.
+    """Write a platform's files into a folder and return their paths.
 
-    Raises BotschoolError, before anything is overwritten that stands there.
+    text: the exercises as the user named them. Raises BotschoolError before overwriting anything.
     """
     if platform not in PLATFORMS:
         raise BotschoolError(f"'{platform}' is no platform; there are {', '.join(PLATFORMS)}.")

@@ -1,4 +1,4 @@
-"""The files that a person handed in, wherever they lie: in folders, beside others, in zip files."""
+"""Find the files that a person handed in: in folders, beside others, in zip files."""
 
 from __future__ import annotations
 
@@ -21,41 +21,41 @@ from botschool.sandbox.inside import read_inside
 MAX_ZIP = 200 * 2**20
 """Bytes of a zip file within a submission."""
 MAX_FILES, MAX_DEPTH = 20_000, 30
-"""Of a person: files that are looked at, and levels of folders."""
+"""For a person: files to look at, and levels of folders."""
 JUNK = {
     "__macosx", "__pycache__", ".git", ".ipynb_checkpoints", ".venv", "venv", ".idea", ".vscode",
     ".ds_store", "thumbs.db", "desktop.ini", ".botschool", ".pytest_cache", ".ruff_cache",
     "node_modules", ".trash", "site-packages",
 }  # fmt: skip
-"""What systems and tools leave, in lower case; it belongs to nobody."""
+"""Names that systems and tools leave behind, in lower case."""
 
 
 OF_VENV = {"lib", "lib64", "bin", "scripts", "include", "share", "pyvenv.cfg"}
-"""What a virtual environment brings, in lower case, in a folder of any name."""
+"""Names in every virtual environment, in lower case."""
 _MAY_BE_ZIP = (".py", ".txt", ".ipynb")
-"""Suffixes that students give to zip files, beside none."""
+"""Suffixes that students give to zip files, other than .zip."""
 
 
 def is_junk(name: str) -> bool:
-    """Return whether a file or folder of this name is nobody's work."""
+    """Return whether a file or folder of this name is no one's work."""
     lower = name.lower()
     return lower in JUNK or lower.startswith("._") or lower.endswith((".pyc", ".pyo"))
 
 
 TIMESTAMP = "timestamp.txt"
-"""In which nbgrader writes when something was handed in."""
+"""The file in which nbgrader writes when a person handed in."""
 
 
 @dataclass(frozen=True)
 class File:
-    """A file that was handed in."""
+    """A submitted file."""
 
     top: Path
     """The folder below which it is read, without following links."""
     place: str
-    """Its path from there."""
+    """Its path relative to that folder."""
     shown: str
-    """Its path as the person knows it, without what a platform adds to names."""
+    """Its path as the person knows it, without a platform's additions."""
 
     @property
     def path(self) -> Path:
@@ -67,38 +67,38 @@ class File:
 
     @property
     def folder(self) -> str:
-        """ "" or a path that ends with a slash."""
+        """Return "" or a path that ends with a slash."""
         return self.shown[: len(self.shown) - len(self.name)]
 
     def read(self, most: int) -> bytes:
-        """Return up to `most` + 1 bytes. Raises OSError for a link, or what is no regular file."""
+        """Return up to `most` + 1 bytes. Raises OSError for anything but a regular file."""
         return read_inside(self.top, self.place, most)
 
 
 @dataclass
 class Handed:
-    """All that a person handed in."""
+    """All files that a person handed in."""
 
     files: list[File] = field(default_factory=list)
     links: list[str] = field(default_factory=list)
-    """Paths that are links, which nobody follows."""
+    """Paths of links, which are never followed."""
     notes: list[str] = field(default_factory=list)
-    """Sentences on what could not be looked into."""
+    """Sentences on unreadable places."""
     unread: bool = False
     """Whether a folder could not be read."""
 
 
 class Collector:
-    """Lists the files of a person."""
+    """List the files of a person."""
 
     def __init__(self, new_folder: Callable[[], Path]) -> None:
-        """new_folder: makes an empty temporary folder for a zip file's content."""
+        """Start; new_folder: makes an empty temporary folder for a zip file's content."""
         self._new_folder = new_folder
         self._room = room_of_submission()
         self.handed = Handed()
 
     def add_folder(self, folder: Path, shown: str = "", level: int = 0) -> None:
-        """Add what lies in a folder. shown: of its files, the beginning of their paths."""
+        """Add the files of a folder; shown: the beginning of the paths to show."""
         if folder.is_symlink():
             self.handed.links.append(shown.rstrip("/") or folder.name)
             return
@@ -128,7 +128,7 @@ class Collector:
                     return
 
     def add_file(self, top: Path, place: str, shown: str, level: int = 0) -> bool:
-        """Add a file, or what a zip file holds; return False where there are too many."""
+        """Add a file, or a zip file's content; return False if there are too many files."""
         if len(self.handed.files) >= MAX_FILES:
             self.handed.notes.append(f"There are more than {MAX_FILES} files: the others are left.")
             return False

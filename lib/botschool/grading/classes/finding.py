@@ -1,4 +1,4 @@
-"""The file of each exercise, for each person: what grade-all and grade --submission share."""
+"""Find the file of each exercise for each person, for grade-all and grade --submission."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from botschool.grading.declare.exercise import Exercise, Number
 
 @dataclass
 class Submission:
-    """A person's files: that of each exercise, or why there is none."""
+    """A person's files: one for each exercise, or the reason why there is none."""
 
     person: Person
     choices: dict[Number, Choice] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
-    """On what belongs to no exercise."""
+    """Sentences on files that belong to no exercise."""
 
     @property
     def student(self) -> str:
@@ -52,7 +52,7 @@ def find_submissions(
 
 
 def _left(one: Submission, root: Path) -> list[str]:
-    """Return a sentence on the files that are not used, without those that the course gave out."""
+    """Return a sentence on unused files, except those that the course gave out."""
     used = set().union(*(choice.used for choice in one.choices.values()))
     tops = {""} | {
         file.shown[: file.shown.index("exercises/")]
@@ -74,7 +74,7 @@ def _left(one: Submission, root: Path) -> list[str]:
 
 
 def _is_given(name: str, root: Path, copies: bool) -> bool:
-    """Return whether a path is one of the course, as copies of it have."""
+    """Return whether copies of the course have a file of this path."""
     if not copies and not re.match(r"ex\d\d_", name):
         return False
     return (root / name).is_file() or (root / "exercises" / name).is_file()

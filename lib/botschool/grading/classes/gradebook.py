@@ -1,4 +1,4 @@
-"""Grades and feedback in the forms that learning platforms take back."""
+"""Write grades and feedback in the formats that learning platforms import."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from botschool.grading.declare.exercise import called
 
 MOST_POINTS = 1e6
 _EPOCH = (2000, 1, 1, 0, 0, 0)
-"""Of files in a zip file, so that equal grades give equal files."""
+"""The time of files in a zip file, so that equal grades give equal files."""
 
 
 def moodle_worksheet(
@@ -82,7 +82,7 @@ _CANVAS_FIXED = ("Student", "ID", "SIS User ID", "SIS Login ID", "Integration ID
 
 
 def table_number(text: str) -> float | None:
-    """Return the number in a cell; None if it holds none, or one that nobody gives as points."""
+    """Return the number in a cell; None if there is none, or one that cannot be points."""
     try:
         number = float(text.strip().replace(",", "."))
     except ValueError:
@@ -101,7 +101,7 @@ def moodle_feedback(pages: Sequence[tuple[Person, bytes]]) -> bytes:
 
 
 def canvas_feedback(texts: Sequence[tuple[Person, str]]) -> bytes:
-    """Return Canvas's zip file of feedback: texts under the very names of the submissions."""
+    """Return Canvas's zip file of feedback: texts under the names of the submissions."""
     return _zip({name: text.encode() for person, text in texts for name in person.upload[:1]})
 
 

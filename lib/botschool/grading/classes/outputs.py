@@ -1,4 +1,4 @@
-"""The files beside the table of grades: statistics, similarities, gradebooks, feedback."""
+"""Write the files beside the grades: statistics, similarities, gradebooks, feedback."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def write_outputs(
     asked: dict[Number, tuple[str, ...]],
     skeletons: dict[Number, str],
 ) -> list[Path]:
-    """Write what this class's platform and settings ask for; return the files.
+    """Write the files that this class's platform and settings need; return their paths.
 
     Raises BotschoolError.
     """
@@ -82,7 +82,7 @@ def _gradebook(output: Path, rows: list[Graded], register: Register) -> dict[str
 def _words(output: Path, rows: list[Graded], register: Register) -> dict[str, bytes]:
     """Return the table of the laboratories' texts, in which the instructor writes points.
 
-    It is not written over one that has points.
+    A table that has points is never overwritten.
     """
     found = []
     for row in rows:
@@ -102,7 +102,7 @@ def _words(output: Path, rows: list[Graded], register: Register) -> dict[str, by
 
 
 def has_points(place: Path) -> bool:
-    """Whether somebody has written points into a table of words."""
+    """Return whether the instructor has written points into a table of texts."""
     if not place.is_file():
         return False
     table = read_table(place)

@@ -1,11 +1,11 @@
-"""Grades in the forms of platforms that run a grader by themselves.
+"""Write grades in the formats of platforms that run a grader by themselves.
 
 The scripts that `botschool export` writes call this module as a program:
 
     python -m botschool.grading.classes.platforms PLATFORM EXERCISES SUBMISSION RESULT
 
-It writes RESULT and ends with code 0, whatever the points. Where the machine is at fault there is
-no result, and the code is 1: that is no 0.
+It writes RESULT and ends with code 0, whatever the points. After a fault of the machine there is no
+result and the code is 1, so that nobody gets 0 points for it.
 """
 
 from __future__ import annotations
@@ -40,10 +40,10 @@ PLATFORMS = ("gradescope", "actions", "classroom50")
 
 
 def graded(number: int, place: Path, only_changed: bool = False) -> dict[str, Any]:
-    """Return the result of an exercise in a submission, as of batch.Grades, with `notes`.
+    """Return the result of an exercise in a submission, as in batch.Grades, with `notes`.
 
-    only_changed: what is as it was given out gets its 0 points without being run. Raises
-    BotschoolError where this machine cannot grade.
+    only_changed: whether an unchanged file gets its 0 points without running. Raises BotschoolError
+    if this machine cannot grade.
     """
     root = course_root()
     exercise = load_exercise(number, root)
@@ -162,7 +162,7 @@ def markdown(results: list[dict[str, Any]]) -> str:
 
 
 def _code(text: str) -> str:
-    """Return a text that Markdown shows as it is: each line is indented."""
+    """Return a text that Markdown shows unchanged: each line is indented."""
     return "\n".join(f"    {line}" for line in text.splitlines())
 
 

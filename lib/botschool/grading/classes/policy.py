@@ -1,7 +1,7 @@
-"""What an instructor decides beside the points: deadlines, extensions, adjustments, weights.
+"""Apply an instructor's rules: deadlines, extensions, adjustments, weights.
 
-All of it stands in one file, class.yaml, and the tables that it names; it is applied anew to each
-grading (docs/specification.md, "Collecting submissions").
+One file, class.yaml, and the tables that it names hold all rules; each grading applies them anew
+(docs/specification.md, "Collecting submissions").
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ _KEYS = ("roster", "due", "late", "extensions", "adjustments", "submitted", "wei
 
 @dataclass
 class LateRule:
-    """Points of a hundred that each started day (hour, week) takes off."""
+    """A loss of points, out of a hundred, for each started day (hour, week)."""
 
     off: float
     unit: str
     most: float = 100.0
 
     def points(self, by: timedelta) -> float:
-        """Return how many of a hundred points a delay takes off."""
+        """Return how many of a hundred points a delay costs."""
         return min(self.most, self.off * math.ceil(by / _UNITS[self.unit])) if by > _NONE else 0.0
 
 
@@ -48,12 +48,12 @@ _NONE = timedelta()
 
 @dataclass
 class Adjustment:
-    """A change of somebody's points by hand."""
+    """A manual change of a person's points."""
 
     exercise: Number
     points: float
     sets: bool
-    """Whether these are the points, and not a change."""
+    """Whether the number is the points themselves, not a change."""
     reason: str
     task: str = ""
     """The task whose points change; "" for the exercise's."""
@@ -69,26 +69,26 @@ class Policy:
     extensions: dict[str, dict[Number, datetime]] = field(default_factory=dict)
     adjustments: dict[str, list[Adjustment]] = field(default_factory=dict)
     submitted: dict[str, dict[Number, datetime]] = field(default_factory=dict)
-    """When, by a table; exercise 0 stands for all."""
+    """Times of submission from a table; exercise 0 stands for all."""
     weights: dict[Number, float] = field(default_factory=dict)
     tables: list[Path] = field(default_factory=list)
-    """Of adjustments."""
+    """Tables of adjustments."""
 
     def names(self, student: Student | None, shown: str) -> list[str]:
-        """Return the keys under which somebody may be named here."""
+        """Return the keys under which the settings may name a person."""
         keys = sorted(student.keys()) if student else []
         return [*keys, words(student.name if student else shown), shown.casefold()]
 
     def has_deadline(self, number: Number) -> bool:
-        """Return whether it matters when an exercise was handed in."""
+        """Return whether the time of submission of an exercise matters."""
         return number in self.due or any(number in each for each in self.extensions.values())
 
     def apply(
         self, result: dict[str, Any], names: list[str], moment: datetime | None, marked: bool
     ) -> dict[str, Any]:
-        """Return a result with deadline and adjustments; names: as of `names`.
+        """Return a result with deadline and adjustments; names: as returned by `names`.
 
-        moment: when it was handed in; marked: whether the platform calls it late.
+        moment: when it was handed in. marked: whether the platform marks it as late.
         """
         number = result["exercise"]
         points, notes = float(result["points"]), []
@@ -134,7 +134,7 @@ class Policy:
 
 
 def _with_task(result: dict[str, Any], by: Adjustment) -> tuple[dict[str, Any], float]:
-    """Return the result with a task's points changed, within its limits, and by how much."""
+    """Return the result with a task's points changed within its limits, and the change."""
     tasks, change = [dict(task) for task in result["tasks"]], 0.0
     for task in tasks:
         if task["id"] == by.task:
@@ -147,7 +147,7 @@ def _with_task(result: dict[str, Any], by: Adjustment) -> tuple[dict[str, Any], 
 
 
 def tidy(number: float) -> int | float:
-    """Return a number with at most two decimals, whole if it is."""
+    """Return a number with at most two decimals; whole if possible."""
     rounded = round(number, 2)
     return int(rounded) if rounded == int(rounded) else rounded
 
@@ -189,7 +189,7 @@ def read_policy(path: Path) -> Policy:
 
 
 class _Reader:
-    """Reads the settings one by one."""
+    """Read the settings one by one."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -293,7 +293,7 @@ class _Reader:
 
 
 def moodle_moment(text: str) -> datetime | None:
-    """Return the time of a text as "Friday, 20 November 2026, 9:14 PM"; None for another."""
+    """Return the time of a text such as "Friday, 20 November 2026, 9:14 PM"; None for others."""
     for pattern in ("%A, %d %B %Y, %I:%M %p", "%A, %d %B %Y, %H:%M", "%A, %B %d, %Y, %I:%M %p"):
         try:
             return datetime.strptime(text.strip(), pattern)
@@ -310,11 +310,11 @@ def _named(table: Table, row: list[str], line: int) -> str:
 
 
 def _key(name: str) -> str:
-    """Return how somebody is looked up: an id, mail or user name as it is, a name by its words."""
+    """Return the key of a person: an id, mail or user name as it is, a name by its words."""
     return words(name) if " " in name.strip() else name.strip().casefold()
 
 
 def unknown_names(policy: Policy, known: set[str]) -> list[str]:
-    """Return names of extensions, adjustments and times that are nobody's."""
+    """Return names in extensions, adjustments and times that belong to nobody."""
     named = [*policy.extensions, *policy.adjustments, *policy.submitted]
     return [name for name in dict.fromkeys(named) if name not in known]

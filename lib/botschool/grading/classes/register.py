@@ -1,4 +1,4 @@
-"""The class list: who handed in what, who is missing, and what each person's points become."""
+"""Match submissions with the class list, and compute each person's points."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ MISSING = "Nothing was handed in."
 
 @dataclass
 class Settings:
-    """What is known of a class."""
+    """Settings and tables of a class."""
 
     policy: Policy = field(default_factory=Policy)
     roster: Roster | None = None
     gradebook: Roster | None = None
-    """The platform's table, which gets the grades."""
+    """The platform's table, to fill in."""
     column: str = ""
-    """Of Canvas's gradebook."""
+    """The column in Canvas's gradebook."""
 
 
 @dataclass
@@ -46,13 +46,13 @@ class Graded:
 
 
 class Register:
-    """Submissions and the students of the class, side by side.
+    """Match submissions with the students of the class.
 
-    Who handed in nothing stands at the end, with a submission that says so.
+    Students without a submission stand at the end, with an entry that says so.
     """
 
     def __init__(self, submissions: list[Submission], settings: Settings) -> None:
-        """Match them. Raises BotschoolError if settings name somebody who is not there."""
+        """Match them. Raises BotschoolError if the settings name an unknown person."""
         self.settings = settings
         self.policy = settings.policy
         self.roster = settings.roster or settings.gradebook
@@ -85,7 +85,7 @@ class Register:
         self._mark_doubles()
 
     def name(self, index: int) -> str:
-        """Return a student's name, of the roster if it is there."""
+        """Return a student's name, from the roster if possible."""
         student = self.students[index]
         return student.name if student else self.submissions[index].student
 
@@ -94,7 +94,7 @@ class Register:
         return index >= self._handed_in
 
     def moment(self, index: int, number: Number) -> datetime | None:
-        """Return when an exercise was handed in, as far as the platform or the files say so."""
+        """Return when an exercise was handed in, if the platform or the files tell."""
         person, student = self.submissions[index].person, self.students[index]
         if not person.platform and self.policy.has_deadline(number):
             origin = self.submissions[index].choices[number].origin

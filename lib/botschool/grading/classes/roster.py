@@ -1,4 +1,4 @@
-"""Who is in a class, and whose submission is whose."""
+"""Read the class list, and match submissions with its students."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ class Student:
     row: int = 0
 
     def keys(self) -> set[str]:
-        """Return the words that name this student alone, in lower case."""
+        """Return the words that name only this student, in lower case."""
         given = (self.id, self.mail, self.user, self.mail.partition("@")[0])
         return {key.casefold() for key in given if key}
 
 
 @dataclass
 class Roster:
-    """The students of a class, from a table of any of the platforms."""
+    """The students of a class, from a table of any platform."""
 
     table: Table
     students: list[Student]
@@ -65,7 +65,7 @@ class Roster:
         return None
 
     def match(self, person: Person) -> Student | None:
-        """Return the student who handed this in; None if there is none or not only one."""
+        """Return the student who handed this in; None if there is none or more than one."""
         numbers = {"moodle": "participant", "canvas": "user"}
         if number := person.ids.get(numbers.get(person.platform, "")):
             key = "participant" if person.platform == "moodle" else "canvas"
@@ -93,7 +93,7 @@ class Roster:
         return None
 
     def _of_squashed(self, name: str) -> Student | None:
-        """Return the student of Canvas's lastnamefirst."""
+        """Return the student for Canvas's form lastnamefirst."""
         fitting = []
         for student in self.students:
             parts = _letters(student.name.replace(",", " ")).split()
@@ -104,14 +104,14 @@ class Roster:
 
 
 def _letters(text: str) -> str:
-    """Return a text in lower case, without accents and without all but letters and digits."""
+    """Return the letters and digits of a text in lower case, without accents."""
     plain = unicodedata.normalize("NFKD", text.casefold())
     plain = "".join(letter for letter in plain if not unicodedata.combining(letter))
     return " ".join(re.findall(r"[^\W_]+", plain))
 
 
 def words(name: str) -> str:
-    """Return the words of a name in an order that does not depend on who writes it."""
+    """Return the words of a name in a fixed order."""
     return " ".join(sorted(_letters(name).split()))
 
 

@@ -1,8 +1,8 @@
-"""Which submissions resemble each other: a page with the most similar pairs side by side.
+"""Find submissions that resemble each other, and write a page of the most similar pairs.
 
-Programs are compared as sequences of tokens, without comments, layout and the names of variables.
-What the skeleton holds does not count, and what many have counts little, so that a similar pair
-is a reason to look, and no proof.
+Programs are compared as sequences of tokens, without comments, layout and names of variables. Code
+of the skeleton does not count, and code that many have counts little. A similar pair is a reason to
+look, not a proof.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from dataclasses import dataclass
 from html import escape
 
 LENGTH = 9
-"""Tokens in a sequence that is compared."""
+"""Tokens in a sequence to compare."""
 LEAST, MOST_PAIRS = 0.5, 20
-"""Similarity of pairs that are shown, and their number."""
+"""Smallest similarity of pairs to show, and their number."""
 MIN_SEQUENCES = 15
-"""Of its own, else a submission is too short to be compared."""
+"""Own tokens that a submission needs to be compared."""
 MAX_TOKENS = 50_000
 
 
@@ -36,7 +36,7 @@ class Program:
 
 @dataclass(frozen=True)
 class Pair:
-    """Two submissions, their similarity (0 to 1), and the lines that are alike in each."""
+    """Two submissions, their similarity (0 to 1), and the similar lines of each."""
 
     first: Program
     second: Program
@@ -45,7 +45,7 @@ class Pair:
 
 
 def tokens(text: str) -> list[tuple[str, int]]:
-    """Return (token, line) of a program; names and numbers are replaced by what they are."""
+    """Return (token, line) of a program, with names and numbers replaced by their kind."""
     found: list[tuple[str, int]] = []
     reader = tokenize.generate_tokens(io.StringIO(text).readline)
     skipped = (tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
@@ -65,7 +65,7 @@ def tokens(text: str) -> list[tuple[str, int]]:
 
 
 def _sequences(text: str) -> dict[tuple[str, ...], set[int]]:
-    """Return each sequence of tokens with the lines on which it stands."""
+    """Return each sequence of tokens with its lines."""
     all_of = tokens(text)
     found: dict[tuple[str, ...], set[int]] = {}
     for at in range(len(all_of) - LENGTH + 1):

@@ -1,4 +1,4 @@
-"""Where a class stumbled: points and frequent messages of each task."""
+"""Show where a class lost points: points and frequent messages of each task."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from html import escape
 from typing import Any
 
 MOST_MESSAGES = 3
-"""Of a task, on the page."""
+"""Messages of a task on the page."""
 
 
 @dataclass
 class TaskStatistics:
-    """What a class reached in a task."""
+    """A class's points in a task."""
 
     id: str
     title: str
@@ -29,7 +29,7 @@ class TaskStatistics:
 
     @property
     def reached(self) -> float:
-        """The part of the points that the class reached."""
+        """Return the share of the points that the class reached."""
         return self.mean / self.max_points if self.max_points else 1.0
 
     @property
@@ -42,7 +42,7 @@ class TaskStatistics:
 
 
 def by_task(results: Iterable[dict[str, Any]]) -> list[TaskStatistics]:
-    """Return what was reached, of results that were handed in and graded; in order of tasks."""
+    """Return the points of each task, from submitted and graded results; in order of tasks."""
     found: dict[str, TaskStatistics] = {}
     for result in results:
         if not result["graded"] or result["problem"]:
@@ -58,12 +58,12 @@ def by_task(results: Iterable[dict[str, Any]]) -> list[TaskStatistics]:
 
 
 def hardest(tasks: list[TaskStatistics], most: int = 3) -> list[TaskStatistics]:
-    """Return the tasks in which the class lost the largest part of the points."""
+    """Return the tasks in which the class lost the largest share of the points."""
     return sorted((t for t in tasks if t.reached < 0.9), key=lambda task: task.reached)[:most]
 
 
 def _alike(message: str) -> str:
-    """Return a message's first line without the numbers in it, so that equal ones are counted."""
+    """Return a message's first line without its numbers, so that equal ones are counted."""
     first = message.strip().splitlines()[0]
     return re.sub(r"-?\d+(\.\d+)?(e[+-]?\d+)?", "#", first)[:300]
 

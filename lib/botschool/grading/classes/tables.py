@@ -1,4 +1,4 @@
-"""Tables of other programs: CSV files of any delimiter, encoding and header."""
+"""Read and write CSV files of other programs, with any delimiter, encoding and header."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ COLUMNS = {
     "reason": ("reason", "comment", "note", "notes"),
     "submitted": ("submitted", "lastmodifiedsubmission", "submissiontime", "time", "date"),
 }  # fmt: skip
-"""What a column means, by the letters and digits of its head in lower case."""
+"""Meaning of a column -> letters and digits of its heads in lower case."""
 
 
 @dataclass
@@ -41,7 +41,7 @@ class Table:
     rows: list[list[str]]
     delimiter: str = ","
     marked: bool = False
-    """Whether it begins with a mark of its encoding."""
+    """Whether the file begins with a byte order mark."""
 
     def column(self, meaning: str) -> int | None:
         """Return the index of the first column with a meaning of COLUMNS, or with a name."""
@@ -52,12 +52,12 @@ class Table:
         return None
 
     def get(self, row: list[str], meaning: str) -> str:
-        """Return the cell, or "" where there is no such column."""
+        """Return the cell, or "" if there is no such column."""
         index = self.column(meaning)
         return row[index].strip() if index is not None and index < len(row) else ""
 
     def text(self) -> bytes:
-        """Return the file's content as it is now."""
+        """Return the file's present content."""
         stream = io.StringIO()
         writer = csv.writer(stream, delimiter=self.delimiter, lineterminator="\r\n")
         writer.writerows([self.head, *self.rows])

@@ -1,4 +1,4 @@
-"""The text of a file that was handed in, whatever it is stored as."""
+"""Read the text of a submitted file, whatever its encoding."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def is_larger(value: Any, most: int) -> bool:
 
 
 def without_cookie(text: str) -> str:
-    """Return a text that is stored as UTF-8, so its first lines must not say anything else."""
+    """Return a text with UTF-8 in its encoding declaration, if it has one."""
     lines = text.split("\n", 2)
     return "\n".join(
         [*(COOKIE.sub(r"\g<1>utf-8", line) for line in lines[:2]), *lines[2:]],
@@ -85,7 +85,7 @@ def is_notebook(text: str) -> bool:
 
 
 def today(notebook: str) -> str:
-    """Return a notebook in the form that is read today; Jupyter 1 to 2 had another."""
+    """Return a notebook in the present format; Jupyter 1 to 2 had another."""
     try:
         found = json.loads(notebook)
         if "worksheets" not in found:
@@ -112,7 +112,7 @@ def code_of_notebook(text: str) -> str:
 
 
 def code_of_fences(text: str) -> str:
-    """Return what stands between ``` and ``` in a Markdown text, else all of it."""
+    """Return the code between ``` and ``` in a Markdown text, or else all of it."""
     blocks = re.findall(r"^```.*\n([\s\S]*?)^```", text, re.MULTILINE)
     return "\n".join(blocks) or text
 
@@ -123,7 +123,7 @@ def without_jupyter(text: str) -> str:
 
 
 def text_of_page(page: str) -> str:
-    """Return what was typed into a web page's editor, each line on a line of its own."""
+    """Return the text typed into a web page's editor, line by line."""
     reader = _Page()
     reader.feed(page)
     reader.close()

@@ -1,4 +1,4 @@
-"""When something was handed in: Gradescope's table, nbgrader's file, the commits of a clone."""
+"""Find out when files were handed in: Gradescope's table, nbgrader's file, a clone's commits."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ _COMMIT = re.compile(r"[0-9a-f]{40}")
 
 
 def read_metadata(folder: Path) -> dict[str, dict[str, Any]]:
-    """Return what Gradescope says of each submission, without the colons of its keys."""
+    """Return Gradescope's data on each submission, without the colons of its keys."""
     import yaml
 
     class Loader(yaml.SafeLoader):
-        """Reads what other languages mark as objects as plain data."""
+        """Read objects of other languages as plain data."""
 
     def unmarked(loader: Any, suffix: str, node: Any) -> Any:
         if isinstance(node, yaml.MappingNode):
@@ -62,7 +62,7 @@ def _plain_keys(value: Any, depth: int) -> Any:
 
 
 def moment_of(value: Any) -> datetime | None:
-    """Return a time of a table in local time."""
+    """Return a table's time in local time."""
     try:
         moment = value if isinstance(value, datetime) else datetime.fromisoformat(str(value))
     except ValueError:
@@ -71,10 +71,7 @@ def moment_of(value: Any) -> datetime | None:
 
 
 def told_by(file: File) -> datetime | None:
-    """Return when a file was handed in, by nbgrader's file beside it or by the last commit of it.
-
-    Both stand in what the student handed in, so he can write what he likes.
-    """
+    """Return when a file was handed in: nbgrader's file beside it, or its last commit, tells."""
     return _collected(file) or _committed(file)
 
 
@@ -91,7 +88,7 @@ def _collected(file: File) -> datetime | None:
 
 
 def _committed(file: File) -> datetime | None:
-    """Return the time of the last commit that changed a file, of the repository it lies in."""
+    """Return the time of the last commit that changed a file, in the file's repository."""
     parts = PurePosixPath(file.place).parts
     for depth in range(len(parts) - 1, -1, -1):
         git = file.top.joinpath(*parts[:depth], ".git")
@@ -101,7 +98,7 @@ def _committed(file: File) -> datetime | None:
 
 
 def _last_commit(git: Path, place: str) -> datetime | None:
-    """Ask git in an empty repository that has the clone's objects, so no settings of it count."""
+    """Ask git in an empty repository with the clone's objects, so that no settings of it count."""
     objects, head = git / "objects", _head(git)
     if head is None or objects.is_symlink() or not objects.is_dir():
         return None

@@ -1,4 +1,4 @@
-"""Zip and tar files of submissions, unpacked within limits; nothing in them is trusted."""
+"""Unpack zip and tar files of submissions within limits, and trust nothing in them."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from pathlib import Path, PurePosixPath
 from typing import IO, Any
 
 MAX_LEVELS = 5
-"""Zip files within zip files."""
+"""Levels of zip files within zip files."""
 MAX_PARTS, MAX_NAME = 30, 240
 """Folders in the name of a file, and bytes of each of its parts."""
 ARCHIVES = (".zip", ".tar", ".tgz", ".tar.gz", ".tar.bz2", ".tar.xz", ".py.gz", ".ipynb.gz")
-"""Suffixes of archives that are unpacked."""
+"""Suffixes of archives to unpack."""
 PACKED = (".rar", ".7z", ".gz", ".bz2", ".xz")
-"""Suffixes of archives that are not."""
+"""Suffixes of archives that stay packed."""
 _COMPRESSED: tuple[tuple[bytes, Callable[[IO[bytes]], Any]], ...] = (
     (b"\x1f\x8b", gzip.open),
     (b"BZh", bz2.open),
@@ -38,7 +38,7 @@ _TOO_MUCH = "holds too many or too large files"
 
 @dataclass
 class Room:
-    """What may still be unpacked: bytes and files."""
+    """Room for further files: bytes and number."""
 
     size: int
     files: int
@@ -55,7 +55,7 @@ def room_of_submission() -> Room:
 
 
 class Unpackable(Exception):
-    """A zip file that stays packed; the message ends the sentence "NAME ...": the reason."""
+    """The zip file stays packed; the message ends the sentence "NAME ...": the reason."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ def _of_tar(archive: bytes) -> Iterator[_Member]:
 
 
 def _readable(entry: zipfile.ZipInfo) -> str:
-    """Return the name, with the letters of systems that write UTF-8 without saying so."""
+    """Return the name in Unicode; some systems write UTF-8 without saying so."""
     name = entry.filename
     if not entry.flag_bits & 0x800:
         with contextlib.suppress(UnicodeError):
@@ -148,9 +148,9 @@ def _readable(entry: zipfile.ZipInfo) -> str:
 
 
 def _inside(target: Path, member: _Member, numbers: dict[Path, int]) -> Path | None:
-    """Return a new place for a file below a folder; None if it can have none.
+    """Return a new place for a file below a folder; None if no place is possible.
 
-    numbers: of each name that was there twice, the last number it got.
+    numbers: the last number of each name that occurred twice.
     """
     name = re.sub(r"^[A-Za-z]:", "", member.name)
     parts = [_short(part) for part in PurePosixPath(name).parts if part not in ("/", "//", "..")]
@@ -168,7 +168,7 @@ def _inside(target: Path, member: _Member, numbers: dict[Path, int]) -> Path | N
 
 
 def _short(part: str) -> str:
-    """Return a part of a name that every file system takes; the end, with the suffix, stays."""
+    """Return a part of a name that every file system takes; its end, with the suffix, stays."""
     part = re.sub(r"[\x00-\x1f\x7f]", "_", part.encode("utf-8", "replace").decode())
     while len(part.encode()) > MAX_NAME:
         part = part[len(part.encode()) - MAX_NAME :]
