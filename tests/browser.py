@@ -15,7 +15,7 @@ PATIENCE = 30.0
 
 
 def find_browser():
-    """The path of a browser, or None."""
+    """Return the path of a browser, or None."""
     return next(filter(None, map(shutil.which, NAMES)), None)
 
 
@@ -27,7 +27,7 @@ class Browser:
         flags = "--headless=new --no-sandbox --disable-gpu --hide-scrollbars --no-first-run"
         command = [find_browser(), *flags.split(), "--remote-debugging-pipe"]
         command += [f"--user-data-dir={profile}", "about:blank"]
-        # The browser reads its orders from descriptor 3 and answers on 4.
+        # The browser reads commands from descriptor 3 and answers on 4.
         line = f"exec {shlex.join(command)} 3<&{told[0]} 4>&{answers[1]}"
         self._process = subprocess.Popen(
             ["bash", "-c", line],
@@ -57,7 +57,7 @@ class Browser:
         self._process.wait()
 
     def call(self, method, **parameters):
-        """Calls a method of the DevTools protocol; gives its result."""
+        """Call a method of the DevTools protocol; return its result."""
         number = next(self._numbers)
         message = {"id": number, "method": method, "params": parameters}
         if self._session:
@@ -91,7 +91,7 @@ class Browser:
             self.requests.append(about["request"]["url"])
 
     def resize(self, width, height, phone=False, dark=False):
-        """Sets size and kind of the screen."""
+        """Set size and kind of the screen."""
         self.call(
             "Emulation.setDeviceMetricsOverride",
             width=width,
@@ -104,7 +104,7 @@ class Browser:
         self.call("Emulation.setEmulatedMedia", features=[theme])
 
     def open(self, path, place=""):
-        """Opens a page and waits until it shows its first step."""
+        """Open a page and wait until it shows its first step."""
         self.call("Page.navigate", url="about:blank")
         self.call("Page.navigate", url=f"file://{path}{place}")
         self.wait(
@@ -112,7 +112,7 @@ class Browser:
         )
 
     def run(self, script):
-        """The value of a JavaScript expression in the page."""
+        """Return the value of a JavaScript expression in the page."""
         answer = self.call(
             "Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True
         )
@@ -120,7 +120,7 @@ class Browser:
         return answer["result"].get("value")
 
     def wait(self, script):
-        """Waits until the expression is true; gives its value."""
+        """Wait until the expression is true; return its value."""
         deadline = time.monotonic() + PATIENCE
         while not (value := self.run(script)):
             assert time.monotonic() < deadline, f"never true: {script} {self.errors}"
@@ -128,13 +128,13 @@ class Browser:
         return value
 
     def press(self, key, text="", modifiers=0):
-        """Presses a key, as "ArrowLeft"; a key that writes needs its text. 8 is shift."""
+        """Press a key such as "ArrowLeft"; a key that types needs its text. Modifier 8 is shift."""
         options = {"key": key, "modifiers": modifiers}
         self.call("Input.dispatchKeyEvent", type="keyDown", text=text, **options)
         self.call("Input.dispatchKeyEvent", type="keyUp", **options)
 
     def tap(self, selector, x=0.5, y=0.5):
-        """Scrolls to an element and touches it, at a share of its width and height."""
+        """Scroll to an element and touch it, at a share of its width and height."""
         element = f"document.querySelector({selector!r})"
         self.run(f"{element}.scrollIntoView({{block: 'center', behavior: 'instant'}})")
         box = self.run(f"{element}.getBoundingClientRect().toJSON()")
@@ -143,5 +143,5 @@ class Browser:
         self.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
 
     def screenshot(self):
-        """A picture of the page, PNG."""
+        """Return a picture of the page, PNG."""
         return b64decode(self.call("Page.captureScreenshot")["data"])

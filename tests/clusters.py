@@ -1,5 +1,6 @@
-"""For tests of clusters: schedulers and workers of Dask as processes of their own on the loopback,
-certificates, and a network that can be cut."""
+"""Helpers for tests of clusters: Dask's schedulers and workers as processes on the loopback,
+certificates, and a network that can be cut.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +25,7 @@ PATIENCE = 90
 
 
 class Member:
-    """A scheduler or worker, and what it has written so far."""
+    """A scheduler or worker, with its output so far."""
 
     def __init__(self, name: str, arguments: list[str], folder: Path, environment: dict) -> None:
         self.name = name
@@ -39,7 +40,7 @@ class Member:
 
     @property
     def log(self) -> str:
-        """Standard output and error."""
+        """Return its standard output and error."""
         return self._log.read_text(errors="replace")
 
     @property
@@ -47,23 +48,23 @@ class Member:
         return self.process.poll() is None
 
     def says(self, words: str) -> None:
-        """Waits until it has written these words; fails if it ends before."""
+        """Wait until it has written these words; fail if it ends before."""
         until(lambda: words in self.log or not self.alive, f"{self.name}: no {words!r}", self)
         assert words in self.log, f"{self.name} has ended:\n{self.log}"
 
     def signal(self, number: int) -> None:
-        """Sends a signal to it and to the processes it has started."""
+        """Send a signal to it and to the processes it has started."""
         for process in family(self.process.pid):
             with contextlib.suppress(psutil.NoSuchProcess):
                 process.send_signal(number)
 
     def kill(self) -> None:
-        """kill -9, its processes too."""
+        """Kill it and its processes with kill -9."""
         self.signal(signal.SIGKILL)
         self.process.wait()
 
     def stop(self) -> None:
-        """Asks it to end, as a batch system does before it kills; waits for that."""
+        """Ask it to end, as a batch system does before it kills, and wait until it has."""
         self.process.terminate()
         try:
             self.process.wait(PATIENCE)
@@ -71,7 +72,7 @@ class Member:
             self.kill()
 
     def full_disk(self) -> None:
-        """From now on it can write nothing: every write to a file fails."""
+        """Simulate a full disk: from now on every write to a file fails."""
         import resource
 
         for process in family(self.process.pid):
@@ -79,7 +80,7 @@ class Member:
 
 
 def family(pid: int) -> list[psutil.Process]:
-    """A process and its descendants."""
+    """Return a process and its descendants."""
     try:
         process = psutil.Process(pid)
         return [process, *process.children(recursive=True)]
@@ -88,7 +89,7 @@ def family(pid: int) -> list[psutil.Process]:
 
 
 def until(happens, otherwise: str, member: Member | None = None, seconds: float = PATIENCE):
-    """Waits for what `happens()` gives to be true, and gives it."""
+    """Wait until `happens()` returns something true, and return that."""
     end = time.monotonic() + seconds
     while not (found := happens()):
         told = f"\n{member.log}" if member else ""
@@ -136,7 +137,9 @@ class Cluster:
         return member
 
     def start_scheduler(self) -> Member:
-        """The scheduler, once it listens; again at the same address if it has been killed."""
+        """Return the scheduler once it listens; if it was killed, start it again at the same
+        address.
+        """
         host, port = "127.0.0.1", self.address.rpartition(":")[2]
         self.file.unlink(missing_ok=True)
         self.scheduler = self._member(
@@ -152,7 +155,7 @@ class Cluster:
     def start_worker(
         self, *arguments: object, threads: int = 1, address: str | None = None, **environment: str
     ) -> Member:
-        """A worker that has just been started; `registered` waits for it."""
+        """Return a worker that has just been started; `registered` waits for it."""
         where = self.folder / "space" / str(len(self.members))
         where.mkdir(parents=True)
         return self._member(
@@ -164,7 +167,7 @@ class Cluster:
         )
 
     def start_workers(self, count: int) -> list[Member]:
-        """Workers that the scheduler knows."""
+        """Return workers that the scheduler knows."""
         workers = [self.start_worker() for _ in range(count)]
         for worker in workers:
             registered(worker)
@@ -172,19 +175,19 @@ class Cluster:
 
     @property
     def workers(self) -> list[Member]:
-        """Those that have not ended."""
+        """Return the workers that have not ended."""
         return [m for m in self.members if m.name.startswith("worker") and m.alive]
 
 
 def registered(worker: Member) -> Member:
-    """Waits until the scheduler knows this worker."""
+    """Wait until the scheduler knows this worker."""
     worker.says("Registered to")
     return worker
 
 
 @contextlib.contextmanager
 def frozen(process: subprocess.Popen):
-    """A process, and those it has started, stand still meanwhile."""
+    """Stop a process, and those it has started, meanwhile."""
     for each in family(process.pid):
         each.suspend()
     try:
@@ -196,7 +199,7 @@ def frozen(process: subprocess.Popen):
 
 @contextlib.contextmanager
 def slowed(member: Member, share: float = 0.1):
-    """A member gets only this share of its time meanwhile."""
+    """Give a member only this share of its time meanwhile."""
     ends = threading.Event()
 
     def halt() -> None:
@@ -215,7 +218,7 @@ def slowed(member: Member, share: float = 0.1):
 
 
 def certificates(folder: Path) -> Path:
-    """A folder with an authority, a certificate and Dask's settings, as users make it."""
+    """Make a folder with an authority, a certificate and Dask's settings, as users do."""
     subprocess.run(["sh", CERTIFICATES, folder], check=True, capture_output=True)
     return folder
 
@@ -223,8 +226,8 @@ def certificates(folder: Path) -> Path:
 class Cable:
     """Forwards connections to a port of the loopback, until it is cut.
 
-    While it is cut it keeps all connections, takes new ones, and lets nothing through, as a
-    network does whose switch is off: nobody is told. `broken` closes them and refuses new ones.
+    While it is cut it keeps all connections, accepts new ones, and lets nothing through, like a
+    network with its switch off: neither end notices. `broken` closes them and refuses new ones.
     """
 
     def __init__(self, port: int) -> None:
@@ -241,7 +244,7 @@ class Cable:
 
     @contextlib.contextmanager
     def cut(self):
-        """Nothing gets through meanwhile; what was sent arrives afterwards."""
+        """Let nothing through meanwhile; the data arrive afterwards."""
         self._whole.clear()
         try:
             yield
@@ -250,7 +253,7 @@ class Cable:
 
     @contextlib.contextmanager
     def broken(self):
-        """All connections are closed, and new ones at once, meanwhile."""
+        """Close all connections, and new ones at once, meanwhile."""
         self._refuses = True
         self._close()
         try:
@@ -299,7 +302,7 @@ class Cable:
 
 
 def free_port() -> int:
-    """A port of the loopback that nobody listens on."""
+    """Return a port of the loopback on which no process listens."""
     with socket.create_server(("127.0.0.1", 0)) as listener:
         return listener.getsockname()[1]
 
@@ -309,7 +312,7 @@ def port_of(address: str) -> int:
 
 
 def shortened(name: str, folder: Path, **changes: object) -> Path:
-    """A copy of data/experiments/NAME.ini in which some keys have other values."""
+    """Return a copy of data/experiments/NAME.ini with other values of some keys."""
     lines = (ROOT / "data" / "experiments" / f"{name}.ini").read_text().splitlines()
     for key, value in changes.items():
         places = [i for i, line in enumerate(lines) if line.split("=")[0].strip() == key]

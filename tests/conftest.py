@@ -1,4 +1,4 @@
-"""Tests open no window: pygame and matplotlib draw in memory."""
+"""Fixtures of all tests. Tests open no window: pygame and matplotlib draw in memory."""
 
 import os
 import sys
@@ -12,14 +12,16 @@ os.environ["MPLBACKEND"] = "Agg"
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers():
-    """Of `-n auto`: one for each core that is ours, eight at most (each takes 1 to 2 GB)."""
+    """Return the workers of `-n auto`: one per core of ours, at most eight (each takes 1
+    to 2 GB).
+    """
     known = hasattr(os, "sched_getaffinity")
     return min(8, len(os.sched_getaffinity(0)) if known else os.cpu_count() or 1)
 
 
 @pytest.fixture(scope="session", autouse=True)
 def own_settings(tmp_path_factory):
-    """A folder for the settings of the user, who trusts other courses; his own stays as it is."""
+    """Use a folder of its own for the user's settings, so that the real ones stay as they are."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_CONFIG_HOME", str(tmp_path_factory.mktemp("settings")))
         yield
@@ -27,7 +29,7 @@ def own_settings(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def by_sb3():
-    """What names no engine is trained by Stable-Baselines3, as if no problem were native."""
+    """Train with Stable-Baselines3 unless an engine is named, as if no problem were native."""
     from botschool.rl.native import choosing
 
     with pytest.MonkeyPatch.context() as patch:
@@ -37,7 +39,7 @@ def by_sb3():
 
 @pytest.fixture
 def command(capfd, monkeypatch):
-    """Calls the command in this process: (exit code, standard output, standard error)."""
+    """Call the command in this process; return (exit code, standard output, standard error)."""
     from botschool import cli
     from running import TESTS
 
@@ -55,7 +57,9 @@ def command(capfd, monkeypatch):
 
 @pytest.fixture
 def refused(command):
-    """Calls the command, which must refuse in a sentence that holds the given words. Gives it."""
+    """Call the command, which must refuse in a sentence with the given words;
+    return the sentence.
+    """
     from running import one_sentence
 
     def call(*arguments, says=()):

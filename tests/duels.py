@@ -20,10 +20,10 @@ DIE_ONCE = "TINY_DIE_ONCE"
 
 
 class Duel(ParallelEnv):
-    """A cat on a line follows a mouse, which is to stay away, but gets tired when it moves.
+    """A cat on a line follows a mouse, which should stay away but gets tired when it moves.
 
-    They see and do different things. The cat is paid 1 - distance, the mouse the distance less its
-    effort; the mouse leaves when it is caught, and the cat stays until the end.
+    They observe and do different things. The cat's reward is 1 - distance, the mouse's is the
+    distance minus its effort. The mouse leaves when it is caught; the cat stays until the end.
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 10}  # noqa: RUF012
@@ -157,7 +157,7 @@ ALGORITHMS = {
 
 
 def write(folder, environment="duels:Duel", algo="coevo2", options="", policy=None):
-    """Writes FOLDER/own.ini, a very small experiment. Gives its path."""
+    """Write FOLDER/own.ini, a very small experiment; return its path."""
     policy = {"nrobots": 2, "heterogeneous": 1, "maxsteps": 20, "nhiddens": 3} | (policy or {})
     algorithm = {"noiseStdDev": 0.5, "stepsize": 0.3, **ALGORITHMS.get(algo, {})}
     lines = ["[EXP]", f"environment = {environment}", f"algo = {algo}", f"options = {options}"]
@@ -194,7 +194,7 @@ GENERATIONS = (0, 10, 20, 40)
 
 
 def experiment(folder, nhiddens=0, pepisodes=1):
-    """Writes FOLDER/own.ini: ErPredprey in 60 steps. Gives its path."""
+    """Write FOLDER/own.ini, ErPredprey in 60 steps; return its path."""
     folder.mkdir(exist_ok=True)
     path = folder / "own.ini"
     path.write_text(EXPERIMENT.format(nhiddens=nhiddens, pepisodes=pepisodes))
@@ -202,19 +202,19 @@ def experiment(folder, nhiddens=0, pepisodes=1):
 
 
 def policy_of(path):
-    """The policy of an experiment file."""
+    """Return the policy of an experiment file."""
     problem = problems.make("ErPredprey")
     return Policy(problem.name, problem.interface, config.load(path).policy)
 
 
 def random_populations(policy, generation, size=3):
-    """As coevo2 saves them: first all predators, then all prey."""
+    """Return random populations as coevo2 saves them: first all predators, then all prey."""
     pairs = [np.split(policy.initial(generation, i), 2) for i in range(size)]
     return np.concatenate(list(zip(*pairs, strict=True)))
 
 
 def write_run(folder):
-    """A run of seed 12 in the folder, with its experiment file own.ini; no Fit files."""
+    """Write a run of seed 12 into the folder, with its own.ini and without Fit files."""
     path = experiment(folder)
     for generation in GENERATIONS:
         populations = random_populations(policy_of(path), generation)
@@ -223,7 +223,9 @@ def write_run(folder):
 
 
 def driver(left, right):
-    """A network without hidden neurons whose wheels turn like this, whatever it senses."""
+    """Return a network without hidden neurons that drives its wheels like this,
+    whatever it senses.
+    """
     network = np.zeros(50)
     network[:2] = left, right
     return network

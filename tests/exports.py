@@ -12,19 +12,19 @@ from pathlib import Path
 
 @dataclass
 class Handed:
-    """What a person hands in: names of files, with folders, and their content."""
+    """A person's submission: names of files, with folders, and their content."""
 
     name: str
     files: dict[str, bytes]
     late: bool = False
     attempts: list[dict[str, bytes]] = field(default_factory=list)
-    """Earlier ones."""
+    """Earlier attempts."""
     typed: str = ""
-    """Typed into the platform's page instead."""
+    """Text typed into the platform's page instead."""
 
 
 def notebook(*cells: str) -> bytes:
-    """A notebook with these code cells, each after a text."""
+    """Return a notebook with these code cells, each after a text."""
     made = []
     for cell in cells:
         made.append({"cell_type": "markdown", "metadata": {}, "source": ["Some *text*"]})
@@ -36,7 +36,7 @@ def notebook(*cells: str) -> bytes:
 
 
 def zipped(files: dict[str, bytes], top: str = "") -> bytes:
-    """A zip file with these files."""
+    """Return a zip file with these files."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in files.items():
@@ -45,7 +45,7 @@ def zipped(files: dict[str, bytes], top: str = "") -> bytes:
 
 
 def of_tar(files: dict[str, bytes]) -> bytes:
-    """A .tar.gz with these files."""
+    """Return a .tar.gz with these files."""
     buffer = io.BytesIO()
     with tarfile.open(fileobj=buffer, mode="w:gz") as archive:
         for name, content in files.items():
@@ -56,13 +56,13 @@ def of_tar(files: dict[str, bytes]) -> bytes:
 
 
 def old_notebook(*cells: str) -> bytes:
-    """A notebook as Jupyter 1 and 2 wrote them."""
+    """Return a notebook in the format of Jupyter 1 and 2."""
     made = [{"cell_type": "code", "input": cell, "outputs": []} for cell in cells]
     return json.dumps({"worksheets": [{"cells": made}], "metadata": {}, "nbformat": 3}).encode()
 
 
 def variations(file: str, solution: str, skeleton: str) -> dict[str, dict[str, bytes]]:
-    """Ways to hand in one right solution, all of which deserve full marks."""
+    """Return ways to submit one right solution, all of which deserve full marks."""
     stem, text = file.removesuffix(".py"), solution.encode()
     latin = f"# -*- coding: latin-1 -*-\n# J\u00fcrgen\n{solution}".encode("latin-1")
     spaced = stem.replace("_", " ").title()
@@ -122,16 +122,16 @@ def variations(file: str, solution: str, skeleton: str) -> dict[str, dict[str, b
 
 
 def class_of(file: str, solution: str, skeleton: str) -> list[Handed]:
-    """A person for each variation."""
+    """Return a person for each variation."""
     return [
         Handed(f"Per{chr(97 + i // 26)}{chr(97 + i % 26)} S\u00f8n{i}", files)
         for i, files in enumerate(variations(file, solution, skeleton).values())
     ]
 
 
-# --- platforms; each gives the files of the export
+# --- platforms; each function returns the files of the export
 def moodle(people: list[Handed], underscore: bool = True) -> dict[str, bytes]:
-    """In folders, with or without the last underscore of their names."""
+    """Return Moodle's folders, with or without the last underscore of their names."""
     made = {}
     for number, one in enumerate(people, 1234560):
         top = f"{one.name}_{number}_assignsubmission_"
@@ -145,7 +145,7 @@ def moodle(people: list[Handed], underscore: bool = True) -> dict[str, bytes]:
 
 
 def moodle_loose(people: list[Handed]) -> dict[str, bytes]:
-    """Without folders; sub-folders are part of the names."""
+    """Return Moodle's export without folders; sub-folders are part of the names."""
     return {
         f"{one.name}_{number}_assignsubmission_file_{name}": content
         for number, one in enumerate(people, 1234560)
@@ -154,7 +154,7 @@ def moodle_loose(people: list[Handed]) -> dict[str, bytes]:
 
 
 def canvas(people: list[Handed]) -> dict[str, bytes]:
-    """Flat; what has folders is handed in as a zip file."""
+    """Return Canvas's flat files; a submission with folders is a zip file."""
     made = {}
     for number, one in enumerate(people, 400):
         short = "".join(one.name.lower().split()[::-1])
@@ -171,7 +171,7 @@ def canvas(people: list[Handed]) -> dict[str, bytes]:
 
 
 def gradescope(people: list[Handed]) -> dict[str, bytes]:
-    """Folders, and who handed them in beside them."""
+    """Return Gradescope's folders, with a list of the people beside them."""
     made, lines = {}, ["---"]
     for number, one in enumerate(people, 300001):
         for name, content in one.files.items():
@@ -190,7 +190,7 @@ def gradescope(people: list[Handed]) -> dict[str, bytes]:
 
 
 def github(people: list[Handed]) -> dict[str, bytes]:
-    """Clones, as the command of a class makes them."""
+    """Return clones, as the command of a class makes them."""
     made = {}
     for one in people:
         user = "".join(letter for letter in one.name.lower() if letter.isascii() and letter != " ")
@@ -202,7 +202,7 @@ def github(people: list[Handed]) -> dict[str, bytes]:
 
 
 def folders(people: list[Handed]) -> dict[str, bytes]:
-    """A folder for each, as nbgrader and everybody's own script write."""
+    """Return a folder for each person, as nbgrader and most own scripts write."""
     return {f"{one.name}/{name}": content for one in people for name, content in one.files.items()}
 
 
@@ -218,7 +218,7 @@ PLATFORMS = {
 
 
 def written(folder: Path, files: dict[str, bytes]) -> Path:
-    """The files of an export in a folder."""
+    """Write the files of an export into a folder."""
     for name, content in files.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -227,6 +227,6 @@ def written(folder: Path, files: dict[str, bytes]) -> Path:
 
 
 def saved(path: Path, files: dict[str, bytes]) -> Path:
-    """The files of an export in a zip file."""
+    """Write the files of an export into a zip file."""
     path.write_bytes(zipped(files))
     return path

@@ -15,12 +15,12 @@ from botschool.labs.saved import plain_runs
 
 
 def student(number):
-    """The module that says how the laboratory is done."""
+    """Return the module that describes how to do the laboratory."""
     return import_module(f"lab_answers.lab{number:02}")
 
 
 def small(number, replications=4):
-    """The laboratory with small budgets."""
+    """Return the laboratory with small budgets."""
     lab, parts = load_lab(number), student(number).PARTS
     return replace(
         lab,
@@ -32,7 +32,7 @@ def small(number, replications=4):
 
 
 def fill(text, id, value):
-    """The sheet's text with a field answered, as an editor would do it."""
+    """Return the sheet's text with a field filled in, as in an editor."""
     head, marker, rest = text.partition(f"<!-- field: {id} -->")
     assert marker, id
     end = re.search(r"<!-- field|^## |\Z", rest, re.MULTILINE).start()
@@ -95,7 +95,7 @@ if __name"""
 
 
 def measured(place):
-    """What measure.py gives: condition -> measure -> array; our own file, run here."""
+    """Return the result of measure.py: condition -> measure -> array; our own file, run here."""
     space = {"__name__": "measure"}
     exec((place.folder / "measure.py").read_text(), space)
     found = {}
@@ -117,7 +117,7 @@ def row_of(name):
 
 
 def predicted(lab, folder, name="Ada", **predictions):
-    """A laboratory that is started, with a prediction."""
+    """Start a laboratory and write a prediction."""
     place, does = Place(lab, Path(folder) / lab.name), student(lab.number)
     start(place, name, "botschool")
     answer(place, does.PREDICTIONS | predictions)
@@ -127,7 +127,7 @@ def predicted(lab, folder, name="Ada", **predictions):
 
 
 def conclude(place, rule=5.0):
-    """Measure, draw and conclude, all from the runs that are there."""
+    """Measure, draw and conclude, all from the existing runs."""
     skeleton_filled(place, rule)
     if any(field.id == "rule" for field in place.lab.fields):
         answer(place, {"rule": rule})
@@ -142,7 +142,7 @@ def conclude(place, rule=5.0):
 
 
 def honest(lab, folder, name="Ada", rule=5.0, workers=1, **predictions):
-    """A laboratory done from beginning to end."""
+    """Do a laboratory from beginning to end."""
     place = predicted(lab, folder, name, **predictions)
     assert make_runs(lab, place.sheet(), place.runs, workers, lab.replications)
     conclude(place, rule)
@@ -150,6 +150,6 @@ def honest(lab, folder, name="Ada", rule=5.0, workers=1, **predictions):
 
 
 def copied(place, folder):
-    """A copy of a finished laboratory, to spoil."""
+    """Copy a finished laboratory, to spoil the copy."""
     shutil.copytree(place.folder, Path(folder) / place.lab.name)
     return Place(place.lab, Path(folder) / place.lab.name)

@@ -1,4 +1,4 @@
-"""Policies of one's own, as --policy own_policies:Narrow names them."""
+"""A user's own policies, named by --policy own_policies:Narrow."""
 
 import torch
 from stable_baselines3.common.policies import ActorCriticPolicy
@@ -20,11 +20,11 @@ class Narrow(ActorCriticPolicy):
 
 
 class Soft(SACPolicy):
-    """SAC's, by another name."""
+    """SAC's policy under another name."""
 
 
 class Thing:
-    """No policy."""
+    """A class that is not a policy."""
 
 
 number = 5

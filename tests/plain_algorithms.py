@@ -1,5 +1,5 @@
-"""CMA-ES, xNES and sNES as their papers write them, with numpy's linear algebra: they are told
-candidates and fitness, and adapt. The update of the library must be the same.
+"""CMA-ES, xNES and sNES as in their papers, with numpy's linear algebra. The library's updates
+after the same candidates and fitness must be the same.
 """
 
 import math
@@ -8,7 +8,7 @@ import numpy as np
 
 
 def sorted_by(fitness, candidates):
-    """The best first; of equals, the earlier first."""
+    """Return the candidates, the best first; the earlier wins ties."""
     return candidates[sorted(range(len(fitness)), key=lambda i: -fitness[i])]
 
 
@@ -76,7 +76,7 @@ class PlainCMAES:
 
 
 def nes_utilities(count):
-    """Wierstra and others (2014), section 3.1."""
+    """Return the utilities of Wierstra and others (2014), section 3.1."""
     raw = [max(0, math.log(count / 2 + 1) - math.log(k)) for k in range(1, count + 1)]
     return [w / sum(raw) - 1 / count for w in raw]
 
@@ -120,37 +120,39 @@ class PlainSNES:
         self.sigma = self.sigma * np.exp(self.eta / 2 * gradient_sigma)
 
 
-# --- A game of two sides that needs no robots, and plain Python of what algorithms do in it.
+# --- A game of two sides that needs no robots, and plain Python for its algorithms.
 
 
 SIZE = 5
 
 
 def initial(index):
-    """Two networks in a row."""
+    """Return two random networks in a row."""
     return np.random.default_rng(index).normal(size=2 * SIZE)
 
 
 def meetings(predators, prey):
-    """Some game in which it depends on the opponent what is good; all against all."""
+    """Return the fitness of all against all, in a game where the best choice depends on the
+    opponent.
+    """
     near = np.abs(predators[:, None] - np.roll(prey, 1, axis=1)[None]).sum(axis=2)
     return np.round(1 / (1 + near), 3)
 
 
 def play(predators, prey, pairs):
-    """The same, pair by pair."""
+    """Return the same fitness, pair by pair."""
     return meetings(predators, prey)[tuple(pairs)]
 
 
 class Individual:
-    """Of the plain implementation."""
+    """An individual of the plain implementation."""
 
     def __init__(self, x, m, v):
         self.x, self.m, self.v = list(x), list(m), list(v)
 
 
 def meeting(side, ours, theirs):
-    """Own fitness of an individual of one side."""
+    """Return the own fitness of an individual of one side."""
     predator, prey = (ours, theirs) if side == 0 else (theirs, ours)
     near = sum(abs(predator[j] - prey[j - 1]) for j in range(SIZE))
     fitness = round(1 / (1 + near), 3)
@@ -162,7 +164,7 @@ def average(values):
 
 
 def climb(config, one, directions, fitness):
-    """A step of OpenAI-ES, number by number, of an Individual, in place.
+    """Make a step of OpenAI-ES with an Individual, number by number, in place.
 
     directions: samplesize lists; fitness(candidate number, x). Returns the fitness of all.
     """

@@ -1,6 +1,5 @@
-"""Robots, walls and sensors written a second time from their description (docs/specification.md,
-"Wheeled robots"), for the tests: plain Python, one robot after another, angles as complex numbers
-where it is natural.
+"""Robots, walls and sensors, implemented a second time from docs/specification.md, "Wheeled
+robots", for the tests: plain Python, one robot after another, with complex numbers for some angles.
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ PI = math.pi
 
 @dataclass
 class Response:
-    """What an infrared sensor reads of a kind of object."""
+    """The response of an infrared sensor to a kind of object."""
 
     d0: float
     w: float
@@ -50,12 +49,14 @@ MARXBOT = Body(
 
 
 def off(angle: float, other: float) -> float:
-    """Size of the angle between two directions, 0 to pi."""
+    """Return the size of the angle between two directions, 0 to pi."""
     return abs(cmath.phase(cmath.rect(1.0, angle - other)))
 
 
 def arc(x: float, y: float, heading: float, left: float, right: float, axle: float):
-    """The pose after the wheels have rolled that far: a turn about a centre beside the robot."""
+    """Return the pose after the wheels have rolled that far: a turn about a centre beside the
+    robot.
+    """
     turn = (right - left) / axle
     if abs(turn) < 1e-7:
         way = cmath.rect((left + right) / 2, heading + turn / 2)
@@ -67,7 +68,7 @@ def arc(x: float, y: float, heading: float, left: float, right: float, axle: flo
 
 
 def nearest_point(wall, x: float, y: float) -> tuple[float, float]:
-    """The point of a wall (x, y, x2, y2) that is nearest to (x, y)."""
+    """Return the point of a wall (x, y, x2, y2) that is nearest to (x, y)."""
     start, end, point = complex(*wall[:2]), complex(*wall[2:4]), complex(x, y)
     along = (point - start) / (end - start)  # in units of the wall
     nearest = start + (end - start) * min(max(along.real, 0.0), 1.0)
@@ -75,7 +76,7 @@ def nearest_point(wall, x: float, y: float) -> tuple[float, float]:
 
 
 def crosses(wall, x: float, y: float, x2: float, y2: float) -> bool:
-    """Whether the way from (x, y) to (x2, y2) crosses a wall."""
+    """Return whether the way from (x, y) to (x2, y2) crosses a wall."""
     start, end = complex(*wall[:2]), complex(*wall[2:4])
     before, after = ((complex(*p) - start) / (end - start) for p in ((x, y), (x2, y2)))
     if before.imag * after.imag >= 0:
@@ -94,7 +95,7 @@ class World:
         self.cylinders = [tuple(map(float, c)) for c in cylinders]  # x, y, radius
 
     def drive(self, robot: int, left: float, right: float) -> str:
-        """Moves it for a step, unless it would bump: into what? "" is nothing."""
+        """Move a robot for a step unless it would collide; return what it would hit, or ""."""
         reach = self.speeds[robot] * 0.1
         x, y, heading = arc(
             *self.poses[robot], left * reach, right * reach, self.bodies[robot].axle
@@ -105,7 +106,7 @@ class World:
         return what
 
     def bump(self, robot: int, x: float, y: float) -> str:
-        """What is in the way at (x, y)."""
+        """Return the obstacle at (x, y)."""
         own = self.bodies[robot].radius
         before = self.poses[robot]
         for wall in self.walls:
@@ -121,7 +122,7 @@ class World:
         return ""
 
     def infrared(self, robot: int) -> list[float]:
-        """Eight readings."""
+        """Return eight readings."""
         body, (x, y, heading) = self.bodies[robot], self.poses[robot]
         seen = [(*nearest_point(wall, x, y), 0.0, body.wall) for wall in self.walls]
         seen += [(*cylinder, body.round) for cylinder in self.cylinders]
@@ -144,7 +145,7 @@ class World:
         return [min(total, 1.0) for total in totals]
 
     def camera(self, robot: int) -> list[float]:
-        """Eight sectors that see the other robot of two, and its apparent size."""
+        """Return eight sectors in which one robot of two sees the other, and its apparent size."""
         (x, y, heading), (ox, oy, _) = self.poses[robot], self.poses[1 - robot]
         direction = math.atan2(oy - y, ox - x) - heading
         sector = PI / 4
@@ -153,7 +154,7 @@ class World:
         return [*sectors, 2 * (PI / 2 - math.atan(distance / radius))]
 
     def ground(self, robot: int, width: float, height: float) -> list[float]:
-        """Four sensors, then their mean."""
+        """Return four sensors, then their mean."""
         x, y, heading = self.poses[robot]
         readings = []
         for angle in (-0.0872, 0.0872, PI - 0.0872, PI + 0.0872):
@@ -164,9 +165,8 @@ class World:
         return [*(0.5 + 10 * (r - mean) for r in readings), mean]
 
 
-# --- Sensors and rewards of declared arenas written a second time from their description
-# (docs/specification.md, "Declared arenas"), for the tests: plain Python, places as complex
-# numbers.
+# --- Sensors and rewards of declared arenas, implemented a second time from docs/specification.md,
+# "Declared arenas", for the tests: plain Python, positions as complex numbers.
 
 
 def _place(pose) -> complex:
@@ -174,7 +174,7 @@ def _place(pose) -> complex:
 
 
 class Declared:
-    """A plan at a moment: reference_arena.World, and what it does not know."""
+    """A plan at a moment: a reference_arena.World, and what that does not contain."""
 
     def __init__(self, world, plan, lights, zones) -> None:
         self.world, self.plan = world, plan
@@ -185,7 +185,7 @@ class Declared:
         ]
 
     def rounds(self, robot: int):
-        """Centre and radius of the cylinders and of the other robots."""
+        """Return centre and radius of the cylinders and of the other robots."""
         for x, y, radius in self.world.cylinders:
             yield complex(x, y), radius
         for other, pose in enumerate(self.world.poses):
@@ -193,7 +193,9 @@ class Declared:
                 yield _place(pose), self.world.bodies[other].radius
 
     def laser(self, robot: int) -> list[float]:
-        """In the frame of each beam, which runs along the positive real axis."""
+        """Return the readings, computed in the frame of each beam, which runs along the positive
+        real axis.
+        """
         plan, pose = self.plan, self.world.poses[robot]
         count, edge = plan.laser_beams, self.world.bodies[robot].radius
         readings = []
@@ -239,7 +241,7 @@ class Declared:
         return readings
 
     def sectors(self, robot: int, things) -> list[float]:
-        """A camera for things: centre and radius of each."""
+        """Return the readings of a camera for objects, given as centre and radius."""
         pose = self.world.poses[robot]
         seen, size = [0.0] * 8, 0.0
         for centre, radius in things:
@@ -269,7 +271,7 @@ class Declared:
         return values
 
     def gap(self, robot: int) -> float:
-        """To the nearest wall, cylinder or robot."""
+        """Return the distance to the nearest wall, cylinder or robot."""
         x, y, _ = self.world.poses[robot]
         own = self.world.bodies[robot].radius
         gaps = [abs(complex(*nearest_point(w, x, y)) - complex(x, y)) for w in self.world.walls]
@@ -277,7 +279,7 @@ class Declared:
         return min(gaps) - own
 
     def paid(self, before, action, bumps, visited: set) -> float:
-        """The reward of a step; `before` are the poses that it began with."""
+        """Return the reward of a step; `before` are the poses at its start."""
         plan, world = self.plan, self.world
         places = [_place(pose) for pose in world.poses]
         radii = [body.radius for body in world.bodies]

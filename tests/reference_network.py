@@ -1,8 +1,8 @@
-"""The policy network of docs/specification.md, "Policy network", written for clarity: the C++ one
+"""The policy network of docs/specification.md, "Policy network", written for clarity. The C++ one
 is tested against it.
 
-Every array is float64 and every step allocates; nothing here is shared with `botschool.net` but the
-names of the hyperparameters (any object with the attributes of a NetworkSpec will do).
+Every array is float64 and every step allocates. Only the names of the hyperparameters are shared
+with `botschool.net` (any object with the attributes of a NetworkSpec works).
 """
 
 import numpy as np
@@ -29,7 +29,7 @@ ACTIVATIONS = {
 
 
 def hidden_sizes(spec) -> list[int]:
-    """Neurons of each hidden layer."""
+    """Return the number of neurons of each hidden layer."""
     if spec.nhiddens == 0:
         return []
     if spec.nlayers == 2 and spec.nhiddens2 > 0:
@@ -38,18 +38,20 @@ def hidden_sizes(spec) -> list[int]:
 
 
 def output_count(spec) -> int:
-    """Output neurons."""
+    """Return the number of output neurons."""
     return spec.outputs * spec.nbins
 
 
 def architecture_of(spec) -> int:
-    """An LSTM without units is a perceptron, and so is what reads the features of an image."""
+    """Return the architecture; an LSTM without units and a network behind an
+    image are perceptrons.
+    """
     alike = spec.architecture == CONVOLUTIONAL or (spec.architecture == LSTM and not spec.nhiddens)
     return FEEDFORWARD if alike else spec.architecture
 
 
 def planes(spec) -> list[tuple[int, int, int]]:
-    """(filters, height, width) of the image and of what each convolutional layer gives."""
+    """Return (filters, height, width) of the image and of each convolutional layer's result."""
     shapes = [spec.image]
     for filters, kernel, stride in zip(spec.filters, spec.kernels, spec.strides, strict=True):
         _, height, width = shapes[-1]
@@ -59,12 +61,12 @@ def planes(spec) -> list[tuple[int, int, int]]:
 
 
 def read(spec) -> int:
-    """Inputs, or features of a convolutional network."""
+    """Return the number of inputs, or of features of a convolutional network."""
     return int(np.prod(planes(spec)[-1])) if spec.architecture == CONVOLUTIONAL else spec.inputs
 
 
 def kernels(spec) -> list[tuple[int, int, int, int]]:
-    """The shape of the weights of each convolutional layer."""
+    """Return the shape of the weights of each convolutional layer."""
     if spec.architecture != CONVOLUTIONAL:
         return []
     channels = [shape[0] for shape in planes(spec)]
@@ -72,7 +74,9 @@ def kernels(spec) -> list[tuple[int, int, int, int]]:
 
 
 def matrices(spec) -> list[tuple[str, int, int]]:
-    """(name, receivers, senders) of each block of connections, in the order of the genotype."""
+    """Return (name, receivers, senders) of each block of connections, in the order
+    of the genotype.
+    """
     inputs, sizes, outputs = read(spec), hidden_sizes(spec), output_count(spec)
     hidden = sum(sizes)
     architecture = architecture_of(spec)
@@ -94,7 +98,7 @@ def matrices(spec) -> list[tuple[str, int, int]]:
 
 
 def genotype_length(spec) -> int:
-    """Parameters of one network."""
+    """Return the number of parameters of one network."""
     count = sum(receivers * senders for _, receivers, senders in matrices(spec))
     count += sum(int(np.prod(shape)) for shape in kernels(spec))
     if spec.bias:
@@ -106,8 +110,9 @@ def genotype_length(spec) -> int:
 
 
 def parse(spec, genotype) -> dict[str, np.ndarray]:
-    """Biases ("hidden bias", "output bias"), matrices by name and "log deviation"; "filters0" and
-    "filters0 bias" of a convolutional layer."""
+    """Return the parts of a genotype: biases ("hidden bias", "output bias"), matrices by name, "log
+    deviation", and for a convolutional layer "filters0" and "filters0 bias".
+    """
     genotype = np.asarray(genotype, dtype=np.float64)
     assert genotype.shape == (genotype_length(spec),)
     hidden, outputs = sum(hidden_sizes(spec)), output_count(spec)
@@ -210,7 +215,7 @@ class ReferenceNetwork:
 
 
 def binned(spec, outputs):
-    """What the actuators get when the output neurons have these activations."""
+    """Return the actuators' values for these activations of the output neurons."""
     if spec.nbins == 1:
         return np.array(outputs, dtype=float)
     rows = np.asarray(outputs).reshape(spec.outputs, spec.nbins)
@@ -221,7 +226,7 @@ def binned(spec, outputs):
 # --- Random networks for hypothesis.
 
 
-# The same examples every time: a test that fails does so for everyone.
+# Use the same examples every time: a failing test then fails for everyone.
 REPEATABLE = settings(deadline=None, derandomize=True, database=None, max_examples=100)
 
 
@@ -230,7 +235,7 @@ HIDDEN_ACTIVATIONS = st.sampled_from([1, 2, 3, 5])
 
 @st.composite
 def layer_choices(draw):
-    """Hyperparameters that make the shape of a network."""
+    """Draw hyperparameters that determine the shape of a network."""
     choice = {"architecture": draw(st.integers(0, 3)), "nhiddens": draw(st.integers(0, 7))}
     if choice["architecture"] == FEEDFORWARD:
         choice["nlayers"] = draw(st.integers(1, 4))
@@ -241,7 +246,9 @@ def layer_choices(draw):
 
 @st.composite
 def policy_choices(draw):
-    """Hyperparameters of a policy, without those that its problem decides and without noise."""
+    """Draw hyperparameters of a policy, without noise and without those that its problem
+    determines.
+    """
     flag = st.integers(0, 1)
     return draw(layer_choices()) | {
         "bias": draw(flag),
@@ -254,7 +261,7 @@ def policy_choices(draw):
 
 @st.composite
 def specs(draw):
-    """A NetworkSpec of a few neurons."""
+    """Draw a NetworkSpec with a few neurons."""
     low, width = draw(st.integers(-3, 3)), draw(st.integers(1, 4))
     return NetworkSpec(
         inputs=draw(st.integers(1, 6)),
@@ -270,7 +277,7 @@ def specs(draw):
 
 @st.composite
 def convolutional_specs(draw):
-    """A NetworkSpec of an image of a few pixels, in one or several layers."""
+    """Draw a NetworkSpec for an image of a few pixels, in one or several layers."""
     flag, few = st.integers(0, 1), st.integers(1, 6)
     image = (draw(st.integers(1, 4)), draw(st.integers(1, 13)), draw(st.integers(1, 13)))
     height, width = image[1:]
@@ -301,7 +308,7 @@ def convolutional_specs(draw):
 
 
 def random_genotype(spec, rng, scale=1.0):
-    """Gaussian parameters whose size keeps the gain of every layer, and so rounding errors, small.
+    """Return Gaussian parameters small enough that rounding errors do not grow from layer to layer.
 
     Log standard deviations of the action noise are so low that the noise is far below rounding.
     """
@@ -314,12 +321,12 @@ def random_genotype(spec, rng, scale=1.0):
 
 
 def random_normalisation(spec, rng):
-    """Means, then standard deviations."""
+    """Return means, then standard deviations."""
     return np.concatenate(
         [rng.normal(size=spec.inputs), np.exp(rng.uniform(-1, 2, size=spec.inputs))]
     )
 
 
 def keeps_memory(spec) -> bool:
-    """Whether a step depends on the ones before."""
+    """Return whether a step depends on the previous ones."""
     return architecture_of(spec) != FEEDFORWARD

@@ -1,4 +1,4 @@
-"""For tests of whole runs: experiment files, the command, and what a run has left in its folder."""
+"""Helpers for tests of whole runs: experiment files, the command, and the files of a run."""
 
 import os
 import re
@@ -23,7 +23,7 @@ POPULATION = {
 
 
 def write_experiment(folder, environment="CartPole-v1", algo="SSS", policy=None, **algorithm):
-    """Writes FOLDER/own.ini: a very small experiment, changed by the arguments. Gives its path."""
+    """Write FOLDER/own.ini, a very small experiment changed by the arguments; return its path."""
     policy = {"episodes": 2, "pepisodes": 3, "maxsteps": 60, "nhiddens": 3} | (policy or {})
     algorithm = {"maxmsteps": 0.005, "saveeach": 60} | POPULATION.get(algo, {}) | algorithm
     lines = ["[EXP]", f"environment = {environment}", f"algo = {algo}", "[POLICY]"]
@@ -36,28 +36,28 @@ def write_experiment(folder, environment="CartPole-v1", algo="SSS", policy=None,
 
 
 def experiment(folder, *arguments, **options):
-    """The same, read."""
+    """Return the experiment of write_experiment."""
     return config.load(write_experiment(folder, *arguments, **options))
 
 
 def run_seeds(experiment, folder, seeds=(1,), workers=1, steps=None, resume=False, force=False):
-    """What `botschool es` does after reading the file; True if the runs were finished."""
+    """Run the seeds as `botschool es` does; return whether all runs finished."""
     folder.mkdir(parents=True, exist_ok=True)
     options = Options(workers=workers, steps=steps, resume=resume, force=force)
     return replicate(experiment, list(seeds), folder, options)
 
 
 def finished_run(folder, environment="CartPole-v1", algo="SSS", normalize=1, **options):
-    """A run with seed 1 in FOLDER/results, of FOLDER/own.ini."""
+    """Make a run with seed 1 of FOLDER/own.ini in FOLDER/results."""
     own = experiment(folder, environment, algo, {"normalize": normalize}, **options)
     assert run_seeds(own, folder / "results")
     return folder / "own.ini", folder / "results"
 
 
 def contents(folder):
-    """All that runs have left in a folder, but for event files: {name: bytes}.
+    """Return the files of runs in a folder without event files: {name: bytes}.
 
-    A checkpoint is taken apart: an entry for each of its arrays.
+    A checkpoint gives an entry for each of its arrays.
     """
     found = {}
     for path in sorted(folder.iterdir()):
@@ -72,7 +72,9 @@ def contents(folder):
 
 
 def same(folder, other):
-    """Whether two folders hold the same results, bit for bit; says which files differ."""
+    """Return whether two folders hold the same results, bit for bit; print the
+    files that differ.
+    """
     one, two = contents(folder), contents(other)
     differing = [name for name in sorted(one.keys() | two.keys()) if one.get(name) != two.get(name)]
     assert one and not differing, f"{differing} differ between {folder} and {other}"
@@ -80,13 +82,13 @@ def same(folder, other):
 
 
 def environment_of_command(**variables):
-    """Variables of the command's process: it finds tiny_envs, whatever the working directory."""
+    """Return the variables of the command's process, which finds tiny_envs from every folder."""
     paths = [str(TESTS), *filter(None, [os.environ.get("PYTHONPATH")])]
     return {**os.environ, "PYTHONPATH": os.pathsep.join(paths), **variables}
 
 
 def start(*arguments, **options):
-    """`python -m botschool ARGUMENTS` as a process of its own, its outputs as pipes of text."""
+    """Start `python -m botschool ARGUMENTS` as a process with its outputs as text pipes."""
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
     options.setdefault("env", environment_of_command())
     command = [sys.executable, "-m", "botschool", *map(str, arguments)]
@@ -94,18 +96,18 @@ def start(*arguments, **options):
 
 
 def finish(process, timeout=120):
-    """Waits for its end: (exit code, standard output, standard error)."""
+    """Wait for the process; return (exit code, standard output, standard error)."""
     out, errors = process.communicate(timeout=timeout)
     return process.returncode, out, errors
 
 
 def call(*arguments, **options):
-    """Runs the command: (exit code, standard output, standard error)."""
+    """Run the command; return (exit code, standard output, standard error)."""
     return finish(start(*arguments, **options))
 
 
 def one_sentence(code, errors, says=()):
-    """Asserts that the command refused in one sentence on stderr, which holds these words."""
+    """Assert that the command refused in one sentence on stderr that contains these words."""
     assert code == 2, errors
     assert SENTENCE.fullmatch(errors), errors
     for word in [says] if isinstance(says, str) else says:

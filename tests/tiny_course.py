@@ -86,7 +86,7 @@ HINTS = """# Hints
 
 
 def make_course(root: Path) -> Path:
-    """Writes the course into a folder and returns that."""
+    """Write the course into a folder; return the folder."""
     for name, text in {
         f"solutions/{FOLDER}/{FILE}": SOLUTION,
         f"solutions/{FOLDER}/README.md": "# Answers\n\n"
@@ -110,7 +110,7 @@ def make_course(root: Path) -> Path:
 
 
 def submit(folder: Path, text: str) -> Path:
-    """A submission's file with this text, in a folder of its own."""
+    """Write a submission's file with this text into a folder of its own."""
     path = folder / FOLDER / FILE
     path.parent.mkdir(parents=True)
     path.write_text(text, encoding="utf-8")

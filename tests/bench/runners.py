@@ -142,8 +142,8 @@ def two_workers_on_runners(repetitions: int) -> Table:
     table = Table(
         "Planar runners: two workers against one",
         f"Steps/s as above, by the clock; the fastest of {repetitions} calls each, taking turns. "
-        "A worker steps 16 episodes together for as long as one of them lasts, so that the end of "
-        "a batch costs two workers as long as one, and the shorter the batch, the larger a part.",
+        "A worker steps 16 episodes together until the longest of them ends. So the end of a batch "
+        "takes as long with two workers as with one, and it is a larger part of a short batch.",
         ["experiment", "candidates", "1 worker", "2 workers", "2 / 1", "target", ""],
     )
     for body in BODIES:

@@ -170,7 +170,7 @@ def signs(values: dict[str, list[float]]) -> str:
     parts = [f"above 0 with {_listed(above)}"] if above else []
     parts += [f"below 0 with {_listed(below)}"] if below else []
     open_ = [name for name in values if name not in above + below]
-    parts += [f"not to be told from 0 with {_listed(open_)}"] if open_ else []
+    parts += [f"not distinguishable from 0 with {_listed(open_)}"] if open_ else []
     return "; ".join(parts)
 
 
@@ -238,7 +238,7 @@ def by_variant(fitness: np.ndarray, own: list[str], names: list[str]) -> np.ndar
 
 
 def strength(fitness: np.ndarray, own: list[str], names: list[str]) -> dict[str, list[float]]:
-    """Of each variant's runs (rows): mean fitness against everybody, variants counting alike."""
+    """Return the mean fitness of each variant's runs (rows) against all, by variant."""
     found: dict[str, list[float]] = {name: [] for name in names}
     for row, name in zip(fitness, own, strict=True):
         against = [_mean(row[[each == other for each in own]]) for other in names]
