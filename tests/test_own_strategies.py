@@ -160,7 +160,7 @@ class Silent:
     [
         (shaped, "", r"shape \(4, 4\): it must be \(candidates, 3\)"),
         (empty, "", r"shape \(0, 3\)"),
-        (words, "", "no array of numbers"),
+        (words, "", "not an array of numbers"),
         (exploding, "", "candidate 0 of generation 0 a parameter that is not finite"),
         (seedless, "", "the seed 1.5: it must be a whole number"),
         (dividing, "", r"fails in generation 1, line \d+ \(dividing\) with ZeroDivisionError: div"),

@@ -285,7 +285,10 @@ def test_translations(items, parameters, options):
         ("--algo a2c -params nminibatches:4", "nminibatches is for ppo, not for A2C"),
         ("--algo ppo -params policy_kwargs:5", "must be written as dict(net_arch=[32, 32])"),
         ("--algo ppo -params policy_kwargs:exec('x')", "must be written as dict"),
-        ("--algo ppo -params policy_kwargs:dict(gamma=1) gamma:1", "beside policy_kwargs and in"),
+        (
+            "--algo ppo -params policy_kwargs:dict(gamma=1) gamma:1",
+            "both inside policy_kwargs and outside",
+        ),
         ("--algo ppo -params policy_kwargs:dict(net_ar=[3])", "did you mean net_arch?"),
         ("--algo ppo -params n_timesteps:many", "n_timesteps is many, but must be a whole number"),
         ("--algo ppo -params policy:Mpl", "no policy 'Mpl'; did you mean mlp?"),

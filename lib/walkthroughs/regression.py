@@ -44,7 +44,7 @@ class Hyperparameters:
     epochs: int = hyper(2000, "passes through the training set, at most", low=1)
     batch_size: int = hyper(1, "patterns in a minibatch: one step is made for each", low=1)
     learning_rate: float = hyper(0.1, "length of a step, per unit of the gradient", above=0)
-    momentum: float = hyper(0.9, "share of the last step that goes on", low=0, high=1)
+    momentum: float = hyper(0.9, "share of the last step that is added to the next", low=0, high=1)
     enough: float = hyper(0.0001, "training ends when the mean squared error is below", low=0)
     print_every: int = hyper(50, "epochs between two looks at the network", low=1)
 

@@ -74,8 +74,8 @@ def parse(text: str, folder: Path) -> Request:
     match = _STRING.fullmatch(text)
     if match is None or int(match["number"]) == 0:
         raise BotschoolError(
-            f"-g {shown(text)} is no file and none of {FORMS}, whose last number is at least 1 "
-            f"({_there(folder)})."
+            f"-g {shown(text)} is neither a file nor one of {FORMS}, whose last "
+            f"number is at least 1 ({_there(folder)})."
         )
     return Request(match["kind"], int(match["generation"]), int(match["number"]))
 
@@ -220,7 +220,7 @@ def generations_in(text: str | None, every: int | None) -> list[int] | None:
     numbers = text.replace(" ", "").split(",")
     if not all(re.fullmatch(r"[0-9]{1,9}", number) for number in numbers):
         raise BotschoolError(
-            f"--generations {shown(text)} is no list of generations, such as 0,100,200."
+            f"--generations {shown(text)} is not a list of generations such as 0,100,200."
         )
     return sorted(set(map(int, numbers)))
 

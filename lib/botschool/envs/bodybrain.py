@@ -52,7 +52,7 @@ LOST = -100.0
 
 def _add_shape(body, shape, **options) -> None:
     body.CreateFixture(b2FixtureDef(shape=shape, friction=FRICTION, **options))
-    shape.thisown = True  # otherwise nobody would free it: the definition owns it
+    shape.thisown = True  # the definition takes it over, but never frees it
 
 
 class Touch(b2ContactListener):

@@ -89,7 +89,7 @@ def batch_size(nminibatches: Any, n_steps: int, envs: int) -> int:
 def _join(parts: dict[str, Any], more: Mapping[str, Any]) -> None:
     for name, value in more.items():
         if name in parts:
-            raise BotschoolError(f"{name} is given beside {KWARGS} and in it: give it once.")
+            raise BotschoolError(f"{name} is given both inside {KWARGS} and outside: give it once.")
         parts[name] = value
 
 

@@ -32,7 +32,7 @@ class ArchiveStarConfig(ArchiveConfig):
     """Section [ALGO] of archivestar."""
 
     popsize: int = hyper(5, "evolving centres of each side", low=1, high=10000)
-    seldifferentiated: int = hyper(1, "opponents are of all lineages alike", choices=NO_YES)
+    seldifferentiated: int = hyper(1, "opponents come from all lineages equally", choices=NO_YES)
     preferential: int = hyper(
         1,
         "individuals drawn, whose strongest is the opponent when seldifferentiated = 0",

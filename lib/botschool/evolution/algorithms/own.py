@@ -233,7 +233,7 @@ class Own(Stateful):
         try:
             array = np.array(candidates, dtype=float)
         except (TypeError, ValueError):
-            raise self._wrong("gives candidates that are no array of numbers") from None
+            raise self._wrong("gives candidates that are not an array of numbers") from None
         if array.ndim != 2 or array.shape[1] != self._size or not len(array):
             raise self._wrong(
                 f"gives candidates of shape {array.shape}: it must be (candidates, {self._size}), "

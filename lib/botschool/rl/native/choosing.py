@@ -31,7 +31,7 @@ def reason_against(
     if algo != "ppo":
         return f"it has no {algo}"
     if native_problem(env) is None:
-        return f"{env} is no native problem with one robot"
+        return f"{env} is not a native problem with one robot"
     if policy not in (None, "mlp"):
         return f"it has no {policy} policy"
     if wrappers not in ("", "none"):
