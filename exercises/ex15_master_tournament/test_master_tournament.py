@@ -12,7 +12,7 @@ import numpy as np
 
 from botschool import arena as arenas
 from botschool.course.coevolution import play, robot
-from botschool.grading import Exercise, Student, expect_close, expect_fields
+from botschool.grading import Exercise, Student, expect_array, expect_close, expect_fields
 
 exercise = Exercise(15, "The master tournament", file="master_tournament.py")
 PARAMETERS, UNITS, INPUTS = 4977, 25, 24
@@ -343,17 +343,85 @@ def measured(module, table, weights, seed, resamples):
     return module.interval(table, measure, numpy.random.default_rng(seed), **options)
 
 
-def interval_of(table, weights, seed, resamples) -> tuple:
+def resampled(table, weights, seed, resamples, draw=None) -> list[float]:
+    """The measures of resampled tables; draw(rng, generations, n, whose): who."""
+    draw = draw or (lambda rng, many, n, whose: rng.integers(n, size=(many, n)))
     rng, values = np.random.default_rng(seed), []
     rows, n, columns, m = table.shape
     for _ in range(resamples):
-        own, met = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
+        own, met = draw(rng, rows, n, "predators"), draw(rng, columns, m, "prey")
         drawn = np.empty_like(table)
         for g in range(rows):
             for h in range(columns):
                 drawn[g, :, h] = table[g, :, h][np.ix_(own[g], met[h])]
         values.append(float((weights * drawn).sum()))
-    return tuple(np.quantile(values, [0.025, 0.975]))
+    return values
+
+
+def interval_of(*arguments) -> np.ndarray:
+    return np.quantile(resampled(*arguments), [0.025, 0.975])
+
+
+def mistaken_intervals(table, weights, seed, resamples) -> dict:
+    """What mistakes make of an interval."""
+
+    def of(draw):
+        return np.quantile(resampled(table, weights, seed, resamples, draw), [0.025, 0.975])
+
+    def only(drawn):
+        return lambda rng, many, n, whose: (
+            rng.integers(n, size=(many, n)) if whose == drawn else np.tile(np.arange(n), (many, 1))
+        )
+
+    def unused(those):
+        def draw(rng, many, n, whose):
+            drawn = rng.integers(n, size=(many, n))
+            return np.tile(np.arange(n), (many, 1)) if whose == those else drawn
+
+        return draw
+
+    def prey_first(shape):
+        drawn = {}
+
+        def draw(rng, many, n, whose):
+            if whose == "prey":
+                return drawn.pop("predators")[1]
+            prey = rng.integers(shape[3], size=(shape[2], shape[3]))
+            drawn["predators"] = rng.integers(n, size=(many, n)), prey
+            return drawn["predators"][0]
+
+        return draw
+
+    values = resampled(table, weights, seed, resamples)
+    mean, plain = np.mean(values), float((weights * table).sum())
+    return {
+        "These are the quantiles of 90 %: 95 % leave out 0.025 at each end.": np.quantile(
+            values, [0.05, 0.95]
+        ),
+        "These are the smallest and the largest measure, not the quantiles.": np.quantile(
+            values, [0, 1]
+        ),
+        "This is the mean of the measures plus and minus 1.96 deviations: quantiles are asked "
+        "for.": mean + np.array([-1.96, 1.96]) * np.std(values),
+        "This is the mean of the measures plus and minus 1.96 deviations (ddof=1): quantiles are "
+        "asked for.": mean + np.array([-1.96, 1.96]) * np.std(values, ddof=1),
+        "Every resample has the same measure as the table: individuals are to be drawn with "
+        "replacement, so that some come twice and others not at all.": [plain, plain],
+        "Only the predators are drawn anew; the prey must be, too.": of(only("predators")),
+        "Only the prey are drawn anew; the predators must be, too.": of(only("prey")),
+        "The draws of the prey are not used: their individuals stay as they are.": of(
+            unused("prey")
+        ),
+        "The draws of the predators are not used: their individuals stay as they are.": of(
+            unused("predators")
+        ),
+        "The prey are drawn before the predators.": of(prey_first(table.shape)),
+        "The same individuals are drawn for all generations: each generation has draws of its "
+        "own.": of(lambda rng, many, n, whose: np.tile(rng.integers(n, size=n), (many, 1))),
+        "The last individual of a generation is never drawn: rng.integers(n) ends with n - 1.": of(
+            lambda rng, many, n, whose: rng.integers(max(n - 1, 1), size=(many, n))
+        ),
+    }
 
 
 def compare_intervals(student: Student, index: int, cases: tuple, weigh) -> None:
@@ -364,8 +432,11 @@ def compare_intervals(student: Student, index: int, cases: tuple, weigh) -> None
         more = "" if resamples is None else f", resamples={resamples}"
         said = f"interval(<table {shape}>, measure, np.random.default_rng({seed}){more})"
         answer = student.run(measured, table, weights, seed, resamples, said=said)
-        expected = interval_of(table, weights, seed, resamples or 300)
-        expect_close(said, answer, expected, 1e-8)
+        draws = table, weights, seed, resamples or 300
+        expected = interval_of(*draws)
+        got = expect_array(said, answer, (2,))
+        wrong = bool(np.abs(got - expected).max() > 1e-6)
+        expect_close(said, answer, expected, 1e-8, mistaken_intervals(*draws) if wrong else {})
 
 
 @sure.check(6)
