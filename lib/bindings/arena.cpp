@@ -1,4 +1,4 @@
-// Kinds of robots, measured tables, declared arenas, and what is chosen about an arena.
+// Kinds of robots, measured tables, declared arenas, and choices about an arena.
 #include "arena.hpp"
 
 namespace botschool {
@@ -90,7 +90,7 @@ Declaration declare(double width, double height, const std::vector<std::string>&
   return d;
 }
 
-/// What an arena can be declared to have, and the rows of its state.
+/// What an arena can declare, and the rows of its state.
 nb::dict declarations() {
   nb::dict d;
   d["sensors"] = list_of(kSenses);

@@ -1,5 +1,6 @@
-// What the files of the nanobind module share. The Python faces (botschool.net, botschool.problems)
-// check what users hand in; here sizes are checked again, so that no call can read past an array.
+// The common part of the nanobind module's files. The Python classes (botschool.net,
+// botschool.problems) check what users pass. Sizes are checked again here, so that no call can read
+// past an array.
 #pragma once
 
 #include <nanobind/nanobind.h>

@@ -67,7 +67,7 @@ class Coevolution final : public Run {
       }
   }
 
-  /// At first everyone meets everyone; then each call is one of a generation's kParts meetings.
+  /// First all meet all; then each call is one of a generation's kParts meetings.
   void advance() override {
     const int side = generation_ % 2, other = 1 - side;
     if (fitness_.rows == 0) {
@@ -92,7 +92,7 @@ class Coevolution final : public Run {
 
   static Table of_side(int side, const Table& fitness) { return side ? fitness.turned() : fitness; }
 
-  /// What the rows of a side are paid: prey 1 minus what predators are.
+  /// The fitness of a side's rows: for prey 1 minus the predators'.
   static Table seen_by(int side, const Table& fitness) {
     Table seen = of_side(side, fitness);
     if (side)
@@ -117,7 +117,7 @@ class Coevolution final : public Run {
     return chosen;
   }
 
-  /// Begins a generation: competitors that differ, and who evolves.
+  /// Begins a generation: chooses competitors that differ, and individuals to evolve.
   void choose(int side, int other) {
     numbers_ = Normals(seed_, generation_);
     const std::uint32_t first = numbers_.below(rules_.popsize);
@@ -130,7 +130,7 @@ class Coevolution final : public Run {
     for (int i = 0; i < rules_.selsize; ++i) evolving_.push_back(side_[side][order[i]]);
   }
 
-  /// A step of those who evolve, against their opponents.
+  /// Makes a step of the evolving individuals against their opponents.
   void improve(int side) {
     const std::size_t n = layout_.parameters, count = 2 * rules_.samplesize;
     std::vector<Values> samples;
@@ -151,7 +151,7 @@ class Coevolution final : public Run {
             rules_.stepsize);
   }
 
-  /// Newcomers, who met everyone, come first, so that of equals they stay; the worst go.
+  /// Ranks all, newcomers first so that they win ties, and drops the worst.
   void replace(int side, const Table& met) {
     Table all = of_side(side, met);
     const Table old = of_side(side, fitness_);
@@ -166,7 +166,7 @@ class Coevolution final : public Run {
     sort();
   }
 
-  /// Puts the best of both sides first, and keeps what is saved.
+  /// Puts the best of both sides first, and keeps the values to save.
   void sort() {
     for (int side = 0; side < 2; ++side) {
       const auto order = seen_by(side, fitness_).ranking();

@@ -27,8 +27,8 @@ struct Hyperparameters {
   bool symseed = true;  ///< of OpenAI-ES
 };
 
-/// Indices from the greatest value to the least, or with `rising` the reverse; of equals, the earlier
-/// first.
+/// Indices from the largest value to the smallest, or with `rising` the reverse; the earlier wins
+/// ties.
 inline std::vector<std::size_t> ranking(const double* values, std::size_t count,
                                         bool rising = false) {
   std::vector<std::size_t> order(count);
@@ -58,7 +58,7 @@ inline void mirror(const Values& centre, const Values& samples, double deviation
   }
 }
 
-/// In which direction fitness rises, by the ranks of the candidates that `mirror` wrote.
+/// The direction in which fitness rises, by the ranks of the candidates that `mirror` wrote.
 inline Values gradient(const double* fitness, std::size_t count, const Values& samples) {
   const auto order = ranking(fitness, count, true);
   Values utilities(count);  // from -0.5, the worst, to 0.5
@@ -91,7 +91,7 @@ inline void climb(Centre& centre, const Values& rising, int wdecay, double step)
   }
 }
 
-/// A population: ask for candidates, measure them, tell their fitness; and again.
+/// A population: ask for candidates, measure them, tell their fitness, and repeat.
 class Strategy {
  public:
   virtual ~Strategy() = default;

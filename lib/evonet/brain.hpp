@@ -25,8 +25,8 @@ struct BrainMemory {
   T* state;        ///< cells
   T* noise;        ///< outputs: standard deviation of the action noise
   T* actions;      ///< outputs: what the actuators get
-  /// Of what is summed by rows: the weights of L networks, a network's size, and room for the sums
-  /// of one layer.
+  /// For sums by rows: the weights of L networks, a network's size, and room for the sums of one
+  /// layer.
   T* networks;
   std::size_t network_size;
   T* scratch;
@@ -77,7 +77,7 @@ class Brain {
   Brain(const Layout& layout, const BrainMemory<T, L>& memory) : l_(layout), m_(memory) {}
 
   /// Puts a genotype into a lane; `normalisation` is all means, then all deviations, or null.
-  /// What is summed by rows gets its weights from load_network().
+  /// load_network() loads the weights of sums by rows.
   void load(int lane, const double* genotype, const double* normalisation) {
     if (l_.cells > 0) place(l_.gates, genotype, m_.parameters + lane);
     for (int i = 0; i < l_.layers; ++i) place(l_.layer[i], genotype, m_.parameters + lane);
@@ -92,7 +92,7 @@ class Brain {
                                    : static_cast<T>(l_.spec.action_noise_range);
   }
 
-  /// Puts a genotype where the lanes of a group find it; returns whether its weights are finite.
+  /// Puts a genotype where the lanes of a group read it; returns whether its weights are finite.
   bool load_network(int network, const double* genotype) {
     T* to = m_.networks + network * m_.network_size;
     bool finite = true;
@@ -111,7 +111,7 @@ class Brain {
     for (int i = 0; i < l_.cells; ++i) m_.state[i * L + lane] = T(0);
   }
 
-  /// Goes on in a lane where another's lane, with the same parameters, is.
+  /// Continues in a lane the state of another's lane with the same parameters.
   template <int W>
   void copy(int lane, const Brain<T, W>& other, int from) {
     for (int i = 0; i < l_.neurons; ++i)

@@ -33,7 +33,7 @@ class Moments {
 
 class Evonet {
  public:
-  /// vision: what a convolutional network has in front; spec.inputs then does not count.
+  /// vision: convolutional layers in front of the network; spec.inputs then does not count.
   Evonet(const Spec& spec, int networks, bool heterogeneous, const Vision& vision = {});
 
   int networks() const { return networks_; }
@@ -43,13 +43,13 @@ class Evonet {
   int actions() const { return layout_.spec.outputs * networks_; }
   int neurons() const { return layout_.neurons * networks_; }
 
-  /// What drives initial weights and action noise; the noise starts anew.
+  /// Seeds initial weights and action noise; the noise starts anew.
   void seed(std::uint64_t seed, std::uint32_t episode);
   /// Writes initial weights drawn from seed and episode into `parameters`.
   void initialise(double* parameters) const;
   /// Start of an episode; the action noise goes on.
   void reset();
-  /// What the networks remember from one step to the next, for putting it back.
+  /// The networks' memory between steps, to restore it.
   const std::vector<double>& memory() const { return buffer_; }
   void set_memory(const std::vector<double>& memory) { buffer_ = memory; }
   /// One update of every network: reads `parameters` and `inputs`, writes `actions` and

@@ -1,6 +1,6 @@
-// Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy
-// as 1, 2, 3"). A draw is a pure function of (seed, episode, stream, step, index), so it does not
-// matter who draws when.
+// Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as
+// easy as 1, 2, 3"). A draw is a pure function of (seed, episode, stream, step, index), so the
+// order of draws does not matter.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 BOTSCHOOL_BEGIN
 
-/// What a draw is for; streams never share numbers.
+/// The purpose of a draw; streams never share numbers.
 enum class Stream : std::uint32_t {
   start = 0,
   action = 1,
@@ -25,7 +25,7 @@ struct Block {
   std::uint32_t word[4];
 };
 
-/// What drives an episode's draws.
+/// The source of an episode's draws.
 struct NoiseKey {
   std::uint64_t seed;
   std::uint32_t episode;
@@ -97,7 +97,7 @@ BOTSCHOOL_INLINE void gaussian_pair(std::uint32_t a, std::uint32_t b, T& first, 
   second = length * sine;
 }
 
-/// Draws one after another, for the places that draw seldom (the start of an episode).
+/// Draws one after another, for code that draws seldom (the start of an episode).
 class Random {
  public:
   Random(std::uint64_t seed, std::uint32_t episode, Stream stream)

@@ -74,8 +74,8 @@ BOTSCHOOL_INLINE To bits_of(From from) {
   return to;
 }
 
-/// What elementary functions take at a time: L values that begin at a multiple of their size, or a
-/// single one where the compiler leaves no choice.
+/// The unit of elementary functions: L values that begin at a multiple of their size, or a single
+/// one if the compiler cannot use vectors.
 template <class T, int L>
 struct Vectors {
 #if defined(__GNUC__)

@@ -27,8 +27,8 @@ class Rows {
   /// Lanes in a register, or rows.
   static constexpr int kWidth = L * sizeof(T) < kRegister ? L : kRegister / sizeof(T);
 
-  /// How many of a layer's rows are for us, the first ones: those that fill registers, if the
-  /// weights of as many networks as there are lanes are too many for the nearest cache.
+  /// How many of a layer's first rows are summed here: those that fill registers, if the weights of
+  /// as many networks as there are lanes are too large for the nearest cache.
   static int of(const Layer& layer) {
     const std::size_t weights = std::size_t(layer.neurons) * senders(layer);
     return L > 1 && weights * L * sizeof(T) > kNear ? layer.neurons / kWidth * kWidth : 0;
@@ -78,7 +78,7 @@ class Rows {
   }
 
  private:
-  /// What a core's first cache holds besides all else, about, in bytes.
+  /// Approximate bytes of a core's first cache that are free for this.
   static constexpr std::size_t kNear = 64 * 1024;
   /// Registers of rows, and lanes, whose sums run side by side: a weight is loaded once for several
   /// lanes and an activation for several rows, as far as there are registers. Fewer lanes than 16 only
@@ -169,7 +169,8 @@ class Rows {
           Row each[R];
           for (int r = 0; r < R; ++r) each[r] = *reinterpret_cast<const Row*>(own + r * kWidth);
 #if defined(__GNUC__) && defined(__AVX512F__)
-          // else GCC loads them again for each lane, which costs as long as they come from far
+          // otherwise GCC loads them again for each lane, which takes as long as if they came from
+          // far
           if (N == 2 || N == 3)
             for (int r = 0; r < R; ++r) asm("" : "+v"(each[r]));
 #endif

@@ -102,8 +102,8 @@ void Engine::run(const Jobs& jobs, Queue& queue, Recorder* recorder) const {
 void Engine::evaluate(const Jobs& jobs, int threads) const {
   const std::size_t count = jobs.count;
   SharedQueue queue(count);
-  // a thread's lanes cost the same whether they are used or not: fill them before using another;
-  // and a batch that takes no longer than starting a thread is done by one
+  // a thread's lanes cost the same whether they are used or not: fill one thread's lanes before
+  // using another thread; one thread does a batch that takes no longer than starting a thread
   const auto begin = std::chrono::steady_clock::now();
   const std::size_t loads = (count + kernel_->lanes - 1) / kernel_->lanes;
   const bool small = seconds_per_job_ * static_cast<double>(count) < 200e-6;
@@ -120,7 +120,7 @@ void Engine::evaluate(const Jobs& jobs, int threads) const {
   try {
     for (int t = 1; t < useful; ++t) others.emplace_back(work, t);
   } catch (const std::system_error&) {
-    // the system gives no more threads: those that there are do all the work
+    // the system gives no more threads: the existing ones do all the work
   }
   work(0);
   for (auto& thread : others) thread.join();

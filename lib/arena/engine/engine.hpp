@@ -18,15 +18,15 @@ std::vector<std::string> instruction_sets();
 /// Facts about every native problem.
 std::vector<Info> native_problems();
 
-/// A problem as an instruction set has it, "" for the best. Throws std::invalid_argument.
+/// A problem as compiled for an instruction set, "" for the best. Throws std::invalid_argument.
 const Kernel* find_kernel(const std::string& problem, const std::string& instruction_set);
 
 /// One native problem with one network layout.
 class Engine {
  public:
-  /// instruction_set: one of instruction_sets(), or "" for the best. arena: what is chosen about one, or
-  /// null; all jobs must have a choice with the same robots and observations. Throws
-  /// std::invalid_argument.
+  /// instruction_set: one of instruction_sets(), or "" for the best. arena: the user's choices
+  /// about the arena, or null; the choices of all jobs must have the same robots and observations.
+  /// Throws std::invalid_argument.
   Engine(const std::string& problem, const Spec& spec, const std::string& instruction_set,
          const ArenaOptions* arena = nullptr);
 

@@ -1,6 +1,6 @@
-// The table of kernels of one instruction set, which BOTSCHOOL_ISA names (lib/CMakeLists.txt). It, the
-// rollout and the problems are compiled with the flags of that instruction set and nothing else is, so
-// no shared inline function can end up using instructions that the machine lacks.
+// The table of kernels of one instruction set, which BOTSCHOOL_ISA names (lib/CMakeLists.txt). Only
+// this file, the rollout and the problems are compiled with the flags of that instruction set. So
+// no shared inline function can use instructions that the machine lacks.
 #include "kernel.hpp"
 
 #include "generated/problem_list.hpp"

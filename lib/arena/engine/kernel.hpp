@@ -1,5 +1,5 @@
-// What runs episodes: jobs, and the tables of kernels that arena/engine/kernel.cpp makes, one for each
-// instruction set.
+// Jobs of episodes, and the tables of kernels that run them; arena/engine/kernel.cpp makes one
+// table for each instruction set.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ namespace botschool {
 /// The scalar of evolution's networks.
 using Real = float;
 
-/// (candidate, seed, episode) triples to evaluate, and where the results go. Plain pointers into
-/// arrays of the caller's; see Engine::evaluate for their meaning.
+/// (candidate, seed, episode) triples to evaluate, and pointers to the results. All are plain
+/// pointers into the caller's arrays; Engine::evaluate has their meaning.
 struct Jobs {
   const double* genotypes;
   std::size_t genotype_stride;
@@ -40,11 +40,12 @@ class Queue {
   ~Queue() = default;
 };
 
-/// Is told each step of the first lane (for watching one episode).
+/// Gets each step of the first lane, to watch one episode.
 class Recorder {
  public:
   virtual void start(const double* state) = 0;
-  /// A robot's neurons; activation i is at activations[i * stride]. Robot by robot, before step().
+  /// Activations of a robot's neurons: activation i is at activations[i * stride]. Called robot by
+  /// robot, before step().
   virtual void neurons(const Real* activations, int stride) = 0;
   virtual void step(const double* observation, const double* action, const double* state,
                     double reward) = 0;
@@ -57,7 +58,7 @@ class Recorder {
 /// as a virtual destructor, could end up using instructions that the machine lacks.
 struct Kernel {
   Info info;
-  Info (*given)(const Setting&);  ///< `info` as the caller's choices make it
+  Info (*given)(const Setting&);  ///< `info` with the caller's choices
   int lanes;                      ///< episodes in lockstep
   const void* entry;              ///< its Entry, of the instruction set (simulation.hpp)
   /// Bytes that run() needs, 64-byte aligned.

@@ -51,19 +51,19 @@ struct Setting {
   const ArenaOptions* arena = nullptr;  ///< or null: the problem's own
 };
 
-/// A row of what stands in an arena: x, y, x2, y2, radius.
+/// A row of an object in an arena: x, y, x2, y2, radius.
 constexpr int kObject = 5;
 
 }  // namespace botschool
 
 BOTSCHOOL_BEGIN
 
-/// What problems inherit: defaults that a problem may hide by members of its own.
+/// Defaults that problems inherit; a problem may hide them by its own members.
 struct ProblemBase {
-  /// Whether `state` is all that an episode is, or refresh() recomputes the rest: then an episode can
-  /// go on in another lane.
+  /// Whether `state` describes an episode completely, or refresh() recomputes the rest: then the
+  /// episode can continue in another lane.
   static constexpr bool movable = false;
-  /// What info() becomes by what the caller has chosen: a declared arena has robots of its own.
+  /// Returns info() with the caller's choices: a declared arena has its own robots.
   static Info given(const Info& info, const Setting&) { return info; }
   /// Once, before anything else.
   void set(const Setting&) {}
@@ -71,14 +71,14 @@ struct ProblemBase {
   void build(int, const double*) {}
   /// Recomputes what is derived from a state that was changed from outside.
   void refresh(int) {}
-  /// Writes the least and the greatest value of each observation of a robot, where there are such;
+  /// Writes the smallest and the largest value of each observation of a robot, if there are limits;
   /// the arrays come with infinities.
   void bounds(double*, double*) const {}
-  /// What stands in an arena, as rows of kObject values (one lane).
+  /// The objects in an arena, as rows of kObject values (one lane).
   int objects() const { return 0; }
   void get_objects(double*) const {}
   void set_objects(const double*) {}
-  /// The first robot that overlaps something where it stands, or -1 (one lane).
+  /// The first robot that overlaps an object at its place, or -1 (one lane).
   int blocked() const { return -1; }
 };
 

@@ -1,6 +1,6 @@
-// Whole episodes of a problem, L at a time in lockstep. A lane whose episode has ended is refilled
-// with the next job; what happens in a lane depends on its own job alone. When no job is left and half
-// of the lanes are idle, the other half goes on by itself, if the problem's episodes can move.
+// Whole episodes of a problem, L at a time in lockstep. A lane whose episode has ended gets the
+// next job; its results depend only on its own job. When no job is left and half of the lanes are
+// idle, the other half continues without them, if the problem's episodes can move.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,8 @@ class Rollout {
 
   static void run(const Entry& entry, const Layout& layout, const Jobs& jobs, Queue& queue,
                   Recorder* recorder, void* workspace) {
-    // lanes that never get a job compute too: with zeros, as leftovers may be slow (denormal)
+    // lanes that never get a job compute, too: with zeros, because leftover numbers may be slow
+    // (denormal)
     std::memset(workspace, 0, Rollout::workspace(entry, layout, jobs.setting));
     Rollout rollout(entry, layout, jobs, queue, recorder, static_cast<unsigned char*>(workspace));
     for (int l = 0; l < L; ++l) rollout.fill(l);
@@ -134,7 +135,7 @@ class Rollout {
     }
   }
 
-  /// Goes on with the episode of another's lane.
+  /// Continues the episode of another's lane.
   template <int W>
   void take(const Rollout<W>& other, int from, int lane) {
     job_[lane] = other.job_[from];
@@ -209,9 +210,9 @@ class Rollout {
     group();
   }
 
-  /// Groups the lanes that work by candidate, so that weights of large layers are read once for all
-  /// lanes that have them: in co-evolution a candidate meets several competitors, and a competitor
-  /// several candidates.
+  /// Groups the working lanes by candidate, so that weights of large layers are read once for all
+  /// lanes with the same weights: in co-evolution a candidate meets several competitors, and a
+  /// competitor several candidates.
   void group() {
     if (memory_[0].network_size == 0) return;
     for (int r = 0; r < robots_; ++r) {
@@ -238,7 +239,8 @@ class Rollout {
     return false;
   }
 
-  /// Which of the brain's L networks is a candidate's: those that no lane needs give way.
+  /// Finds a place for a candidate's network among the brain's L networks, replacing one that no
+  /// lane needs.
   int network_of(int robot, std::int32_t candidate) {
     std::int32_t* in_network = in_network_[robot];
     int free = -1;
@@ -257,7 +259,7 @@ class Rollout {
     return jobs_.genotypes + jobs_.genotype_stride * candidate + robot * jobs_.robot_offset;
   }
 
-  /// What comes after a candidate's network.
+  /// The body's parameters, which follow a candidate's network.
   const double* body(std::int32_t candidate) const {
     return jobs_.genotypes + jobs_.genotype_stride * candidate + layout_.parameters;
   }

@@ -1,5 +1,5 @@
-// All that a rollout knows of a native problem: L lanes of it behind an interface. Each problem is
-// compiled by itself, once for each instruction set (lib/CMakeLists.txt), and so is the rollout.
+// The interface through which a rollout uses a native problem: L lanes of it. Each problem, and the
+// rollout, is compiled separately for each instruction set (lib/CMakeLists.txt).
 #pragma once
 
 #include <cstddef>

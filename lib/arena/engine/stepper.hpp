@@ -1,4 +1,4 @@
-// One problem step by step, whichever it is.
+// Runs any one problem step by step.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace botschool {
 
-/// A native problem step by step, in double precision: for Gymnasium, for tests, for looking.
+/// A native problem step by step, in double precision: for Gymnasium, for tests and for pictures.
 class Stepper {
  public:
   virtual ~Stepper() = default;
@@ -22,7 +22,7 @@ class Stepper {
   /// The least and the greatest value of each observation of a robot, or infinities.
   virtual void bounds(double* low, double* high) const = 0;
   virtual void observe(double* observation) const = 0;
-  /// Returns whether the episode has ended (a time limit is the caller's affair).
+  /// Returns whether the episode has ended (the caller handles the time limit).
   virtual bool step(const double* action, double& reward) = 0;
 
   /// What stands in an arena, a row of kObject values each.

@@ -54,8 +54,8 @@ struct Arena : World<L, kDeclared> {
     }
   }
 
-  /// Zones, lights, cylinders, robots. Where something does not fit another place is drawn, up to
-  /// 1000 times; those that are always at the same place have been checked before.
+  /// Places zones, lights, cylinders, robots. An object that does not fit is drawn again, up to
+  /// 1000 times; objects with fixed places were checked before.
   void start(int lane, Random& random) {
     this->begin(lane, random);
     double x = 0, y = 0;
@@ -175,7 +175,8 @@ struct Arena : World<L, kDeclared> {
     return true;
   }
 
-  /// Whether something round fits there, beside walls and the first so many cylinders and robots.
+  /// Returns whether a round object fits there, beside walls and the first so many cylinders and
+  /// robots.
   bool free(int lane, double x, double y, double radius, int cylinders, int robots) const {
     for (int i = 0; i < this->nwalls(); ++i) {
       const Wall& w = this->wall[i];

@@ -1,5 +1,5 @@
-// A chain of rods that is to crawl or walk ahead over rough ground; its body evolves with its brain.
-// docs/specification.md, "PlanarBodyBrain".
+// A chain of rods that should crawl or walk ahead over rough ground; its body evolves with its
+// brain. docs/specification.md, "PlanarBodyBrain".
 #pragma once
 
 #include "../robots/jointed/bodybrain.hpp"
@@ -21,7 +21,7 @@ struct PlanarBodyBrain : ProblemBase {
   static constexpr double kFarEnd = kPieces * kPieceWidth, kStart = kFlat / 2 * kPieceWidth;
   static constexpr double kClearance = 0.1;
   static constexpr double kLost = -100;
-  /// Speeds together past this (m/s, rad/s) end an episode: the simulation has broken down.
+  /// A larger sum of speeds (m/s, rad/s) ends an episode: the simulation has broken down.
   static constexpr double kWildest = 300;
 
   /// Rows of the state: x and z of the torso's rear end and each rod's angle; their speeds; mean force
@@ -67,7 +67,7 @@ struct PlanarBodyBrain : ProblemBase {
     for (int i = 0; i < kRods; ++i) {
       double sine, cosine;
       angle += of_body(kAngle + i, lane);
-      // a hinge whose limits leave the angle at rest out would let go like a spring
+      // a hinge whose limits exclude its rest angle would be released like a spring
       if (i > 0) angle += limited(0, of_body(kLow + i - 1, lane), of_body(kHigh + i - 1, lane));
       state[kPosition + 2 + i][lane] = angle;
       sine_cosine(angle, sine, cosine);
@@ -187,7 +187,7 @@ struct PlanarBodyBrain : ProblemBase {
     }
   }
 
-  /// Writes what has changed, except in lanes whose numbers are not real.
+  /// Writes the changes, except in lanes whose numbers are not finite.
   void store(const Moving& chain, int first, const double* kept) {
     double after[kWidth];
     const auto write = [&](int row, V values, bool adds) {
@@ -213,7 +213,7 @@ struct PlanarBodyBrain : ProblemBase {
       chain.step(drive, ground, float(kSeconds / kSubsteps), kChainGravity);
   }
 
-  /// Of which the reward is the increase: the torso's place and how far it is turned.
+  /// The reward is the increase of this value: the torso's position and how far it is turned.
   static V worth(const Moving& chain) {
     V sine, cosine;
     const V angle = chain.position[2];
@@ -222,7 +222,7 @@ struct PlanarBodyBrain : ProblemBase {
     return number(130.0 / 30) * x - number(5) * larger(angle, -angle);
   }
 
-  /// Positive where no speed, and no number at all, is beyond sense.
+  /// Positive unless a speed is too large or not a number.
   static V real_numbers(const Moving& chain) {
     V sum = V(0.0f);
     for (int k = 0; k < size; ++k)

@@ -1,6 +1,6 @@
-// Half a cheetah that is to run ahead. Version 0 is paid as in Gymnasium; version 5 for progress, with
-// a price on hinges at their limits, and it ends when the body falls. docs/specification.md, "Planar
-// runners".
+// Half a cheetah that should run ahead. Version 0 has Gymnasium's reward. Version 5 rewards
+// progress, with a price on hinges at their limits, and ends when the body falls.
+// docs/specification.md, "Planar runners".
 #pragma once
 
 #include "../robots/jointed/runner.hpp"

@@ -1,5 +1,5 @@
-// A hopper that is to run ahead on one leg. Version 0 is paid as in Gymnasium, version 5 for progress
-// alone. docs/specification.md, "Planar runners".
+// A hopper that should run ahead on one leg. Version 0 has Gymnasium's reward, version 5 rewards
+// only progress. docs/specification.md, "Planar runners".
 #pragma once
 
 #include "../robots/jointed/runner.hpp"

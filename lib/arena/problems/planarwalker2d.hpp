@@ -1,5 +1,5 @@
-// A walker that is to run ahead on two legs. Version 0 is paid as in Gymnasium, version 5 for progress
-// alone. docs/specification.md, "Planar runners".
+// A walker that should run ahead on two legs. Version 0 has Gymnasium's reward, version 5 rewards
+// only progress. docs/specification.md, "Planar runners".
 #pragma once
 
 #include "../robots/jointed/runner.hpp"

@@ -1,4 +1,4 @@
-// A marXbot that has to drive behind another one, and both are held up at random.
+// A marXbot that should drive behind another one; both are blocked at random times.
 // docs/specification.md, "Wheeled robots".
 #pragma once
 
@@ -16,7 +16,8 @@ struct Staybehind : World<L, kStaybehind> {
   using Senses = Suite<Infrared, Camera, Seen, Gradient, Time, Bias>;
   /// Row of the state: 1 for a robot that is blocked, the first robot's and the second's.
   static constexpr int kBlocked = Base::kOwn;
-  /// Of 2^32 numbers, those that block a free robot, and those that free a blocked one.
+  /// Thresholds of random numbers below 2^32: a number below the first blocks a free robot, one
+  /// below the second frees a blocked one.
   static constexpr std::uint32_t kBlocks = 42949673, kFrees = 214748365;
 
   static Info info() {
@@ -73,7 +74,7 @@ struct Staybehind : World<L, kStaybehind> {
   }
 
  private:
-  /// Blocks a robot by chance, or frees it, the one it has just blocked too.
+  /// Blocks a robot at random, or frees it, even if it was blocked in this step.
   void hold(int robot, const std::uint32_t* blocks, const std::uint32_t* frees) {
     double* blocked = state[kBlocked + robot];
     for (int l = 0; l < L; ++l) {

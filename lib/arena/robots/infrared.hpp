@@ -92,8 +92,8 @@ struct Infrared : Shares<kInfrared> {
   }
 
  private:
-  /// The objects of one kind within reach, those of all lanes in one row: few are, so that a full
-  /// row takes many lanes' objects.
+  /// The objects of one kind within reach, of all lanes in one row. There are few, so a full row
+  /// holds objects of many lanes.
   template <class W, class T, int objects>
   class Near {
     static constexpr int L = W::lanes;
@@ -104,7 +104,7 @@ struct Infrared : Shares<kInfrared> {
       for (int l = 0; l < L; ++l) heading_[l] = static_cast<T>(world.heading(robot)[l]);
     }
 
-    /// Keeps what is within reach: objects of that radius at (to_x, to_y), one a lane.
+    /// Adds the objects within reach: one object of that radius per lane, at (to_x, to_y).
     void look(double radius, const double* BOTSCHOOL_RESTRICT to_x,
               const double* BOTSCHOOL_RESTRICT to_y) {
       const double edges = body_.radius + radius;
@@ -174,7 +174,7 @@ struct Infrared : Shares<kInfrared> {
       fade[l] = body.n == 1 ? ratio : ratio * std::sqrt(ratio);
       seen[l] = gap[l] <= range ? T(1) : T(0);
     }
-    // pass by pass over all sensors: many short chains of operations side by side, not a long one
+    // each pass goes over all sensors: many short chains of operations run faster than a long one
     const T width = static_cast<T>(response.w), power = static_cast<T>(response.m);
     alignas(64) T off[size * L];
     for (int s = 0; s < size; ++s) {

@@ -1,4 +1,4 @@
-// What a declared arena pays its robots in a step. docs/specification.md, "Declared arenas".
+// The rewards of a declared arena. docs/specification.md, "Declared arenas".
 #pragma once
 
 #include "world.hpp"
@@ -41,7 +41,8 @@ class Rewards {
  public:
   explicit Rewards(W& world) : world_(world), share_(1.0 / world.nrobots()) {}
 
-  /// action: as given to step(); bumped: what each robot has done in it; before: where the middle was.
+  /// action: as given to step(); bumped: the result of each robot's step; before: the earlier
+  /// middle.
   void pay(const double* action, const Flags<L>* bumped, const Middle<W>& before,
            double* BOTSCHOOL_RESTRICT reward) const {
     for (int l = 0; l < L; ++l) reward[l] = 0;
@@ -66,7 +67,7 @@ class Rewards {
     }
   }
 
-  /// Marks the cells where a lane's robots stand as visited; how many were not.
+  /// Marks the cells of a lane's robots as visited; returns how many are new.
   int visit(int lane) const {
     double* low = &world_.state[W::kVisited][lane];
     double* high = &world_.state[W::kVisited + 1][lane];
@@ -110,7 +111,7 @@ class Rewards {
     }
   }
 
-  /// From a robot's edge to what is nearest.
+  /// The distance from a robot's edge to the nearest obstacle.
   void clearance(int robot, double* BOTSCHOOL_RESTRICT gap) const {
     const double own = world_.model[robot]->radius;
     for (int l = 0; l < L; ++l) gap[l] = world_.width + world_.height;
@@ -135,7 +136,7 @@ class Rewards {
     }
   }
 
-  /// The share of robots that are near one of the things whose places begin at that row.
+  /// The share of robots near one of the objects whose positions begin at that row.
   void near(int things, const double* radius, int row, double* BOTSCHOOL_RESTRICT reward) const {
     for (int r = 0; r < world_.nrobots(); ++r) {
       Flags<L> is_near(0);
@@ -148,7 +149,7 @@ class Rewards {
     }
   }
 
-  /// Whether the robot's centre is nearer than that to what stands at two rows of the state.
+  /// Whether the robot's centre is nearer than that to the position in two rows of the state.
   void reach(int robot, int row, double most, Flags<L>& flags) const {
     for (int l = 0; l < L; ++l) {
       const double dx = world_.x(robot)[l] - world_.state[row][l];
@@ -198,7 +199,7 @@ class Rewards {
     for (int l = 0; l < L; ++l) reward[l] = all.lane[l] ? 1 : 0;
   }
 
-  /// The way of their middle, as a share of the longest, while each is near every other.
+  /// The way of the robots' middle, as a share of the longest, while each is near every other.
   void together(const Middle<W>& before, double* BOTSCHOOL_RESTRICT reward) const {
     const Middle<W> now(world_);
     double longest = 0;

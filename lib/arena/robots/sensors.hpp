@@ -27,7 +27,7 @@ struct Suite {
 struct Sectors {
   static constexpr int sectors = 8, size = sectors + 1;
 
-  /// The size is below pi, as what is seen keeps apart from the robot.
+  /// The size is below pi, because objects keep a distance from the robot.
   template <class W>
   static void bounds(const W&, int, double* low, double* high) {
     for (int i = 0; i < size; ++i) low[i] = 0, high[i] = 1;
@@ -112,8 +112,7 @@ struct GroundSpots {
   }
 };
 
-/// The shade of the zone that lies below each ground sensor, the last one where several do; 0 where
-/// none does.
+/// The shade of the zone below each ground sensor; of several zones, the last; without a zone 0.
 struct Ground : Shares<4> {
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {

@@ -114,9 +114,9 @@ struct World : ProblemBase {
     for (int l = 0; l < L; ++l) state[kSteps][l] += 1;
   }
 
-  /// Moves a robot along the exact arc of its wheels (actions: left, right); one that would
-  /// overlap a wall, a cylinder or another robot, or jump across a wall, stays where it was. So
-  /// does one whose action is not a number, or more than kMaxWay.
+  /// Moves a robot along the exact arc of its wheels (actions: left, right). It stays where it was
+  /// if it would overlap a wall, a cylinder or another robot, or jump across a wall, and if its
+  /// action is not a number or exceeds kMaxWay.
   void drive(int robot, const double* BOTSCHOOL_RESTRICT left,
              const double* BOTSCHOOL_RESTRICT right, Bump<L>& bump) {
     const double reach = speed[robot] * kStepSeconds, axle = model[robot]->axle;
@@ -130,7 +130,7 @@ struct World : ProblemBase {
       // the chord of an arc of length (a + b) / 2; near 0 the sine's series
       const double ratio = half * half < 1e-8 ? 1 - half * half / 6 : s / half;
       const double chord = 0.5 * (a + b) * ratio;
-      // a way beyond all reason leads nowhere: sines of such turns are no sines any more
+      // a way that long leads nowhere: the sines of such turns would be meaningless
       const bool sane = (std::fabs(a) < kMaxWay) & (std::fabs(b) < kMaxWay);
       to_x[l] = sane ? x(robot)[l] + chord * cosine : std::numeric_limits<double>::quiet_NaN();
       to_y[l] = y(robot)[l] + chord * sine;
@@ -146,7 +146,7 @@ struct World : ProblemBase {
     }
   }
 
-  /// What a robot would bump into at (to_x, to_y). Every comparison is false for NaN, and what is
+  /// What a robot would hit at (to_x, to_y). Every comparison is false for NaN, and a place that is
   /// not known to be free counts as a wall.
   void find_bumps(int robot, const double* BOTSCHOOL_RESTRICT to_x,
                   const double* BOTSCHOOL_RESTRICT to_y, Bump<L>& bump) const {
@@ -162,7 +162,7 @@ struct World : ProblemBase {
         const double t = clamp((px * ux + py * uy) * inverse, 0.0, 1.0);
         const double dx = px - t * ux, dy = py - t * uy;
         const bool apart = dx * dx + dy * dy >= own * own;
-        // the way crosses the wall: its ends are on two sides of the wall, and the wall's of it
+        // the way crosses the wall: the ends of each lie on two sides of the other
         const double mx = px - qx, my = py - qy;
         const double side_to = ux * py - uy * px, side_from = ux * qy - uy * qx;
         const double end = mx * qy - my * qx, end2 = end + (ux * my - uy * mx);

@@ -105,7 +105,7 @@ struct Chain {
 
   static BOTSCHOOL_INLINE V number(double x) { return V(T(x)); }
 
-  /// Where the rods are, their own inertia, and the forces that gravity and the speeds cause.
+  /// Computes the positions of the rods, their own inertia, and the forces of gravity and speeds.
   BOTSCHOOL_INLINE void place(double gravity) {
     Vec pull{V(T(0)), number(-gravity)}, at{position[0], position[1]}, moving{speed[0], speed[1]};
     for (int i = 0; i < N; ++i) {
@@ -156,8 +156,8 @@ struct Chain {
     }
   }
 
-  /// Adds what resists a point's motion across and along the ground; the point moves by `effect`
-  /// when its rod turns.
+  /// Adds the resistance to a point's motion across and along the ground; the point moves by
+  /// `effect` when its rod turns.
   static BOTSCHOOL_INLINE void resist(RodInertia<V>& part, Vec effect, V across, V along,
                                       Vec normal) {
     const V difference = across - along;

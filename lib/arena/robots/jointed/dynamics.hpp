@@ -83,8 +83,8 @@ struct Dynamics {
   V change[n];       ///< of the segments' angular speeds in the last substep, halved; 0 if unknown
   V load[contacts];  ///< sum over substeps of each contact point's force across the ground, N
 
-  // Numbers of segments, contact points and coordinates are constants where lanes race: all loops are
-  // unrolled. Where one body is looked at they are ints, and loops stay loops, which compile fast.
+  // Numbers of segments, contact points and coordinates are constants for races of many lanes: the
+  // compiler unrolls all loops. For single bodies they are ints, and the loops compile fast.
   static constexpr bool unrolls = W > 1;
 
   /// f(0), f(1), ..., f(N - 1).
@@ -175,7 +175,7 @@ struct Dynamics {
     });
   }
 
-  /// The mass matrix but for what hinges and the ground add, and the levers.
+  /// The mass matrix without the terms of hinges and ground, and the levers.
   BOTSCHOOL_PHASE void inertia() {
     mass[0][0] = mass[1][1] = number(numbers.all[0]);
     mass[1][0] = V(T(0));
@@ -215,7 +215,7 @@ struct Dynamics {
     });
   }
 
-  /// A force at the origin of segment j, on all coordinates that move it but its own angle.
+  /// Adds a force at the origin of segment j to all coordinates that move this origin.
   template <class J>
   BOTSCHOOL_INLINE void apply(J j, Vec push) {
     force[0] += push.x;
@@ -290,7 +290,7 @@ struct Dynamics {
     });
   }
 
-  /// Adds to the mass matrix what resists a point's motion across and along the ground.
+  /// Adds the resistance to a point's motion across and along the ground to the mass matrix.
   template <class S>
   BOTSCHOOL_INLINE void resist(S s, Vec arm, V across, V along_it, Vec normal, bool flat) {
     Resistance<V> r{along_it, V(T(0)), across};
@@ -311,7 +311,8 @@ struct Dynamics {
     descend(s, BOTSCHOOL_EACH(c) { add_resistance(parent(c), turn(along[c]), resisted); });
   }
 
-  /// Of segment j, whose growing angle moves the point by `effect`, with itself and its ancestors.
+  /// Adds it for segment j, whose growing angle moves the point by `effect`, with itself and its
+  /// ancestors.
   template <class J, class F>
   BOTSCHOOL_INLINE void add_resistance(J j, Vec effect, const F& resisted) {
     const int k = j + 2;

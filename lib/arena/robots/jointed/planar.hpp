@@ -1,4 +1,4 @@
-// One planar jointed body, step by step, whichever it is: for pictures and for tests of the physics.
+// Runs any one planar jointed body step by step: for pictures and for tests of the physics.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,5 @@
-// A planar body that is to run ahead, as a native problem. docs/specification.md, "Planar runners".
+// A planar body that should run ahead, as a native problem. docs/specification.md, "Planar
+// runners".
 #pragma once
 
 #include "bodies.hpp"
@@ -6,10 +7,10 @@
 
 BOTSCHOOL_BEGIN
 
-/// Speeds together past this (m/s, rad/s) end an episode: the simulation has broken down.
+/// A larger sum of speeds (m/s, rad/s) ends an episode: the simulation has broken down.
 constexpr double kWildest = 300;
 
-/// What a runner is paid for and what ends its episode.
+/// The reward of a runner, and the ends of its episode.
 struct Race {
   double seconds;       ///< of a step
   int substeps;         ///< in a step
@@ -125,7 +126,7 @@ struct Runner : ProblemBase {
     body.position[0] = V(0.0f);  // the way in this step; the whole way needs double precision
   }
 
-  /// Writes what has changed, except in lanes whose numbers are not `real`.
+  /// Writes the changes, except in lanes whose numbers are not `real`.
   void store(const Moving& body, int first, V real, float share) {
     double kept[kWidth], after[kWidth];
     real.to(kept);
@@ -155,7 +156,7 @@ struct Runner : ProblemBase {
     return margin;
   }
 
-  /// How many hinges are in the outer hundredth of their range.
+  /// The number of hinges in the outer hundredth of their range.
   static V at_limit(const Moving& body) {
     V count = V(0.0f);
     for (int i = 1; i < n; ++i) {
@@ -167,7 +168,7 @@ struct Runner : ProblemBase {
     return count;
   }
 
-  /// Positive where no speed, and no number at all, is beyond sense.
+  /// Positive unless a speed is too large or not a number.
   static V real_numbers(const Moving& body) {
     V sum = V(0.0f);
     for (int k = 0; k < size; ++k)

@@ -50,7 +50,7 @@ struct Touch {
   double slip = 0.01;        ///< m/s; slower sliding has less than Coulomb's friction
 };
 
-/// Torque of limits: N m / rad and N m s / rad.
+/// Torques of a hinge's limits: N m / rad and N m s / rad.
 struct Limit {
   double stiffness, damping;
 };
@@ -58,7 +58,7 @@ struct Limit {
 constexpr double kGravity = 9.81;
 constexpr double kDensity = 1000;
 
-/// Defaults of what a table may leave out.
+/// Defaults of the optional members of a table.
 struct BodyBase {
   static constexpr bool pinned = false;
   static constexpr bool uneven = false;    ///< whether PlanarBody moves it on slopes, too
@@ -77,7 +77,7 @@ constexpr double capsule_inertia(const Capsule& c) {
          ball * (0.4 * r * r + height * (3 * r + 2 * height) / 8);
 }
 
-/// What the equations of motion need of a table, computed when it is compiled.
+/// Quantities for the equations of motion, computed from a table by the compiler.
 template <class Body>
 struct Numbers {
   static constexpr int n = sizeof(Body::segments) / sizeof(Segment);
