@@ -1,6 +1,8 @@
 """Laboratories: sheets, seeds, refusals, and the pay for standing of planar runners."""
 
+import json
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
 from botschool.evolution.record import RunFiles
 from botschool.grading.packed import pack_module
+from botschool.labs.commands import run_command
 from botschool.labs.declare import NUMBERS, PARTS, WORDS, Field, load_lab
 from botschool.labs.folder import Place, start
 from botschool.labs.measuring import interval, permutation_test
@@ -22,6 +25,7 @@ from lab_answers import WHY
 from lab_students import answer, edit, fill, predicted, small, student
 from running import call
 
+ROOT = Path(__file__).parents[1]
 NUMBER = Field("a", "number", "The number", 0, 5)
 
 
@@ -41,6 +45,12 @@ def test_points_add_up_and_sheets_have_every_field(number, tmp_path):
     for condition in lab.conditions:
         assert len(read.row(condition.name)) == len(lab.columns)
     assert {s.field for s in lab.statements} <= {f.id for f in lab.fields}
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_the_exercises_text_leads_to_its_laboratory(number):
+    (text,) = ROOT.glob(f"exercises/ex{number:02}_*/README.md")
+    assert f"botschool lab {number} start" in text.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("ends", ["\n", "\r\n"])
@@ -91,14 +101,12 @@ def test_seeds_follow_from_name_course_and_prediction_alone(tmp_path):
     for id, value in (("name", "Bo"), ("course", "B"), ("tipping", 2), ("why", WHY + " So.")):
         assert base_seed(sheet(fill(text, id, value)), place.lab) != seed
     seeds = [each for some in seeds_of(place.sheet(), place.lab).values() for each in some]
-    assert len(set(seeds)) == len(seeds) == 28
+    assert len(set(seeds)) == len(seeds) == 35
 
 
 @pytest.mark.parametrize("number", NUMBERS)
 def test_run_refuses_before_the_prediction_is_specific(number, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    from botschool.labs.commands import run_command
-
     with pytest.raises(BotschoolError, match=f"lab {number} start makes it"):
         run_command(str(number), False, 1)
     place = Place.of(number)
@@ -113,11 +121,24 @@ def test_run_refuses_before_the_prediction_is_specific(number, tmp_path, monkeyp
     assert not place.runs.exists()
 
 
+def test_a_run_needs_the_strategy_of_the_exercise(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    place = predicted(small(9), tmp_path)
+    (place.folder / "strategy.py").write_text("")
+    with pytest.raises(BotschoolError, match=r"copy your finished openai_es\.py of exercise 8"):
+        run_command("9", False, 1)
+    assert not place.runs.exists()
+
+
 def test_runs_of_another_prediction_are_not_mixed_in(tmp_path):
     place = predicted(small(9), tmp_path)
     place.runs.mkdir()
-    (place.runs / "runs.json").write_text('{"seed": 5, "prediction": "It tips at 9."}')
-    with pytest.raises(BotschoolError, match=r"has changed .* 'It tips at 9\.'\. To start anew"):
+    now = place.sheet().prediction
+    before = now.replace("answer: 0.06", "answer: 0.08")
+    (place.runs / "runs.json").write_text(json.dumps({"seed": 5, "prediction": before}))
+    with pytest.raises(
+        BotschoolError, match=r"has changed .* '\.\.\. .*answer: 0\.08 .*To start anew"
+    ):
         make_runs(place.lab, place.sheet(), place.runs, 1, 1)
 
 

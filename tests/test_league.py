@@ -84,7 +84,9 @@ def test_a_laboratory_tells_its_experiment(tmp_path):
     condition = load_lab(9).conditions[0]
     folder = tmp_path / "lab09" / "runs" / condition.name
     folder.mkdir(parents=True)
-    np.save(folder / "bestgS1.npy", np.load(ROBOTS / "planarhopper.npy"))
+    experiment = condition.load()
+    hopper = problems.of(experiment).policy(experiment.policy).initial(1)
+    np.save(folder / "bestgS1.npy", hopper)
     code, out, errors = call("enter", str(folder / "bestgS1.npy"), "--name", "Ada", cwd=tmp_path)
     assert code == 0 and "Ada" in out, errors
     read = read_entry(tmp_path / f"bestgS1{SUFFIX}")

@@ -4,12 +4,13 @@ import numpy as np
 
 from botschool.labs.measuring import interval
 from lab_answers import WHY, which
+from lab_answers.lab08 import prepare as prepare
 
-PREDICTIONS = {"tipping": 0.75, "both": "at each bonus", "why": WHY}
+PREDICTIONS = {"tipping": 0.06, "both": "at each bonus", "why": WHY}
 HONEST = [
     ("Ada", {"rule": 5.0, "tipping": 0}),
-    ("Bo", {"rule": 2.0, "tipping": 3}),
-    ("Cy", {"rule": 0.5, "tipping": 3}),
+    ("Bo", {"rule": 2.0, "tipping": 0.3}),
+    ("Cy", {"rule": 0.5, "tipping": 0.3}),
 ]
 PARTS = 100
 MEASURE = """
@@ -35,7 +36,7 @@ def tipping(data):
     groups = [values["statue"] for values in data.values()]
 
     def point(shares):
-        found = 3.0
+        found = 0.3
         for bonus, share in sorted(zip(bonuses, shares, strict=True), reverse=True):
             if share <= 0.5:
                 break
@@ -48,18 +49,20 @@ def tipping(data):
 
 def mark(data):
     found = tipping(data)[0]
-    return "" if found == 3 else f"axes.axvline({found})\n    "
+    return "" if found == 0.3 else f"axes.axvline({found})\n    "
 
 
 def conclusions(place, data):
     found, (low, high) = tipping(data)
     predicted = place.sheet().values(place.lab.predictions)[0]["tipping"]
     against = "below" if high < predicted else "above" if low > predicted else ""
-    further, p = which(data["bonus 0"]["metres"], data["bonus 2"]["metres"], ("bonus 0", "bonus 2"))
+    further, p = which(
+        data["bonus 0"]["metres"], data["bonus 0.2"]["metres"], ("bonus 0", "bonus 0.2")
+    )
     return {
         "observed": found,
         "against": against or "my runs cannot tell",
         "further": further,
         "p": p,
-        "enough": "yes" if high - low <= 0.5 else "no",
+        "enough": "yes" if high - low <= 0.0401 else "no",
     }

@@ -42,15 +42,16 @@ class Runner:
     observations, as `botschool es` saves them with planarhopper.ini's settings.
     """
 
-    def __init__(self, environment: str) -> None:
+    def __init__(self, environment: str, policy: PolicyConfig | None = None) -> None:
         """Make the runner.
 
         environment: PlanarHopper, PlanarWalker2D or PlanarHalfCheetah, with -v0 or -v5.
+        policy: its settings; None: planarhopper.ini's.
         """
         self.environment = environment
         self.robot = environment.partition("-")[0]
         self._problem: Any = problems.make(environment)
-        self.policy = Policy(environment, self._problem.interface, PolicyConfig(**POLICY))
+        self.policy = Policy(environment, self._problem.interface, policy or PolicyConfig(**POLICY))
         self.size = self.policy.genotype_size + 2 * self.policy.spec.inputs
         self.duration = 1 / self._problem.fps
         """Seconds of a step."""

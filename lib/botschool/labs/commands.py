@@ -11,7 +11,7 @@ from botschool.errors import BotschoolError
 from botschool.grading.run.temporary import temporary_folder
 from botschool.labs.check import Check, Checked
 from botschool.labs.declare import PARTS, WORDS, load_lab
-from botschool.labs.folder import Place, keep_name, known_name, start
+from botschool.labs.folder import Place, check_strategy, keep_name, known_name, start
 from botschool.labs.report import write_report
 from botschool.labs.runs import make_runs
 from botschool.labs.sheet import check_specific
@@ -43,6 +43,7 @@ def run_command(number: str, quick: bool, workers: int) -> bool:
     place = Place.of(number)
     sheet, lab, folder = place.sheet(), place.lab, place.runs
     check_specific(sheet, lab)
+    check_strategy(place)
     replications = lab.replications
     if quick:
         short = tuple(condition.shortened(lab.quick) for condition in lab.conditions)

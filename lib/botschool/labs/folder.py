@@ -89,11 +89,21 @@ def start(place: Place, name: str, course: str) -> list[Path]:
 
 
 def _of_the_exercise(file: str) -> bytes:
-    """What the student wrote for an exercise, or what to do if it is not here."""
+    """What the student wrote for an exercise; nothing if it is not here."""
     with suppress(BotschoolError, OSError):
         return (course_root() / "exercises" / file).read_bytes()
-    told = f"Copy your finished {Path(file).name} of exercise {int(file[2:4])} into this file."
-    return f'"""{told}"""\n'.encode()
+    return b""
+
+
+def check_strategy(place: Place) -> None:
+    """Raises BotschoolError if a strategy is needed and is not there."""
+    file, path = Path(place.lab.strategy), place.folder / f"{STRATEGY}.py"
+    if not place.lab.strategy or (path.is_file() and b"evolve" in path.read_bytes()):
+        return
+    raise BotschoolError(
+        f"{path} has no function evolve: copy your finished {file.name} of exercise "
+        f"{int(file.parent.name[2:4])} into it."
+    )
 
 
 def known_name(here: Path) -> str:

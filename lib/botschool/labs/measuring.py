@@ -22,10 +22,12 @@ def record(run: dict[str, Any], seed: int = 1) -> dict[str, Any]:
     left to a target far ahead, at the start and after each step; "height" and "pitch", shape (T,);
     "feet", shape (T, feet), is 1 where a foot is on the ground.
     """
+    from botschool.config import from_dict
     from botschool.course.locomotion import Runner
 
-    environment = run["experiment"]["exp"]["environment"]
-    return Runner(environment).record(np.asarray(run["genotype"]), seed)
+    experiment = from_dict(run["experiment"])
+    runner = Runner(experiment.exp.environment, experiment.policy)
+    return runner.record(np.asarray(run["genotype"]), seed)
 
 
 def play_again(run: dict[str, Any], seed: int = 1, episodes: int = 100) -> np.ndarray:

@@ -6,6 +6,7 @@ import json
 import os
 import time
 from collections.abc import Callable
+from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
@@ -87,9 +88,11 @@ def changed(lab: Lab, sheet: Sheet, folder: Path) -> str:
         return ""
     if prediction == sheet.prediction:
         return "The runs belong to another name or course: put back what sheet.md had there."
-    return (
-        f"The prediction has changed since the runs were made: they belong to '{prediction[:300]}'."
-    )
+    before, now = prediction.split(), sheet.prediction.split()
+    pairs = zip(before, now, strict=False)
+    equal = len([*takewhile(lambda pair: pair[0] == pair[1], pairs)])
+    said = " ".join(before[max(0, equal - 5) : equal + 15])
+    return f"The prediction has changed since the runs were made. They belong to '... {said} ...'."
 
 
 def _time(seconds: float) -> str:
