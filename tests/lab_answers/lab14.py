@@ -1,8 +1,10 @@
 """Laboratory 14 as a simulated student does it."""
 
+from functools import cache
+
 import numpy as np
 
-from botschool.labs.measuring import permutation_test
+from botschool.labs.measuring import permutation_test, seconds_per_million
 from lab_answers import WHY
 
 PARTS = 20
@@ -24,11 +26,14 @@ PREDICTIONS = {
     "why": WHY,
 }
 HONEST = [("Ada", {}), ("Bo", {"predicted-changes": 3}), ("Cy", {"predicted-long": "gradient"})]
-SPEEDS = {
-    "dense": {"evolution": 0.05, "gradient": 11},
-    "sparse": {"evolution": 0.05, "gradient": 10},
-    "long": {"evolution": 0.4, "gradient": 8},
-}
+PROBLEMS = ("dense", "sparse", "long")
+METHODS = ("evolution", "gradient")
+
+
+@cache
+def seconds(problem, method):
+    """Measured on this machine."""
+    return float(f"{seconds_per_million(14, f'{problem} {method}'):.3g}")
 
 
 def cells(values):
@@ -45,12 +50,12 @@ def needs_less(one, other):
 
 def conclusions(place, data):
     found, changes = {}, 0
-    for problem, speeds in SPEEDS.items():
-        one, other = (data[f"{problem} {method}"]["steps"] for method in speeds)
+    for problem in PROBLEMS:
+        one, other = (data[f"{problem} {method}"]["steps"] for method in METHODS)
+        speeds = [seconds(problem, method) for method in METHODS]
         found[problem] = needs_less(one, other)
-        found |= {f"seconds-{problem}-{method}": each for method, each in speeds.items()}
-        changes += found[problem] != needs_less(
-            one * speeds["evolution"], other * speeds["gradient"]
-        )
+        for method, each in zip(METHODS, speeds, strict=True):
+            found[f"seconds-{problem}-{method}"] = each
+        changes += found[problem] != needs_less(one * speeds[0], other * speeds[1])
     p = permutation_test(data["long evolution"]["steps"], data["long gradient"]["steps"])
     return found | {"p": f"{p:.4f}", "changes": changes}

@@ -72,7 +72,10 @@ def when(data: Data, answers: Answers) -> Judged:
         STEPS[0] if low > slack else STEPS[1] if high < -slack else CANNOT_TELL
         for slack in (-0.04, 0.0, 0.04)
     }
-    told = f"the first growth minus the second lies between {low:.2f} and {high:.2f}."
+    told = (
+        f"the first growth minus the second lies between {low:.2f} and {high:.2f}: your runs "
+        f"support '{sorted(ends)[0]}'."
+    )
     return lambda answer: answer in ends, told
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -103,16 +104,28 @@ def verdicts(one: np.ndarray, other: np.ndarray) -> set[str]:
     return {winner} if p < LEVEL else {CANNOT_TELL}
 
 
-def speeds(answers: Answers) -> dict[str, float] | None:
-    """The seconds for a million steps that the sheet tells, by condition; None if some lack."""
-    try:
-        return {
-            f"{problem} {method}": answers[f"seconds-{problem}-{method}"]
-            for problem in PROBLEMS
-            for method in METHODS
-        }
-    except KeyError:
-        return None
+def speeds(answers: Answers) -> tuple[dict[str, float], list[str]] | None:
+    """The seconds for a million steps by condition, and what is wrong with those of the sheet.
+
+    Only the student can measure his machine. A number beyond ten times of the checker's own, or
+    below a tenth of it, is replaced by that. None if some are missing.
+    """
+    used, wrong = {}, []
+    for name in ALL:
+        value = answers.get(f"seconds-{name.replace(' ', '-')}")
+        if value is None:
+            return None
+        here = _here(name)
+        plausible = here / 10 <= value <= here * 10
+        used[name] = value if plausible else here
+        if not plausible:
+            wrong.append(f"{name}: {value:g} is far from the {here:.2g} that it takes here")
+    return used, wrong
+
+
+@cache
+def _here(name: str) -> float:
+    return seconds_per_million(14, name)
 
 
 def changes(data: Data, answers: Answers) -> Judged:
@@ -120,12 +133,13 @@ def changes(data: Data, answers: Answers) -> Judged:
     told = speeds(answers)
     if told is None:
         return lambda answer: False, "write all six seconds first."
+    seconds_of, _ = told
     possible, lines = {0}, []
     for problem in PROBLEMS:
         names = [f"{problem} {method}" for method in METHODS]
         one, other = (data[name]["steps"] for name in names)
         steps = verdicts(one, other)
-        seconds = verdicts(one * told[names[0]], other * told[names[1]])
+        seconds = verdicts(one * seconds_of[names[0]], other * seconds_of[names[1]])
         lines.append(f"{problem}: {' or '.join(sorted(steps))} by steps, "
                      f"{' or '.join(sorted(seconds))} by seconds")  # fmt: skip
         here = {int(a != b) for a in steps for b in seconds}
@@ -134,15 +148,11 @@ def changes(data: Data, answers: Answers) -> Judged:
 
 
 def timed(data: Data, answers: Answers) -> Judged:
-    """Judge whether the seconds can be those of a machine: within ten times of this one's."""
+    """Judge whether the seconds can be those of a machine."""
     told = speeds(answers)
     if told is None:
         return lambda answer: False, "write all six seconds first."
-    wrong = []
-    for name, value in told.items():
-        here = seconds_per_million(14, name)
-        if not here / 10 <= value <= here * 10:
-            wrong.append(f"{name}: {value:g} is far from the {here:.2g} that it takes here")
+    _, wrong = told
     return lambda answer: not wrong, f"{'; '.join(wrong)}."
 
 

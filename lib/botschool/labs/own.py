@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from botschool.evolution.algorithms.own import POPSIZE
+from botschool.evolution.evaluate import mean
 from botschool.evolution.record import RunFiles
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.run.student import Student
@@ -63,8 +64,8 @@ def replayed(run: SavedRun, folder: Path, student: Student, rng: np.random.Gener
             candidates = np.asarray(asked["candidates"], dtype=float)
             given = told[at : at + len(candidates)]
             at += len(candidates)
-            if len(given) < len(candidates) or given.max() != line[3]:
-                return f"generation {generation} has another best than its stat file tells"
+            if len(given) < len(candidates) or (given.max(), mean(given)) != (line[3], line[4]):
+                return f"generation {generation} has another fitness than its stat file tells"
             if generation == best and not np.allclose(
                 candidates[given.argmax()], run.genotype, rtol=1e-6, atol=1e-9
             ):

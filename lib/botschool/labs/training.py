@@ -68,7 +68,7 @@ def made(
         rollout = ppo.collect()
         returns = ppo.episodes[1]
         episodes += len(returns)
-        post = post_evaluated(condition.experiment, ppo)
+        post = post_evaluated(condition.experiment, ppo, seed)
         before = rows[-1][3] if rows else post
         mean = float(returns.mean()) if len(returns) else before
         if post > best:
@@ -84,8 +84,9 @@ def made(
 
 def genuine(run: SavedRun) -> bool:
     """Whether the saved network gets the return that the run's files tell, to the bit."""
-    ppo = filled(run.condition.experiment, run.genotype)
-    return ppo is not None and post_evaluated(run.condition.experiment, ppo) == run.stat[-1, 2]
+    told = run.condition.experiment
+    ppo = filled(told, run.genotype)
+    return ppo is not None and post_evaluated(told, ppo, run.seed) == run.stat[-1, 2]
 
 
 def _budget(condition: Condition) -> int:
@@ -102,10 +103,10 @@ def agent(experiment: dict[str, Any], seed: int = 1) -> PPO:
     return ppo
 
 
-def post_evaluated(experiment: dict[str, Any], ppo: PPO) -> float:
-    """The mean return in `pepisodes` episodes of seed 1, without exploring."""
+def post_evaluated(experiment: dict[str, Any], ppo: PPO, seed: int) -> float:
+    """The mean return in `pepisodes` episodes of the run's seed, without exploring."""
     episodes = experiment["policy"]["pepisodes"]
-    return float(play(ppo, 1, episodes).mean())
+    return float(play(ppo, seed, episodes).mean())
 
 
 def play(ppo: PPO, seed: int, episodes: int) -> np.ndarray:
