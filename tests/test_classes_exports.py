@@ -123,7 +123,7 @@ def test_what_is_not_used_is_said(find, tmp_path):
     (one,) = found.values()
     said = " ".join([*one.choices[3].notes, *one.notes])
     assert is_solution(one.choices[3].file)
-    for name in ("Graded: tiny_final.py", "Not used: tiny_old.py", "nothing was changed in it",
+    for name in ("Graded: tiny_final.py", "Not used: tiny_old.py", "nothing in it was changed",
                  "diary.docx", "work.rar is no zip file"):  # fmt: skip
         assert name in said
 
@@ -202,7 +202,7 @@ def test_an_unreadable_notebook_and_an_empty_folder_are_said(find, tmp_path):
     written(tmp_path / "class", {"ada/tiny.ipynb": b'{"cells": ', "bob/essay.docx": b"x"})
     (tmp_path / "class" / "carl").mkdir()
     found, _ = find(tmp_path / "class")
-    assert "tiny.ipynb is no notebook that can be read" in found["ada"].choices[3].problem
+    assert "tiny.ipynb is not a readable notebook" in found["ada"].choices[3].problem
     assert "There is no tiny.py. Handed in: essay.docx." in found["bob"].choices[3].problem
     assert found["carl"].choices[3].problem == "There is no tiny.py."
 

@@ -122,11 +122,11 @@ def test_the_late_rule():
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("late: soon", "'late: soon' is no rule"),
+        ("late: soon", "'late: soon' is not a rule"),
         ("due: 5", "a line for each exercise"),
         ("due:\n  3: tomorrow", "'tomorrow' is no time"),
-        ("deadline: 5", "'deadline' is no setting"),
-        ("due: [", "is no YAML"),
+        ("deadline: 5", "'deadline' is not a setting"),
+        ("due: [", "is not valid YAML"),
         ("adjustments: none.csv", "cannot be read"),
         ("weights: 5", "under 'weights'"),
         ("- 5", "holds no settings"),
@@ -445,7 +445,7 @@ def test_laboratories_are_graded_beside_exercises(course, tmp_path):
     code, _, _ = call("grade-all", str(download), "-e", "lab09", "-o", "new", cwd=tmp_path)
     assert code == 0 and rows_of(tmp_path / "new" / "grades.csv")[0]["laboratory 9"] == "0"
     refused = call("grade-all", str(download), "-e", "lab99", cwd=tmp_path)[::2]
-    one_sentence(*refused, "no laboratory")
+    one_sentence(*refused, "not a laboratory")
 
 
 def test_an_instructor_checks_one_laboratory(course, tmp_path):

@@ -146,7 +146,7 @@ def test_what_is_exported(course, tmp_path):
     assert "actions 3 . grades.json" in steps[3]["run"] and steps[2]["run"] == "make build"
     assert steps[3]["env"]["BOTSCHOOL_GRADING_SEED"] == "${{ secrets.BOTSCHOOL_GRADING_SEED }}"
     for arguments, sentence in (
-        (("gradescope",), "is there already"), (("moodle",), "is no platform"),
+        (("gradescope",), "exists already"), (("moodle",), "is not a platform"),
         (("actions", "-e", "3.1"), "names a task"), (("gradescope", "--wheel", "x"), "--wheel x"),
     ):  # fmt: skip
         code, _, errors = call("export", *arguments, "-o", out)

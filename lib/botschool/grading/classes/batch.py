@@ -147,7 +147,7 @@ class Grades:
         except Wrong as error:
             return self._nothing(job, str(error), not isinstance(error, Unread))
         except OSError as error:
-            return self._nothing(job, f"A file cannot be read ({error.strerror}).")
+            return self._nothing(job, f"Cannot read a file ({error.strerror}).")
         place = self._cache / f"{key}.json"
         if not self._fresh:
             with contextlib.suppress(OSError, ValueError):

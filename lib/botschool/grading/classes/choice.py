@@ -208,7 +208,7 @@ def choose(
         if any(_is_of(link, wanted) for link in handed.links):
             return Choice(problem=f"{wanted.file} is a link to another place.")
         if unread or handed.unread:
-            return Choice(problem=f"The folder of {wanted.file} cannot be read.", unread=True)
+            return Choice(problem=f"The folder of {wanted.file} is unreadable.", unread=True)
         return Choice(problem=_nothing(handed, wanted))
     ranked = sorted(candidates, key=lambda each: each.rank(newest_first), reverse=True)
     best, others = ranked[0], ranked[1:]
@@ -225,7 +225,7 @@ def choose(
             choice.notes.append(f"Not used: {listed([each.file.shown for each in changed])}.")
         if given and best.differs:
             names = listed([each.file.shown for each in given])
-            choice.notes.append(f"Not used, since nothing was changed in it: {names}.")
+            choice.notes.append(f"Not used, because nothing in it was changed: {names}.")
         choice.used |= {each.file for each in others}
     if not best.content.strip():
         choice.notes.append(f"{plain(best.file.name)} is empty.")
@@ -306,7 +306,7 @@ def _settle(
     """Store the file under its name, in UTF-8, with the files beside it."""
     encoding = decoded(best.content)[1]
     if best.is_notebook and not best.code:
-        choice.problem = f"{plain(best.file.shown)} is no notebook that can be read."
+        choice.problem = f"{plain(best.file.shown)} is not a readable notebook."
         return
     if encoding:
         choice.notes.append(f"{plain(best.file.name)} was stored as {encoding}.")
@@ -346,7 +346,7 @@ def _settle(
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(copied)
         except BotschoolError as error:
-            choice.problem = f"The folder of {wanted.file} {error}: only what is needed counts."
+            choice.problem = f"The folder of {wanted.file} {error}: keep only the files it needs."
             return
         except OSError:
             continue

@@ -240,6 +240,6 @@ def _check_own(output: Path, names: list[str]) -> None:
             head = ""
         if sign not in head or path.is_symlink():
             raise BotschoolError(
-                f"{path} is there already and was not made by grade-all: move it away, or choose "
+                f"{path} exists and was not made by grade-all: move it away, or choose "
                 "another folder with -o."
             )

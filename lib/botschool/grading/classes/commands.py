@@ -28,13 +28,13 @@ def export_command(platform: str, exercises: str, output: Path, wheel: Path | No
     root = course_root()
     asked = selected(exercises, root)
     if any(asked.values()):
-        raise BotschoolError(f"'{exercises[:30]}' names a task: an exercise is exported whole.")
+        raise BotschoolError(f"'{exercises[:30]}' names a task: export works on whole exercises.")
     for path in export(platform, list(asked), exercises, output, root, wheel):
         print(f"made: {path}")
     print(
         {
-            "gradescope": "Upload each zip file as the autograder of its assignment. It holds your "
-            "secret: give it to nobody else.",
+            "gradescope": "Upload each zip file as the autograder of its assignment. It "
+            "holds your secret: give it to nobody else.",
             "actions": "Put the folder .github into the repository that students start from, "
             "which is a copy made by botschool release.",
             "classroom50": "Put the folder autograders into the classroom's folder of your "
@@ -108,7 +108,7 @@ def _asked(
         key = f"lab{name[3:].lstrip('0')}"
         if key not in laboratories:
             raise BotschoolError(
-                f"'{name[:30]}' names no laboratory: there are {', '.join(map(str, laboratories))}."
+                f"'{name[:30]}' is not a laboratory: there are {', '.join(map(str, laboratories))}."
             )
         found[key] = laboratories[key]
     exercises = ",".join(part for part in parts if not part.startswith("lab"))
@@ -163,7 +163,7 @@ def say_class(console: Console, found: Class) -> bool:
     if problems:
         more = f" and {len(problems) - 5} more" if len(problems) > 5 else ""
         shown = ", ".join(problems[:5]) + more
-        lines.append(f"Not all could be graded, see the notes in the table: {shown}")
+        lines.append(f"Some submissions could not be graded, see the notes in the table: {shown}")
     hard = hardest(by_task(result for row in rows for result in row.results))
     if hard and len(handed_in) > 1:
         shown = ", ".join(f"{t.id} {t.title} ({round(100 * t.reached)}%)" for t in hard)

@@ -98,8 +98,8 @@ def read_export(download: Path, wanted: Iterable[Wanted], new_folder: Callable[[
         people.entries(top)
     if not people.found:
         raise BotschoolError(
-            f"{download} holds no submissions: a folder for each student is needed, or the zip "
-            "file of a learning platform."
+            f"{download} holds no submissions: it needs a folder for each student, or must be "
+            "a learning platform's zip file."
         )
     return Export(list(people.found.values()), people.nobodys, notes)
 

@@ -101,7 +101,9 @@ def export(
     text: the exercises as the user named them. Raises BotschoolError before overwriting anything.
     """
     if platform not in PLATFORMS:
-        raise BotschoolError(f"'{platform}' is no platform; there are {', '.join(PLATFORMS)}.")
+        raise BotschoolError(
+            f"'{platform}' is not a platform: choose one of {', '.join(PLATFORMS)}."
+        )
     if wheel and (platform != "gradescope" or not wheel.is_file() or wheel.suffix != ".whl"):
         raise BotschoolError(f"--wheel {wheel}: name a .whl file, for gradescope.")
     places = {
@@ -110,9 +112,7 @@ def export(
         "actions": [output / ".github" / "workflows" / "botschool.yml"],
     }[platform]
     if there := [place for place in places if place.exists()]:
-        raise BotschoolError(
-            f"{there[0]} is there already: move it away, or choose another folder."
-        )
+        raise BotschoolError(f"{there[0]} exists already: move it away, or choose another folder.")
     if platform == "actions":
         extras = _extras(numbers, root)
         made = _WORKFLOW.format(module=_MODULE, exercises=text, extras=_targets(extras))

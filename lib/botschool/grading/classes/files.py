@@ -130,7 +130,9 @@ class Collector:
     def add_file(self, top: Path, place: str, shown: str, level: int = 0) -> bool:
         """Add a file, or a zip file's content; return False if there are too many files."""
         if len(self.handed.files) >= MAX_FILES:
-            self.handed.notes.append(f"There are more than {MAX_FILES} files: the others are left.")
+            self.handed.notes.append(
+                f"There are more than {MAX_FILES} files: the others are ignored."
+            )
             return False
         file = File(top, place, shown)
         lower = shown.lower()
@@ -138,7 +140,7 @@ class Collector:
             self._add_archive(file, level)
         else:
             if lower.endswith(PACKED):
-                self.handed.notes.append(f"{shown} is no zip file, so it stays packed.")
+                self.handed.notes.append(f"{shown} is not a zip file, so it stays packed.")
             self.handed.files.append(file)
         return True
 

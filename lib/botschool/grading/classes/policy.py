@@ -171,7 +171,7 @@ def read_policy(path: Path) -> Policy:
     except (yaml.YAMLError, ValueError) as error:
         mark = getattr(error, "problem_mark", None)
         where = f", line {mark.line + 1}" if mark else ""
-        raise BotschoolError(f"{path}{where} is no YAML: mend it.") from None
+        raise BotschoolError(f"{path}{where} is not valid YAML: correct it.") from None
     if is_larger(found, MOST_VALUES):
         raise BotschoolError(f"{path} holds too many values: does an alias (*) repeat them?")
     found = found or {}
@@ -179,7 +179,9 @@ def read_policy(path: Path) -> Policy:
         raise BotschoolError(f"{path} holds no settings: write lines as 'late: 10 per day'.")
     for key in found:
         if key not in _KEYS:
-            raise BotschoolError(f"{path}: '{key}' is no setting; there are {', '.join(_KEYS)}.")
+            raise BotschoolError(
+                f"{path}: '{key}' is not a setting: choose from {', '.join(_KEYS)}."
+            )
     reader = _Reader(path)
     policy = Policy()
     for key, value in found.items():
@@ -200,7 +202,7 @@ class _Reader:
 
     def _file(self, value: Any, key: str) -> Path:
         if not isinstance(value, str):
-            raise self._wrong(f"'{key}' is no file name.")
+            raise self._wrong(f"'{key}' is not a file name.")
         return self._path.parent / value
 
     def roster(self, value: Any) -> Path:
@@ -216,7 +218,7 @@ class _Reader:
     def late(self, value: Any) -> LateRule:
         found = _LATE.fullmatch(str(value).strip())
         if not found:
-            raise self._wrong(f"'late: {value}' is no rule: write '10 per day, at most 50'.")
+            raise self._wrong(f"'late: {value}' is not a rule: write '10 per day, at most 50'.")
         return LateRule(float(found["off"]), found["unit"].lower(), float(found["most"] or 100))
 
     def extensions(self, value: Any) -> dict[str, dict[Number, datetime]]:
@@ -247,7 +249,7 @@ class _Reader:
             match = re.fullmatch(r"([=+-]?)(\d+(?:\.\d+)?)", points)
             if not match:
                 raise BotschoolError(
-                    f"{table.path}, row {line}: '{points}' are no points: write +5, -10 or =80."
+                    f"{table.path}, row {line}: '{points}' are not points: write +5, -10 or =80."
                 )
             change = -float(match[2]) if match[1] == "-" else float(match[2])
             exercise, _, task = table.get(row, "exercise").partition(".")
@@ -271,7 +273,9 @@ class _Reader:
         if lab := re.fullmatch(r"lab(?:oratory)?\s*0?([0-9]{1,2})", str(value).strip().lower()):
             return f"lab{lab[1]}"
         if not re.fullmatch(r"[0-9]{1,3}", str(value).strip()):
-            raise self._wrong(f"'{value}' is no exercise's number, nor a laboratory's as lab9.")
+            raise self._wrong(
+                f"'{value}' is neither the number of an exercise nor a laboratory such as lab9."
+            )
         return int(value)
 
     def _moment(self, value: Any) -> datetime:
@@ -288,7 +292,7 @@ class _Reader:
             except ValueError:
                 moment = moodle_moment(text)
                 if moment is None:
-                    raise self._wrong(f"'{value}' is no time: write 2026-11-20 23:59.") from None
+                    raise self._wrong(f"'{value}' is not a time: write 2026-11-20 23:59.") from None
         return moment if moment.tzinfo is None else moment.astimezone().replace(tzinfo=None)
 
 

@@ -156,5 +156,5 @@ class Register:
                     others = [self.submissions[each].student for each in rows if each != index]
                     self.submissions[index].notes.append(
                         f"The same student handed in {len(rows)} times, also as "
-                        f"{', '.join(others)}: the better one goes into the gradebook."
+                        f"{', '.join(others)}: the better submission goes into the gradebook."
                     )

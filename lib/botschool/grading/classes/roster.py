@@ -152,7 +152,7 @@ def read_roster(path: Path) -> Roster:
     if not students:
         heads = plain(" ".join(", ".join(table.head).split())[:80])
         raise BotschoolError(
-            f"{path} names no students: a column 'name' (or 'first_name' and 'last_name'), 'id' or "
-            f"'email' is needed; there are {heads}."
+            f"{path} names no students: it needs a column 'name' (or 'first_name' and "
+            f"'last_name'), 'id' or 'email'; its columns are {heads}."
         )
     return Roster(table, students, kind)

@@ -79,10 +79,10 @@ def read_table(path: Path) -> Table:
     try:
         rows = list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter))
     except csv.Error as error:
-        raise BotschoolError(f"{path} is no table that can be read ({error}).") from None
+        raise BotschoolError(f"{path} is not a readable table ({error}).") from None
     rows = [row for row in rows if any(cell.strip() for cell in row)]
     if not rows:
-        raise BotschoolError(f"{path} is empty: a table with a head is needed.")
+        raise BotschoolError(f"{path} is empty: it needs a table with a head.")
     return Table(path, rows[0], rows[1:], delimiter, "mark" in encoding)
 
 

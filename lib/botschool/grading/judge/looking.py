@@ -53,7 +53,7 @@ class Failure:
 
     @property
     def told(self) -> bool:
-        """Whether the call, or a smaller one, is worth telling: it was answered in little time."""
+        """Return whether to show the call, or a smaller one: it was answered in little time."""
         return bool(self.pasted) or (self.quick and bool(self.direct) and not self.shown)
 
     @property

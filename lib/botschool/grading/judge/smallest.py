@@ -1,4 +1,4 @@
-"""The smallest failing call: a few rows of the arguments for which a submission and ours differ."""
+"""Find a small failing call: a few rows of arguments on which a submission differs from ours."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 
 SECONDS = 2.0
-"""Of processor time for all calls of ours, and of the submission."""
+"""Processor seconds for all calls to our solution and to the submission."""
 MOST_ROWS = 60
-"""Single rows that are tried."""
+"""Single rows to try."""
 PREFIXES = (1, 2, 3, 4, 6, 8)
-"""So many of the first rows are tried."""
+"""Numbers of first rows to try."""
 LONGEST, MOST = 640, 72
-"""Characters of a call that is told, and numbers in an argument of it."""
+"""Characters of a call to show, and numbers in one of its arguments."""
 DIGITS = (3, 5, 17)
-"""That fractions in such a call have, the first with which the answers differ."""
+"""Digits of fractions in such a call; the first that makes the answers differ is used."""
 APART = 1e-4
-"""Relative difference of two answers that are told as different."""
+"""Relative difference of two answers that is reported."""
 Cut = Callable[[np.ndarray], np.ndarray]
 
 
@@ -43,8 +43,8 @@ def smallest_case(
 ) -> str:
     """Return a sentence about a small call that the submission answers wrongly, or "".
 
-    solution: our text of the file `name`; request: a call of a function with arrays that was
-    answered wrongly; found: the submission, whose time counts for nothing.
+    solution: our text of the file `name`. request: a function call with arrays that was answered
+    wrongly. found: the submission, whose time does not count.
     """
     calls = [*_smaller(request), request]
     if not solution or not request:
@@ -56,7 +56,7 @@ def smallest_case(
         try:
             ours = Student(file, SECONDS, task.memory, server, True, refused=task.refused)
             return next((text for call in calls if (text := _told(call, found, ours))), "")
-        except (BotschoolError, Wrong, OSError):  # of the machine, or no time is left
+        except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
             return ""
         finally:
             if ours is not None:
@@ -122,7 +122,7 @@ def _smaller(request: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def _some(array: np.ndarray, rows: int, many: int, first: int = 0) -> np.ndarray:
-    """Return so many rows of an array; one more of an array that has one more than others."""
+    """Return this many rows of an array, plus one if the array has one row more than the others."""
     more = len(array) - rows
     return array[first : first + many + more] if more in (0, 1) else array
 
@@ -132,7 +132,7 @@ def _corner(array: np.ndarray, many: int) -> np.ndarray:
 
 
 def _arrays(value: Any) -> list[np.ndarray]:
-    """Return the arrays in a value of plain data that have rows."""
+    """Return the arrays with rows in a value of plain data."""
     if isinstance(value, np.ndarray):
         return [value] if value.ndim else []
     if isinstance(value, dict):
@@ -141,7 +141,7 @@ def _arrays(value: Any) -> list[np.ndarray]:
 
 
 def _cut(value: Any, cut: Cut) -> Any:
-    """Return a value of plain data with all of its arrays cut."""
+    """Return a value of plain data with all its arrays cut."""
     if isinstance(value, np.ndarray):
         return cut(value) if value.ndim else value
     if isinstance(value, dict):
@@ -150,7 +150,7 @@ def _cut(value: Any, cut: Cut) -> Any:
 
 
 def _rounded(value: Any, digits: int) -> Any:
-    """Return a value of plain data with so many digits in all of its fractions."""
+    """Return a value of plain data with its fractions rounded to this many digits."""
     if isinstance(value, float):
         return float(f"{value:.{digits}g}")
     if isinstance(value, np.ndarray) and value.dtype.kind == "f":

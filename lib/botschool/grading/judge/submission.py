@@ -52,7 +52,7 @@ class Result:
 
     @property
     def missing(self) -> list[str]:
-        """What this system could not confine, in words."""
+        """Return what this system could not confine, in words."""
         return list(dict.fromkeys(each for task in self.tasks for each in task.missing))
 
     def to_json(self) -> dict:
