@@ -124,7 +124,7 @@ def test_what_is_not_used_is_said(find, tmp_path):
     said = " ".join([*one.choices[3].notes, *one.notes])
     assert is_solution(one.choices[3].file)
     for name in ("Graded: tiny_final.py", "Not used: tiny_old.py", "nothing in it was changed",
-                 "diary.docx", "work.rar is no zip file"):  # fmt: skip
+                 "diary.docx", "work.rar is not a zip file"):  # fmt: skip
         assert name in said
 
 

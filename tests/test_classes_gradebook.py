@@ -124,7 +124,7 @@ def test_the_late_rule():
     [
         ("late: soon", "'late: soon' is not a rule"),
         ("due: 5", "a line for each exercise"),
-        ("due:\n  3: tomorrow", "'tomorrow' is no time"),
+        ("due:\n  3: tomorrow", "'tomorrow' is not a time"),
         ("deadline: 5", "'deadline' is not a setting"),
         ("due: [", "is not valid YAML"),
         ("adjustments: none.csv", "cannot be read"),

@@ -300,9 +300,7 @@ def submission_place(submission: str, root: Path) -> Path:
     if submission == "solutions" and not base.is_dir():
         base = root / "solutions"
     if not base.exists():
-        raise BotschoolError(
-            f"{submission} does not exist: name a folder with --submission FOLDER."
-        )
+        raise BotschoolError(f"There is no {submission}: name a folder with --submission FOLDER.")
     return base
 
 
