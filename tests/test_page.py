@@ -5,9 +5,12 @@ They need the core for pages; `make test-long` builds it.
 
 import hashlib
 import json
+import math
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
+from decimal import Decimal, localcontext
 from pathlib import Path
 
 import numpy as np
@@ -17,10 +20,14 @@ from botschool import config, page
 from botschool.analysis.tournament import Contest
 from botschool.config import from_dict, to_dict
 from botschool.errors import BotschoolError
+from botschool.evolution.algorithms.openaies import BETA1, BETA2
 from botschool.evolution.coevolution import Coevolution
 from botschool.evolution.run import Run, evolve
+from botschool.page.training import page_data, settings_of, write_training_page
 from botschool.problems.native import NativeProblem
 from botschool.render.scenes import make_scene
+from botschool.rl.native import files, training
+from botschool.rl.native.choosing import choose
 from browser import Browser, find_browser
 
 ROOT = Path(__file__).parents[1]
@@ -155,6 +162,63 @@ def test_arms_races_are_the_command_s(evolving, tmp_path):
     assert evolved_by_node(experiment, 3, tmp_path) == expected
 
 
+def core_file(data):
+    return str(SCRIPTS / f"{page.part_of(data['experiment']['problem'])}.wasm")
+
+
+TRAIN = """
+import { createHash } from "crypto";
+const { core: place, data: read, seed } = JSON.parse(readFileSync(GIVEN));
+globalThis.data = read;
+const { experiment } = read;
+const core = await Core.load(readFileSync(place));
+const task = core.task(experiment.problem, experiment.spec, true);
+const run = core.run(task, experiment, seed);
+for (let steps = 0; steps < experiment.steps;) steps = run.advance();
+const digest = (bytes) => createHash("sha256").update(bytes).digest("hex");
+console.log(JSON.stringify({
+  rows: [...run.rows],
+  first: [...core.initial(task, seed, 1, run.best.length).slice(0, 20)],
+  files: Object.fromEntries(Object.entries(modelFiles(run)).map(([name, bytes]) => [name, digest(bytes)])),
+}));
+"""  # noqa: E501
+
+
+@built
+@pytest.mark.parametrize(
+    ("env", "given"),
+    [
+        ("CartPole-v1", {"clip_range": "linear 0.2", "learning_rate": "linear 0.003"}),
+        ("Pendulum-v1", {"normalize": True, "clip_range_vf": 0.2, "net_arch": [16]}),
+        ("Acrobot-v1", {"normalize": True, "target_kl": 0.01, "ortho_init": False}),
+        ("botschool/Discrim-v0", {"ent_coef": 0.01, "share_layers": True}),
+        ("botschool/PlanarHopper-v5", {"normalize": True, "activation_fn": "relu"}),
+    ],
+)
+def test_trainings_are_the_command_s(env, given, tmp_path):
+    """Both model files byte by byte, with all parameters, and all post-evaluations."""
+    small = {"n_steps": 64, "batch_size": 128, "n_epochs": 3}
+    settings = choose(
+        "native", "ppo", env, None, small | given, 20, 8000, 3, 4, 10, "", "dummy"
+    )  # fmt: skip
+    run, found = training.learn(settings, tmp_path / "run", lambda steps, found: None)
+    expected = {
+        name: hashlib.sha256((run.path / name).read_bytes()).hexdigest()
+        for name in ("best_model.npz", "last_model.npz")
+    }
+    ppo = files.make(settings)
+    first = ppo.parameters[:20].tolist()
+    data = page_data(settings, ppo)
+    given = {"core": core_file(data)}
+    (tmp_path / "given.json").write_text(json.dumps(given | {"data": data, "seed": 3}))
+    answer = node(tmp_path, TRAIN.replace("GIVEN", f'"{tmp_path}/given.json"'))
+    assert answer["first"] == first
+    rows = np.array(answer["rows"]).reshape(-1, 6)
+    assert rows[:, 0].tolist() == found.steps.tolist()
+    assert rows[:, 3].tolist() == found.returns.mean(axis=1).tolist()
+    assert answer["files"] == expected
+
+
 @built
 @pytest.mark.long
 @pytest.mark.parametrize(("name", "seed"), [("acrobot", 1), ("discrim", 3), ("cartpole", 7)])
@@ -199,14 +263,30 @@ def test_the_tables_are_numpy_s():
     assert made.stdout == (folder / "ziggurat.hpp").read_bytes()
 
 
+def test_powers_in_adam_s_step_may_be_rounded_in_any_way():
+    """The page's are exact, Python's the C library's. From generation 37,412 on neither counts."""
+    one, other = Decimal(BETA1), Decimal(BETA2)
+    first, second = Decimal(1), Decimal(1)
+    with localcontext() as context:
+        context.prec = 50
+        for t in range(1, 37_412):
+            first, second = first * one, second * other
+            for size in (0.01, 0.02):
+                step = size * math.sqrt(1 - BETA2**t) / (1 - BETA1**t)
+                assert step == size * math.sqrt(1 - float(second)) / (1 - float(first))
+        assert 1 - float(second * other) == 1 - float(first * one) == 1
+
+
 # Taking a robot apart
 
 BENCH = """
-const { core: place, experiment, genotype, seed, changes } = JSON.parse(readFileSync(GIVEN));
+const given = JSON.parse(readFileSync(GIVEN));
+const { core: place, experiment, genotype, normalisation, seed, changes } = given;
 const core = await Core.load(readFileSync(place));
-const task = core.task(experiment.problem, experiment.spec);
+const task = core.task(experiment.problem, experiment.spec, experiment.agent);
 const bench = core.bench(task, experiment.heterogeneous, experiment.limit);
 bench.genotype.set(genotype);
+bench.normalisation.set(normalisation ?? []);
 bench.start(seed, 0);
 const rows = [];
 for (let step = 0; step < 40; step++) {
@@ -300,6 +380,49 @@ def test_a_page_s_hands_do_what_they_say(problem, changes, tmp_path):
 
 
 @built
+@pytest.mark.parametrize("env", ["Pendulum-v1", "CartPole-v1"])
+def test_hands_on_an_agent_do_what_they_say(env, tmp_path):
+    """Blind a sensor after 5 steps, cut a neuron after 9: as the agent does in Python."""
+    from botschool import _core
+
+    settings = settings_of(env, 3)
+    ppo = files.make(settings)
+    for _ in range(2):
+        ppo.collect()
+        ppo.update()
+    data = page_data(settings, ppo)
+    inputs = data["inputs"]
+    seen = ppo.core.observed.ravel().tolist() if ppo.normalize else []
+    given = {"core": core_file(data), "experiment": data["experiment"], "seed": 5}
+    given |= {"changes": [[5, "blind", 1, 0], [9, "cut", inputs + 3, 0]]}
+    given |= {"genotype": ppo.parameters.tolist(), "normalisation": seen}
+    (tmp_path / "given.json").write_text(json.dumps(given))
+    found = np.array(node(tmp_path, BENCH.replace("GIVEN", f'"{tmp_path}/given.json"')))
+
+    stepper = _core.make_stepper(data["experiment"]["problem"])
+    stepper.set(data["experiment"]["limit"])
+    stepper.start(5, 0)
+    rows = []
+    for step in range(40):
+        if step == 9:
+            weights = ppo.weights
+            weights["actor.0.weight"][3] = weights["actor.0.bias"][3] = 0
+            weights["actor.1.weight"][:, 3] = 0
+        observation = stepper.observation
+        if step >= 5:
+            observation[1] = 0
+        action = np.atleast_1d(ppo.act(observation[None])[0]).astype(np.float64)
+        reward, ended = stepper.step(action)
+        outputs, _ = ppo.forward(observation[None])
+        rows.append([reward, *stepper.state, *outputs[0]])
+        if ended:
+            break
+    size = len(rows[0]) - ppo.outputs
+    np.testing.assert_array_equal(found[:, :size], [row[:size] for row in rows])
+    np.testing.assert_array_equal(found[:, -ppo.outputs :], [row[size:] for row in rows])
+
+
+@built
 def test_frozen_memory_stays(tmp_path):
     experiment = experiment_of("ErDiscrim", "OpenAI-ES", architecture=3)
     genotype = 3 * NativeProblem("ErDiscrim").policy(experiment.policy).initial(4)
@@ -329,6 +452,9 @@ def test_a_page_is_small_and_whole(tmp_path):
         assert "http" not in text.replace("http-equiv", "")
         assert "/*" not in text.partition("<script>")[0].partition("</style>")[2]
         assert len(data["first"]) > 0
+    for env in ("Acrobot-v1", "botschool/Discrim-v0", "botschool/PlanarHopper-v5"):
+        write_training_page(tmp_path / "training.html", env)
+        assert (tmp_path / "training.html").stat().st_size < 250_000, env
 
 
 @pytest.mark.parametrize(
@@ -447,6 +573,43 @@ def test_an_arms_race_in_a_browser(browser, tmp_path):
     last = np.load(tmp_path / "run/S3G4.npy")
     assert browser.run("[...bench.genotype]") == [*last[0], *last[5]]
     assert browser.run("rivals.at(-1).generation") == 4
+
+
+MODELS = """(async () => {
+  const found = {};
+  for (const [name, bytes] of Object.entries(modelFiles(result))) {
+    const digest = new Uint8Array(await crypto.subtle.digest("SHA-256", bytes));
+    found[name] = [...digest].map((x) => x.toString(16).padStart(2, "0")).join("");
+  }
+  return found;
+})()"""
+
+
+@built
+def test_a_training_in_a_browser(browser, tmp_path):
+    """CartPole by PPO, a part of the training that the command does by itself."""
+    settings = replace(settings_of("CartPole-v1", 3), steps=10_000)
+    run, found = training.learn(settings, tmp_path / "run", lambda steps, found: None)
+    expected = {
+        name: hashlib.sha256((run.path / name).read_bytes()).hexdigest()
+        for name in ("best_model.npz", "last_model.npz")
+    }
+    write_training_page(tmp_path / "page.html", "CartPole-v1", 3, run.path / "best_model.npz")
+    browser.errors.clear()
+    browser.open(tmp_path / "page.html")
+    browser.wait("bench && game.step > 0")
+    best = files.make(settings)
+    files.fill(best, run.path / "best_model.npz")
+    assert browser.run("[...bench.genotype]") == best.parameters.astype(float).tolist()
+    browser.run("byId('field-learning_rate').value = 'quick'; byId('evolve').click()")
+    assert "learning_rate = quick is not possible" in browser.run("byId('said').textContent")
+    browser.run("byId('field-learning_rate').value = 'linear 0.003'")
+    browser.run("byId('field-steps').value = 10000; byId('evolve').click()")
+    browser.wait("!byId('downloads').hidden")
+    assert browser.run(MODELS) == expected
+    assert browser.run("result.rows.slice(-3)[0]") == found.last
+    assert browser.run("document.querySelectorAll('#downloads a').length") == 2
+    assert browser.errors == []
 
 
 @built

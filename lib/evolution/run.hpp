@@ -36,6 +36,8 @@ class Run {
   Values individuals, meetings;  ///< of two sides: both populations, and their fitness
   int part = 0;                  ///< of the present generation, how many parts are done
 
+  bool broken = false;  ///< of a training: whether its numbers are no longer finite
+
   virtual ~Run() = default;
   /// A generation, or the next part of it.
   virtual void advance() = 0;

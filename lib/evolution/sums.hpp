@@ -73,27 +73,32 @@ inline double exact_mean(const double* values, std::size_t count) {
   return exact_sum(values, count) / static_cast<double>(count);
 }
 
-/// The sum of |values| in pairs of blocks, as numpy adds a row.
-inline double sum_of_sizes(const double* values, std::size_t count) {
+/// The sum of f(value) in pairs of blocks, as numpy adds a row.
+template <class F>
+double sum_in_pairs(const double* values, std::size_t count, const F& f) {
   if (count < 8) {
     double sum = -0.0;
-    for (std::size_t i = 0; i < count; ++i) sum += std::fabs(values[i]);
+    for (std::size_t i = 0; i < count; ++i) sum += f(values[i]);
     return sum;
   }
   if (count <= 128) {
     double part[8];
-    for (int k = 0; k < 8; ++k) part[k] = std::fabs(values[k]);
+    for (int k = 0; k < 8; ++k) part[k] = f(values[k]);
     std::size_t i = 8;
     for (; i < count - count % 8; i += 8)
-      for (int k = 0; k < 8; ++k) part[k] += std::fabs(values[i + k]);
+      for (int k = 0; k < 8; ++k) part[k] += f(values[i + k]);
     double sum =
         ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-    for (; i < count; ++i) sum += std::fabs(values[i]);
+    for (; i < count; ++i) sum += f(values[i]);
     return sum;
   }
   std::size_t half = count / 2;
   half -= half % 8;
-  return sum_of_sizes(values, half) + sum_of_sizes(values + half, count - half);
+  return sum_in_pairs(values, half, f) + sum_in_pairs(values + half, count - half, f);
+}
+
+inline double sum_of_sizes(const double* values, std::size_t count) {
+  return sum_in_pairs(values, count, [](double x) { return std::fabs(x); });
 }
 
 }  // namespace botschool

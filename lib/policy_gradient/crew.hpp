@@ -1,13 +1,28 @@
 // Threads that share out the tasks of a step. Who does which task changes no result.
 #pragma once
 
+#ifndef __wasm__
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 #include <vector>
+#endif
 
 namespace botschool::policy_gradient {
+
+#ifdef __wasm__  // a page has one thread
+
+struct Crew {
+  explicit Crew(int) {}
+  int threads() const { return 1; }
+  template <class F>
+  void run(int tasks, const F& f) {
+    for (int i = 0; i < tasks; ++i) f(i, 0);
+  }
+};
+
+#else
 
 /// Steps are short, so a thread waits for the next one by spinning; after a while it sleeps, for the
 /// machine may have other work. Nobody waits for a thread that has no task: where others keep the
@@ -49,5 +64,7 @@ class Crew {
   const void* work_ = nullptr;
   std::vector<std::thread> others_;
 };
+
+#endif
 
 }  // namespace botschool::policy_gradient

@@ -37,10 +37,15 @@ const Info& checked(const Info& info) {
 
 Training::Training(const std::string& problem, int limit, const Hyperparameters& given,
                    const std::string& instruction_set)
+    : Training(*find_kernel(problem, instruction_set), kernels_for(instruction_set), limit, given) {
+}
+
+Training::Training(const Kernel& problem, const Kernels& kernels, int limit,
+                   const Hyperparameters& given)
     : h(checked(given)),
-      info(checked(find_kernel(problem, instruction_set)->info)),
-      kernel_(*find_kernel(problem, instruction_set)),
-      kernels_(kernels_for(instruction_set)),
+      info(checked(problem.info)),
+      kernel_(problem),
+      kernels_(kernels),
       crew_(h.threads),
       agent(make_agent(info.observations, info.outputs, info.discrete, h)),
       limit(limit > 0 ? limit : info.limit),

@@ -17,6 +17,8 @@ class Training {
   /// std::invalid_argument.
   Training(const std::string& problem, int limit, const Hyperparameters& h,
            const std::string& instruction_set);
+  /// Of a problem and the inner loops of one instruction set.
+  Training(const Kernel& problem, const Kernels& kernels, int limit, const Hyperparameters& h);
   Training(const Training&) = delete;
   Training& operator=(const Training&) = delete;
 

@@ -11,6 +11,7 @@
 #include "arena/engine/stepper.hpp"
 #include "evolution/coevolution.hpp"
 #include "generated/problem_list.hpp"
+#include "learning.hpp"
 
 #ifdef __wasm__
 #define EXPORT(name) extern "C" __attribute__((export_name(#name)))
@@ -37,11 +38,15 @@ struct OneByOne final : Queue {
   std::ptrdiff_t at = 0, count;
 };
 
-/// A problem and a network.
+/// Whether this core trains by policy gradients; two robots do not, and their page shall be small.
+constexpr bool kTrains = BOTSCHOOL_TRAINS;
+
+/// A problem and a network, or an agent.
 struct Task {
   const Kernel* kernel;
   Info info;
   Layout layout;
+  std::optional<policy_gradient::Hyperparameters> agent{};
 
   void play(const Jobs& jobs, Recorder* recorder = nullptr) const {
     OneByOne queue(jobs.count);
@@ -53,19 +58,18 @@ struct Task {
   }
 };
 
-/// A robot that is taken apart: step by step, in double precision.
+/// A robot that is taken apart, step by step; how it thinks, a subclass says.
 struct Bench {
-  Bench(const Task& task, bool heterogeneous, std::unique_ptr<Stepper> made)
+  Bench(const Task& task, std::unique_ptr<Stepper> made)
       : stepper(std::move(made)),
-        network(task.layout.spec, task.info.robots, heterogeneous),
-        genotype(network.parameters()),
         blind(task.info.observations * task.info.robots),
         observation(blind.size()),
-        action(network.actions()),
-        activation(network.neurons()),
-        state(task.info.states),
-        discrete(task.info.discrete),
-        outputs(task.info.outputs) {}
+        state(task.info.states) {}
+  virtual ~Bench() = default;
+  virtual void start(std::uint64_t, std::uint32_t) {}
+  /// Turns `observation` into `taken`, and says what each neuron does.
+  virtual void think() = 0;
+  virtual void freeze(bool) {}
 
   void look() {
     stepper->get_state(state.data());
@@ -77,6 +81,43 @@ struct Bench {
   /// Returns whether the episode has ended.
   bool step() {
     look();
+    think();
+    const bool ended = stepper->step(taken.data(), reward);
+    stepper->get_state(state.data());
+    return ended;
+  }
+
+  Values& values(int which) {
+    Values* all[] = {&genotype, &blind, &state, &observation, &taken, &activation, &normalisation};
+    return *all[which];
+  }
+
+  std::unique_ptr<Stepper> stepper;
+  Values genotype, blind, observation, activation, state, taken, normalisation;
+  double reward = 0;
+};
+
+/// With the networks of evolution, in double precision.
+struct EvonetBench final : Bench {
+  EvonetBench(const Task& task, bool heterogeneous, std::unique_ptr<Stepper> made)
+      : Bench(task, std::move(made)),
+        network(task.layout.spec, task.info.robots, heterogeneous),
+        action(network.actions()),
+        discrete(task.info.discrete),
+        outputs(task.info.outputs) {
+    genotype.resize(network.parameters());
+    activation.resize(network.neurons());
+    normalisation = network.normalisation;
+  }
+
+  void start(std::uint64_t key, std::uint32_t episode) override {
+    network.seed(key, episode);
+    network.reset();
+    frozen.reset();
+  }
+
+  void think() override {
+    network.normalisation = normalisation;
     network.step(genotype.data(), observation.data(), action.data(), activation.data());
     if (frozen) network.set_memory(*frozen);
     if (discrete) {
@@ -89,24 +130,35 @@ struct Bench {
       taken.clear();
       for (const double value : action) taken.push_back(static_cast<float>(value));
     }
-    const bool ended = stepper->step(taken.data(), reward);
-    stepper->get_state(state.data());
-    return ended;
   }
 
-  Values& values(int which) {
-    Values* all[] = {
-        &genotype, &blind, &state, &observation, &taken, &activation, &network.normalisation};
-    return *all[which];
+  void freeze(bool on) override {
+    if (on)
+      frozen = network.memory();
+    else
+      frozen.reset();
   }
 
-  std::unique_ptr<Stepper> stepper;
   Evonet network;
-  Values genotype, blind, observation, action, activation, state, taken;
+  Values action;
   std::optional<Values> frozen;
-  double reward = 0;
   bool discrete;
   int outputs;
+};
+
+/// With an agent's networks.
+struct AgentBench final : Bench {
+  AgentBench(const Task& task, std::unique_ptr<Stepper> made)
+      : Bench(task, std::move(made)), acting(task.info, *task.agent) {
+    genotype.resize(acting.parameters());
+    activation.resize(acting.neurons());
+    normalisation.resize(2 * task.info.observations, 0.0);
+    std::fill(normalisation.begin() + task.info.observations, normalisation.end(), 1.0);
+  }
+
+  void think() override { acting.act(genotype, normalisation, observation, taken, activation); }
+
+  Acting acting;
 };
 
 const Values& values_of(const Run& run, int which) {
@@ -131,44 +183,93 @@ using namespace botschool;
 EXPORT(allocate) void* allocate(int bytes) { return std::malloc(bytes); }
 EXPORT(release) void release(void* place) { std::free(place); }
 
+const Kernel* find(const char* problem) {
+  const KernelTable table = kernel_table_baseline();
+  for (std::size_t i = 0; i < table.count; ++i)
+    if (!std::strcmp(problem, table.kernel[i].info.name)) return &table.kernel[i];
+  return nullptr;
+}
+
 /// spec: the hyperparameters of hyperparameters.hpp, in that order. Null for an unknown problem.
 EXPORT(task) Task* task(const char* problem, const double* spec) {
-  const KernelTable table = kernel_table_baseline();
-  for (std::size_t i = 0; i < table.count; ++i) {
-    if (std::strcmp(problem, table.kernel[i].info.name)) continue;
-    const Kernel& kernel = table.kernel[i];
-    const Info info = kernel.given({kernel.info.limit, nullptr});
-    Spec s;
-    s.inputs = info.observations;
-    s.outputs = info.outputs;
-    s.low = info.low;
-    s.high = info.high;
+  const Kernel* kernel = find(problem);
+  if (!kernel) return nullptr;
+  const Info info = kernel->given({kernel->info.limit, nullptr});
+  Spec s;
+  s.inputs = info.observations;
+  s.outputs = info.outputs;
+  s.low = info.low;
+  s.high = info.high;
 #define BOTSCHOOL_READ(type, name, value, least, greatest, explanation, choices) \
   s.name = static_cast<type>(*spec++);
-    BOTSCHOOL_HYPERPARAMETERS(BOTSCHOOL_READ)
+  BOTSCHOOL_HYPERPARAMETERS(BOTSCHOOL_READ)
 #undef BOTSCHOOL_READ
-    return new Task{&kernel, info, make_layout(s)};
+  return new Task{kernel, info, make_layout(s)};
+}
+
+/// An agent of policy gradients. spec: normalize, ortho_init, relu, log_std_init; then three times how many
+/// hidden layers and how many neurons each has: those in common, the policy's, the critic's.
+EXPORT(agent) Task* agent(const char* problem, const double* spec) {
+  const Kernel* kernel = find(problem);
+  if (!kTrains || !kernel) return nullptr;
+  policy_gradient::Hyperparameters h;
+  h.normalize = *spec++ != 0;
+  h.ortho_init = *spec++ != 0;
+  h.relu = *spec++ != 0;
+  h.log_std_init = *spec++;
+  for (std::vector<int>* layers : {&h.shared, &h.pi, &h.vf}) {
+    layers->resize(static_cast<std::size_t>(*spec++));
+    for (int& neurons : *layers) neurons = static_cast<int>(*spec++);
   }
-  return nullptr;
+  return new Task{kernel, kernel->info, {}, h};
+}
+
+int whole(double value) { return static_cast<int>(value); }
+
+/// evaluation: evaluations, episodes, longest episode, steps of the training. algorithm: 3, n_envs, n_steps,
+/// batch_size, n_epochs, gamma, gae_lambda, ent_coef, vf_coef, max_grad_norm, target_kl,
+/// normalize_advantage; learning_rate, clip_range and clip_range_vf, and whether each falls.
+Run* lesson(const Task& task, const double* evaluation, const double* a, std::uint64_t seed) {
+  Curriculum c{*task.agent,
+               {a[12], a[13] != 0},
+               {a[14], a[15] != 0},
+               {a[16], a[17] != 0},
+               static_cast<std::int64_t>(evaluation[3]),
+               whole(evaluation[0]),
+               whole(evaluation[1]),
+               whole(evaluation[2])};
+  c.h.seed = seed;
+  c.h.n_envs = whole(a[1]);
+  c.h.n_steps = whole(a[2]);
+  c.h.batch_size = whole(a[3]);
+  c.h.n_epochs = whole(a[4]);
+  c.h.gamma = a[5];
+  c.h.gae_lambda = a[6];
+  c.h.ent_coef = a[7];
+  c.h.vf_coef = a[8];
+  c.h.max_grad_norm = a[9];
+  c.h.target_kl = a[10];
+  c.h.normalize_advantage = a[11] != 0;
+  return new Lesson(*task.kernel, c);
 }
 
 /// evaluation: episodes, pepisodes, limit, post_limit, heterogeneous, alive. algorithm: 0 and samplesize,
 /// stepsize, noiseStdDev, wdecay, symseed of OpenAI-ES; 1 and popsize, -, mutrate of SSS; 2 and popsize,
-/// stepsize, noiseStdDev, wdecay, random?, selsize, samplesize of coevo2.
+/// stepsize, noiseStdDev, wdecay, random?, selsize, samplesize of coevo2; 3 as `lesson` says.
 EXPORT(run)
 Run* run(const Task* task, const double* evaluation, const double* algorithm, double given) {
-  const auto integer = [](double value) { return static_cast<int>(value); };
-  const Evaluation e{integer(evaluation[0]), integer(evaluation[1]), integer(evaluation[2]),
-                     integer(evaluation[3]), evaluation[4] != 0,     evaluation[5]};
   const auto seed = static_cast<std::uint64_t>(given);
+  if (kTrains && algorithm[0] == 3) return lesson(*task, evaluation, algorithm, seed);
+  const Evaluation e{whole(evaluation[0]), whole(evaluation[1]), whole(evaluation[2]),
+                     whole(evaluation[3]), evaluation[4] != 0,   evaluation[5]};
   const Play play = [task](const Jobs& jobs) { task->play(jobs); };
   if (algorithm[0] == 2) {
-    const CoevolutionRules rules{
-        integer(algorithm[1]), integer(algorithm[6]), integer(algorithm[7]), algorithm[2],
-        algorithm[3],          integer(algorithm[4]), algorithm[5] != 0};
+    const CoevolutionRules rules{whole(algorithm[1]), whole(algorithm[6]), whole(algorithm[7]),
+                                 algorithm[2],        algorithm[3],        whole(algorithm[4]),
+                                 algorithm[5] != 0};
     return new Coevolution(task->info, task->layout, e, rules, seed, play);
   }
-  const Hyperparameters h{integer(algorithm[1]), algorithm[2], algorithm[3], integer(algorithm[4]),
+  const Hyperparameters h{whole(algorithm[1]), algorithm[2], algorithm[3], whole(algorithm[4]),
                           algorithm[5] != 0};
   return new Evolution(task->info, task->layout, e, h, algorithm[0] != 0, seed, play);
 }
@@ -177,8 +278,8 @@ EXPORT(advance) double advance(Run* run) {
   return static_cast<double>(run->steps);
 }
 EXPORT(run_end) void run_end(Run* run) { delete run; }
-/// Of the present generation, how many parts are done.
-EXPORT(run_part) int run_part(const Run* run) { return run->part; }
+/// Of the present generation, how many parts are done; -1: a training broke down.
+EXPORT(run_part) int run_part(const Run* run) { return run->broken ? -1 : run->part; }
 /// 0 rows, 1 best, 2 bestg, 3 individuals of both sides, 4 their fitness.
 EXPORT(run_values) const double* run_values(const Run* run, int which) {
   return values_of(*run, which).data();
@@ -211,12 +312,22 @@ void evaluate(const Task* task, const double* genotypes, int size, const double*
 
 /// Writes the random network with a number that a seed begins with.
 EXPORT(initial) void initial(const Task* task, double seed, int index, double* parameters) {
+  if (kTrains && task->agent) {
+    policy_gradient::Hyperparameters h = *task->agent;
+    h.seed = static_cast<std::uint64_t>(seed);
+    const policy_gradient::Agent agent = agent_of(task->info, h);
+    std::vector<float> made(agent.size);
+    initialise(agent, h, made.data());
+    std::copy(made.begin(), made.end(), parameters);
+    return;
+  }
   initial_parameters(task->layout, static_cast<std::uint64_t>(seed),
                      static_cast<std::uint32_t>(index), parameters);
 }
 /// Writes 1 to `mask` for each parameter of a network that a neuron has: weights from it and to it, and
 /// its bias. neuron: inputs, hidden and output neurons in this order.
 EXPORT(mark) void mark(const Task* task, int neuron, double* mask) {
+  if (kTrains && task->agent) return Acting(task->info, *task->agent).mark(neuron, mask);
   const Layout& l = task->layout;
   const auto of_layer = [&](const Layer& layer, int rows_of_one) {
     for (int row = 0; row < layer.neurons; ++row) {
@@ -238,7 +349,12 @@ EXPORT(mark) void mark(const Task* task, int neuron, double* mask) {
 }
 
 EXPORT(bench) Bench* bench(const Task* task, int heterogeneous, int limit) {
-  Bench* bench = new Bench(*task, heterogeneous != 0, stepper_of(*task, NativeProblems()));
+  auto stepper = stepper_of(*task, NativeProblems());
+  Bench* bench;
+  if (kTrains && task->agent)
+    bench = new AgentBench(*task, std::move(stepper));
+  else
+    bench = new EvonetBench(*task, heterogeneous != 0, std::move(stepper));
   bench->stepper->set({limit, nullptr});
   return bench;
 }
@@ -246,20 +362,13 @@ EXPORT(bench_end) void bench_end(Bench* bench) { delete bench; }
 EXPORT(bench_start) void bench_start(Bench* bench, double seed, int episode) {
   const auto key = static_cast<std::uint64_t>(seed);
   bench->stepper->start(key, static_cast<std::uint32_t>(episode));
-  bench->network.seed(key, static_cast<std::uint32_t>(episode));
-  bench->network.reset();
-  bench->frozen.reset();
+  bench->start(key, static_cast<std::uint32_t>(episode));
   bench->look();
 }
 EXPORT(bench_step) int bench_step(Bench* bench) { return bench->step(); }
 EXPORT(bench_reward) double bench_reward(const Bench* bench) { return bench->reward; }
 /// Freezes what the network remembers as it is now, or lets it go on.
-EXPORT(bench_freeze) void bench_freeze(Bench* bench, int frozen) {
-  if (frozen)
-    bench->frozen = bench->network.memory();
-  else
-    bench->frozen.reset();
-}
+EXPORT(bench_freeze) void bench_freeze(Bench* bench, int frozen) { bench->freeze(frozen != 0); }
 /// Puts what is at the address of values 2 into the simulation.
 EXPORT(bench_move) void bench_move(Bench* bench) { bench->stepper->set_state(bench->state.data()); }
 /// 0 genotype, 1 blind (1 where a sensor is), 2 state, 3 observation, 4 action taken, 5 activations,

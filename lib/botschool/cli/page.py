@@ -12,10 +12,22 @@ app = typer.Typer()
 
 @app.command(epilog="Example: botschool page data/experiments/acrobot.ini -o acrobot.html")
 def page(
-    file: Annotated[Path, typer.Argument(help="Experiment file (.ini).", metavar="FILE.ini")],
+    file: Annotated[
+        Path,
+        typer.Argument(
+            help="Experiment file (.ini); or the Gymnasium id of a native problem, such as "
+            "CartPole-v1, to train on it by PPO.",
+            metavar="FILE.ini|ID",
+        ),
+    ],
     genotype: Annotated[
         Path | None,
-        typer.Option("-g", "--genotype", help="Begin with this saved robot.", metavar="FILE"),
+        typer.Option(
+            "-g",
+            "--genotype",
+            help="Begin with this saved robot; for PPO a best_model.npz.",
+            metavar="FILE",
+        ),
     ] = None,
     seed: Annotated[int, typer.Option("-s", "--seed", min=0, max=2**53 - 1, help="Seed.")] = 1,
     output: Annotated[
@@ -28,9 +40,12 @@ def page(
     """
     from botschool.config import load
     from botschool.page import write_page
+    from botschool.page.training import write_training_page
     from botschool.render.watch import read_genotype
 
-    experiment = load(file)
-    saved = None if genotype is None else read_genotype(genotype)
-    write_page(output, experiment, seed, saved, genotype.name if genotype else "")
+    if file.suffix != ".ini" and not file.is_file():
+        write_training_page(output, str(file), seed, genotype)
+    else:
+        saved = None if genotype is None else read_genotype(genotype)
+        write_page(output, load(file), seed, saved, genotype.name if genotype else "")
     print(f"Wrote {output} ({output.stat().st_size / 1000:.0f} KB): open it in a browser.")

@@ -28,7 +28,7 @@ from botschool.render.replay import palette, scene_description
 from botschool.render.scenes import make_scene
 from botschool.seeds import POST_EVALUATION_SEED
 
-SCRIPTS = ("scenes.js", "core.js", "files.js", "hands.js", "tournament.js", "evolve.js", "page.js")
+SCRIPTS = ("scenes.js", "files.js", "hands.js", "tournament.js", "evolve.js", "page.js")
 ALGORITHMS = ("OpenAI-ES", "SSS", "coevo2")
 """Algorithms that a page can run."""
 
@@ -60,20 +60,20 @@ def write_page(
     data = _data(experiment, problem, policy)
     data["who"] = name or "a random robot, with which evolution starts"
     if name:
-        data |= _encoded(policy.join(genotype, normalisation))
+        data |= encoded(policy.join(genotype, normalisation))
     first = next(
         problem.play(policy, genotype, normalisation, seed + POST_EVALUATION_SEED, 0, 1), None
     )
     if first is not None:
         data["first"] = problem_scene(problem).numbers(first.state).tolist()
-    save_bytes(path, _page(data, seed).encode())
+    save_bytes(path, assemble(data, seed))
 
 
 def part_of(problem: str) -> str:
-    """Return which of the three cores has a problem (lib/CMakeLists.txt)."""
+    """Return which of the four cores has a problem (lib/CMakeLists.txt)."""
     if problem.startswith("Planar"):
         return "planar"
-    return "wheeled" if problem.startswith("Er") and problem != "ErDpole" else "classic"
+    return {"ErDiscrim": "discrim", "ErPredprey": "predprey"}.get(problem, "classic")
 
 
 def core(problem: str) -> bytes:
@@ -109,19 +109,16 @@ def _checked(experiment: Experiment) -> NativeProblem:
 
 
 def _data(experiment: Experiment, problem: NativeProblem, policy: Any) -> dict:
-    scene, spec, p = problem_scene(problem), policy.spec, experiment.policy
+    scene, spec, p, drawn = problem_scene(problem), policy.spec, experiment.policy, picture(problem)
     inputs, outputs = policy.neurons
     neurons = len(policy.network.activations)
     robots = problem.interface.robots
     groups = neuron_groups(robots * neurons, inputs, outputs, scene.robots)
     limit = problem.steps(p.maxsteps)
-    return {
+    return drawn | {
         "title": problem.name,
         "about": "evolves in this page, with the bits of the command; nothing leaves your computer",
         "name": experiment.path.stem if experiment.path else "experiment",
-        "palette": palette(),
-        "scene": _rounded(scene_description(scene)) | twin(problem, scene),
-        "fps": scene.fps,
         "groups": [[label, size] for label, size in groups],
         "networks": policy.networks,
         "sides": experiment.competitive,
@@ -129,8 +126,7 @@ def _data(experiment: Experiment, problem: NativeProblem, policy: Any) -> dict:
         "inputs": inputs,
         "normalized": bool(spec.normalize),
         "remembers": p.architecture in (1, 2, 3),
-        "drag": "the cylinder or the robot" if problem.name == "ErDiscrim" else "what moves",
-        "first": scene.numbers(np.zeros(scene.state_size)).tolist(),
+        "first": drawn["first"](np.zeros(scene.state_size)),
         "experiment": {
             "problem": problem.dynamics,
             "spec": [getattr(p, key) for key in NETWORK],
@@ -154,12 +150,24 @@ def _data(experiment: Experiment, problem: NativeProblem, policy: Any) -> dict:
     }
 
 
+def picture(problem: NativeProblem) -> dict[str, Any]:
+    """Return what a page draws; `first` turns a state into the numbers of a picture."""
+    scene = problem_scene(problem)
+    return {
+        "palette": palette(),
+        "scene": _rounded(scene_description(scene)) | twin(problem, scene),
+        "fps": scene.fps,
+        "drag": "the cylinder or the robot" if problem.name == "ErDiscrim" else "what moves",
+        "first": lambda state: scene.numbers(state).tolist(),
+    }
+
+
 def _rounded(description: dict) -> dict:
     """Return the shapes rounded to six digits after the point: less than a pixel, and shorter."""
     return json.loads(json.dumps(description), parse_float=lambda text: round(float(text), 6))
 
 
-def _encoded(saved: np.ndarray) -> dict[str, str]:
+def encoded(saved: np.ndarray) -> dict[str, str]:
     """Return a robot in base 64, in single precision if that is exact."""
     single = saved.astype("<f4")
     if (single == saved).all():
@@ -261,7 +269,8 @@ def _shorter(script: str) -> str:
     return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
 
 
-def _page(data: dict, seed: int) -> str:
+def assemble(data: dict, seed: int) -> bytes:
+    """Return the page of these data."""
     folder, drawing = files("botschool.page"), files("botschool.render") / "replay_draw.js"
     read = {name: _shorter((folder / name).read_text("utf-8")) for name in (*SCRIPTS, "worker.js")}
     scripts = "\n".join([*(read[name] for name in SCRIPTS), _shorter(drawing.read_text("utf-8"))])
@@ -271,13 +280,11 @@ def _page(data: dict, seed: int) -> str:
     page = page.replace('step="1" value="1"', f'step="1" value="{seed}"')
     for place, content in (
         ("/*TITLE*/", data["title"]),
-        ("/*WORKER*/", read["core.js"] + read["worker.js"]),
+        ("/*SHARED*/", _shorter((folder / "core.js").read_text("utf-8"))),
+        ("/*WORKER*/", read["worker.js"]),
         ("/*SCRIPTS*/", scripts),
-        (
-            "/*CORE*/",
-            _packed(core(data["experiment"]["problem"])),
-        ),
+        ("/*CORE*/", _packed(core(data["experiment"]["problem"]))),
         ("/*DATA*/", text),
     ):
         page = page.replace(place, content)
-    return page
+    return page.encode()

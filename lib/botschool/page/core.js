@@ -35,10 +35,12 @@ class Core {
     }
   }
 
-  // A problem with a network; spec: the values of the network's hyperparameters, in order.
-  task(problem, spec) {
+  // A problem with a network; spec: the values of the network's hyperparameters, in order. Or with an
+  // agent of policy gradients.
+  task(problem, spec, agent = false) {
     const name = new TextEncoder().encode(`${problem}\0`);
-    const task = this.lend([name, Float64Array.from(spec)], (...places) => this.c.task(...places));
+    const make = agent ? this.c.agent : this.c.task;
+    const task = this.lend([name, Float64Array.from(spec)], (...places) => make(...places));
     if (!task) throw new Error(`there is no problem ${problem}`);
     return task;
   }

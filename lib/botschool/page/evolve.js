@@ -10,7 +10,7 @@ function evolve() {
   if (!Number.isSafeInteger(seed) || seed < 0) return say("The seed must be a whole number from 0 on.");
   const chosen = readFields();
   if (!chosen) return undefined;
-  const code = byId("background").textContent;
+  const code = byId("shared").textContent + byId("background").textContent;
   worker = new Worker(URL.createObjectURL(new Blob([code], { type: "text/javascript" })));
   worker.onmessage = ({ data: message }) => hear(message, seed, chosen);
   worker.onerror = (event) => hear({ trouble: event.message }, seed, chosen);
@@ -19,7 +19,7 @@ function evolve() {
   byId("downloads").hidden = true;
   kept = [];
   clearRivals();
-  say("The first generations …");
+  say(experiment.agent ? "The first updates …" : "The first generations …");
   byId("progress").hidden = false;
   return undefined;
 }
@@ -37,7 +37,8 @@ function hear(message, seed, chosen) {
   const total = chosen.generations;
   const now = total && !message.ended ? `${generation + 1} of ${total}, part ${part} of 21` : generation;
   const best = rows.length ? `; best ${total ? "predator" : "post-evaluated"} ${show(rows[rows.length - 4])}` : "";
-  say(`${message.ended ? "Done: " : ""}generation ${now}, ${(done / 1e6).toFixed(2)} million steps in ` +
+  const what = experiment.agent ? "post-evaluation" : "generation";
+  say(`${message.ended ? "Done: " : ""}${what} ${now}, ${(done / 1e6).toFixed(2)} million steps in ` +
     `${seconds.toFixed(1)} s${best}.`);
   byId("progress").value = total ? (generation + part / 21) / total : done / chosen.steps;
   byId("curve").hidden = !rows.length;
@@ -45,7 +46,7 @@ function hear(message, seed, chosen) {
   if (sameNetwork(chosen)) {
     const own = message.bestg.length - (data.normalized ? 2 * data.inputs : 0);
     next = {
-      evolved: true, name: `the best ${data.sides ? "pair of" : "robot until"} generation ${generation}`,
+      evolved: true, name: `the best ${data.sides ? "pair of" : "robot until"} ${what} ${generation}`,
       genotype: message.bestg.slice(0, own), normalisation: message.bestg.slice(own),
     };
     addRival(generation, next.genotype);
@@ -62,7 +63,7 @@ function hear(message, seed, chosen) {
 function finish() {
   worker?.terminate();
   worker = null;
-  byId("evolve").textContent = "Evolve";
+  byId("evolve").textContent = byId("how").textContent;
 }
 
 // Whether the robot on the stage has the network that evolves.
@@ -71,8 +72,8 @@ const sameNetwork = (chosen) => chosen.spec.every((value, i) => value === experi
 function offer(chosen) {
   byId("downloads").hidden = false;
   byId("downloads").replaceChildren();
-  const files = runFiles(result.seed, result);
-  files[`${data.name}.ini`] = new TextEncoder().encode(iniText(chosen));
+  const files = experiment.agent ? modelFiles(result) : runFiles(result.seed, result);
+  if (!experiment.agent) files[`${data.name}.ini`] = new TextEncoder().encode(iniText(chosen));
   for (const [name, bytes] of Object.entries(files)) {
     const link = document.createElement("a");
     link.href = URL.createObjectURL(new Blob([bytes]));
@@ -80,6 +81,12 @@ function offer(chosen) {
     byId("downloads").append(link);
   }
 }
+
+const CURVES = [
+  ["best post-evaluated", "mean of the generation"],
+  ["best predator", "mean of the predators"],
+  ["post-evaluated", "episodes of the training"],
+];
 
 function drawCurve(chosen) {
   const { pen, width, height } = fitted(byId("curve"));
@@ -89,7 +96,7 @@ function drawCurve(chosen) {
   const total = chosen.generations;
   const share = (i) => (total ? (i + 1) / total : rows[6 * i] / chosen.steps);
   const points = (column) => Array.from({ length: count }, (_, i) => [share(i), rows[6 * i + column]]);
-  const lines = [["muted", points(4)], ["orange", points(total ? 3 : 2)]];
+  const lines = [["muted", points(4)], ["orange", points(total || experiment.agent ? 3 : 2)]];
   const all = lines.flatMap(([, line]) => line.map(([, fitness]) => fitness));
   const low = all.reduce((a, b) => Math.min(a, b));
   const high = Math.max(all.reduce((a, b) => Math.max(a, b)), low + 1e-9);
@@ -119,9 +126,10 @@ function drawCurve(chosen) {
   }
   pen.textAlign = "left";
   pen.fillStyle = colour("orange");
-  pen.fillText(total ? "best predator" : "best post-evaluated", 58, 9);
+  const [orange, muted] = CURVES[experiment.agent ? 2 : total ? 1 : 0];
+  pen.fillText(orange, 58, 9);
   pen.fillStyle = colour("muted");
-  pen.fillText(total ? "mean of the predators" : "mean of the generation", 190, 9);
+  pen.fillText(muted, 190, 9);
 }
 
 // The experiment file
@@ -145,7 +153,8 @@ function readFields() {
   for (const field of data.fields) {
     const input = byId(`field-${field.key}`);
     const word = field.allowed?.indexOf(input.value.trim()) ?? -1; // a choice between words: its place
-    const value = word >= 0 ? word : Number(input.value);
+    const falling = field.falls ? /^\s*linear\s+(\S+)\s*$/.exec(input.value) : null;
+    const value = word >= 0 ? word : Number(falling ? falling[1] : input.value);
     const wrong = word >= 0 ? false : !input.value.trim() || !Number.isFinite(value) ||
       (field.whole && !Number.isInteger(value)) || value < field.low || value > field.high ||
       (field.above !== null && value <= field.above) || (field.allowed && !field.allowed.includes(value));
@@ -155,6 +164,7 @@ function readFields() {
       return null;
     }
     field.value = word >= 0 ? input.value.trim() : value;
+    if (field.falls) chosen.algorithm[field.into[0][1] + 1] = falling ? 1 : 0;
     for (const [array, index, factor, most] of field.into) {
       const scaled = Math.min(value * factor, most ?? Infinity);
       if (typeof chosen[array] === "number") chosen[array] = Math.max(1, Math.round(scaled));
@@ -162,7 +172,7 @@ function readFields() {
     }
   }
   const [popsize, selsize] = [chosen.algorithm[1], chosen.algorithm[6]];
-  if (selsize > popsize) {
+  if (data.sides && selsize > popsize) {
     say(`selsize = ${selsize} is more than popsize = ${popsize}: lower selsize.`);
     return null;
   }

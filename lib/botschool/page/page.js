@@ -307,6 +307,10 @@ function connect() {
   };
   byId("load").onchange = loadFile;
   byId("evolution").hidden = !experiment.algorithm;
+  if (experiment.agent) {
+    byId("how").textContent = byId("evolve").textContent = "Train";
+    byId("load").parentElement.hidden = true;
+  }
   byId("tournament").hidden = !data.sides;
   byId("home").onclick = () => { load(ours); start(0); };
   const closeups = data.scene.closeups;
@@ -334,7 +338,7 @@ async function begin() {
   keep(data.first); // a picture before the core is there
   draw();
   core = await Core.load(await unzipped(byId("core").textContent));
-  task = core.task(experiment.problem, experiment.spec);
+  task = core.task(experiment.problem, experiment.spec, experiment.agent);
   bench = core.bench(task, experiment.heterogeneous, experiment.limit);
   const own = bench.genotype.length;
   let values = core.initial(task, +byId("seed").value, data.networks, own / data.networks);

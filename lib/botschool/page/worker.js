@@ -16,7 +16,7 @@ onmessage = async ({ data }) => {
 
 async function evolve({ core: packed, experiment, seed }) {
   const core = await Core.load(await unzipped(packed));
-  const task = core.task(experiment.problem, experiment.spec);
+  const task = core.task(experiment.problem, experiment.spec, experiment.agent);
   const run = core.run(task, experiment, seed);
   const began = performance.now();
   let [told, steps] = [0, 0];
@@ -29,6 +29,7 @@ async function evolve({ core: packed, experiment, seed }) {
   const over = () => (experiment.generations ? run.generation >= experiment.generations : steps >= experiment.steps);
   while (going && !over()) {
     steps = run.advance();
+    if (run.part < 0) throw new Error("numbers are no longer finite, so lower learning_rate or max_grad_norm");
     // the command keeps both populations of these generations
     const kept = experiment.generations && run.part === 0 && run.generation % experiment.saveeach === 0;
     if (!kept && performance.now() - told < 100) continue;
