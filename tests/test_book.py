@@ -8,6 +8,8 @@ from urllib.parse import unquote, urlparse
 
 import pytest
 
+from browser import Browser, find_browser
+
 ROOT = Path(__file__).parents[1]
 
 
@@ -28,15 +30,21 @@ class Links(HTMLParser):
             self.silent.append(given.get("src"))
 
 
-@pytest.mark.long
-def test_the_book_has_no_dead_link(tmp_path):
+@pytest.fixture(scope="module")
+def book(tmp_path_factory):
+    """The folder of the whole book."""
     pytest.importorskip("sphinx", reason="the book needs Sphinx: make book")
-    command = ["sphinx-build", "-W", "--keep-going", "-q", "-b", "html", "-c", "docs/book"]
-    where = ["-d", tmp_path / "trees", ".", tmp_path / "book"]
-    command = [sys.executable, "-m", "sphinx", *command[1:], *where]
+    tmp_path = tmp_path_factory.mktemp("book")
+    command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-b", "html"]
+    command += ["-c", "docs/book", "-d", tmp_path / "trees", ".", tmp_path / "book"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    pages = {path: Links() for path in (tmp_path / "book").rglob("*.html")}
+    return tmp_path / "book"
+
+
+@pytest.mark.long
+def test_the_book_has_no_dead_link(book):
+    pages = {path: Links() for path in book.rglob("*.html")}
     assert len(pages) > 30
     for path, links in pages.items():
         links.feed(path.read_text(encoding="utf-8"))
@@ -50,6 +58,77 @@ def test_the_book_has_no_dead_link(tmp_path):
             target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
             places = pages[target].places if target in pages else {parts.fragment}
             if not target.exists() or (parts.fragment and parts.fragment not in places):
-                dead.append((str(path.relative_to(tmp_path)), link))
+                dead.append((str(path.relative_to(book)), link))
     assert dead == []
     assert silent == []
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    if find_browser() is None:
+        pytest.skip("no browser found: install chromium to test pages")
+    browser = Browser(tmp_path_factory.mktemp("browser"))
+    yield browser
+    browser.close()
+
+
+def visit(browser, path):
+    browser.call("Page.navigate", url="about:blank")
+    browser.call("Page.navigate", url=f"file://{path}")
+    browser.wait("document.readyState === 'complete' && document.querySelector('h1')")
+
+
+@pytest.mark.long
+def test_each_page_opens_without_an_error(book, browser):
+    missing = []
+    for path in sorted(book.rglob("*.html")):
+        if "live" in path.parts or path.name in ("genindex.html", "py-modindex.html"):
+            continue
+        browser.errors.clear()
+        browser.requests.clear()
+        visit(browser, path)
+        lost = browser.run(
+            "Promise.all([...document.images].map((image) =>"
+            " (image.loading = 'eager', image.decode())"
+            ".then(() => '', () => image.src))).then((all) => all.filter(Boolean))"
+        )
+        wrong = browser.run("document.querySelectorAll('.MathJax_Error, mjx-merror').length")
+        missing += [(path.name, what) for what in (*lost, *browser.errors)]
+        missing += [(path.name, "a formula")] * wrong
+        missing += [(path.name, url) for url in browser.requests if url.startswith("http")]
+    assert missing == []
+
+
+@pytest.mark.long
+def test_the_book_by_keyboard(book, browser):
+    """Search; a living figure below a picture of something that moves, which opens and plays."""
+    browser.resize(1280, 900)
+    visit(browser, book / "search.html")
+    browser.run("location.search = '?q=ziggurat'")
+    browser.wait("document.querySelectorAll('#search-results li a').length > 0")
+
+    visit(browser, book / "exercises/ex04_acrobot/README.html")
+    assert browser.run("document.querySelectorAll('details.living').length") == 1
+    browser.run("document.querySelector('details.living summary').focus()")
+    browser.press("Enter", "\r")
+    browser.wait("document.querySelector('details.living').open")
+    browser.run("document.querySelector('details.living').scrollIntoView()")
+    assert browser.run("document.activeElement.tagName") == "SUMMARY"
+    visit(browser, book / "docs/book/live/acrobot.html")
+    browser.wait("bench && game.step > 2")
+    browser.press(" ", " ")
+    browser.wait("!game.playing")
+    step = browser.run("game.step")
+    browser.press("ArrowRight")
+    assert browser.run("game.step") == step + 1
+    reached = []  # everything that can be pressed is reached by the tabulator
+    for _ in range(80):
+        browser.press("Tab")
+        reached.append(browser.run("document.activeElement.id || document.activeElement.className"))
+    assert {"pause", "once", "again", "speed", "seed", "evolve", "neuron", "heal", "load"} <= set(
+        reached
+    )
+    assert browser.run(
+        "[...document.querySelectorAll('canvas, iframe, button, input, select')].every((one) =>"
+        " one.getAttribute('aria-label') || one.title || one.labels?.length || one.innerText)"
+    )

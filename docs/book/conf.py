@@ -17,32 +17,79 @@ html_show_sourcelink = False
 html_copy_source = False
 autodoc_typehints = "description"
 
-LIVE = ("cartpole", "acrobot", "discrim", "planarhopper")
-"""Experiments that are pages in the book, where the core for pages is built."""
+LIVE = {
+    "cartpole": "cartpole.npy",
+    "acrobot": "acrobot.npy",
+    "pendulum": "pendulum.npy",
+    "discrim": "discrim.npy",
+    "planarhopper": "planarhopper.npy",
+    "predprey": "predprey/S12G300.npy",
+}
+"""Experiments that are pages in the book, and the robots that they begin with, if they exist."""
+
+TRAINED = {"cartpole_ppo": "CartPole-v1"}
+"""Trainings that are pages in the book."""
+
+LIVING = {
+    "ex01_episodes": ("cartpole", "evolve a controller for the cart and push the pole"),
+    "ex02_network": ("cartpole", "see the neurons at work, blind a sensor, cut a neuron"),
+    "ex04_robot": ("acrobot", "evolve the acrobot and push its elbow"),
+    "ex06_sensors": ("discrim", "drag the cylinder, freeze the robot's memory"),
+    "ex07_reading": ("pendulum", "evolve a controller, drag and push the pendulum"),
+    "ex09_robots": ("planarhopper", "evolve the hopper, push it, cut its neurons"),
+    "ex13_own_training": ("cartpole_ppo", "train the cart by PPO"),
+    "ex15_robots": ("predprey", "watch predator and prey, and a row of the tournament"),
+}
+"""Pictures of something that moves: the page below each, and what it lets a reader do."""
 
 
 def add_live_pages(app, exception):
-    """Write a page for each of LIVE beside the book's own, or say why there is none."""
+    """Write the living pages beside the book's own, or say why there are none."""
     from pathlib import Path
 
     from botschool import config, page
     from botschool.errors import BotschoolError
+    from botschool.page.training import write_training_page
     from botschool.render.watch import read_genotype
 
     if exception:
         return
     folder = Path(app.outdir) / "docs/book/live"
     folder.mkdir(exist_ok=True)
-    for name in LIVE:
-        robot = Path(app.srcdir, f"data/genotypes/{name}.npy")
-        saved = read_genotype(robot) if robot.exists() else None
-        experiment = config.load(Path(app.srcdir, f"data/experiments/{name}.ini"))
+    for name in (*LIVE, *TRAINED):
+        path = folder / f"{name}.html"
         try:
-            page.write_page(
-                folder / f"{name}.html", experiment, 1, saved, robot.stem if robot.exists() else ""
-            )
+            if name in TRAINED:
+                write_training_page(path, TRAINED[name])
+                continue
+            robot = Path(app.srcdir, "data/genotypes", LIVE[name])
+            saved = read_genotype(robot) if robot.exists() else None
+            experiment = config.load(Path(app.srcdir, f"data/experiments/{name}.ini"))
+            page.write_page(path, experiment, 1, saved, robot.stem if robot.exists() else "")
         except BotschoolError as error:
-            (folder / f"{name}.html").write_text(f"<!DOCTYPE html><title>{name}</title><p>{error}")
+            path.write_text(f"<!DOCTYPE html><title>{name}</title><p>{error}")
+
+
+def add_living_figures(app, doctree, name):
+    """Put a living figure below each picture of something that moves; it opens on a click."""
+    from pathlib import PurePosixPath
+
+    from docutils import nodes
+
+    for image in list(doctree.findall(nodes.image)):
+        living, text = LIVING.get(PurePosixPath(image["uri"]).stem, ("", ""))
+        if not living:
+            continue
+        up = "../" * name.count("/")
+        html = (
+            f"<details class='living'><summary>Try it here: {text}</summary>"
+            f'<iframe src="{up}docs/book/live/{living}.html" title="{text}" loading="lazy" '
+            f'width="100%" height="900"></iframe></details>'
+        )
+        place = image
+        while not isinstance(place.parent, nodes.section):
+            place = place.parent
+        place.parent.insert(place.parent.index(place) + 1, nodes.raw("", html, format="html"))
 
 
 def unlink_folders(app, doctree, name):
@@ -57,4 +104,5 @@ def unlink_folders(app, doctree, name):
 def setup(app):
     """Called by Sphinx."""
     app.connect("doctree-resolved", unlink_folders)
+    app.connect("doctree-resolved", add_living_figures)
     app.connect("build-finished", add_live_pages)
