@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import ExitStack, nullcontext
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -160,7 +160,7 @@ class Check:
                     if not told and redo and run.condition.own:
                         told = self._replayed(run, stack)
                     elif not told and redo:
-                        told = self._made_again(run, stack)
+                        told = self._made_again(run)
                     if told:
                         false.append(f"{name}, seed {run.seed} ({told})")
                     else:
@@ -168,14 +168,14 @@ class Check:
                 self.runs[name] = proven
         return false
 
-    def _made_again(self, run: SavedRun, stack: ExitStack) -> str:
+    def _made_again(self, run: SavedRun) -> str:
         """What is wrong with a run that is made again; "" if nothing is."""
-        student = None
+        learns = "learner" in run.condition.experiment
+        own = student_file(self.place.folder / LEARN) if learns else nullcontext()
         try:
-            if "learner" in run.condition.experiment:
-                path = self.place.folder / LEARN
-                student = stack.enter_context(student_file(path)).call
-            again = run.condition.maker.made(run.condition, run.seed, student)
+            with own as student:
+                call = student.call if student else None
+                again = run.condition.maker.made(run.condition, run.seed, call)
         except (Wrong, BotschoolError) as error:
             return f"{LEARN}: {error}"
         return "" if run.same(again) else "it comes out differently"
