@@ -54,6 +54,82 @@ def answer_of(brain: dict, observation: np.ndarray, memory: np.ndarray) -> tuple
     return wheels, np.array([cells, outputs])
 
 
+def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[str, tuple]:
+    """What mistakes make of a step: a sentence -> (action, new memory)."""
+    readout, bias = brain["readout"], brain["bias"]
+
+    def of(
+        known=None,
+        gates=(0, 1, 2, 3),
+        one=1.0,
+        gate=squash,
+        forget=None,
+        enter=None,
+        leave=None,
+        candidate=np.tanh,
+        shown=None,
+    ) -> tuple:
+        seen = np.append(observation, memory[1]) if known is None else known
+        net = np.einsum("gui,i->gu", brain["gates"], seen)[list(gates)]
+        kept = gate(net[0] + one)
+        taken = gate(net[1]) if enter is None else enter(kept)
+        kept = kept if forget is None else forget
+        cells = kept * memory[0] + taken * candidate(net[3])
+        outputs = (gate(net[2]) if leave is None else leave) * (shown or np.tanh)(cells)
+        return np.tanh(bias + readout @ outputs), np.array([cells, outputs])
+
+    _, (cells, outputs) = right = answer_of(brain, observation, memory)
+    return {
+        "The 1 that is added for the forget gate is left out.": of(one=0.0),
+        "The gates are taken in another order: the first is the forget gate, the second the "
+        "input gate.": of(gates=(1, 0, 2, 3)),
+        "The gates are taken in another order: the second is the input gate, the third the "
+        "output gate.": of(gates=(0, 2, 1, 3)),
+        "The gates are taken in another order: the third is the output gate, the fourth the "
+        "candidate.": of(gates=(0, 1, 3, 2)),
+        "The candidate goes through tanh, not through the logistic function.": of(
+            candidate=squash
+        ),
+        "tanh of the candidate is left out.": of(candidate=lambda x: x),
+        "The new cells go through tanh before the output gate.": of(shown=lambda x: x),
+        "The outputs show the cells of the step before: the new ones are asked for.": of(
+            shown=lambda _: np.tanh(memory[0])
+        ),
+        "The gates use the logistic function, not tanh.": of(gate=np.tanh),
+        "The input gate is a gate of its own, not 1 minus the forget gate.": of(
+            enter=lambda kept: 1 - kept
+        ),
+        "The forget gate is not applied: the old cells are kept whole.": of(forget=1.0),
+        "The old cells are forgotten whole: the forget gate decides how much of them stays.": of(
+            forget=0.0
+        ),
+        "The input gate is not applied to the candidate.": of(enter=lambda _: 1.0),
+        "The output gate is not applied.": of(leave=1.0),
+        "The network sees its cells (row 0 of the memory) instead of its outputs (row 1).": of(
+            known=np.append(observation, memory[0])
+        ),
+        "The outputs of the step before stand in front of the observation, but belong behind "
+        "it.": of(known=np.append(memory[1], observation)),
+        "The outputs of the step before are left out: 0 stands in their place.": of(
+            known=np.append(observation, np.zeros(UNITS))
+        ),
+        "The rows of the new memory are exchanged: the cells come first.": (
+            right[0], np.array([outputs, cells])
+        ),
+        "The action is not put through tanh.": (bias + readout @ outputs, right[1]),
+        "The bias of the two wheels is left out.": (np.tanh(readout @ outputs), right[1]),
+        "The action is read from the cells instead of the outputs.": (
+            np.tanh(bias + readout @ cells), right[1]
+        ),
+        "The action is read from the outputs of the step before.": (
+            np.tanh(bias + readout @ memory[1]), right[1]
+        ),
+        "The action goes through the logistic function instead of tanh.": (
+            squash(bias + readout @ outputs), right[1]
+        ),
+    }  # fmt: skip
+
+
 def remembered(way, step: int, before: np.ndarray, after: np.ndarray) -> np.ndarray:
     if way == "mixed":
         return 0.6 * after + 0.3 * before + 0.01 * np.sin(step)
@@ -121,9 +197,12 @@ def one_step(student: Student):
         )
         action, after = answer_of(brain, observation, kept)
         new = expect_array(f"{said}: new memory", answer[1], (2, UNITS))
-        expect_close(f"{said}: new memory, cells", new[0], after[0], 1e-5)
-        expect_close(f"{said}: new memory, outputs", new[1], after[1], 1e-5)
-        expect_close(f"{said}: action", answer[0], action, 1e-5)
+        wrong = mistaken(brain, observation, kept)
+        for row, name in enumerate(("cells", "outputs")):
+            made = {text: memory[row] for text, (_, memory) in wrong.items()}
+            expect_close(f"{said}: new memory, {name}", new[row], after[row], 1e-5, made)
+        made = {text: wheels for text, (wheels, _) in wrong.items()}
+        expect_close(f"{said}: action", answer[0], action, 1e-5, made)
 
 
 @network.check(8)
