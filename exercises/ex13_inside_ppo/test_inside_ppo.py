@@ -341,12 +341,16 @@ def clip_fraction(student: Student):
     answer = judged_policy(student, given, 0.3)
     wanted = surrogate_of(given, 0.3)[1]
     expect_close(f"{student.said}: clip_fraction", answer["clip_fraction"], wanted, CLOSE)
-    given = drawn_batch(27, 8, 0.6)  # a distance that equals the limit is not farther
-    given["log_prob"][:5] = given["old_log_prob"][:5]
-    answer = judged_policy(student, given, 0.0)
-    mistakes = {"A ratio exactly clip_range away from 1 is not farther than it.": 1.0}
-    said = f"{student.said}: clip_fraction of 5 unchanged actions of 8, and clip_range=0"
-    expect_close(said, answer["clip_fraction"], 3 / 8, CLOSE, mistakes)
+    for steps, unchanged in ((8, 5), (5, 1)):  # a distance that equals the limit is not farther
+        given = drawn_batch(27, steps, 0.6)
+        given["log_prob"][:unchanged] = given["old_log_prob"][:unchanged]
+        answer = judged_policy(student, given, 0.0)
+        mistakes = {"A ratio exactly clip_range away from 1 is not farther than it.": 1.0}
+        said = (
+            f"{student.said}: clip_fraction of {unchanged} unchanged actions of {steps}, and "
+            "clip_range=0"
+        )
+        expect_close(said, answer["clip_fraction"], 1 - unchanged / steps, CLOSE, mistakes)
 
 
 @surrogate.check(2)
@@ -385,15 +389,16 @@ def without_clipping(student: Student):
 def with_clipping(student: Student):
     compare_critic(student, True)
     rng = generator(28)
-    values, old_values, returns = rng.normal(size=(3, 12))
-    answer = student.call("value_loss", values, old_values, returns, 0.0)
-    wanted = np.mean((old_values - returns) ** 2)
-    mistakes = {
-        "clip_range_vf=0 allows no movement at all; None means no clipping.": np.mean(
-            (values - returns) ** 2
-        )
-    }
-    expect_close(f"{student.said} with clip_range_vf=0", answer, wanted, CLOSE, mistakes)
+    for steps in (12, 3):
+        values, old_values, returns = rng.normal(size=(3, steps))
+        answer = student.call("value_loss", values, old_values, returns, 0.0)
+        wanted = np.mean((old_values - returns) ** 2)
+        mistakes = {
+            "clip_range_vf=0 allows no movement at all; None means no clipping.": np.mean(
+                (values - returns) ** 2
+            )
+        }
+        expect_close(f"{student.said} with clip_range_vf=0", answer, wanted, CLOSE, mistakes)
 
 
 # ------------------------------------------------------------------- 13.4

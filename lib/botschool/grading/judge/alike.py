@@ -41,9 +41,10 @@ def weight(got: Any, made: Any, ours: Any) -> float:
     effect = distance(got, ours)
     if effect <= TINY or distance(got, made) > SHARE * effect:
         return 0.0
-    leaves = [leaf for _, leaf in _leaves(got) or [] if isinstance(leaf, np.ndarray)]
+    parts = [*(_leaves(got) or []), *(_leaves(ours) or [])]
+    leaves = [leaf for _, leaf in parts if isinstance(leaf, np.ndarray)]
     many = sum(leaf.size for leaf in leaves)
-    choices = many < 8 and all(np.isin(leaf, (0, 1)).all() for leaf in leaves)
+    choices = many < 16 and all(np.isin(leaf, (0, 1)).all() for leaf in leaves)
     return 0.5 if choices else 1.0
 
 

@@ -75,7 +75,7 @@ def _told(call: dict[str, Any], found: Student, ours: Student) -> str:
             right, got = ours.ask(simple), found.ask(simple)
         except Wrong:
             continue
-        if distance(got, right) > APART and _finite(got) >= _finite(right):
+        if distance(got, right) > APART and _finite(got) and _finite(right):
             return _difference(text, got, right)
     return ""
 
