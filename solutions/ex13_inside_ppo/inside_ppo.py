@@ -316,17 +316,68 @@ def responses(activations: np.ndarray, observations: np.ndarray) -> np.ndarray:
 
 
 # %% [markdown]
+# ## Task 13.8. Your own loop
+#
+# Now put the pieces together. `ppo` is a `botschool.rl.native.PPO`: it acts, keeps the networks,
+# and computes the loss of 13.6 with its gradient. You decide what is learned from what.
+#
+# - `ppo.collect()` acts for a rollout and returns it. Its arrays `rewards` (bootstrapped as in
+#   13.1), `values` and `ended` have the shape (steps, envs), `last_values` the shape (envs,).
+#   `ended` is 1 where the episode ended with this step, 2 where time ran out, else 0.
+# - `rollout.advantages` and `rollout.returns` are arrays of the same shape, and hold zeros. Write
+#   your numbers into them: the critic learns the returns, which are the advantages plus the values.
+# - `ppo.minibatch(rows)` returns the steps with these numbers, from 0 to steps times envs - 1;
+#   `batch.log_probs` are the log-probabilities of the rollout.
+# - `ppo.loss(batch)` returns `log_probs`, those of the present policy, and `gradient`.
+# - `ppo.step(gradient)` makes one update against a gradient.
+#
+# `ppo.hyperparameters` has `n_epochs`, `batch_size`, `gamma`, `gae_lambda` and `target_kl`, and
+# `ppo.steps` counts the steps of all environments so far.
+
+
+# %%
+def learn(ppo, steps: int, seed: int) -> None:
+    """Train until `ppo.steps` is at least `steps`, rollout after rollout.
+
+    Each rollout is gone through n_epochs times. In each epoch every step is in exactly one batch of
+    batch_size steps, in a new random order that `seed` decides; batch_size divides the number of
+    steps. Training on a rollout ends as in 13.5: before the update of the first batch whose
+    divergence is greater than 1.5 times target_kl. target_kl None: no early stop.
+    """
+    ### BEGIN SOLUTION task 13.8: write the loop
+    h, rng = ppo.hyperparameters, np.random.default_rng(seed)
+    while ppo.steps < steps:
+        rollout = ppo.collect()
+        ended = (rollout.ended > 0).astype(float)
+        starts = np.vstack([np.ones_like(ended[:1]), ended[:-1]])
+        found = advantages(
+            rollout.rewards, rollout.values, starts, rollout.last_values, ended[-1],
+            h.gamma, h.gae_lambda,
+        )  # fmt: skip
+        rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
+        orders = [rng.permutation(ended.size) for _ in range(h.n_epochs)]
+        for rows in np.concatenate(orders).reshape(-1, h.batch_size):
+            batch = ppo.minibatch(rows)
+            loss = ppo.loss(batch)
+            divergence = approx_kl(loss.log_probs, batch.log_probs)
+            if h.target_kl is not None and divergence > 1.5 * h.target_kl:
+                break
+            ppo.step(loss.gradient)
+    ### END SOLUTION
+
+
+# %% [markdown]
 # ## Your numbers beside those of Stable-Baselines3
 #
 # `botschool show 13` (or running this file once all tasks are done) trains PPO on CartPole,
 # compares your functions with what Stable-Baselines3 computes on a rollout of it, and draws what
-# the hidden neurons respond to, before and after training. Then three networks are trained without
-# Stable-Baselines3: by your functions alone.
+# the hidden neurons respond to, before and after training. Then your loop trains ten agents, and
+# the engine's own loop ten others, in seconds.
 
 # %%
 if __name__ == "__main__":
     from botschool.course import film_agent
-    from botschool.course.ppo import act_greedily, draw_own_training, train_own
+    from botschool.course.ppo import draw_own_training, train_own
     from botschool.course.rl import draw_hidden_layer
     from botschool.rl.reference import Rollout, make_ppo, policy_layers
 
@@ -368,18 +419,9 @@ if __name__ == "__main__":
         print(f"{name:20}{yours:14.8f}{theirs:14.8f}{yours - theirs:12.1e}")
     draw_hidden_layer("hidden_layer.png", stages, names, axes=(2, 3), hidden=hidden_activations)
 
-    own = [
-        bootstrapped,
-        advantages,
-        policy_loss,
-        value_loss,
-        entropy_of_choices,
-        approx_kl,
-        updates_made,
-    ]
-    functions = {function.__name__: function for function in [*own, total_loss]}
-    runs = {seed: train_own(functions, seed) for seed in (1, 2, 3)}
-    for seed, run in runs.items():
-        print(f"trained by your losses, seed {seed}: {np.mean(run['returns'][-20:]):.0f} of 500")
-    draw_own_training("own_training.png", runs)
-    film_agent("cartpole.mp4", "CartPole-v1", act_greedily(runs[1]["layers"]), maxsteps=500)
+    runs, reference = [[train_own(way, seed) for seed in range(1, 11)] for way in (learn, None)]
+    for name, trained in (("your loop", runs), ("the engine's own loop", reference)):
+        lasts = [f"{np.mean(run['returns'][-20:]):.0f}" for run in trained]
+        print(f"{name}, seeds 1 to 10, last 20 episodes: {', '.join(lasts)} of 500")
+    draw_own_training("own_training.png", runs, reference)
+    film_agent("cartpole.mp4", "CartPole-v1", runs[0]["act"], maxsteps=500)
