@@ -1,18 +1,19 @@
 """The students' copy from nothing to the picture; tests/test_release.py is the quick form."""
 
+import json
 import os
 import shutil
 import socket
 import subprocess
 import sys
 import time
-from datetime import datetime, timezone
+import zipfile
 
 import psutil
 import pytest
 
 import building
-from botschool.grading.classes.platforms import classroom50, graded, gradescope
+from botschool.grading.classes.exporting import export
 from botschool.grading.copies import starting
 from botschool.grading.copies.release import release
 from botschool.grading.declare.exercise import load_exercise
@@ -126,6 +127,7 @@ HOSTILE = "import os\n\n\ndef {name}(*arguments, **options):\n    os._exit(0)\n"
 RUNNER = dict.fromkeys(
     ("CLASSROOM", "ASSIGNMENT", "SUBMISSION_TAG", "COMMIT_URL", "RELEASE_URL", "OWNER"), "x"
 )
+PYTHON = {"BOTSCHOOL_PYTHON": sys.executable}  # in place of the one that a platform sets up
 
 
 def text_of(kind: str, source: building.Source) -> str:
@@ -138,15 +140,65 @@ def text_of(kind: str, source: building.Source) -> str:
     }[kind]
 
 
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory):
+    """Gives the folder of what an exercise needs on the platforms that bring their own course."""
+    top = tmp_path_factory.mktemp("exported")
+
+    def of(number):
+        folder = top / f"ex{number:02d}"
+        if not folder.exists():
+            for platform in ("gradescope", "classroom50"):
+                export(platform, [number], str(number), folder, building.ROOT, None)
+            with zipfile.ZipFile(folder / f"gradescope-ex{number:02d}.zip") as archive:
+                archive.extractall(folder / "source")
+        return folder
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("BOTSCHOOL_GRADING_SEED", "a secret of tests")
+        yield of
+
+
+def ran(*command, cwd, **variables):
+    """Runs a platform's script in an environment without our course."""
+    kept = {key: value for key, value in os.environ.items() if not key.startswith("BOTSCHOOL")}
+    done = subprocess.run(
+        list(map(str, command)),
+        cwd=cwd,
+        env=kept | PYTHON | variables,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+
+
 @pytest.mark.parametrize("kind", ["skeleton", "solution", "half", "hostile"])
 @pytest.mark.parametrize("number", building.GRADED, ids="ex{:02d}".format)
-def test_points_are_those_of_grade(grade, tmp_path, monkeypatch, number, kind):
-    monkeypatch.setenv("BOTSCHOOL_COURSE", str(building.ROOT))
-    file = building.write(tmp_path, number, text_of(kind, building.source(number)))
+def test_points_are_those_of_grade(grade, exported, copy, tmp_path, number, kind):
+    one, folder = building.source(number), exported(number)
+    text = text_of(kind, one)
+    file = building.write(tmp_path, number, text)
     expected = {task.id: task.points for task in grade(building.exercise(number), file).tasks}
-    result = graded(number, file.parent)
-    tests = gradescope(result, 1.0)["tests"]
-    assert {test["number"]: test["score"] for test in tests} == expected
-    found = classroom50(result, RUNNER, datetime.now(timezone.utc))
-    assert {t["test-name"].split()[0]: t["score"] for t in found["tests"]} == expected
-    assert found["score"] == sum(expected.values())
+
+    submission, results = folder / "submission", folder / "results"
+    submission.mkdir(exist_ok=True)
+    shutil.copy(file, submission / f"{file.stem}-1.py")
+    script = folder / "source" / "run_autograder"
+    ran("bash", script, cwd=folder, AUTOGRADER=str(folder))
+    result = json.loads((results / "results.json").read_text())
+    assert {test["number"]: test["score"] for test in result["tests"]} == expected
+    assert result["score"] == sum(expected.values())
+
+    home = tmp_path / "home"
+    building.write(home / "exercises", number, text)
+    script = folder / "autograders" / f"ex{number:02d}" / "autograder.py"
+    ran(sys.executable, script, cwd=home, **RUNNER)
+    result = json.loads((home / "result.json").read_text())
+    assert {test["test-name"].split()[0]: test["score"] for test in result["tests"]} == expected
+
+    put(copy, number, text)
+    module = "botschool.grading.classes.platforms"
+    command = [sys.executable, "-m", module, "actions", number, ".", tmp_path / "grades.json"]
+    ran(*command, cwd=copy, BOTSCHOOL_COURSE=str(copy))
+    (result,) = json.loads((tmp_path / "grades.json").read_text())
+    assert {task["id"]: task["points"] for task in result["tasks"]} == expected
