@@ -403,6 +403,9 @@ def test_a_copy_with_other_names_is_found_and_the_skeleton_does_not_count():
     page = similarity_page({3: (6, [pair])})
     assert "100%: ada and &lt;bob&gt;" in page and page.count("<mark>") > 20 and "<bob>" not in page
     assert similar_pairs([Program("a", given), Program("b", given)], given) == []
+    same = [Program(f"s{i}", OTHER) for i in range(9)]
+    (pair,) = similar_pairs(programs + same, given)  # and not 55 pairs
+    assert len(pair.also) == 9 and "; also " in similarity_page({3: (15, [pair])})
 
 
 # --- laboratories

@@ -180,7 +180,7 @@ def page_names(folders: list[str], keys: list[str] | None = None) -> list[str]:
     names, seen = [], set()
     for folder, key in zip(folders, keys or folders, strict=True):
         text = os.fsencode(folder).decode(errors="replace")
-        name = re.sub(r"[^\w .@+-]", "_", text).strip(" .")[:80]
+        name = re.sub(r"[^\w .@+'-]", "_", text).strip(" .")[:80]
         reserved = re.fullmatch(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\..*)?", name)
         if not name or name != text or reserved or name.casefold() in seen:
             name = f"{name or 'student'}-{hashlib.sha256(os.fsencode(key)).hexdigest()[:8]}"

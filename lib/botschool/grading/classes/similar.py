@@ -14,13 +14,15 @@ import math
 import tokenize
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 
 LENGTH = 9
 """Tokens in a sequence to compare."""
 LEAST, MOST_PAIRS = 0.5, 20
 """Smallest similarity of pairs to show, and their number."""
+EQUAL = 0.995
+"""Similarity of programs that are one to the reader: a group of them is shown once."""
 MIN_SEQUENCES = 15
 """Own tokens that a submission needs to be compared."""
 MAX_TOKENS = 50_000
@@ -42,6 +44,8 @@ class Pair:
     second: Program
     similarity: float
     lines: tuple[frozenset[int], frozenset[int]]
+    also: tuple[str, ...] = ()
+    """Students whose programs equal these two."""
 
 
 def tokens(text: str) -> list[tuple[str, int]]:
@@ -75,7 +79,7 @@ def _sequences(text: str) -> dict[tuple[str, ...], set[int]]:
 
 
 def similar_pairs(programs: Sequence[Program], skeleton: str) -> list[Pair]:
-    """Return the most similar pairs, the most similar one first."""
+    """Return the most similar pairs, the most similar one first; equal programs count as one."""
     given = _sequences(skeleton).keys()
     all_of = []
     for program in programs:
@@ -96,7 +100,26 @@ def similar_pairs(programs: Sequence[Program], skeleton: str) -> list[Pair]:
             lines = (_lines(a, common), _lines(b, common))
             pairs.append(Pair(first, second, similarity, lines))
     pairs.sort(key=lambda pair: (-pair.similarity, pair.first.student, pair.second.student))
-    return pairs[:MOST_PAIRS]
+    return _grouped(pairs)[:MOST_PAIRS]
+
+
+def _grouped(pairs: list[Pair]) -> list[Pair]:
+    """Return one pair of each group of equal programs, and one of each two groups."""
+    groups: dict[str, frozenset[str]] = {}
+    for pair in pairs:
+        if pair.similarity >= EQUAL:
+            names = (pair.first.student, pair.second.student)
+            joined = frozenset().union(*(groups.get(name, {name}) for name in names))
+            groups |= dict.fromkeys(joined, joined)
+    kept, seen = [], set()
+    for pair in pairs:
+        names = (pair.first.student, pair.second.student)
+        both = frozenset(groups.get(name, frozenset({name})) for name in names)
+        if both not in seen:
+            seen.add(both)
+            also = sorted(next(iter(both)) - set(names)) if len(both) == 1 else ()
+            kept.append(replace(pair, also=tuple(also)))
+    return kept
 
 
 def _lines(own: dict[tuple[str, ...], set[int]], keys: Iterable[tuple[str, ...]]) -> frozenset[int]:
@@ -148,7 +171,8 @@ def similarity_page(found: dict[int, tuple[int, list[Pair]]]) -> str:
 
 def _title(pair: Pair) -> str:
     names = f"{escape(pair.first.student)} and {escape(pair.second.student)}"
-    return f"{round(100 * pair.similarity)}%: {names}"
+    also = f"; also {escape(', '.join(pair.also))}" if pair.also else ""
+    return f"{round(100 * pair.similarity)}%: {names}{also}"
 
 
 def _listing(program: Program, lines: frozenset[int]) -> str:
