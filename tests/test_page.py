@@ -613,6 +613,18 @@ def test_a_training_in_a_browser(browser, tmp_path):
 
 
 @built
+def test_the_first_picture_needs_no_core(browser, tmp_path):
+    path, _ = written(experiment_of("CartPole-v1", "SSS"), tmp_path)
+    before, _, rest = path.read_text().partition('<script id="core" type="text/plain">')
+    path.write_text(f'{before}<script id="core" type="text/plain">AAAA{rest[rest.index("</") :]}')
+    browser.open(path)
+    browser.wait("!byId('trouble').hidden")
+    assert browser.run("bench === null && shown.rows === 1")
+    colours = "new Set(byId('scene').getContext('2d').getImageData(0, 0, 900, 500).data).size"
+    assert browser.run(colours) > 3
+
+
+@built
 def test_in_a_browser(browser, tmp_path):
     experiment = experiment_of("ErDiscrim", "OpenAI-ES", maxsteps=200)
     expected = digests_of_the_command(experiment, 3, tmp_path / "run")
