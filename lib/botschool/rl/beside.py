@@ -15,7 +15,7 @@ from botschool.problems.gym import GymProblem
 from botschool.problems.native import INFOS, NATIVE
 from botschool.problems.transition import Transition
 from botschool.render.watch import read_genotype
-from botschool.rl.watch import Player
+from botschool.rl.player import Player
 
 GAP = 8
 """White pixels between the two pictures."""

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import gymnasium
-import numpy as np
-
 from botschool.errors import BotschoolError
-from botschool.problems.transition import Transition
 from botschool.rl import shipped
-from botschool.rl.agent import Agent, play, stacked
-from botschool.rl.environments import make
+from botschool.rl.beside import Beside, Evolved
 from botschool.rl.folder import RunFolder, find_runs, run_of, runs_of
+from botschool.rl.player import Player
 from botschool.rl.settings import check_algorithm
 from botschool.rl.weights import WEIGHTS
 from botschool.terminal import has_display, readable
@@ -25,115 +21,8 @@ from botschool.terminal import has_display, readable
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from botschool.rl.beside import Beside
-
-NEW_EPISODES_SEED = 200_000
-"""Added to the seed: training and choosing the best model use no such episodes."""
 
 OURS = ", or watch one that comes with botschool (`botschool rl list --ours`)"
-
-BATCH = 16
-"""Episodes that are played in parallel if no picture is shown."""
-
-
-class Player:
-    """Plays episodes of the agent in a model file on new seeds; policy: the user's own class."""
-
-    def __init__(
-        self, model: Path, seed: int = 1, env: str | None = None, policy: str | None = None
-    ) -> None:
-        self.settings = RunFolder(model.parent).settings()
-        self.env = env or self.settings.env
-        self.agent = Agent.load(model, env, policy)
-        self.seed = seed
-        self.name = f"trained ({self.settings.algo}) {model.parent.name}"
-        self.returns: list[float] = []
-        self.lengths: list[int] = []
-
-    named = False
-    """Whether lines of text begin with the name: where two are shown."""
-
-    def play(self, episodes: int) -> None:
-        """Play the first episodes, BATCH of them in lockstep, and print their returns."""
-        envs = [self._make() for _ in range(min(BATCH, episodes))]
-        try:
-            for first in range(0, episodes, BATCH):
-                batch = envs[: episodes - first]
-                seeds = range(self._seed(first), self._seed(first) + len(batch))
-                for result in zip(*play(self.agent, batch, seeds), strict=True):
-                    self._keep(*result)
-        finally:
-            for env in envs:
-                env.close()
-
-    def transitions(self, number: int) -> Iterator[Transition]:
-        """Play episode `number` (from 0) and yield each step with its picture."""
-        env = self._make(render_mode="rgb_array")
-        try:
-            observation, _ = env.reset(seed=self._seed(number))
-            state, total, step, ended = None, 0.0, 0, False
-            while not ended:
-                seen, starts = observation, np.array([step == 0])
-                actions, state = self.agent.act(stacked([seen]), state, starts)
-                observation, reward, terminated, truncated, _ = env.step(actions[0])
-                step, total, ended = step + 1, total + reward, terminated or truncated
-                frame = _picture(env, self.env)
-                yield Transition(step, reward, total, seen, actions[0], np.zeros(0), frame=frame)
-        finally:
-            env.close()
-        self._keep(total, step)
-
-    def _make(self, **options: object) -> gymnasium.Env:
-        return make(self.env, self.settings.wrappers, **options)
-
-    def _seed(self, number: int) -> int:
-        return self.seed + NEW_EPISODES_SEED + number
-
-    def _keep(self, total: float, steps: int) -> None:
-        self.returns.append(total)
-        self.lengths.append(steps)
-        episode = f"{self._begin}episode {len(self.returns)}"
-        print(f"{episode}  return {readable(total)}  steps {steps}", flush=True)
-
-    @property
-    def _begin(self) -> str:
-        return f"{self.name}  " if self.named else ""
-
-    def frames(self, episodes: int) -> Iterator[np.ndarray]:
-        """Yield pictures of the first episodes, with a caption."""
-        from botschool.render.canvas import draw_offscreen
-        from botschool.render.panel import with_caption
-
-        draw_offscreen()
-        for number in range(episodes):
-            for transition in self.transitions(number):
-                yield with_caption(transition.frame, number + 1, transition)
-
-    @property
-    def fps(self) -> float:
-        """Return the frame rate of the environment's pictures."""
-        env = self._make()
-        env.close()
-        return float(env.metadata.get("render_fps") or 30)
-
-    def print_summary(self) -> None:
-        """Print mean and standard deviation over the episodes played."""
-        if self.returns:
-            print(
-                f"{self._begin}mean {readable(float(np.mean(self.returns)))}  "
-                f"standard deviation {readable(float(np.std(self.returns)))}"
-                f"  steps {np.mean(self.lengths):.1f}  episodes {len(self.returns)}"
-            )
-
-
-def _picture(env, name: str) -> np.ndarray:
-    frame = np.asarray(env.render())
-    if frame.ndim != 3 or frame.shape[2] != 3:
-        raise BotschoolError(
-            f"{name} draws no pictures (render_mode rgb_array): use `botschool rl enjoy` with "
-            "--render none."
-        )
-    return frame.astype(np.uint8)
 
 
 @dataclass(frozen=True)
@@ -167,8 +56,6 @@ class Asked:
         player = self.player(seed)
         if self.beside is None:
             return player
-        from botschool.rl.beside import Beside, Evolved
-
         return Beside(player, Evolved(self.beside, self.genotype, player))
 
     def player(self, seed: int) -> Player:
