@@ -169,6 +169,22 @@ def test_a_group_has_a_row_for_each(find, tmp_path):
     assert found["Ada"].person.ids["email"] == "a@b.c"
 
 
+@pytest.mark.parametrize("metadata", ["- submission_7", "words", "7"])
+def test_data_of_submissions_that_are_none_are_a_sentence(find, tmp_path, metadata):
+    written(tmp_path / "class" / "submission_7", {FILE: SOLUTION.encode()})
+    (tmp_path / "class" / "submission_metadata.yml").write_text(metadata)
+    with pytest.raises(BotschoolError, match="does not list submissions"):
+        find(tmp_path / "class")
+
+
+@pytest.mark.parametrize("about", [":submitters: 5", ":created_at: 0001-01-01T00:00:00+23:59"])
+def test_odd_data_of_a_submission_do_not_lose_it(find, tmp_path, about):
+    written(tmp_path / "class" / "submission_7", {FILE: SOLUTION.encode()})
+    (tmp_path / "class" / "submission_metadata.yml").write_text(f"submission_7:\n  {about}\n")
+    found, _ = find(tmp_path / "class")
+    assert set(found) == {"submission_7"}
+
+
 def test_files_of_a_persons_own_stay_beside_what_is_graded(find, tmp_path):
     files = {"tiny (1).py": SOLUTION.encode(), "helper.py": b"x = 1\n", "data/weights.npy": b"9"}
     found, _ = find(written(tmp_path / "class", {f"ada/w/{k}": v for k, v in files.items()}))
@@ -436,7 +452,7 @@ def test_the_same_words_name_exercises_everywhere(course, tmp_path, command):
     first = {"grade": [], "grade-all": [submit(tmp_path / "c" / "a", SOLUTION).parents[2], "-e"],
              "release": [tmp_path / "copy", "-e"]}[command]  # fmt: skip
     for words, sentence in (("3-4", "There is no exercise 4"), ("3.9", "no task 3.9"),
-                            ("x", "names no exercise"), ("5-4", "names no exercise")):  # fmt: skip
+                            ("x", "names no exercise"), ("5-4", "not a range")):  # fmt: skip
         code, _, errors = call(command, *first, words)
         assert code == 2 and sentence in errors
     code, out, _ = call(command, *first, "3", *(["-o", tmp_path / "o"] * (command == "grade-all")))

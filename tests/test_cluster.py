@@ -228,7 +228,10 @@ def test_what_is_no_cluster_is_refused(text, tmp_path, monkeypatch):
 
 def test_a_schedulers_file_is_read_and_checked(tmp_path):
     file = tmp_path / "scheduler.json"
-    for content, says in (("{", "no scheduler's file"), ('{"address": "tcp://10.1.2.3:1"}', "TLS")):
+    for content, says in (
+        ("{", "not a scheduler's file"),
+        ('{"address": "tcp://10.1.2.3:1"}', "TLS"),
+    ):
         file.write_text(content)
         with pytest.raises(BotschoolError, match=says):
             place(str(file))

@@ -332,7 +332,7 @@ def test_experiment_files(changes, says, tmp_path, refused, command):
 @pytest.mark.parametrize("name", ["CartPole-v1", "tiny_envs:Tiny-v0", "Blackjack-v1"])
 def test_a_vector_is_no_image(name, tmp_path, refused):
     ini = write_experiment(tmp_path, name, policy=POLICY)
-    says = ["architecture = 4 (convolutional) reads images", f"of {name} are none", "= 0"]
+    says = ["architecture = 4 (convolutional) reads images", f"of {name} are not images", "= 0"]
     refused("es", "-f", ini, "-o", tmp_path / "run", says=says)
 
 

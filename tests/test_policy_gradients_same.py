@@ -70,7 +70,7 @@ def test_a_state_of_another_training_is_refused():
     other = trained(*KINDS[1], updates=0)
     with pytest.raises(ValueError, match="values"):
         other.restore(state)
-    with pytest.raises(ValueError, match="no state"):
+    with pytest.raises(ValueError, match="not the state"):
         other.restore({})
 
 

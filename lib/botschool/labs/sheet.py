@@ -19,7 +19,7 @@ _NUMBER = r"[-+\u2212]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 MAX_BYTES = 200_000
 
 
-class Unreadable(ValueError):
+class Unreadable(BotschoolError):
     """A field that is empty or cannot be read; the text is a sentence."""
 
 

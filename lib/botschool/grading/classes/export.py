@@ -307,7 +307,9 @@ class _People:
         self._collectors[key].add_file(path.parent, path.name, found["rest"])
 
     def _gradescope(self, path: Path, number: str, metadata: dict[str, Any]) -> None:
-        people = [each for each in metadata.get("submitters", ()) if isinstance(each, dict)]
+        submitters = metadata.get("submitters")
+        submitters = submitters if isinstance(submitters, list) else []
+        people = [each for each in submitters if isinstance(each, dict)]
         for index, submitter in enumerate(people or [{}]):
             key = ("gradescope", f"{number}-{index}")
             name = str(submitter.get("name") or path.name)

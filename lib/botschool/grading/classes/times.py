@@ -48,8 +48,9 @@ def read_metadata(folder: Path) -> dict[str, dict[str, Any]]:
             raise BotschoolError(f"{path} is damaged: download it again.") from None
         if is_larger(found, _MAX_VALUES):
             raise BotschoolError(f"{path} holds too many values: download it again.")
-        plain_keys = _plain_keys(found, 0)
-        return {k: v for k, v in plain_keys.items() if isinstance(v, dict)} if found else {}
+        if found is not None and not isinstance(found, dict):
+            raise BotschoolError(f"{path} does not list submissions: download it again.")
+        return {k: v for k, v in _plain_keys(found or {}, 0).items() if isinstance(v, dict)}
     return {}
 
 
@@ -65,9 +66,9 @@ def moment_of(value: Any) -> datetime | None:
     """Return a table's time in local time."""
     try:
         moment = value if isinstance(value, datetime) else datetime.fromisoformat(str(value))
-    except ValueError:
+        return moment if moment.tzinfo is None else moment.astimezone().replace(tzinfo=None)
+    except (ValueError, OverflowError, OSError):  # no time, or one before or after all clocks
         return None
-    return moment if moment.tzinfo is None else moment.astimezone().replace(tzinfo=None)
 
 
 def told_by(file: File) -> datetime | None:
