@@ -628,20 +628,35 @@ def what_never_changes(student: Student):
 # ------------------------------------------------------------------- 13.8
 looping = exercise.task("13.8", "Your own loop", needs=("13.1", "13.5"))
 LENGTHS, SEEDS = (6_144, 24_576), 5
-AS_GOOD = (0.5, 0.9)
+AS_GOOD = (0.3, 0.5)
 """Share of the reference's mean return that the loop must reach after each of LENGTHS.
 
-Over 20 seeds the solution's means of five were 261 to 374, and 492 to 500.
+Of 100,000 draws of five from 60 seeds the solution reached less than 0.41 and 0.55 once.
+A loop that goes against the gradient reaches 0.03.
 """
 
 
 def looped(module, seed, steps, order, options):
-    """Parameters after training by the student's loop, and the steps made."""
+    """Parameters after training by the student's loop, the steps made, and the first samples taken.
+
+    These are two arrays: numbers of samples, batch after batch, and how many are in each batch.
+    """
+    import numpy as np
+
     from botschool.course.ppo import ENVIRONMENT, SETTINGS, Pieces
 
     ppo = Pieces(ENVIRONMENT, seed, **(SETTINGS | options))
+    taken = []
+
+    def minibatch(rows=None):
+        if len(taken) < 100:
+            taken.append(np.arange(512)[slice(None) if rows is None else rows])
+        return Pieces.minibatch(ppo, rows)
+
+    ppo.minibatch = minibatch
     module.learn(ppo, steps, order)
-    return [ppo.parameters.copy(), ppo.steps]
+    sizes = np.array([len(rows) for rows in taken])
+    return [ppo.parameters.copy(), ppo.steps, np.concatenate([*taken, []]), sizes]
 
 
 @functools.cache
@@ -658,17 +673,17 @@ def by_reference(seed: int, steps: int, epochs: int, batch: int, target: float |
     return ppo
 
 
-def after_loop(student: Student, seed: int, steps: int, order: int = 1, **options) -> np.ndarray:
-    """The parameters after the student's loop; order: the seed that it gets."""
+def after_loop(student: Student, seed: int, steps: int, order: int = 1, **options) -> list:
+    """What `looped` reports of the student's loop; order: the seed that it gets."""
     said = f"learn(ppo, {steps}, {order})"
     if options:
         said += " with " + ", ".join(f"{key}={value}" for key, value in options.items())
     answer = student.run(looped, seed, steps, order, options, said=said)
-    expect(isinstance(answer, list) and len(answer) == 2, f"{said}: no answer came back.")
+    expect(isinstance(answer, list) and len(answer) == 4, f"{said}: no answer came back.")
     size, n = 512, len(by_reference(1, 1, 1, 512, None).parameters)
     wanted = -(-steps // size) * size
     expect(answer[1] == wanted, f"{said} made {answer[1]} steps, but should make {wanted}.")
-    return expect_array(f"{said}: parameters", answer[0], (n,))
+    return [expect_array(f"{said}: parameters", answer[0], (n,)), *answer[2:]]
 
 
 @looping.check(5)
@@ -682,7 +697,7 @@ def one_batch_an_epoch(student: Student):
         (512, 6, 0.0005),
     ):
         options = {"n_epochs": epochs, "batch_size": 512, "target_kl": target}
-        got = after_loop(student, seed, steps, **options)
+        got = after_loop(student, seed, steps, **options)[0]
         right = by_reference(seed, steps, epochs, 512, target).parameters
         begun = by_reference(seed, 0, epochs, 512, target).parameters
         away, moved = np.abs(got - right).max(), np.abs(right - begun).max()
@@ -699,21 +714,26 @@ def the_order_is_new(student: Student):
     """Batches of a part of the steps: the seed decides the order, and epochs differ."""
     seed = exercise.seed(71) % 100_000
     options = {"n_epochs": 2, "batch_size": 128, "target_kl": None}
-    first, again = (after_loop(student, seed, 512, **options) for _ in range(2))
+    (first, rows, sizes), (again, _, _) = (
+        after_loop(student, seed, 512, **options) for _ in range(2)
+    )
     expect(
         np.array_equal(first, again),
         f"{student.said}, called twice, gives different parameters: draw the orders from seed "
         "alone.",
     )
-    right = by_reference(seed, 512, 2, 128, None).parameters
-    begun = by_reference(seed, 0, 2, 128, None).parameters
-    share = np.linalg.norm(first - right) / np.linalg.norm(right - begun)
+    said = f"{student.said}, 512 steps in each rollout"
     expect(
-        share < 0.5,
-        f"{student.said} leads elsewhere than another order of the same batches does: every step "
-        "belongs into one batch of each epoch.",
+        np.array_equal(sizes, [128] * 8),
+        f"{said}: the batches have {show(sizes)} steps, but should be 8 of 128.",
     )
-    other = after_loop(student, seed, 512, order=2, **options)
+    for epoch, part in enumerate(np.split(rows, 2), 1):
+        expect(
+            np.array_equal(np.sort(part), np.arange(512)),
+            f"{said}: in epoch {epoch} each step should be in exactly one batch.",
+        )
+    expect(not np.array_equal(*np.split(rows, 2)), f"{said}: both epochs have the same order.")
+    other = after_loop(student, seed, 512, order=2, **options)[0]
     expect(
         not np.array_equal(first, other),
         f"{student.said} gives the same parameters with another seed: the order of the steps is to "
@@ -727,7 +747,7 @@ def learns_as_the_reference_does(student: Student):
         means: dict[str, list[float]] = {"yours": [], "reference": []}
         for index in range(SEEDS):
             seed = exercise.seed(72 + index) % 100_000
-            got = after_loop(student, seed, steps)
+            got = after_loop(student, seed, steps)[0]
             reference = by_reference(seed, steps, 8, 128, 0.02)
             new = range(1_000_000, 1_000_020)
             means["reference"].append(float(reference.play(new)[0].mean()))

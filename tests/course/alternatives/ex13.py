@@ -365,3 +365,28 @@ def hidden_activations(layers, observations):
     for weights, biases in layers:
         found.append(np.tanh(np.einsum("ij,nj->ni", weights, found[-1]) + biases))
     return found[1:]
+
+
+def learn(ppo, steps, seed):
+    chance = np.random.RandomState(seed % 2**32)
+
+    def study(rollout):
+        h, many = ppo.hyperparameters, rollout.values.size
+        over = rollout.ended != 0
+        begun = np.concatenate([[np.zeros(len(over[0]))], over[:-1]]).astype(float)
+        arrays = rollout.rewards, rollout.values, begun, rollout.last_values, over[-1] * 1.0
+        rollout.advantages[...] = advantages(*arrays, h.gamma, h.gae_lambda)
+        rollout.returns[...] = rollout.advantages + rollout.values
+        for _ in range(h.n_epochs):
+            order = list(range(many))
+            chance.shuffle(order)
+            for first in range(0, many, h.batch_size):
+                part = ppo.minibatch(order[first : first + h.batch_size])
+                now = ppo.loss(part)
+                far = approx_kl(now.log_probs, part.log_probs)
+                if updates_made([[far]], h.target_kl) == 0:
+                    return
+                ppo.step(now.gradient)
+
+    while ppo.steps < steps:
+        study(ppo.collect())

@@ -545,7 +545,6 @@ def responses(activations, observations):
 
 # %% loop_against_the_gradient loses 13.8
 # Follows the gradient uphill.
-# says: this
 # -             ppo.step(loss.gradient)
 # +             ppo.step(-loss.gradient)
 
@@ -582,3 +581,9 @@ def responses(activations, observations):
 # Episodes do not end in the advantages.
 # -         ended = (rollout.ended > 0).astype(float)
 # +         ended = np.zeros_like(rollout.ended)
+
+
+# %% loop_with_the_same_order_in_each_epoch loses 13.8
+# One order is drawn for all epochs of a rollout.
+# -         orders = [rng.permutation(ended.size) for _ in range(h.n_epochs)]
+# +         orders = [rng.permutation(ended.size)] * h.n_epochs
