@@ -130,54 +130,6 @@ def test_an_exercise_without_its_packages_says_what_to_install(sixteen, monkeypa
     load_exercise(1, sixteen[0]).require()
 
 
-def test_own_losses_have_the_gradient_of_torch():
-    """What exercise 13's closing part measures from NumPy functions is what autograd finds."""
-    torch = pytest.importorskip("torch")
-    from botschool.course import ppo
-
-    def policy_loss(now, old, advantages, epsilon):
-        advantages = (advantages - advantages.mean()) / (advantages.std(ddof=1) + 1e-8)
-        ratio = np.exp(now - old)
-        clipped = np.clip(ratio, 1 - epsilon, 1 + epsilon)
-        return {"loss": -np.minimum(ratio * advantages, clipped * advantages).mean()}
-
-    def entropy(scores):
-        p = np.exp(scores) / np.exp(scores).sum(axis=1, keepdims=True)
-        return -(p * np.log(p)).sum(axis=1)
-
-    functions = {
-        "policy_loss": policy_loss,
-        "value_loss": lambda now, old, returns: np.mean((returns - now) ** 2),
-        "entropy_of_choices": entropy,
-        "approx_kl": lambda now, old: 0.0,
-        "updates_made": lambda found, limit: int(found[0][0] <= 1.5 * limit),
-        "total_loss": lambda policy, value, e, ce, cv: policy + cv * value - ce * np.mean(e),
-    }
-    torch.manual_seed(1)
-    policy, critic = ppo._network(2), ppo._network(1)
-    rng, n = np.random.default_rng(1), 32
-    batch = {
-        "seen": rng.normal(size=(n, 4)), "actions": rng.integers(0, 2, n),
-        "log_prob": -0.7 + 0.2 * rng.normal(size=n), "advantages": rng.normal(size=n),
-        "values": rng.normal(size=n), "returns": rng.normal(size=n),
-    }  # fmt: skip
-    parameters = [*policy.parameters(), *critic.parameters()]
-    measured = torch.autograd.grad(ppo._loss(functions, policy, critic, batch), parameters)
-    given = {key: torch.as_tensor(array) for key, array in batch.items()}
-    logarithms = torch.log_softmax(policy(given["seen"]), dim=1)
-    now = logarithms.gather(1, given["actions"][:, None])[:, 0]
-    a = (given["advantages"] - given["advantages"].mean()) / (given["advantages"].std() + 1e-8)
-    ratio = torch.exp(now - given["log_prob"])
-    surrogate = torch.minimum(ratio * a, ratio.clip(1 - ppo.CLIP, 1 + ppo.CLIP) * a).mean()
-    error = ((given["returns"] - critic(given["seen"])[:, 0]) ** 2).mean()
-    entropies = -(logarithms.exp() * logarithms).sum(dim=1).mean()
-    loss = -surrogate + ppo.CRITIC * error - ppo.ENTROPY * entropies
-    for ours, theirs in zip(measured, torch.autograd.grad(loss, parameters), strict=True):
-        assert torch.allclose(ours, theirs, atol=1e-6), (ours - theirs).abs().max()
-    functions["approx_kl"] = lambda now, old: 1.0
-    assert ppo._loss(functions, policy, critic, batch) is None
-
-
 @pytest.mark.parametrize("kind", [bool, float, np.bool_, np.int64])
 def test_film_of_an_agent_whose_choices_are_other_types_than_int(tmp_path, kind):
     file = tmp_path / "agent.mp4"
