@@ -8,6 +8,7 @@ from botschool.grading.declare.mistakes import Known, read_cases
 from botschool.grading.judge import known as replay
 from botschool.grading.judge.alike import distance, fits, weight
 from botschool.grading.judge.judging import TOLD
+from botschool.grading.judge.smallest import smallest_case
 from botschool.grading.judge.submission import grade
 from botschool.grading.packed import pack
 from botschool.grading.run.confined import fork_server
@@ -175,6 +176,10 @@ def test_the_smallest_failing_case_is_told(messages):
 
 
 COSTS = "import numpy as np\ndef cost(rate, table): return rate * np.abs(table).sum(axis=1)\n"
+
+
+def test_a_failure_without_a_call_has_no_smaller_one():
+    assert smallest_case(None, RIGHT, FILE, {}, None, None) == ""
 
 
 def test_a_call_that_is_too_long_is_made_smaller(messages):

@@ -21,7 +21,6 @@ from botschool.terminal import has_display, readable
 if TYPE_CHECKING:
     from rich.table import Table
 
-
 OURS = ", or watch one that comes with botschool (`botschool rl list --ours`)"
 
 

@@ -46,9 +46,9 @@ def smallest_case(
     solution: our text of the file `name`. request: a function call with arrays that was answered
     wrongly. found: the submission, whose time does not count.
     """
-    calls = [*_smaller(request), request]
     if not solution or not request:
         return ""
+    calls = [*_smaller(request), request]
     with TemporaryDirectory(prefix="botschool-") as folder:
         file = Path(folder) / name
         file.write_text(solution, encoding="utf-8")
