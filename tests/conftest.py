@@ -82,3 +82,15 @@ def studies(monkeypatch):
     for name in set(sys.modules) - before:
         if any((folder / f"{name}.py").exists() for folder in folders):
             del sys.modules[name]
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    """A headless browser that opens pages; skipped where there is none."""
+    from browser import Browser, find_browser
+
+    if find_browser() is None:
+        pytest.skip("no browser found: install chromium to test pages")
+    browser = Browser(tmp_path_factory.mktemp("browser"))
+    yield browser
+    browser.close()

@@ -8,8 +8,6 @@ from urllib.parse import unquote, urlparse
 
 import pytest
 
-from browser import Browser, find_browser
-
 ROOT = Path(__file__).parents[1]
 
 
@@ -61,15 +59,6 @@ def test_the_book_has_no_dead_link(book):
                 dead.append((str(path.relative_to(book)), link))
     assert dead == []
     assert silent == []
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory):
-    if find_browser() is None:
-        pytest.skip("no browser found: install chromium to test pages")
-    browser = Browser(tmp_path_factory.mktemp("browser"))
-    yield browser
-    browser.close()
 
 
 def visit(browser, path):

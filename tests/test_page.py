@@ -28,7 +28,6 @@ from botschool.problems.native import NativeProblem
 from botschool.render.scenes import make_scene
 from botschool.rl.native import files, training
 from botschool.rl.native.choosing import choose
-from browser import Browser, find_browser
 
 ROOT = Path(__file__).parents[1]
 SCRIPTS = ROOT / "lib/botschool/page"
@@ -470,15 +469,6 @@ def test_what_cannot_be_a_page_is_refused(change, sentence, tmp_path):
     parts["algo"] = {}
     with pytest.raises(BotschoolError, match=sentence):
         page.write_page(tmp_path / "a.html", from_dict(parts))
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory):
-    if find_browser() is None:
-        pytest.skip("no browser found: install chromium to test pages")
-    browser = Browser(tmp_path_factory.mktemp("browser"))
-    yield browser
-    browser.close()
 
 
 HASH = """(async () => {

@@ -12,7 +12,6 @@ from botschool.errors import BotschoolError
 from botschool.problems.transition import Transition
 from botschool.render import replay
 from botschool.render.scenes import make_scene
-from browser import Browser, find_browser
 from running import write_experiment
 
 STEPS = 40
@@ -204,15 +203,6 @@ def test_a_replay_of_nothing_is_refused(tmp_path):
 
 
 # The page in a browser
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory):
-    if find_browser() is None:
-        pytest.skip("no browser found: install chromium to test the replay's page")
-    browser = Browser(tmp_path_factory.mktemp("browser"))
-    yield browser
-    browser.close()
 
 
 @pytest.fixture

@@ -121,7 +121,7 @@ def run_replications(
     """Run the experiment once with each seed and leave the files of all runs in the folder.
 
     Make the folder, and those above it, if they do not exist. Files of other runs in the folder
-    stay; an earlier run with the same seed is done anew, and its files are replaced.
+    stay. A run whose seed has files there already runs again and replaces them.
 
     Returns a dict: seed -> best post-evaluated fitness of that run.
     """
