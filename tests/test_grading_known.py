@@ -2,13 +2,16 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from botschool.grading import Exercise, expect, expect_close
 from botschool.grading.declare.mistakes import Known, read_cases
+from botschool.grading.judge import judging
 from botschool.grading.judge import known as replay
 from botschool.grading.judge.alike import distance, fits, weight
 from botschool.grading.judge.judging import TOLD
-from botschool.grading.judge.smallest import smallest_case
+from botschool.grading.judge.smallest import _difference, smallest_case
 from botschool.grading.judge.submission import grade
 from botschool.grading.packed import pack
 from botschool.grading.run.confined import fork_server
@@ -135,7 +138,7 @@ def test_right_answers_start_no_trial(messages, monkeypatch):
     monkeypatch.setattr(replay, "_calls", None)
     right = RIGHT + BY_N.replace("len(x)", "(len(x) - 1)")
     assert messages(right) == ["", ""]
-    with pytest.raises(TypeError):
+    with pytest.raises(UserWarning, match="is not callable"):
         messages(RIGHT + BY_N)
 
 
@@ -173,6 +176,31 @@ def test_the_smallest_failing_case_is_told(messages):
     first, _ = messages(RIGHT + "def spread(x): return -float(np.std(x, ddof=1))\n", exercise)
     assert first.startswith("spread(...) returned -2.12132")
     assert "To try it: spread([1.0, 4.0])" in first
+
+
+numbers = st.one_of(st.booleans(), st.integers(), st.floats(), st.text(max_size=3), st.none())
+arrays = st.integers(0, 3).map(np.ones) | st.just(np.ones((2, 2))) | st.just(np.array("text"))
+answers = st.recursive(
+    numbers | arrays,
+    lambda parts: st.lists(parts, max_size=3) | st.dictionaries(st.sampled_from("ab"), parts),
+    max_leaves=6,
+)
+
+
+@given(answers, answers)
+def test_any_two_answers_can_be_told_apart(got, right):
+    """Rows of dicts were taken for numbers, and the whole submission was not graded."""
+    assert _difference("f(1)", got, right).startswith("f(1)")
+
+
+def test_a_slip_of_ours_costs_no_points(messages, monkeypatch):
+    def slips(*_):
+        raise KeyError("a place that we forgot")
+
+    monkeypatch.setattr(judging, "known_mistake", slips)
+    with pytest.warns(UserWarning, match="a place that we forgot"):
+        first, _ = messages(RIGHT + BY_N)
+    assert first.startswith("spread(")
 
 
 COSTS = "import numpy as np\ndef cost(rate, table): return rate * np.abs(table).sum(axis=1)\n"

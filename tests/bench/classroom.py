@@ -237,6 +237,9 @@ def differing(
             if row["total"] or "Nothing was handed in" not in row["notes"]:
                 wrong.append(f"{one.name}: {row['total']} points for nothing")
             continue
+        if not row["total"]:
+            wrong.append(f"{one.name} ({one.case}) was not graded: {row['notes']}")
+            continue
         lost = tuple(task for task in most if row[task] != str(most[task]))
         if lost != one.loses:
             wrong.append(f"{one.name} ({one.case}) loses {lost}, not {one.loses}: {row['notes']}")

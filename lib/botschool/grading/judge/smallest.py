@@ -98,22 +98,23 @@ def _difference(said: str, got: Any, right: Any) -> str:
         for key in right:
             if key in got and distance(got[key], right[key]) > APART:
                 return _difference(f"{said}: {key}", got[key], right[key])
-    if _of_arrays(got) and _of_arrays(right) and len(got) == len(right):
+    if _of_parts(got) and _of_parts(right) and len(got) == len(right):
         for place, (mine, wanted) in enumerate(zip(got, right, strict=True)):
             if distance(mine, wanted) > APART:
                 return _difference(f"{said}[{place}]", mine, wanted)
-    try:
-        expect_close(said, got, right, APART)
-    except Wrong as error:
-        return str(error)
-    except ValueError:  # rows of different lengths
-        pass
+    if not _of_parts(right):
+        try:
+            expect_close(said, got, right, APART)
+        except Wrong as error:
+            return str(error)
+        except (TypeError, ValueError, OverflowError):  # no numbers, or rows of different lengths
+            pass
     return f"{said} returned {show(got)}, but {show(right)} was expected."
 
 
-def _of_arrays(answer: Any) -> bool:
-    """Return whether an answer is a list with arrays."""
-    return isinstance(answer, list) and any(isinstance(each, np.ndarray) for each in answer)
+def _of_parts(answer: Any) -> bool:
+    """Return whether an answer is a list with arrays or dicts."""
+    return isinstance(answer, list) and any(isinstance(part, (np.ndarray, dict)) for part in answer)
 
 
 def _smaller(request: dict[str, Any]) -> Iterator[dict[str, Any]]:
