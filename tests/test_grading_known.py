@@ -10,7 +10,7 @@ from botschool.grading.declare.mistakes import Known, read_cases
 from botschool.grading.judge import judging
 from botschool.grading.judge import known as replay
 from botschool.grading.judge.alike import distance, fits, weight
-from botschool.grading.judge.judging import TOLD
+from botschool.grading.judge.known import TOLD
 from botschool.grading.judge.smallest import _difference, smallest_case
 from botschool.grading.judge.submission import grade
 from botschool.grading.packed import pack
@@ -272,3 +272,86 @@ def test_answers_are_compared_part_by_part():
     assert not fits(1 + 2e-6, 1 + 1e-6, 1.0)  # nearer to each other than ours, but not the same
     assert weight(2.0, 2.0, 1.0) == 1 and weight(2.0, 2.0, 2.0) == 0
     assert weight(True, True, False) == 0.5 and weight([1, 0], [1, 0], [0, 0]) == 0.5
+
+
+# --- slips in our own solution, where no known mistake fits
+
+BOUNDS = '''"""A solution."""
+def bounds(values, low, high):
+    """Each value between low and high, then how many there are, then the sum of those below."""
+    ### BEGIN SOLUTION task 3.1: keep
+    hidden, below = [], 0
+    for value in values:
+        if low <= value < high:
+            hidden.append(value)
+        if value < low:
+            below += value
+    many = len(hidden)
+    return {"kept": hidden, "many": many, "below": float(below)}
+    ### END SOLUTION
+'''
+SLIPS = {
+    "`<=` stands where `<` belongs: `value < low`": BOUNDS.replace("value < low", "value <= low"),
+    "something should be added to it: `below`": BOUNDS.replace("below += value", "below = value"),
+    "anew in each pass": BOUNDS.replace(
+        "        if low", "        hidden, below = [], 0\n        if low"
+    ),
+    "The last pass of a loop is left out": BOUNDS.replace("in values:", "in values[:-1]:"),
+    "`low` is used where `high` belongs": "def bounds(values, low, high):\n"
+    "    below = float(sum(v for v in values if v < high))\n"
+    "    kept = [v for v in values if low <= v < high]\n"
+    "    return {'kept': kept, 'many': len(kept), 'below': below}\n",
+}
+
+
+def bounded():
+    exercise = Exercise(3, "Three", FILE)
+    first = exercise.task("3.1", "First", seconds=5)
+
+    @first.check(100)
+    def cuts(student):
+        for values in ([0.5, 1.5, 3.0, 2.0, -4.0, 1.0], [1.0, 2.5, 1.25, 2.0, 0.25, -1.5]):
+            answer = student.call("bounds", values, 1.0, 2.0)
+            kept = [value for value in values if 1 <= value < 2]
+            below = sum(value for value in values if value < 1)
+            wanted = {"kept": kept, "many": len(kept), "below": below}
+            expect(answer == wanted, "bounds(...): not these")
+
+    exercise.knows(BOUNDS)
+    return exercise
+
+
+@pytest.mark.parametrize("said", list(SLIPS))
+def test_a_slip_is_named(messages, said):
+    (told,) = messages(SLIPS[said], bounded())
+    if said.startswith("`low`"):  # the other way round
+        said = "`high` is used where `low` belongs"
+    assert told.startswith(replay.VARIED) and said in told.splitlines()[0]
+
+
+def test_a_slip_quotes_only_what_the_text_says():
+    found = list(replay.variations(BOUNDS, "3.1"))
+    assert len({each.text for each in found}) == len(found) > 30
+    assert any("`value < low`" in each.what for each in found) and BOUNDS not in found
+    assert not [each.what for each in found if "hidden" in each.what]
+    assert not list(replay.variations(BOUNDS, "3.2"))
+    for each in found:
+        compile(each.text, "a slip", "exec")
+
+
+def test_a_slip_that_never_ends_stops_nothing(messages):
+    """Without its step this loop never ends; the slip after it is found all the same."""
+    ours = BOUNDS.replace(
+        "    for value in values:\n",
+        "    at = 0\n    while at < len(values):\n        value = values[at]\n        at += 1\n",
+    )
+    exercise = bounded()
+    exercise.knows(ours)
+    (told,) = messages(SLIPS["something should be added to it: `below`"], exercise)
+    assert "should be added to it" in told.splitlines()[0]
+
+
+def test_other_answers_are_no_slip(messages):
+    for end in ("{'kept': [], 'many': 3, 'below': 0.25}", "{}"):
+        text = f"def bounds(values, low, high):\n    return {end}\n"
+        assert replay.VARIED not in messages(text, bounded())[0]

@@ -13,7 +13,7 @@ from botschool.grading.classes.batch import Grades, Job
 from botschool.grading.copies.release import release, released_files
 from botschool.grading.copies.skeleton import find_leaks, pairs
 from botschool.grading.declare.mistakes import THIS
-from botschool.grading.judge.judging import TOLD
+from botschool.grading.judge.known import TOLD
 from botschool.grading.report.hints import read_hints
 
 MUTANTS = building.cases("mutants")

@@ -32,8 +32,6 @@ from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 
 T = TypeVar("T")
-TOLD = "Your code answers exactly as with this known mistake:"
-"""The line before the sentence of a known mistake."""
 CHECK_SECONDS = 20
 """Processor seconds of a check in the grader's own thread; our solutions need up to 3."""
 SLIPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
@@ -152,7 +150,7 @@ def _grade_task(
     for each in problems:
         said.setdefault(each.partition(" raised ")[2] or each, each)
     if told:
-        said = {"": f"{TOLD} {told}", **said}
+        said = {"": told, **said}
     result.message = plain("\n".join(said.values()))
     return result
 

@@ -2,14 +2,16 @@
 
 The result never changes the points. The checks run on our solution in a confined child; its calls
 are repeated on the submission and on each known mistake. A mistake is reported if all its answers
-equal the submission's, and if at least two of them, to different calls, differ from ours.
+equal the submission's, and if at least two of them, to different calls, differ from ours. If none
+is, the same is tried with our solution and one slip in it (variations.py).
 """
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -17,18 +19,28 @@ from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Case, Known
-from botschool.grading.judge.alike import fits, weight
+from botschool.grading.judge.alike import TIE, counts, distance, fits, weight
 from botschool.grading.judge.looking import TookTooLong, processor_time_limit
+from botschool.grading.judge.variations import variations
 from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 from botschool.sandbox.protocol import unpack
 
-SECONDS = 2.0
+TOLD = "Your code answers exactly as with this known mistake:"
+VARIED = "Your code answers exactly as ours does with this slip:"
+"""The words before the sentence of a known mistake, and before that of a slip."""
+SECONDS = 3.0
 """Processor seconds for all attempts of a task."""
+SLIP_SECONDS = 0.1
+"""Processor seconds for one answer with a slip in our solution, which may loop without end."""
+BATCH = 16
+"""Slips that are tried in one request."""
 MOST = 16
 """Mistakes of a task to try."""
-INPUTS = 2
-"""Different calls that must point to a mistake, at least."""
+INPUTS, COUNTS = 2, 4
+"""Different calls that must point to a mistake, at least; calls that must point to a slip if all
+answers are small whole numbers.
+"""
 Check = Callable[[Student], None]
 
 
@@ -49,14 +61,14 @@ def known_mistake(
     name: str,
     server: ForkServer,
 ) -> str:
-    """Return the sentence of the known mistake that explains a submission's answers, or "".
+    """Return a line about the known mistake that explains a submission's answers, or "".
 
     checks: the task's quick checks. submission: a Student whose time does not count. name: its
     file's.
     """
-    cases = known.of(task.id)[:MOST]
-    if not cases:
+    if not known.solution:
         return ""
+    cases = known.of(task.id)[:MOST]
     with tempfile.TemporaryDirectory(prefix="botschool-") as folder:
         file = Path(folder) / "ours" / name
         file.parent.mkdir()
@@ -70,7 +82,10 @@ def known_mistake(
             if not _tells(calls, [call.got for call in calls]):
                 return ""
             texts = ((case.what, _changed(case, known.solution)) for case in cases)
-            return next((what for what, text in texts if _explains(ours, text, calls)), "")
+            for what, text in texts:
+                if _explains(ours, text, calls):
+                    return f"{TOLD} {what}"
+            return next((f"{VARIED} {what}" for what in _slips(ours, task, known, calls)), "")
         except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
             return ""
         finally:
@@ -115,6 +130,63 @@ def _explains(ours: Student, text: str, calls: list[Call]) -> bool:
         if not all(fits(c.got, each, c.ours) for c, each in zip(calls, made, strict=False)):
             return False
     return _tells(calls, made)
+
+
+def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterator[str]:
+    """Yield the sentences of the slips in our solution that explain a submission's answers."""
+    telling = [call for call in calls if distance(call.got, call.ours) > TIE]
+    if all(counts(call.got) for call in telling) and len(telling) < COUNTS:
+        return
+    first = min(telling, key=lambda call: len(call.request))
+    slips = variations(known.solution, task.id)
+    while batch := list(islice(slips, BATCH)):
+        texts, request = [each.text for each in batch], unpack(first.request)
+        made = ours.run(tried, texts, request, SLIP_SECONDS, said="slips in our solution")
+        for slip, answers in zip(batch, made, strict=True):
+            near = bool(answers) and fits(first.got, answers[0], first.ours)
+            if near and _explains(ours, slip.text, calls):
+                yield slip.what
+
+
+def tried(module, texts, request, seconds):
+    """Return the answers of other texts, each in a list, [] for none; runs in our child."""
+    import copy
+    import io
+    import signal
+    import sys
+    import types
+
+    from botschool.sandbox.child import run
+    from botschool.sandbox.protocol import pack
+
+    class TooLong(BaseException):
+        pass
+
+    def end(number, frame):
+        raise TooLong
+
+    before = signal.signal(signal.SIGVTALRM, end)
+    found = []
+    for text in texts:
+        other = types.ModuleType("student")
+        other.__file__ = module.__file__
+        sys.modules["student"] = other
+        stdout, sys.stdout = sys.stdout, io.StringIO()
+        answer = []
+        try:
+            signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
+            exec(compile(text, module.__file__, "exec"), vars(other))
+            answer = [run(other, copy.deepcopy(request))]
+            signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+            pack(answer)
+        except BaseException:
+            answer = []
+        finally:
+            signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+            sys.stdout = stdout
+        found.append(answer)
+    signal.signal(signal.SIGVTALRM, before)
+    return found
 
 
 def answered(module, text, requests):

@@ -1,0 +1,259 @@
+"""Vary our solution as learners go wrong: one slip at a time, with a sentence that names it.
+
+A slip is another operator, function, index or argument, a part left out, or a step in another
+place. `variations` yields the functions of a task with one slip each; known.py compares their
+answers with a submission's. A sentence quotes only what the task's text says as well.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from botschool.grading.judge.expressions import OTHER, SIGNS, Edit, Expressions, colon
+
+_REGION = re.compile(r"### BEGIN SOLUTION task (\d+\.\d+).*?### END SOLUTION", re.DOTALL)
+_FUNCTIONS = (ast.FunctionDef, ast.ClassDef)
+_SKIPPED = {
+    (ast.FunctionDef, "decorator_list"), (ast.FunctionDef, "args"), (ast.FunctionDef, "returns"),
+    (ast.AnnAssign, "annotation"),
+}  # fmt: skip
+"""Fields of nodes that hold no steps."""
+
+
+@dataclass(frozen=True)
+class Variation:
+    """The text of a solution with a slip, and a sentence that names the slip."""
+
+    what: str
+    text: str
+
+
+def variations(solution: str, task: str) -> Iterator[Variation]:
+    """Yield the solution with one slip in a task's functions, then with one made everywhere."""
+    public = set(re.findall(r"\w+", _REGION.sub("", solution)))
+    regions = [
+        range(*(solution.count("\n", 0, at) + 1 for at in found.span()))
+        for found in _REGION.finditer(solution)
+        if found[1] == task
+    ]
+    lines = solution.splitlines(keepends=True)
+    functions = [
+        node
+        for node in ast.parse(solution).body
+        if isinstance(node, _FUNCTIONS)
+        and any(node.lineno <= region.start <= (node.end_lineno or 0) for region in regions)
+    ]
+    done = {solution}
+    several: list[tuple[Any, str, list[Edit]]] = []
+    for function in functions:
+        where = f" (in `{function.name}`)" if len(functions) > 1 else ""
+        slips = _Slips(public, regions, function)
+        found: dict[str, list[Edit]] = {}
+        for what, place, edits in slips.all():
+            yield from _made(lines, function, _placed(place, what) + where, edits, done)
+            if len(edits) == 1:
+                found.setdefault(what, []).append(edits[0])
+        several += [(function, what + where, edits) for what, edits in found.items()]
+    for function, what, edits in several:
+        if len(edits) > 1:
+            yield from _made(lines, function, what, edits, done)
+
+
+def _made(
+    lines: list[str], function: Any, what: str, edits: list[Edit], done: set[str]
+) -> Iterator[Variation]:
+    """Yield the variation that edits make, unless it is there already or no longer Python."""
+    for edit in edits:
+        edit.swap()
+    try:
+        text = ast.unparse(function)
+        compile(text, "<variation>", "exec")
+    except (SyntaxError, ValueError, TypeError, AttributeError, RecursionError):
+        text = ""
+    for edit in reversed(edits):
+        edit.swap()
+    if text and text not in done:
+        done.add(text)
+        first, last = function.lineno - 1, function.end_lineno
+        first -= sum(1 for _ in function.decorator_list)
+        yield Variation(what, "".join([*lines[:first], text, "\n", *lines[last:]]))
+
+
+class _Slips:
+    """The slips of a function: sentences with edits."""
+
+    def __init__(self, public: set[str], regions: list[range], function: ast.AST) -> None:
+        self._regions = regions
+        self._function = function
+        parameters = [
+            arg.arg
+            for node in ast.walk(function)
+            if isinstance(node, ast.FunctionDef)
+            for arg in (*node.args.args, *node.args.kwonlyargs)
+            if arg.arg != "self"
+        ]
+        self._parts = Expressions(public, parameters)
+
+    def all(self) -> Iterator[tuple[str, str, list[Edit]]]:
+        """Yield all slips as (sentence, place, edits): those of numbers last, as they often fit."""
+        places = list(self._places(self._function))
+        for node, field, at, part, place in places:
+            if isinstance(part, ast.expr) and not isinstance(part, ast.Constant):
+                for what, edit in self._parts.inside(part):
+                    yield what, place, [edit]
+                for what, new in self._parts.others(part):
+                    yield what, place, [Edit(node, field, at, new)]
+        for node in {id(each[0]): each[0] for each in places}.values():
+            if isinstance(node, (ast.For, ast.comprehension)):
+                for what, new in self._parts.passes(node.iter):
+                    yield what, "", [Edit(node, "iter", None, new)]
+        for node in {id(each[0]): each[0] for each in places}.values():
+            for field in ("body", "orelse"):
+                steps = getattr(node, field, None)
+                if isinstance(steps, list) and not isinstance(node, ast.ClassDef):
+                    for what, edits in self._steps(node, field, steps):
+                        yield what, "", edits
+        for node, field, at, part, place in places:
+            if isinstance(part, ast.Constant):
+                for what, new in self._parts.others(part):
+                    yield what, place, [Edit(node, field, at, new)]
+
+    def _places(
+        self, node: ast.AST, place: str = ""
+    ) -> Iterator[tuple[Any, str, int | None, Any, str]]:
+        """Yield (node, field, index, part, what is made of it) of all parts in the regions."""
+        for field, value in ast.iter_fields(node):
+            if (type(node), field) in _SKIPPED:
+                continue
+            for at, part in enumerate(value) if isinstance(value, list) else [(None, value)]:
+                if not isinstance(part, ast.AST):
+                    continue
+                inner = place
+                if isinstance(node, ast.Dict) and field == "values" and node.keys[at or 0]:
+                    inner = ast.unparse(node.keys[at or 0])  # type: ignore[arg-type]
+                elif isinstance(node, ast.Assign) and field == "value":
+                    inner = self._parts.quoted(node.targets[0]).strip() or place
+                line = getattr(part, "lineno", None)
+                if line is None or any(line in region for region in self._regions):
+                    yield node, field, at, part, inner
+                yield from self._places(part, inner)
+
+    # --- steps
+
+    def _steps(
+        self, node: Any, field: str, steps: list[ast.stmt]
+    ) -> Iterator[tuple[str, list[Edit]]]:
+        """Yield slips of a list of steps: left out, in another order, inside or outside a loop."""
+        inside = [any(step.lineno in region for region in self._regions) for step in steps]
+        for i, step in enumerate(steps):
+            if not inside[i]:
+                continue
+            if not isinstance(step, (ast.Return, ast.Import, ast.ImportFrom, ast.FunctionDef)):
+                yield f"A step is left out{self._about(step)}.", [Edit(node, field, i, ast.Pass())]
+            if isinstance(step, ast.AugAssign):
+                yield (
+                    (
+                        f"A value is replaced where something should be added to it"
+                        f"{self._about(step)}."
+                    ),
+                    [Edit(node, field, i, _assigned(step))],
+                )
+                for other in OTHER.get(type(step.op), ()):
+                    signs = SIGNS[other], SIGNS[type(step.op)]
+                    yield (
+                        f"`{signs[0]}=` stands where `{signs[1]}=` belongs.",
+                        [Edit(step, "op", None, other())],
+                    )
+            if isinstance(step, ast.If):
+                quoted = self._parts.quoted(step.test)
+                yield (
+                    f"A case is left out{colon(quoted)}.",
+                    [Edit(step, "test", None, ast.Constant(False))],
+                )
+                yield (
+                    f"A condition is left out{colon(quoted)}.",
+                    [Edit(step, "test", None, ast.Constant(True))],
+                )
+            if isinstance(step, (ast.Break, ast.Continue)):
+                other = ast.Continue if isinstance(step, ast.Break) else ast.Break
+                yield (
+                    "A loop goes on where it should end, or ends where it should go on.",
+                    [Edit(node, field, i, other())],
+                )
+            if i + 1 < len(steps) and inside[i + 1]:
+                order = [*steps[:i], steps[i + 1], step, *steps[i + 2 :]]
+                yield (
+                    f"Two steps are done in the wrong order{self._about(step, steps[i + 1])}.",
+                    [Edit(node, field, None, order)],
+                )
+            if isinstance(step, (ast.For, ast.While)):
+                yield from self._loops(node, field, steps, i)
+
+    def _loops(
+        self, node: Any, field: str, steps: list[ast.stmt], i: int
+    ) -> Iterator[tuple[str, list[Edit]]]:
+        """Yield slips that move a step into the loop at i, or out of it."""
+        loop: Any = steps[i]
+        for j in range(i):
+            if isinstance(steps[j], (ast.Assign, ast.AnnAssign)):
+                rest = [each for k, each in enumerate(steps) if k != j]
+                yield (
+                    (
+                        f"What should be done once before a loop is done anew in each pass"
+                        f"{self._about(steps[j])}."
+                    ),
+                    [
+                        Edit(loop, "body", None, [steps[j], *loop.body]),
+                        Edit(node, field, None, rest),
+                    ],
+                )
+        for j, step in enumerate(loop.body):
+            if isinstance(step, (ast.Assign, ast.AnnAssign, ast.Expr)):
+                body = [each for k, each in enumerate(loop.body) if k != j] or [ast.Pass()]
+                yield (
+                    (
+                        f"What should be done in each pass of a loop is done only once before it"
+                        f"{self._about(step)}."
+                    ),
+                    [
+                        Edit(loop, "body", None, body),
+                        Edit(node, field, None, [*steps[:i], step, *steps[i:]]),
+                    ],
+                )
+        if i + 1 < len(steps) and not isinstance(steps[i + 1], (ast.For, ast.While)):
+            about = self._about(steps[i + 1])
+            yield (
+                f"What should be done after a loop is done in each pass{about}.",
+                [
+                    Edit(loop, "body", None, [*loop.body, steps[i + 1]]),
+                    Edit(node, field, None, [*steps[: i + 1], *steps[i + 2 :]]),
+                ],
+            )
+
+    def _about(self, *steps: ast.stmt) -> str:
+        """Return what steps are about, as far as the task's text has their names."""
+        found: list[str] = []
+        for step in steps:
+            if isinstance(step, (ast.Assign, ast.AugAssign)):
+                targets = step.targets if isinstance(step, ast.Assign) else [step.target]
+                found += [self._parts.quoted(each).strip() for each in targets]
+            elif isinstance(step, ast.Expr) and isinstance(step.value, ast.Call):
+                found.append(self._parts.quoted(step.value.func).strip())
+            elif isinstance(step, ast.Return):
+                found.append("`return`")
+        found = [each for each in found if each]
+        return f": {', '.join(dict.fromkeys(found))}" if found else ""
+
+
+def _placed(place: str, what: str) -> str:
+    return f"In {place}: {what[0].lower()}{what[1:]}" if place else what
+
+
+def _assigned(step: ast.AugAssign) -> ast.Assign:
+    target = ast.parse(ast.unparse(step.target)).body[0].value  # type: ignore[attr-defined]
+    target.ctx = ast.Store()
+    return ast.Assign([target], step.value, lineno=step.lineno)
