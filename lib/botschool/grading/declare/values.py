@@ -44,6 +44,8 @@ def show(value: Any, longest: int = 60) -> str:
         if value.size > FEW:
             start = numbers(value.ravel()[:4], 5)
             return f"an array of shape {value.shape} that starts {start}..."
+        if value.ndim == 0 and value.dtype.kind not in "biuf":
+            return show(value.item(), longest)
         return numbers(value, 5) if value.ndim else f"{value.item():.6g}"
     if isinstance(value, float):
         return f"{value:.6g}"

@@ -33,7 +33,7 @@ _PARTS: dict[type, tuple[str, str]] = {
     ast.FloorDiv: ("number", "whole-number division (//)"), ast.MatMult: ("matrix", "matrix"),
 }  # fmt: skip
 _ALIKE = (
-    ("mean", "sum", "median", "max", "min", "prod"), ("sin", "cos"), ("argmax", "argmin"),
+    ("mean", "sum", "median", "max", "min", "prod", "ptp"), ("sin", "cos"), ("argmax", "argmin"),
     ("maximum", "minimum"), ("floor", "ceil", "round", "trunc", "rint"), ("any", "all"),
     ("zeros", "ones"), ("zeros_like", "ones_like"), ("std", "var"), ("argsort", "sort"),
     ("vstack", "hstack"), ("log", "log2", "log10", "log1p"), ("normal", "uniform"),
@@ -70,7 +70,7 @@ class Expressions:
     def __init__(self, public: set[str], parameters: list[str]) -> None:
         """Take the words of the task's text, and the names of the function's parameters."""
         self._public = public
-        self._parameters = parameters
+        self.parameters = parameters
 
     def quoted(self, node: ast.AST) -> str:
         """Return a part of our solution as it stands if the task's text says all its words."""
@@ -119,8 +119,8 @@ class Expressions:
         elif isinstance(part, ast.Attribute) and part.attr == "T":
             yield "A matrix is not transposed (.T).", part.value
         elif isinstance(part, ast.Name) and isinstance(part.ctx, ast.Load):
-            if part.id in self._parameters and len(self._parameters) < 8:
-                for other in self._parameters:
+            if part.id in self.parameters and len(self.parameters) < 8:
+                for other in self.parameters:
                     if other != part.id:
                         yield (
                             f"`{other}` is used where `{part.id}` belongs.",
@@ -321,7 +321,7 @@ class Expressions:
                         f"A condition is left out{colon(self.quoted(test))}.",
                         Edit(loop, "ifs", None, rest),
                     )
-        elif isinstance(part, ast.Tuple) and len(part.elts) < 5:
+        elif isinstance(part, (ast.Tuple, ast.List)) and len(part.elts) < 7:
             for i in range(len(part.elts) - 1):
                 elements = [*part.elts]
                 elements[i], elements[i + 1] = elements[i + 1], elements[i]

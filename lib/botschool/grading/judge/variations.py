@@ -22,6 +22,10 @@ _SKIPPED = {
     (ast.AnnAssign, "annotation"),
 }  # fmt: skip
 """Fields of nodes that hold no steps."""
+_SIGNED = {(ast.Assign, "value"), (ast.Dict, "values"), (ast.Return, "value")}
+"""Fields of nodes that hold whole results."""
+Place = tuple[Any, str, "int | None", Any, str]
+"""A node, the field and the index of a part in it, the part, and what is made of it."""
 
 
 @dataclass(frozen=True)
@@ -50,14 +54,14 @@ def variations(solution: str, task: str) -> Iterator[Variation]:
     done = {solution}
     several: list[tuple[Any, str, list[Edit]]] = []
     for function in functions:
-        where = f" (in `{function.name}`)" if len(functions) > 1 else ""
+        where = f"In `{function.name}`: " if len(functions) > 1 else ""
         slips = _Slips(public, regions, function)
         found: dict[str, list[Edit]] = {}
         for what, place, edits in slips.all():
-            yield from _made(lines, function, _placed(place, what) + where, edits, done)
+            yield from _made(lines, function, where + _placed(place, what), edits, done)
             if len(edits) == 1:
                 found.setdefault(what, []).append(edits[0])
-        several += [(function, what + where, edits) for what, edits in found.items()]
+        several += [(function, where + what, edits) for what, edits in found.items()]
     for function, what, edits in several:
         if len(edits) > 1:
             yield from _made(lines, function, what, edits, done)
@@ -107,6 +111,11 @@ class _Slips:
                     yield what, place, [edit]
                 for what, new in self._parts.others(part):
                     yield what, place, [Edit(node, field, at, new)]
+        yield from self._exchanged(places)
+        for node, field, at, part, place in places:
+            if (type(node), field) in _SIGNED and not isinstance(part, (ast.Constant, ast.Dict)):
+                negative = ast.UnaryOp(ast.USub(), part)
+                yield "The sign is reversed.", place, [Edit(node, field, at, negative)]
         for node in {id(each[0]): each[0] for each in places}.values():
             if isinstance(node, (ast.For, ast.comprehension)):
                 for what, new in self._parts.passes(node.iter):
@@ -122,9 +131,21 @@ class _Slips:
                 for what, new in self._parts.others(part):
                     yield what, place, [Edit(node, field, at, new)]
 
-    def _places(
-        self, node: ast.AST, place: str = ""
-    ) -> Iterator[tuple[Any, str, int | None, Any, str]]:
+    def _exchanged(self, places: list[Place]) -> Iterator[tuple[str, str, list[Edit]]]:
+        """Yield the slips that take two parameters for each other everywhere."""
+        names = self._parts.parameters
+        for j, other in enumerate(names if len(names) < 8 else ()):
+            for one in names[:j]:
+                new = {one: other, other: one}
+                edits = [
+                    Edit(node, field, at, ast.Name(new[part.id], ast.Load()))
+                    for node, field, at, part, _ in places
+                    if isinstance(part, ast.Name) and part.id in new
+                ]
+                if len(edits) > 1:
+                    yield f"`{one}` and `{other}` are exchanged.", "", edits
+
+    def _places(self, node: ast.AST, place: str = "") -> Iterator[Place]:
         """Yield (node, field, index, part, what is made of it) of all parts in the regions."""
         for field, value in ast.iter_fields(node):
             if (type(node), field) in _SKIPPED:
