@@ -114,7 +114,7 @@ def test_an_ascent_is_followed_by_what_it_was_told(monkeypatch):
     monkeypatch.setattr(worker, "_tables", {})
     numbers = generator(7, 3)
     centres, m = numbers.standard_normal((2, 3, 9))
-    stream = numbers.bit_generator.state
+    stream = numbers.place
     ascent = Ascent(Start(centres, m, np.abs(m), stream, 4, 0.02, 0.01, 1))
     episodes = Episodes(np.array([[0, 20], [24, 24]], dtype=np.int32), *np.zeros((2, 2), dtype=int))
     rows = {}

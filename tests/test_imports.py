@@ -10,8 +10,8 @@ PACKAGE = Path(botschool.__file__).parent
 LAYERS = (
     {"moved"},
     {"errors", "__init__"},
-    {"_core", "paths", "terminal", "seeds", "inifile", "output", "sandbox"},
-    {"examples", "linear", "lock", "wrappers"},
+    {"_core", "paths", "terminal", "inifile", "output", "sandbox"},
+    {"examples", "linear", "lock", "seeds", "wrappers"},
     {"policies"},
     {"arenas"},
     {"arena", "net"},

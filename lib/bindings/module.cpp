@@ -12,5 +12,6 @@ NB_MODULE(_core, module) {
   botschool::bind_engine(module);
   botschool::bind_planar(module);
   botschool::bind_linear(module);
+  botschool::bind_evolution(module);
   botschool::bind_policy_gradient(module);
 }

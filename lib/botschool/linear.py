@@ -39,6 +39,11 @@ def log(values: ArrayLike) -> np.ndarray:
     return _core.log(_doubles(values))
 
 
+def power(base: float, exponent: int) -> float:
+    """Return a number between 0 and 1 to a power, rounded once (above 1e-300)."""
+    return _core.power(base, exponent)
+
+
 def weighted(weights: np.ndarray, rows: np.ndarray) -> np.ndarray:
     """Return the sum of the rows, each times its weight, in the order of the rows."""
     return np.add.reduce(weights[:, None] * rows, axis=0)

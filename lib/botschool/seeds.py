@@ -2,28 +2,80 @@
 
 from __future__ import annotations
 
+from threading import Lock
 from typing import Any
 
 import numpy as np
-from numpy.random import Generator, Philox
-from numpy.random.bit_generator import ISeedSequence
+from numpy.random import Generator
+
+from botschool import _core
 
 POST_EVALUATION_SEED = 100_000
 """Post-evaluation of a run with seed S uses seed S + 100000 and episodes 0, 1, ..."""
 
 
-class _Key(ISeedSequence):
-    """A key as it is. `Philox(key=...)` gives the same numbers, but asks the system for entropy
-    first, which takes most of its time."""
-
-    def __init__(self, *words: int) -> None:
-        self._words = words
-
-    def generate_state(self, n_words: int, dtype: Any = np.uint64) -> np.ndarray:
-        return np.array(self._words, dtype=dtype)
+Place = tuple[int, int, int, int]
+"""Of a stream: seed, generation, words drawn, and the half word that is left, or -1."""
 
 
-def generator(seed: int, generation: int) -> Generator:
+class _Source(_core.Numbers):
+    """The source of random words that numpy's Generator asks for; `state` is its Place."""
+
+    def __init__(self, seed: int, generation: int) -> None:
+        super().__init__((seed, generation, 0, -1))
+        self.lock = Lock()
+
+
+class Numbers(Generator):
+    """numpy's Generator(Philox(key=[seed, generation])), with the same bits on every system.
+
+    Normal numbers, whole numbers from 0 and permutations are drawn in C++, as in a page
+    (lib/evolution/normals.hpp): numpy's take logarithms from the system's C library. All other
+    methods are numpy's own.
+    """
+
+    def standard_normal(  # type: ignore[override]
+        self, size: Any = None, dtype: Any = np.float64, out: np.ndarray | None = None
+    ) -> Any:
+        """Return normal numbers, as numpy does."""
+        found = np.empty(() if size is None else size) if out is None else out
+        usual = np.dtype(dtype) == found.dtype == np.float64 and found.flags.c_contiguous
+        if not usual or (out is not None and size is not None):  # numpy checks, or draws floats
+            return super().standard_normal(size, dtype, out)
+        self._source.normals(found.reshape(-1))
+        return found if found.ndim or out is not None else float(found)
+
+    def integers(self, low: Any, high: Any = None, size: Any = None, **options: Any) -> Any:  # type: ignore[override]
+        """Return whole numbers, as numpy does."""
+        if high is not None or options or np.asarray(low).dtype.kind not in "iu":
+            return super().integers(low, high, size, **options)
+        shape = np.shape(low) if size is None else size
+        found = np.array(np.broadcast_to(low, shape), dtype=np.int64, order="C")
+        self._source.below(found.reshape(-1))
+        return found if found.ndim else found[()]
+
+    def permutation(self, x: Any, axis: int = 0) -> Any:
+        """Return the numbers from 0 to before x, or the rows of x, in a random order, as numpy
+        does."""
+        if isinstance(x, (int, np.integer)) and 0 <= x < 2**32:
+            return self._source.permutation(int(x))
+        return super().permutation(x, axis)
+
+    @property
+    def place(self) -> Place:
+        """Where in the stream the next number is."""
+        return self._source.state
+
+    @place.setter
+    def place(self, place: Place) -> None:
+        self._source.state = place
+
+    @property
+    def _source(self) -> Any:
+        return self.bit_generator
+
+
+def generator(seed: int, generation: int) -> Numbers:
     """Return numbers of one generation: Philox4x64-10 (Salmon et al. 2011) keyed by both."""
-    key: Any = _Key(seed, generation)
-    return Generator(Philox(key))
+    source: Any = _Source(int(seed), int(generation))
+    return Numbers(source)

@@ -1,8 +1,11 @@
-// Sums and powers whose last bits are those of the Python side, on every machine.
+// Sums, powers and the logarithm of random numbers: their last bits are the same on every machine,
+// in Python and in a page.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace botschool {
@@ -40,6 +43,44 @@ inline double power(double base, unsigned exponent) {
   for (; exponent; exponent >>= 1, factor = times(factor, factor))
     if (exponent & 1) result = times(result, factor);
   return result.high;
+}
+
+/// a * b + c, rounded once, without fused operations (Boldo and Melquiond 2008): what is small is
+/// added by rounding to odd, so that the last addition rounds as the exact sum would. Not for
+/// numbers near the ends of double's range.
+inline double fused(double a, double b, double c) {
+  const Pair product = exact_product(a, b), low = exact_sum(c, product.low);
+  const Pair high = exact_sum(product.high, low.high);
+  Pair rest = exact_sum(high.low, low.low);
+  std::uint64_t bits;
+  std::memcpy(&bits, &rest.high, sizeof bits);
+  if (rest.low != 0.0 && bits % 2 == 0) {  // to the neighbour on the side of the error
+    bits += (rest.low > 0.0) == (rest.high > 0.0) ? 1 : -1;
+    std::memcpy(&rest.high, &bits, sizeof bits);
+  }
+  return high.high + rest.high;
+}
+
+/// The natural logarithm of 1 - u, for u = k / 2^53 in [0, 1), with the bits of glibc's log1p(-u) on
+/// a processor with fused operations (docs/page.md). The method is the usual one: 1 - u = 2^k (1 + f)
+/// with 1 + f from sqrt(1/2) to sqrt(2), log(1 + f) = f - h + s (h + R), h = f^2 / 2, s = f / (2 + f),
+/// and R a polynomial in s^2.
+inline double log_of_rest(double u) {
+  if (u < 0x1p-29) return u * u * -0.5 - u;
+  int k;
+  double f = 2.0 * std::frexp(1.0 - u, &k);
+  --k;
+  if (f >= 0x1.6a09ep0) f *= 0.5, ++k;
+  f -= 1.0;
+  const double h = 0.5 * f * f, s = f / (2.0 + f), z = s * s, z2 = z * z, z4 = z2 * z2;
+  double R = fused(z, 6.666666666666735130e-01,
+                   z2 * fused(z, 2.857142874366239149e-01, 3.999999999940941908e-01));
+  R = fused(z4, fused(z, 1.818357216161805012e-01, 2.222219843214978396e-01), R);
+  R = fused(z4 * z2, fused(z, 1.479819860511658591e-01, 1.531383769920937332e-01), R);
+  const double series = s * (h + R);
+  if (k == 0) return f - (h - series);
+  constexpr double high = 6.93147180369123816490e-01, low = 1.90821492927058770002e-10;  // ln 2
+  return fused(k, high, f - (h - fused(k, low, series)));
 }
 
 /// The sum of the values, rounded once, whatever their order (Shewchuk 1997): Python's math.fsum.

@@ -324,6 +324,16 @@ EXPORT(initial) void initial(const Task* task, double seed, int index, double* p
   initial_parameters(task->layout, static_cast<std::uint64_t>(seed),
                      static_cast<std::uint32_t>(index), parameters);
 }
+
+/// Tests compare these two with Python's.
+EXPORT(normals) void normals(double seed, double generation, double* values, int count) {
+  Normals numbers(static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(generation));
+  for (int i = 0; i < count; ++i) values[i] = numbers.next();
+}
+EXPORT(logarithms) void logarithms(double* values, int count) {
+  for (int i = 0; i < count; ++i) values[i] = log_of_rest(values[i]);
+}
+
 /// Writes 1 to `mask` for each parameter of a network that a neuron has: weights from it and to it, and
 /// its bias. neuron: inputs, hidden and output neurons in this order.
 EXPORT(mark) void mark(const Task* task, int neuron, double* mask) {

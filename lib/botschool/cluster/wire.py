@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 import zlib
-from collections.abc import Mapping
 from hashlib import blake2b
 from typing import Any
 
@@ -19,8 +18,6 @@ from botschool.evolution.algorithms.drawing import Cloud
 
 ARRAY, PACKED = 1, 2
 TYPES = {"<f8", "<f4", "<i4", "<i8", "<u4", "<u8", "|u1"}
-STREAM = ("counter", "key")
-WORDS = ("buffer_pos", "has_uint32", "uinteger")
 FIELDS = {
     Cloud: ("centres", "samplesize", "deviation", "both"),
     Start: ("centres", "m", "v", "samplesize", "deviation", "stepsize", "wdecay"),
@@ -104,21 +101,7 @@ def packed(value: Cloud | Start) -> bytes:
     kind = type(value)
     told = {"kind": kind.__name__, "fields": {name: getattr(value, name) for name in FIELDS[kind]}}
     places = value.places[1:] if isinstance(value, Cloud) else []
-    return pack(told | {"stream": _told(value.stream), "places": [_told(p) for p in places]})
-
-
-def _told(stream: Mapping[str, Any]) -> list:
-    """Return the state of a Philox generator as a list."""
-    arrays = [stream["state"][name] for name in STREAM]
-    return [*arrays, stream["buffer"], *(stream[name] for name in WORDS)]
-
-
-def _stream(told: list) -> dict:
-    """Return the state that `_told` made a list of."""
-    counter, key, buffer, *words = told
-    state = dict(zip(STREAM, (np.array(counter), np.array(key)), strict=True))
-    rest = dict(zip(WORDS, words, strict=True))
-    return {"bit_generator": "Philox", "state": state, "buffer": np.array(buffer), **rest}
+    return pack(told | {"stream": value.stream, "places": places})
 
 
 def table(data: bytes) -> Any:
@@ -128,8 +111,8 @@ def table(data: bytes) -> Any:
     kind = next((each for each in FIELDS if each.__name__ == name), None)
     if kind is None:
         return value
-    stream = _stream(value["stream"])
+    stream = tuple(value["stream"])
     if kind is Start:
         return Start(**value["fields"], stream=stream)
-    places: list[Mapping[str, Any]] = [stream, *map(_stream, value["places"])]
+    places = [stream, *map(tuple, value["places"])]
     return Cloud(**value["fields"], stream=stream, places=places)

@@ -19,7 +19,7 @@ from botschool.evolution.algorithms.archive import ArchiveConfig
 from botschool.evolution.algorithms.halloffame import HallOfFame
 from botschool.evolution.algorithms.sides import mean
 from botschool.policies.hyperparameters import NO_YES, hyper
-from botschool.seeds import generator
+from botschool.seeds import Numbers, generator
 
 UNKNOWN = 0.5
 """Strength of an individual that has met no opponent yet."""
@@ -81,7 +81,7 @@ class ArchiveStar(HallOfFame):
     def _shape(self) -> tuple[int, int, int]:
         return self.config.popsize, self.config.samplesize, self.config.ncompetitors
 
-    def _of_each_lineage(self, numbers: np.random.Generator) -> np.ndarray:
+    def _of_each_lineage(self, numbers: Numbers) -> np.ndarray:
         """Return the opponents: opponent c comes from lineage c mod popsize."""
         lineages = np.array(self.lineages[1 - self.side])
         members = [np.flatnonzero(lineages == k) for k in range(self.config.popsize)]
@@ -89,7 +89,7 @@ class ArchiveStar(HallOfFame):
         drawn = numbers.integers([len(slot) for slot in slots], size=self._shape)
         return np.stack([slot[drawn[..., c]] for c, slot in enumerate(slots)], axis=-1)
 
-    def _strongest(self, numbers: np.random.Generator) -> np.ndarray:
+    def _strongest(self, numbers: Numbers) -> np.ndarray:
         """Return the opponents: each is the strongest of `preferential` drawn ones; the first wins
         ties."""
         strengths = np.array(self.strengths[1 - self.side])

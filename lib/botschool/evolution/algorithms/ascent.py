@@ -6,15 +6,13 @@ workers compute them from these alone (docs/specification.md, "On a cluster").
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.random import Generator, Philox
 
 from botschool.evolution.algorithms.drawing import Cloud, Drawn, draw
 from botschool.evolution.algorithms.openaies import climb
+from botschool.seeds import Place, generator
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,8 +23,8 @@ class Start:
     """float64 (count, parameters); m and v have the same shape."""
     m: np.ndarray
     v: np.ndarray
-    stream: Mapping[str, Any]
-    """State of the Philox generator that draws the directions."""
+    stream: Place
+    """Where in a stream the directions begin."""
     samplesize: int
     deviation: float
     stepsize: float
@@ -41,12 +39,12 @@ class Ascent:
         self.centres, self.m, self.v = start.centres, start.m, start.v
         self.told: tuple[np.ndarray, ...] = ()
         """The fitness of each step so far."""
-        self._numbers = Generator(Philox(0))
-        self._numbers.bit_generator.state = start.stream
+        self._numbers = generator(0, 0)
+        self._numbers.place = start.stream
 
     def cloud(self) -> Cloud:
         """Return what the next offspring are drawn from."""
-        start, stream = self.start, self._numbers.bit_generator.state
+        start, stream = self.start, self._numbers.place
         return Cloud(self.centres, start.samplesize, start.deviation, True, stream)
 
     def offspring(self) -> Drawn:

@@ -33,7 +33,7 @@ from botschool.evolution.algorithms.coevo2 import (
 )
 from botschool.evolution.algorithms.sides import everyone, mean, ranking
 from botschool.policies.hyperparameters import hyper
-from botschool.seeds import generator
+from botschool.seeds import Numbers, generator
 
 POPULATION = "population"
 
@@ -95,7 +95,7 @@ class Coevo(Stateful):
         """Return whether all individuals have met."""
         return not np.isnan(self.fitness.flat[0])
 
-    def _numbers(self, generation: int) -> tuple[np.random.Generator, list[int]]:
+    def _numbers(self, generation: int) -> tuple[Numbers, list[int]]:
         """Return a generation's generator, and its seeds: of meetings with all, of each
         sub-generation.
         """

@@ -41,7 +41,7 @@ from botschool.evolution.algorithms.sides import (
     unknown,
 )
 from botschool.policies.hyperparameters import WEIGHT_DECAY, hyper
-from botschool.seeds import generator
+from botschool.seeds import Numbers, generator
 
 SUB_GENERATIONS = 20
 
@@ -95,7 +95,7 @@ class Coevo2Config(AscentConfig):
 
 def improve(
     config: AscentConfig,
-    numbers: np.random.Generator,
+    numbers: Numbers,
     individuals: Iterable[np.ndarray],
     meet: Callable[[np.ndarray, int], np.ndarray],
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -106,7 +106,7 @@ def improve(
     """
     rules = (config.samplesize, config.noiseStdDev, config.stepsize, config.wdecay)
     parameters, m, v = individuals
-    ascent = Ascent(Start(parameters, m, v, numbers.bit_generator.state, *rules))
+    ascent = Ascent(Start(parameters, m, v, numbers.place, *rules))
     for k in range(SUB_GENERATIONS):
         ascent.climb(means(meet(ascent.offspring(), k)).reshape(len(ascent.centres), -1))
     return ascent.centres, ascent.m, ascent.v

@@ -4,12 +4,12 @@ draws the same again (docs/specification.md, "On a cluster").
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.random import Generator, Philox
+
+from botschool.seeds import Numbers, Place, generator
 
 STRIDE = 16
 """Samples between two positions in the stream that a cloud remembers."""
@@ -40,9 +40,9 @@ class Cloud:
     """Standard deviation of the candidates, one or one for each axis."""
     both: bool
     """Whether there are candidates on both sides of a centre: see `mirrored`."""
-    stream: Mapping[str, Any]
-    """State of the Philox generator that draws the directions, centre by centre."""
-    places: list[Mapping[str, Any]] = field(default_factory=list)
+    stream: Place
+    """Where in a stream the directions begin, centre by centre."""
+    places: list[Place] = field(default_factory=list)
     """The stream after 0, STRIDE, 2 STRIDE ... directions, as far as it has been followed."""
 
     def __len__(self) -> int:
@@ -70,11 +70,11 @@ class Cloud:
         size = self.centres.shape[1]
         found = np.empty((last - first, size))
         self.places = self.places or [self.stream]
-        numbers = Generator(Philox(0))
+        numbers = generator(0, 0)
         # follow the stream to the block of the first direction, and on to the last
         block = min(len(self.places) - 1, first // STRIDE)
         while block * STRIDE < last:
-            numbers.bit_generator.state = self.places[block]
+            numbers.place = self.places[block]
             begin, end = block * STRIDE, (block + 1) * STRIDE
             if first <= begin and end <= last:
                 numbers.standard_normal(out=found[begin - first : end - first])
@@ -84,7 +84,7 @@ class Cloud:
                 found[max(begin - first, 0) :][: len(own)] = own
             block += 1
             if block == len(self.places):
-                self.places.append(numbers.bit_generator.state)
+                self.places.append(numbers.place)
         return found
 
 
@@ -114,7 +114,7 @@ def candidates_of(centres: np.ndarray, samples: np.ndarray, deviation) -> np.nda
 
 
 def draw(
-    numbers: Generator, centres: np.ndarray, samplesize: int, deviation, both: bool = True
+    numbers: Numbers, centres: np.ndarray, samplesize: int, deviation, both: bool = True
 ) -> tuple[np.ndarray, Drawn]:
     """Draw directions, shape (count, samplesize, parameters), and candidates around the centres.
 
@@ -124,7 +124,7 @@ def draw(
     directions = np.empty((len(centres) * samplesize, centres.shape[1]))
     places = []
     for first in range(0, len(directions), STRIDE):
-        places.append(numbers.bit_generator.state)
+        places.append(numbers.place)
         numbers.standard_normal(out=directions[first : first + STRIDE])
     cloud = Cloud(centres, samplesize, deviation, both, places[0], places=places)
     samples = directions.reshape(len(centres), samplesize, -1)

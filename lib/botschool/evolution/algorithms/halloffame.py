@@ -29,6 +29,7 @@ from botschool.evolution.algorithms.drawing import draw, mirrored
 from botschool.evolution.algorithms.openaies import climb
 from botschool.evolution.algorithms.sides import PREDATORS, PREY, SIDES, everyone, mean, means
 from botschool.policies.hyperparameters import WEIGHT_DECAY, hyper
+from botschool.seeds import Numbers
 
 SAVED = 10
 """Individuals of a side that a run keeps in its files."""
@@ -164,7 +165,7 @@ class HallOfFame(Stateful):
         met = met.reshape(ours.shape).swapaxes(1, 2)
         self.tell(met.reshape(*candidates.shape[:2], -1))
 
-    def _samples(self, numbers: np.random.Generator) -> np.ndarray:
+    def _samples(self, numbers: Numbers) -> np.ndarray:
         """Draw a turn's directions and return the candidates on both sides of each centre."""
         centres, config = self.centres[self.side], self.config
         self.samples, drawn = draw(numbers, centres, config.samplesize, config.noiseStdDev)

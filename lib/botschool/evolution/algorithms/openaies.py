@@ -20,6 +20,7 @@ import numpy as np
 
 from botschool.evolution.algorithm import Initial, RunConfig, Stateful, algorithm, mean_absolute
 from botschool.evolution.algorithms.drawing import draw
+from botschool.linear import power
 from botschool.policies.hyperparameters import NO_YES, WEIGHT_DECAY, hyper
 from botschool.seeds import generator
 
@@ -146,6 +147,6 @@ class OpenAIES(AroundCentre):
         rising = gradient(fitness, self.samples)
         m, v = adam(self.m, self.v, rising, self.centre, config.wdecay)
         t = self.generation + 1
-        step = config.stepsize * math.sqrt(1 - BETA2**t) / (1 - BETA1**t)
+        step = config.stepsize * math.sqrt(1 - power(BETA2, t)) / (1 - power(BETA1, t))
         self.centre = self.centre - step * m / (np.sqrt(v) + EPSILON)
         self.m, self.v, self.generation = m, v, t
