@@ -421,17 +421,18 @@ def walkers_of(index: int) -> np.ndarray:
     return evolved
 
 
-def own_matrix(text: str, walkers: np.ndarray, seed: int, episodes: int) -> np.ndarray:
+def own_returns(text: str, walkers: np.ndarray, seed: int, episodes: int) -> np.ndarray:
+    """The return of each brain in each body in each episode."""
     n = len(walkers)
-    matrix = np.zeros((n, n))
+    returns = np.zeros((n, n, episodes))
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "trial.ini"
         file.write_text(text)
         for i, j in np.ndindex(n, n):
             parts = walkers[i, :-134], walkers[j, -134:-70], walkers[i, -70:]
             robot = SavedRobot(file, np.concatenate(parts))
-            matrix[i, j] = np.mean(robot.evaluate(seed, episodes))
-    return matrix
+            returns[i, j] = robot.evaluate(seed, episodes)
+    return returns
 
 
 def expect_matrix(
@@ -440,7 +441,22 @@ def expect_matrix(
     said = f"cross_evaluate('trial.ini', {len(walkers)} walkers, {seed}, {episodes})"
     matrix, unchanged = student.run(cross, text, walkers, seed, episodes, said=said)
     expect(unchanged is True, f"{said} changed the walkers that it was given: work on copies.")
-    expect_close(said, matrix, own_matrix(text, walkers, seed, episodes), TOLERANCE)
+    returns = own_returns(text, walkers, seed, episodes)
+    wanted, n = returns.mean(axis=2), len(walkers)
+    own = np.repeat(np.diagonal(wanted)[None], n, axis=0)
+    mistakes = {
+        "Only the first episode counts, not the mean.": returns[:, :, 0],
+        "Only the last episode counts, not the mean.": returns[:, :, -1],
+        "The best episode is taken, not the mean.": returns.max(axis=2),
+        "The episodes are added up, not averaged.": returns.sum(axis=2),
+        "A row holds one number again and again: each brain stays in its own body.": own.T,
+        "A column holds one number again and again: each body keeps its own brain.": own,
+        "A pair gets the number of the pair with the roles exchanged: the half below the "
+        "diagonal mirrors the one above.": np.triu(wanted) + np.triu(wanted, 1).T,
+        "A pair gets the number of the pair with the roles exchanged: the half above the "
+        "diagonal mirrors the one below.": np.tril(wanted) + np.tril(wanted, -1).T,
+    }
+    expect_close(said, matrix, wanted, TOLERANCE, mistakes=mistakes)
 
 
 @crossing.check(6)

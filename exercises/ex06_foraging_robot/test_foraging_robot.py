@@ -424,10 +424,10 @@ def grouped(table: np.ndarray, threshold: float) -> list[int]:
     return [names.index(label) for label in labels]
 
 
-def compare_grouped(student: Student, table: np.ndarray, threshold: float) -> None:
+def compare_grouped(student: Student, table: np.ndarray, threshold: float, which: str = "") -> None:
     answer = student.call("families", table, threshold)
     expected = grouped(table, threshold)
-    said = f"families(<{len(table)} robots>, threshold={threshold:.3g})"
+    said = f"families(<{len(table)} robots{which}>, threshold={threshold:.3g})"
     expect_close(said, answer, expected)
 
 
@@ -442,7 +442,10 @@ def clear_families(student: Student):
     compare_grouped(student, table, 1.2)
     compare_grouped(student, table, 100.0)
     compare_grouped(student, table, 1e-6)
-    compare_grouped(student, np.array([[3.0], [7.0]]), 2.0)  # exactly as far as the threshold
+    apart = np.array([[3.0], [7.0]])
+    compare_grouped(
+        student, apart, 2.0, ", whose distance is exactly the threshold, so not nearer than it"
+    )
 
 
 @groups.check(6)

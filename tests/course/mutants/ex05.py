@@ -409,3 +409,106 @@ def evolve_walkers(experiment_file, seeds, folder, steps=None):
 # Leaves the torso out of the mass.
 # -         "mass": float(size["masses"].sum()),
 # +         "mass": float(size["masses"][1:].sum()),
+
+
+# %% mirrored_matrix loses 5.7
+# Evaluates one half of the pairs only, and mirrors it.
+# says: mirrors the one above
+def cross_evaluate(experiment_file, walkers, seed, episodes):
+    n = len(walkers)
+    found = np.zeros((n, n))
+    for i in range(n):
+        for j in range(i, n):
+            one = SavedRobot(experiment_file, transplant(walkers[i], walkers[j]))
+            found[i, j] = found[j, i] = one.evaluate(seed, episodes).mean()
+    return found
+
+
+# %% first_episode_only loses 5.7
+# Counts the first episode only.
+# says: Only the first episode counts
+# -                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
+# +                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes)[0]
+
+
+# %% own_body_only loses 5.7
+# Leaves each brain in its own body.
+# says: each brain stays in its own body
+# -                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
+# +                 SavedRobot(experiment_file, brain).evaluate(seed, episodes).mean()
+
+
+# %% size_without_factor loses 5.1
+# Adds 0.9 tanh p to the nominal size, instead of multiplying the size by 1 + 0.9 tanh p.
+# says: this
+# -     lengths, thicknesses = 0.8 * scales[:, 0], 0.2 * scales[:, 1]
+# +     lengths, thicknesses = scales[:, 0] - 0.2, scales[:, 1] - 0.8
+
+
+# %% first_limits_then_others loses 5.2
+# Takes the first ten numbers for the one limits and the next ten for the others.
+# says: this
+# -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
+# +     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(2, JOINTS).T
+
+
+# %% scales_of_angles_exchanged loses 5.2
+# Scales the default angles by pi / 2 and the limits by 3 pi / 4.
+# says: this
+# -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
+# +     limits = 3 * np.pi / 4 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
+# -         "angles": 3 * np.pi / 4 * np.clip(parameters[42:53], -1, 1),
+# +         "angles": np.pi / 2 * np.clip(parameters[42:53], -1, 1),
+
+
+# %% heading_of_the_one_before loses 5.3
+# Leaves a segment's own angle out of its heading: each has the heading of the one before.
+# says: this
+# -     headings = np.cumsum(joints(parameters)["angles"])
+# +     headings = np.cumsum(joints(parameters)["angles"]) - joints(parameters)["angles"]
+
+
+# %% flat_torso loses 5.3
+# Lets the torso lie flat, whatever its angle to the ground.
+# says: this
+# -     headings = np.cumsum(joints(parameters)["angles"])
+# +     turns = joints(parameters)["angles"].copy()
+# +     turns[0] = 0
+# +     headings = np.cumsum(turns)
+
+
+# %% freedom_of_the_amounts loses 5.4
+# Adds the amounts of the two limits, though both may lie on one side of the default angle.
+# says: this
+# -         "freedom": float(np.mean(angles["upper"] - angles["lower"])),
+# +         "freedom": float(np.mean(np.abs(angles["upper"]) + np.abs(angles["lower"]))),
+
+
+# %% length_as_a_distance loses 5.4
+# Takes the distance from the first place to the last one for the length of all segments.
+# says: this
+# -         "length": float(size["lengths"].sum()),
+# +         "length": float(np.linalg.norm(outline(parameters)[-1, 1:3].mean(axis=0))),
+
+
+# %% foreign_among_all loses 5.8
+# Counts the diagonal in the mean of the foreign returns.
+# says: this
+# -         "foreign": float(foreign / (n * n - n)),
+# +         "foreign": float(matrix.mean()),
+
+
+# %% foreign_above_the_diagonal loses 5.8
+# Counts only the places above the diagonal as foreign.
+# says: this
+# -         "foreign": float(foreign / (n * n - n)),
+# +         "foreign": float(matrix[np.triu_indices(n, 1)].mean()),
+
+
+# %% loss_as_a_share loses 5.8
+# Divides the loss by the own return.
+# says: this
+# -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
+# -         "bodies": own - (matrix.sum(axis=0) - own) / (n - 1),
+# +         "brains": 1 - (matrix.sum(axis=1) - own) / (n - 1) / own,
+# +         "bodies": 1 - (matrix.sum(axis=0) - own) / (n - 1) / own,

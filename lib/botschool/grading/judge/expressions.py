@@ -53,6 +53,11 @@ class Edit:
     at: int | None
     new: Any
 
+    @property
+    def line(self) -> int:
+        """Return the line of the changed part; 0 if it has none."""
+        return int(getattr(self.node, "lineno", 0))
+
     def swap(self) -> None:
         """Put the new part in; a second call takes it out."""
         if self.at is None:
@@ -326,8 +331,10 @@ class Expressions:
                 elements = [*part.elts]
                 elements[i], elements[i + 1] = elements[i + 1], elements[i]
                 both = [self.quoted(each) for each in part.elts[i : i + 2]]
-                which = f":{' and'.join(both)}" if all(both) else ""
-                yield f"Two values are exchanged{which}.", Edit(part, "elts", None, elements)
+                which = f" numbers {i + 1} and {i + 2} of {len(part.elts)}"
+                if all(both):
+                    which = " and".join(both)
+                yield f"Two values are exchanged:{which}.", Edit(part, "elts", None, elements)
 
     def passes(self, over: ast.expr) -> Iterator[tuple[str, ast.expr]]:
         """Yield (sentence, other values) for what a loop goes over."""

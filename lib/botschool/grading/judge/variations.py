@@ -22,6 +22,8 @@ _SKIPPED = {
     (ast.AnnAssign, "annotation"),
 }  # fmt: skip
 """Fields of nodes that hold no steps."""
+MOST_NAMES = 16
+"""Variables of a function that are tried for one another."""
 _SIGNED = {(ast.Assign, "value"), (ast.Dict, "values"), (ast.Return, "value")}
 """Fields of nodes that hold whole results."""
 Place = tuple[Any, str, "int | None", Any, str]
@@ -56,12 +58,13 @@ def variations(solution: str, task: str) -> Iterator[Variation]:
     for function in functions:
         where = f"In `{function.name}`: " if len(functions) > 1 else ""
         slips = _Slips(public, regions, function)
-        found: dict[str, list[Edit]] = {}
+        found: dict[tuple[str, str], list[Edit]] = {}
         for what, place, edits in slips.all():
             yield from _made(lines, function, where + _placed(place, what), edits, done)
             if len(edits) == 1:
-                found.setdefault(what, []).append(edits[0])
-        several += [(function, where + what, edits) for what, edits in found.items()]
+                found.setdefault((what, ""), []).append(edits[0])
+                found.setdefault((what, place or str(edits[0].line)), []).append(edits[0])
+        several += [(function, where + what, edits) for (what, _), edits in found.items()]
     for function, what, edits in several:
         if len(edits) > 1:
             yield from _made(lines, function, what, edits, done)
@@ -126,6 +129,7 @@ class _Slips:
                 if isinstance(steps, list) and not isinstance(node, ast.ClassDef):
                     for what, edits in self._steps(node, field, steps):
                         yield what, "", edits
+        yield from self._mixed_up(places)
         for node, field, at, part, place in places:
             if isinstance(part, ast.Constant):
                 for what, new in self._parts.others(part):
@@ -144,6 +148,23 @@ class _Slips:
                 ]
                 if len(edits) > 1:
                     yield f"`{one}` and `{other}` are exchanged.", "", edits
+
+    def _mixed_up(self, places: list[Place]) -> Iterator[tuple[str, str, list[Edit]]]:
+        """Yield the slips that take a variable of the function for another one."""
+        names = {
+            part.id: part
+            for _, _, _, part, _ in places
+            if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)
+        }
+        for node, field, at, part, place in places if len(names) <= MOST_NAMES else ():
+            if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Load) and part.id in names:
+                for other in sorted(names.keys() - {part.id}):
+                    new = ast.Name(other, ast.Load())
+                    said = [self._parts.quoted(each).strip() for each in (new, part)]
+                    what = "A variable is used where another one belongs."
+                    if all(said):
+                        what = f"{said[0]} is used where {said[1]} belongs."
+                    yield what, place, [Edit(node, field, at, new)]
 
     def _places(self, node: ast.AST, place: str = "") -> Iterator[Place]:
         """Yield (node, field, index, part, what is made of it) of all parts in the regions."""

@@ -88,7 +88,8 @@ def a_known_factor(c: Comparison) -> str | None:
             return f"{each} {n} times what was expected, and {n} is a count here: a sum for a mean?"
         if c.same(c.wanted / n):
             return f"{each} 1/{n} of what was expected, and {n} is a count here: a mean for a sum?"
-    for n in sorted({2, *(n + step for n in c.counts for step in (-1, 0, 1))}):
+    near = {n + step for n in c.counts for step in (-1, 1) if n + step > 4}  # 2/3 may be any factor
+    for n in sorted({2, *c.counts, *near}):
         for power in (1, 0.5, -0.5, -1):
             if c.same(c.wanted * ((n - 1) / n) ** power):
                 return (
