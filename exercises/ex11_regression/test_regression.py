@@ -78,16 +78,24 @@ def gradient_of(network, inputs, targets):
     return (error**2).mean(), [below.T @ inputs, below.sum(0), down.T @ hidden, down.sum(0)]
 
 
-def descended(network, inputs, targets, batches, learning_rate, momentum, cleared=True):
-    """The network after a step for each batch, and the loss before each step."""
+def descended(
+    network, inputs, targets, batches, learning_rate, momentum, cleared=True, fresh=1.0, falls=1.0
+):
+    """The network after a step for each batch, and the loss before each step.
+
+    fresh: the share of the gradient that enters the velocity. falls: what the learning rate is
+    multiplied by after each step.
+    """
     network, velocity, losses = [p.copy() for p in network], [0.0] * 4, []
     summed = [0.0] * 4
-    for batch in batches:
+    for number, batch in enumerate(batches):
         loss, gradient = gradient_of(network, inputs[batch], targets[batch])
         losses.append(loss)
         summed = gradient if cleared else [s + g for s, g in zip(summed, gradient, strict=True)]
-        velocity = [momentum * v + g for v, g in zip(velocity, summed, strict=True)]
-        network = [p - learning_rate * v for p, v in zip(network, velocity, strict=True)]
+        share = fresh if number else 1.0
+        velocity = [momentum * v + share * g for v, g in zip(velocity, summed, strict=True)]
+        rate = learning_rate * falls**number
+        network = [p - rate * v for p, v in zip(network, velocity, strict=True)]
     return network, losses
 
 
@@ -253,14 +261,17 @@ def what_torch_has_found(student: Student):
         factor = float(rng.integers(2, 9))
         said = f"gradient_by_torch(inputs {patterns.shape}, targets {targets.shape}, ...)"
         arguments = [patterns, targets, *parameters]
+        plain = expect_fields(said, student.call("gradient_by_torch", *arguments), *NAMES)
         answer = student.run(multiplied, factor, arguments, said=said)
         gradient = gradient_of(parameters, patterns, targets)[1]
-        for key, value, right in zip(
-            NAMES, expect_fields(said, answer, *NAMES), gradient, strict=True
+        for key, value, own, right in zip(
+            NAMES, expect_fields(said, answer, *NAMES), plain, gradient, strict=True
         ):
+            before = expect_array(f"{said}: {key}", own, right.shape)
+            expect_close(f"{said}: {key}", before, right, 1e-6)
             got = expect_array(f"{said}: {key}", value, right.shape)
             expect(
-                bool(np.allclose(got, factor * right, rtol=1e-6, atol=1e-8)),
+                bool(np.allclose(got, factor * before, rtol=1e-6, atol=1e-8)),
                 f"{said}: {key} is not what torch's backward() has computed: the grader made torch "
                 f"multiply all gradients by {factor:g}, and {key} is not multiplied by it.",
             )
@@ -286,6 +297,41 @@ def trained(module, name, parameters, inputs, targets, options):
     tensors = [torch.tensor(each, dtype=torch.float32) for each in (inputs, targets)]
     losses = getattr(module, name)(made, *tensors, **options)
     return [[float(loss) for loss in losses], [p.detach().numpy() for p in made.parameters()]]
+
+
+def mistaken_losses(given: tuple, step: dict, losses: list) -> dict:
+    """What mistakes make of the losses; given: the first arguments of `descended`."""
+    rate, momentum = step["learning_rate"], step["momentum"]
+    outputs = given[2].shape[1]
+
+    def of(**other):
+        return descended(*given, **(step | other))[1]
+
+    found = {
+        "The gradients of the epochs add up: clear the old one before each backward().": of(
+            cleared=False
+        ),
+        "These are the losses after each step, not before it.": descended(
+            given[0], *given[1:3], [*given[3], given[3][0]], **step
+        )[1][1:],
+        "The steps go uphill: the gradient is subtracted, not added.": of(learning_rate=-rate),
+        "No step moves the network: every epoch has the same loss.": of(learning_rate=0.0),
+    }
+    if outputs > 1:
+        found["The steps are those of a sum over the outputs, not of the mean."] = of(
+            learning_rate=outputs * rate
+        )
+    if momentum:
+        found |= {
+            "The momentum has no effect: nothing of the steps before is kept. Is the optimiser "
+            "made anew in each epoch, or without momentum?": of(momentum=0.0),
+            "The gradient is weakened by 1 - momentum (dampening): with momentum it is added "
+            "whole.": of(fresh=1 - momentum),
+        }
+    falling = (of(falls=each) for each in (0.5, 0.9, 0.95, 0.98, 0.99, 0.995, 0.999))
+    if len(losses) > 2 and any(np.allclose(losses, each, rtol=1e-4) for each in falling):
+        found["The learning rate falls from epoch to epoch, but it is to stay the same."] = losses
+    return found
 
 
 def compare_training(student: Student, name: str, index: int, epochs: int, **options) -> None:
@@ -315,11 +361,8 @@ def compare_training(student: Student, name: str, index: int, epochs: int, **opt
                 right_losses.append(gradient_of(right, patterns, targets)[0])
         mistakes = {}
         if name == "train":
-            forgotten = descended(parameters, patterns, targets, everything, **step, cleared=False)
-            mistakes = {
-                "The gradients of the epochs add up: clear the old one before each backward().":
-                forgotten[1],
-            }  # fmt: skip
+            given = (parameters, patterns, targets, everything)
+            mistakes = mistaken_losses(given, step, losses)
         expect_close(f"{said}: losses", losses, right_losses, 1e-3, mistakes)
         for key, got, wanted in zip(NAMES, after, right, strict=True):
             expect_close(f"{said}: {key} afterwards", got, wanted, 1e-3)

@@ -389,18 +389,40 @@ def compare_elite(student: Student, found: list[dict], percentile: float, *keys:
     best = [episode for episode in found if episode["return"] >= bound]
     wanted = {key: np.concatenate([e[key] for e in best]) for key in ("observations", "actions")}
     wanted["bound"] = bound
-    kinds = {
-        "All episodes are kept.": found,
-        "Episodes exactly at the bound are left out.": [e for e in found if e["return"] > bound],
-        "The worst are kept instead of the best.": [e for e in found if e["return"] <= bound],
+    turned = np.percentile(returns, 100 - percentile)
+    upside_down = (
+        "The percentile counts from the best: np.percentile counts from the lowest return."
+    )
+    bounds = {
+        upside_down: turned,
+        "This is the lowest return that is kept, not the percentile.": min(
+            e["return"] for e in best
+        ),
+        "This is the percentile of the numbers of steps, not of the returns.": np.percentile(
+            [len(e["actions"]) for e in found], percentile
+        ),
+        "This is a share of the highest return, not a percentile of all returns.": percentile
+        / 100
+        * max(returns),
     }
+    kinds = {upside_down: [e for e in found if e["return"] >= turned]}
+    if isinstance(values[2], (int, float, np.ndarray)) and np.all(np.isclose(values[2], bound)):
+        kinds |= {
+            "All episodes are kept.": found,
+            "Episodes exactly at the bound are left out.": [
+                e for e in found if e["return"] > bound
+            ],
+            "The worst are kept instead of the best.": [e for e in found if e["return"] <= bound],
+        }
     for key, value in zip(wanted, values, strict=True):
         if key in keys:
-            mistakes = {
-                text: np.concatenate([e[key] for e in kept])
-                for text, kept in kinds.items()
-                if kept and key != "bound"
-            }
+            mistakes = bounds
+            if key != "bound":
+                mistakes = {
+                    text: np.concatenate([e[key] for e in kept])
+                    for text, kept in kinds.items()
+                    if kept
+                }
             expect_close(f"{student.said}: {key}", value, wanted[key], mistakes=mistakes)
 
 
@@ -451,8 +473,41 @@ def measured(module, scores, actions):
     return [loss.detach().numpy(), scores.grad.numpy()]
 
 
+def mistaken_surprise(scores: np.ndarray, done: np.ndarray) -> dict:
+    """What mistakes make of the loss."""
+    logarithms, row = logarithms_of(scores), np.arange(len(done))
+    powers, chosen = np.exp(logarithms), logarithms[row, done]
+    over_steps = scores - np.log(np.exp(scores).sum(axis=0))
+    return {
+        "This is the sum over the steps, not their mean.": -chosen.sum(),
+        "The mean goes over the actions, too: divide by the number of steps alone.": -chosen.sum()
+        / scores.size,
+        "This is 1 minus the probability of what was done; asked for is minus its logarithm.": (
+            1 - powers[row, done]
+        ).mean(),
+        "This is minus the probability of what was done; its logarithm is missing.": -powers[
+            row, done
+        ].mean(),
+        "This is minus the logarithm of the mean probability: take the logarithm of each step's "
+        "probability first, then the mean.": -np.log(powers[row, done].mean()),
+        "The scores themselves are taken for logarithms of probabilities: softmax is missing.": (
+            -scores[row, done].mean()
+        ),
+        "This is the entropy of the policy: only the action that was done counts in each step.": (
+            -(powers * logarithms).sum(axis=1).mean()
+        ),
+        "The probabilities add up to 1 along the steps, not along the actions (dim).": (
+            -over_steps[row, done].mean()
+        ),
+        "All actions count in each step, not only the one that was done.": -logarithms.sum(
+            axis=1
+        ).mean(),
+        "softmax is applied twice.": -logarithms_of(powers)[row, done].mean(),
+    }
+
+
 def surprised(student: Student, index: int, steps: int, actions: int, scale: float) -> list:
-    """[loss, gradient] of the student's, then what they should be."""
+    """[loss, gradient] of the student's, then what they should be, and mistaken losses."""
     rng = generator(index)
     scores, done = scale * rng.normal(size=(steps, actions)), rng.integers(0, actions, steps)
     said = f"cross_entropy(scores, actions) for {steps} steps and {actions} actions"
@@ -462,20 +517,21 @@ def surprised(student: Student, index: int, steps: int, actions: int, scale: flo
     logarithms, row = logarithms_of(scores), np.arange(steps)
     gradient = np.exp(logarithms)
     gradient[row, done] -= 1
-    return [*answer, -logarithms[row, done].mean(), gradient / steps]
+    mistakes = mistaken_surprise(scores, done) if scale < 100 else {}
+    return [*answer, -logarithms[row, done].mean(), gradient / steps, mistakes]
 
 
 @surprise.check(6)
 def loss_of_a_batch(student: Student):
     for index, steps, actions in ((80, 1, 2), (81, 40, 2), (82, 25, 6), (83, 4, 4)):
-        loss, _, wanted, _ = surprised(student, index, steps, actions, 1.0)
-        expect_close(student.said, loss, wanted, SINGLE)
+        loss, _, wanted, _, mistakes = surprised(student, index, steps, actions, 1.0)
+        expect_close(student.said, loss, wanted, SINGLE, mistakes)
 
 
 @surprise.check(5)
 def gradients_flow(student: Student):
     for index, steps, actions in ((84, 40, 2), (85, 25, 6)):
-        _, gradient, _, wanted = surprised(student, index, steps, actions, 1.0)
+        _, gradient, _, wanted, _ = surprised(student, index, steps, actions, 1.0)
         mistakes = {
             "No gradient arrives at the scores: torch cannot follow through NumPy, .item() or "
             ".detach().": 0 * wanted,
@@ -485,7 +541,7 @@ def gradients_flow(student: Student):
 
 @surprise.check(3)
 def large_scores(student: Student):
-    loss, gradient, wanted, slope = surprised(student, 86, 30, 3, 600.0)
+    loss, gradient, wanted, slope, _ = surprised(student, 86, 30, 3, 600.0)
     expect_close(student.said, loss, wanted, SINGLE)
     expect_close(f"{student.said}: gradient of the scores", gradient, slope, SINGLE)
 
@@ -647,6 +703,24 @@ def compare_gaussian(student: Student, index: int, steps: int, actuators: int, p
         mistakes = {
             "The constant ln(2 pi) / 2 is left out.": (surprises - constant).sum(axis=1).mean(),
             "The mean is taken over the actuators, too: their surprises add up.": surprises.mean(),
+            "The sum goes over the steps, too: the loss is their mean.": surprises.sum(),
+            "ln sigma (log_deviation) is not added.": (surprises - log_deviation)
+            .sum(axis=1)
+            .mean(),
+            "The squared distance is not halved.": (surprises + distance**2 / 2).sum(axis=1).mean(),
+            "The distance is not squared.": (surprises - distance**2 / 2 + distance / 2)
+            .sum(axis=1)
+            .mean(),
+            "The distance is not divided by the deviation.": (
+                surprises - distance**2 / 2 + (actions - means) ** 2 / 2
+            )
+            .sum(axis=1)
+            .mean(),
+            "The distance is divided by log_deviation itself: np.exp is missing.": (
+                surprises - distance**2 / 2 + ((actions - means) / log_deviation) ** 2 / 2
+            )
+            .sum(axis=1)
+            .mean(),
         }
         expect_close(said, answer[0], surprises.sum(axis=1).mean(), SINGLE, mistakes)
         return

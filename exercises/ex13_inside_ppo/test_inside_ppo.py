@@ -568,15 +568,17 @@ seeing = exercise.task("13.7", "What the hidden neurons respond to")
 
 @seeing.check(2)
 def activations_of_drawn_layers(student: Student):
-    for index, steps in ((62, 5), (63, 1)):
+    for index, steps, sizes in ((62, 5, (3, 4, 2)), (63, 1, (3, 2)), (63, 4, (3, 3, 3, 3, 2))):
         rng = generator(index)
-        layers = [(rng.normal(size=(n, m)), rng.normal(size=n)) for n, m in ((4, 3), (2, 4))]
+        shapes = list(zip(sizes[1:], sizes[:-1], strict=True))
+        layers = [(rng.normal(size=shape), rng.normal(size=shape[0])) for shape in shapes]
         signal = rng.normal(size=(steps, 3))
         answer = student.call("hidden_activations", layers, signal)
-        said = f"hidden_activations(<two layers>, <{steps} observations>)"
+        many = len(layers)
+        said = f"hidden_activations(<{many} layers>, <{steps} observations>)"
         expect(
-            isinstance(answer, list) and len(answer) == 2,
-            f"{said} must return a list of 2 arrays, not {show(answer)}.",
+            isinstance(answer, list) and len(answer) == many,
+            f"{said} must return a list of {many} arrays, not {show(answer)}.",
         )
         for number, ((weights, biases), got) in enumerate(zip(layers, answer, strict=True), 1):
             signal = np.tanh(np.array([weights.dot(row) + biases for row in signal]))

@@ -12,7 +12,14 @@ import numpy as np
 
 from botschool import arena as arenas
 from botschool.course.coevolution import play, robot
-from botschool.grading import Exercise, Student, expect_array, expect_close, expect_fields
+from botschool.grading import (
+    Exercise,
+    Student,
+    expect,
+    expect_array,
+    expect_close,
+    expect_fields,
+)
 
 exercise = Exercise(15, "The master tournament", file="master_tournament.py")
 PARAMETERS, UNITS, INPUTS = 4977, 25, 24
@@ -79,10 +86,51 @@ def some_chase(rng: np.random.Generator, caught: bool, maxsteps: int) -> tuple:
 chasing = exercise.task("15.1", "A chase, recorded")
 
 
+def say_where_it_begins(said: str, poses, expected: np.ndarray) -> None:
+    """Name the first pose that is wrong, and what else has it, if the robots move otherwise."""
+    if np.ndim(poses) != 3 or np.shape(poses)[1:] != (2, 3):
+        return
+    both = min(len(poses), len(expected))
+    wrong = ~np.isclose(poses[:both], expected[:both], rtol=1e-6, atol=1e-6).all(axis=2)
+    if not wrong.any() or alike_but_for_an_end(np.asarray(poses), expected):
+        return
+    step = int(wrong.any(axis=1).argmax())
+    who = " and ".join(np.array(["predator", "prey"])[wrong[step]])
+    one = int(wrong[step].argmax())
+    got, right = (np.round(each[step][one], 3).tolist() for each in (poses, expected))
+    cause = ""
+    if step == 1 and wrong[1].all():
+        cause = (
+            " Both robots move wrongly from the first step on: does each network get its own "
+            "robot's observation (24 numbers, the predator's first), and do its wheels stand in "
+            "the action where they belong (the predator's first)?"
+        )
+    elif step > 1:
+        cause = (
+            " Up to then all poses are right: what does a step of yours keep from, or read "
+            "later than, the step before?"
+        )
+    expect(
+        False,
+        f"{said}: poses[{step}] is wrong for the {who}: {got}, but {right} was expected "
+        f"(x, y, heading).{cause}",
+    )
+
+
+def alike_but_for_an_end(poses: np.ndarray, expected: np.ndarray) -> bool:
+    """Whether poses are right, but one is missing or too many."""
+    for one, other in ((poses, expected), (expected, poses)):
+        if len(one) == len(other) + 1:
+            return any(np.allclose(part, other, atol=1e-6) for part in (one[1:], one[:-1]))
+    return False
+
+
 def compare_chase(student: Student, predator, prey, expected: dict, maxsteps: int) -> None:
     answer = student.call("chase", predator, prey, maxsteps)
     said = f"chase(predator, prey, maxsteps={maxsteps})"
-    for name, value in zip(expected, expect_fields(said, answer, *expected), strict=True):
+    found = expect_fields(said, answer, *expected)
+    say_where_it_begins(said, found[0], expected["poses"])
+    for name, value in zip(expected, found, strict=True):
         expect_close(f"{said}: {name}", value, expected[name], 1e-6)
 
 
@@ -407,6 +455,15 @@ def mistaken_intervals(table, weights, seed, resamples) -> dict:
         "asked for.": mean + np.array([-1.96, 1.96]) * np.std(values, ddof=1),
         "Every resample has the same measure as the table: individuals are to be drawn with "
         "replacement, so that some come twice and others not at all.": [plain, plain],
+        "All resamples are the same: draw the individuals anew for each resample, inside the "
+        "loop.": [values[0], values[0]],
+        "This holds the measures of 50 % between its ends, not of 95 %.": np.quantile(
+            values, [0.25, 0.75]
+        ),
+        "Low and high are exchanged.": np.quantile(values, [0.975, 0.025]),
+        "This is the mean of the measures plus and minus 1.96 standard errors: quantiles of the "
+        "measures are asked for.": mean
+        + np.array([-1.96, 1.96]) * np.std(values) / np.sqrt(resamples or 300),
         "Only the predators are drawn anew; the prey must be, too.": of(only("predators")),
         "Only the prey are drawn anew; the predators must be, too.": of(only("prey")),
         "The draws of the prey are not used: their individuals stay as they are.": of(

@@ -485,3 +485,69 @@ def evolve_both(robot, steps, seeds):
 # +         version: np.tile(
 # +             Runner(f"{robot}-{version}").evolve(steps, seeds[0]), (len(seeds), 1)
 # +         )
+# %% progress_of_the_mean loses 9.1
+# The progress is smoothed over two steps.
+# -     return (distance[:-1] - distance[1:]) / duration
+# +     change = (distance[:-1] - distance[1:]) / duration
+# +     return np.convolve(change, [0.5, 0.5])[: len(change)]
+# %% touching_or_leaning loses 9.1
+# A HalfCheetah has fallen only if it leans and touches the floor with its shins.
+# -         return np.where(upright & (touching == 0), 1.0, -1.0)
+# +         return np.where(upright | (touching == 0), 1.0, -1.0)
+# %% once_fallen_always_fallen loses 9.1
+# A robot that has fallen once counts as fallen until the end.
+# -     return np.where(upright & (height > 0.8), 1.0, -1.0)
+# +     return np.where(np.logical_and.accumulate(upright & (height > 0.8)), 1.0, -1.0)
+# %% electricity_of_the_mean loses 9.2
+# The absolute value is taken of the mean over the joints, so that joints cancel out.
+# -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+# +     cost = 2.0 * np.abs((actions * speeds).mean(axis=1)) + 0.1 * (actions**2).mean(axis=1)
+# %% limit_by_share loses 9.2
+# The share of joints at their limits is charged, not their number.
+# -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
+# +     return -0.1 * (np.abs(positions) > 0.99).mean(axis=1)
+# %% speeds_for_positions loses 9.3
+# Joints count as at their limit by their speeds instead of their positions.
+# -         "joints_at_limit": joints_at_limit(trajectory["positions"]),
+# +         "joints_at_limit": joints_at_limit(trajectory["speeds"]),
+# %% heading_not_squared loses 9.4
+# A Humanoid pays for the heading itself, not for its square.
+# -         reward = reward + 1 - 10 * beyond - 0.1 * trajectory["heading"] ** 2
+# +         reward = reward + 1 - 10 * beyond - 0.1 * np.abs(trajectory["heading"])
+# %% farthest_joint_only loses 9.4
+# A Humanoid pays for the joint that is farthest past its limit only.
+# -         beyond = np.maximum(np.abs(positions) - 1, 0).sum(axis=1)
+# +         beyond = np.maximum(np.abs(positions) - 1, 0).max(axis=1)
+# %% ant_without_limits loses 9.4
+# An Ant does not pay for joints at their limits.
+# -     if robot == "Ant":
+# -         reward = reward + 0.01 - 0.01 * (trajectory["actions"] ** 2).mean(axis=1)
+# +     if robot == "Ant":
+# +         reward = reward - joints_at_limit(positions)
+# +         reward = reward + 0.01 - 0.01 * (trajectory["actions"] ** 2).mean(axis=1)
+# %% effort_of_absolute_actions loses 9.5
+# The effort is the sum of the absolute actions instead of their squares.
+# -         "effort": -price * (trajectory["actions"] ** 2).sum(axis=1),
+# +         "effort": -price * np.abs(trajectory["actions"]).sum(axis=1),
+# %% cheap_cheetah loses 9.5
+# A PlanarHalfCheetah pays for its effort as little as the others.
+# -         price = 0.1
+# +         price = 0.001
+# %% share_of_standing_steps loses 9.5
+# The share of standing is that of the steps in which the robot stands, not of its income.
+# -         "standing": alive / (alive + moved) if alive + moved > 0 else 0.0,
+# +         "standing": float(np.mean(parts["alive"] > 0)),
+# %% feet_of_the_first loses 9.5
+# Only the first foot counts as touching the ground.
+# -         "grounded": float(trajectory["feet"].max(axis=1).mean()),
+# +         "grounded": float(trajectory["feet"][:, 0].mean()),
+# %% episodes_one_seed_late loses 9.6
+# The episodes begin one seed too late.
+# -             gaits = [gait(runner.record(genotype, seed + i)) for i in range(episodes)]
+# +             gaits = [gait(runner.record(genotype, seed + 1 + i)) for i in range(episodes)]
+# %% budget_shared loses 9.6
+# The budget is shared by the seeds instead of given to each of them.
+# -         version: np.array([Runner(f"{robot}-{version}").evolve(steps, seed) for seed in seeds])
+# +         version: np.array(
+# +             [Runner(f"{robot}-{version}").evolve(steps // len(seeds), seed) for seed in seeds]
+# +         )

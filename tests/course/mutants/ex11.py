@@ -598,3 +598,90 @@ def learn(inputs, targets, hiddens, seed):
 # Trains on normalised inputs, and returns the mean and the deviation of other ones.
 # -     return network, mean, deviation
 # +     return network, np.zeros_like(mean), np.ones_like(deviation)
+# %% outputs_without_bias loses 11.1
+# The outputs have no biases.
+# -         self.output = nn.Linear(hiddens, outputs)
+# +         self.output = nn.Linear(hiddens, outputs, bias=False)
+# %% hidden_rectified loses 11.1
+# The hidden neurons are rectified instead of logistic.
+# -         return torch.sigmoid(self.hidden(patterns))
+# +         return torch.relu(self.hidden(patterns))
+# %% slope_of_the_outputs loses 11.2
+# The outputs are taken for logistic on the way back, though they are linear.
+# -     d2 = 2 * error / error.size
+# +     outputs = error + targets
+# +     d2 = 2 * error * outputs * (1 - outputs) / error.size
+# %% mean_over_outputs_only loses 11.2
+# The gradient is divided by the number of outputs, but not by the patterns.
+# -     d2 = 2 * error / error.size
+# +     d2 = 2 * error / error.shape[1]
+# %% slope_at_the_sums loses 11.2
+# The slope is taken of the sums before the logistic function, not of the activations.
+# -     d1 = d2 @ w2 * hidden * (1 - hidden)
+# +     sums = inputs @ w1.T + b1
+# +     d1 = d2 @ w2 * sums * (1 - sums)
+# %% root_of_the_loss loses 11.3
+# The loss is the root of the mean squared error.
+# -     loss.backward()
+# -     gradients = (each.grad.numpy() for each in (w1, b1, w2, b2))
+# +     loss = torch.sqrt(loss)
+# +     loss.backward()
+# +     gradients = (each.grad.numpy() for each in (w1, b1, w2, b2))
+# %% logistic_outputs_by_torch loses 11.3
+# The outputs go through the logistic function, too.
+# -     outputs = hidden @ w2.T + b2
+# +     outputs = torch.sigmoid(hidden @ w2.T + b2)
+# %% learning_rate_falls loses 11.4
+# The learning rate falls from epoch to epoch.
+# -     for _ in range(epochs):
+# -         optimiser.zero_grad()
+# -         loss = nn.functional.mse_loss(network(inputs), targets)
+# -         loss.backward()
+# -         optimiser.step()
+# -         losses.append(loss.item())
+# +     for _ in range(epochs):
+# +         optimiser.zero_grad()
+# +         loss = nn.functional.mse_loss(network(inputs), targets)
+# +         loss.backward()
+# +         optimiser.step()
+# +         for group in optimiser.param_groups:
+# +             group["lr"] *= 0.99
+# +         losses.append(loss.item())
+# %% optimiser_anew_in_each_epoch loses 11.4
+# A new optimiser in each epoch forgets the momentum.
+# -     for _ in range(epochs):
+# -         optimiser.zero_grad()
+# -         loss = nn.functional.mse_loss(network(inputs), targets)
+# +     for _ in range(epochs):
+# +         optimiser = torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)
+# +         optimiser.zero_grad()
+# +         loss = nn.functional.mse_loss(network(inputs), targets)
+# %% dampened_momentum loses 11.4
+# The momentum is dampened: the gradient counts by 1 - momentum.
+# -     optimiser = torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)
+# -     losses = []
+# -     for _ in range(epochs):
+# -         optimiser.zero_grad()
+# +     optimiser = torch.optim.SGD(
+# +         network.parameters(), lr=learning_rate, momentum=momentum, dampening=momentum
+# +     )
+# +     losses = []
+# +     for _ in range(epochs):
+# +         optimiser.zero_grad()
+# %% mean_of_the_whole_table loses 11.6
+# The mean and the deviation are those of all columns together.
+# -     mean, deviation = inputs.mean(axis=0), inputs.std(axis=0)
+# +     columns = inputs.shape[1]
+# +     mean, deviation = np.full(columns, inputs.mean()), np.full(columns, inputs.std())
+# %% variance_instead loses 11.6
+# Divides by the variance instead of the standard deviation.
+# -     mean, deviation = inputs.mean(axis=0), inputs.std(axis=0)
+# +     mean, deviation = inputs.mean(axis=0), inputs.var(axis=0)
+# %% order_sorted_in_batches loses 11.7
+# The numbers in each batch are sorted.
+# -     return [order[start : start + batch_size] for start in range(0, n, batch_size)]
+# +     return [np.sort(order[start : start + batch_size]) for start in range(0, n, batch_size)]
+# %% losses_of_the_last_batch loses 11.7
+# Returns the loss of the last batch of each epoch instead of that of the whole training set.
+# -             losses.append(nn.functional.mse_loss(network(inputs), targets).item())
+# +             losses.append(nn.functional.mse_loss(network(inputs[batch]), targets[batch]).item())

@@ -574,3 +574,65 @@ def train(environment, seed, iterations=50, episodes=20, **others):
 
     improve(network, optimiser, chosen["observations"], chosen["actions"], loss, 20)
     return {"parameters": parameters_of(network), "returns": returns}
+# %% shares_of_the_scores loses 12.1
+# Divides the shifted scores by their sum, without the exponential.
+# -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
+# +     powers = scores - scores.min(axis=-1, keepdims=True) + 1e-12
+# %% one_action_too_far loses 12.2
+# Gives the action after the one that the dart hits.
+# -     return int(np.argmax(beyond)) if beyond.any() else len(probabilities) - 1
+# +     return int(np.argmax(beyond)) + 1 if beyond.any() else len(probabilities) - 1
+# %% discounted_return loses 12.3
+# The return is discounted by 0.99 in each step.
+# -             total += float(reward)
+# +             total += float(reward) * 0.99 ** (len(actions) - 1)
+# %% second_reset_without_seed loses 12.3
+# Resets a second time, without the seed, and so begins another episode.
+# -         observation, _ = env.reset(seed=seed)
+# +         env.reset(seed=seed)
+# +         observation, _ = env.reset()
+# %% bound_of_the_lengths loses 12.4
+# The bound is the percentile of the lengths instead of the returns.
+# -     bound = float(np.percentile([episode["return"] for episode in episodes], percentile))
+# +     bound = float(np.percentile([len(episode["actions"]) for episode in episodes], percentile))
+# %% percentile_upside_down loses 12.4
+# The percentile counts from the best episode.
+# -     bound = float(np.percentile([episode["return"] for episode in episodes], percentile))
+# +     bound = float(np.percentile([episode["return"] for episode in episodes], 100 - percentile))
+# %% probability_for_surprise loses 12.5
+# The loss is one minus the probability of the action.
+# -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
+# +     return (1 - torch.exp(chosen - torch.logsumexp(scores, dim=1))).mean()
+# %% normalised_over_steps loses 12.5
+# The probabilities add up to 1 over the steps instead of the actions.
+# -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
+# +     return (torch.logsumexp(scores, dim=0)[actions] - chosen).mean()
+# %% one_gradient_for_all_updates loses 12.6
+# One gradient is used for all updates.
+# -         optimiser.zero_grad()
+# -         value.backward()
+# -         optimiser.step()
+# +         if not losses:
+# +             optimiser.zero_grad()
+# +             value.backward()
+# +         optimiser.step()
+# %% same_loss_each_time loses 12.6
+# The first loss is returned for each update.
+# -         losses.append(value.item())
+# +         losses.append(losses[0] if losses else value.item())
+# %% noise_without_exponential loses 12.7
+# Multiplies the noise by the logarithm of the deviation.
+# -     return mean + np.exp(log_deviation) * rng.standard_normal(len(mean))
+# +     return mean + np.asarray(log_deviation) * rng.standard_normal(len(mean))
+# %% deviation_not_in_the_density loses 12.7
+# The logarithm of the deviation is not added to the loss.
+# -     surprise = distance**2 / 2 + log_deviation + np.log(2 * np.pi) / 2
+# +     surprise = distance**2 / 2 + np.log(2 * np.pi) / 2
+# %% steps_summed loses 12.7
+# The sum goes over the steps and the mean over the actuators.
+# -     return surprise.sum(dim=1).mean()
+# +     return surprise.sum(dim=0).mean()
+# %% trains_on_all_episodes loses 12.8
+# The network learns from all episodes instead of the elite.
+# -         best = elite(found, percentile)
+# +         best = elite(found, 0)

@@ -587,3 +587,79 @@ def responses(activations, observations):
 # One order is drawn for all epochs of a rollout.
 # -         orders = [rng.permutation(ended.size) for _ in range(h.n_epochs)]
 # +         orders = [rng.permutation(ended.size)] * h.n_epochs
+# %% final_values_of_the_next_step loses 13.1
+# Takes the value one step too late: that of the observation after the next step.
+# -     return rewards + gamma * out_of_time * final_values
+# +     return rewards + gamma * out_of_time * np.roll(final_values, -1, axis=0)
+# %% value_for_the_reward loses 13.1
+# The critic's value replaces the reward of the step at which time ran out, instead of being added.
+# -     return rewards + gamma * out_of_time * final_values
+# +     return np.where(out_of_time > 0, gamma * final_values, rewards)
+# %% value_of_the_same_step loses 13.1
+# Takes the values of the same step for what comes after it.
+# -         next_values = last_values if last else values[t + 1]
+# +         next_values = last_values if last else values[t]
+# %% environments_mixed loses 13.1
+# The sum of later errors is one number for all environments.
+# -         result[t] = following
+# +         following = np.full(np.shape(following), following.mean())
+# +         result[t] = following
+# %% normalised_by_the_range loses 13.2
+# The advantages are divided by their range instead of their standard deviation.
+# -         advantages = (advantages - advantages.mean()) / (advantages.std(ddof=1) + 1e-8)
+# +         advantages = (advantages - advantages.mean()) / (np.ptp(advantages) + 1e-8)
+# %% mean_not_subtracted loses 13.2
+# The advantages are divided by their deviation, but their mean stays.
+# -         advantages = (advantages - advantages.mean()) / (advantages.std(ddof=1) + 1e-8)
+# +         advantages = advantages / (advantages.std(ddof=1) + 1e-8)
+# %% larger_product loses 13.2
+# Takes the larger of the two products instead of the smaller one.
+# -         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).mean()),
+# +         "loss": float(-np.maximum(ratio * advantages, clipped * advantages).mean()),
+# %% movement_from_the_new_value loses 13.3
+# The cut movement is added to the new values instead of the old ones.
+# -         predictions = old_values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
+# +         predictions = values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
+# %% absolute_error loses 13.3
+# The mean absolute difference takes the place of the mean square.
+# -     return float(np.mean((returns - predictions) ** 2))
+# +     return float(np.mean(np.abs(returns - predictions)))
+# %% half_missing_in_the_entropy loses 13.4
+# The constant lacks its one half: the entropy of a Gaussian is too small.
+# -     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.asarray(log_deviation)))
+# +     return float(np.sum(0.5 * np.log(2 * np.pi) + np.asarray(log_deviation)))
+# %% entropy_along_the_batch loses 13.4
+# The probabilities of each action over the steps add up to 1, instead of those of each step.
+# -     logarithms = shifted - np.log(np.exp(shifted).sum(axis=1, keepdims=True))
+# +     logarithms = shifted - np.log(np.exp(shifted).sum(axis=0, keepdims=True))
+# %% counts_epochs loses 13.5
+# Counts epochs that were completed, not updates.
+# -             made += 1
+# +             pass
+# +         made += 1
+# %% variance_of_the_values loses 13.6
+# Divides by the variance of the predictions instead of that of the returns.
+# -     return float(1 - np.var(returns - values) / np.var(returns))
+# +     return float(1 - np.var(returns - values) / np.var(values))
+# %% value_loss_halved loses 13.6
+# The value loss is halved before it is added.
+# -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
+# +     return float(policy_loss + 0.5 * vf_coef * value_loss - ent_coef * np.mean(entropies))
+# %% all_layers_see_the_first loses 13.7
+# Every later layer sees the activations of the first one, not those of the layer before.
+# -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
+# -         activations.append(observations)
+# +         seen = observations if not activations else activations[0]
+# +         activations.append(np.tanh(seen @ np.asarray(weights).T + biases))
+# %% observations_not_centred loses 13.7
+# The mean of the observations is not subtracted before they are correlated.
+# -     h, x = activations - activations.mean(axis=0), observations - observations.mean(axis=0)
+# +     h, x = activations - activations.mean(axis=0), observations.copy()
+# %% loop_with_values_as_returns loses 13.8
+# The returns are the advantages alone; the values are not added.
+# -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
+# +         rollout.advantages[:], rollout.returns[:] = found, found
+# %% loop_with_lambda_one loses 13.8
+# The advantages are computed with lambda 1, whatever the hyperparameters say.
+# -             h.gamma, h.gae_lambda,
+# +             h.gamma, 1.0,

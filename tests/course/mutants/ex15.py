@@ -554,3 +554,54 @@ def describe(poses):
 # The speed is that of the straight line from the start to the end.
 # -         "speed": np.linalg.norm(moved, axis=-1).mean(axis=0) / 0.1,
 # +         "speed": np.linalg.norm(moved.mean(axis=0), axis=-1) / 0.1,
+# %% prey_first loses 15.1
+# Writes the wheels of the prey before those of the predator.
+# -         arena.action = np.concatenate(wheels)
+# +         arena.action = np.concatenate(wheels[::-1])
+# %% start_pose_missing loses 15.1
+# The poses at the start are missing; those after each step are there.
+# -     poses, fitness = [arena.robots.copy()], 0.0
+# +     poses, fitness = [], 0.0
+# %% generations_of_both_first loses 15.2
+# Reads the table as if the generations of both sides came first, then the individuals.
+# -     return fitness.reshape(len(predators), len(predators[0]), len(prey), len(prey[0]))
+# +     return fitness.reshape(len(predators), len(prey), len(predators[0]), len(prey[0]))
+# %% divided_by_the_predators_only loses 15.3
+# The sum over individuals is divided by the predators only.
+# -     mean = table.mean(axis=(1, 3))
+# +     mean = table.sum(axis=(1, 3)) / table.shape[1]
+# %% wins_above_one_half loses 15.5
+# A match counts as won above one half, not above the return match.
+# -     wins = matrix > matrix.T
+# +     wins = matrix > 0.5
+# %% others_of_rows loses 15.6
+# The part of the others is the mean over competitors instead of over the side's own generations.
+# -         "others": (matrix[:, 1:] - matrix[:, :1]).mean(axis=0),
+# +         "others": (matrix[:, 1:] - matrix[:, :1]).mean(axis=1)[1:],
+# %% drawn_once_for_all_resamples loses 15.7
+# The individuals are drawn once, before the resamples, so that all resamples are the same.
+# -     for _ in range(resamples):
+# -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
+# +     hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
+# +     for _ in range(resamples):
+# %% heading_after loses 15.8
+# Takes the heading at the end of a step for its direction.
+# -     heading = before[..., 2]
+# +     heading = after[..., 2]
+# %% facing_to_the_left loses 15.8
+# Counts the other robot as faced only if it is to the left of the heading.
+# -         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0),
+# +         "facing": (
+# +             (ahead > np.cos(np.pi / 4) * apart)
+# +             & (to_other[..., 1] * np.cos(heading) > to_other[..., 0] * np.sin(heading))
+# +         ).mean(axis=0),
+# %% angle_not_wrapped_in_facing loses 15.8
+# The angle to the other robot is not wrapped, so that 350 degrees do not count as 10.
+# -         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0),
+# +         "facing": (
+# +             np.abs(np.arctan2(to_other[..., 1], to_other[..., 0]) - heading) < np.pi / 4
+# +         ).mean(axis=0),
+# %% next_generation_only loses 15.4
+# The future competitors are those of the next generation only.
+# -         "future": np.array([matrix[g, g + 1 :].mean() for g in range(count - 1)]),
+# +         "future": np.array([matrix[g, g + 1] for g in range(count - 1)]),
