@@ -35,7 +35,7 @@ def made_up(robot: str, index: int, steps: int = 40) -> dict:
         "robot": robot,
         "duration": 0.0165,
         "distance": 1000 - np.cumsum(rng.normal(0.02, 0.05, steps + 1)),
-        "height": rng.uniform(0.1, 1.4, steps),
+        "height": rng.uniform(0.1, 2.2, steps),
         "pitch": rng.uniform(-1.8, 1.8, steps),
         "heading": rng.uniform(-2, 2, steps),
         "touching": rng.integers(0, 2, steps).astype(float),
@@ -44,10 +44,11 @@ def made_up(robot: str, index: int, steps: int = 40) -> dict:
         "positions": rng.choice([0.4, 1.0, 1.2, 0.97, 0.99, 0.995], (steps, joints))
         * rng.choice([-1, 1], (steps, joints)),
     }
-    if steps > 5:  # exactly at the limits
-        one["height"][:5] = 0.8, 0.26, 0.78, 1.2, 1.2
-        one["pitch"][:5] = 0.0, 0.0, 0.0, 1.0, -1.0
-        one["touching"][:5] = 0.0
+    if steps > 5:  # at first it stands; at the end it is exactly at the limits
+        one["height"][:2], one["pitch"][:2], one["touching"][:2] = 1.5, 0.1, 0.0
+        one["height"][-5:] = 0.8, 0.26, 0.78, 1.2, 1.2
+        one["pitch"][-5:] = 0.0, 0.0, 0.0, 1.0, -1.0
+        one["touching"][-5:] = 0.0
     return one
 
 

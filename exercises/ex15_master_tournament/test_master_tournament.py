@@ -215,7 +215,19 @@ def compare_means(student: Student, index: int, side: str, turned) -> None:
         said = f"master(<table {shape}>)"
         answer = student.call("master", table)
         (value,) = expect_fields(said, answer, side)
-        expect_close(f"{said}: {side}", value, turned(means_of(table)), EXACT)
+        n, m, mean = table.shape[1], table.shape[3], means_of(table)
+        mistakes = {
+            "The sum over the individuals is not divided by the number of prey.": turned(mean * m),
+            "The sum over the individuals is not divided by the number of predators.": turned(
+                mean * n
+            ),
+            "This is the sum over all pairs of individuals, not the mean.": turned(mean * n * m),
+            "Only the first individual of each generation counts.": turned(table[:, 0, :, 0]),
+            "This is the mean over the predators of the best (highest) number, not of all.": turned(
+                table.max(axis=3).mean(axis=1)
+            ),
+        }
+        expect_close(f"{said}: {side}", value, turned(mean), EXACT, mistakes)
 
 
 @averaging.check(5)
@@ -253,8 +265,13 @@ def standstill(rng: np.random.Generator, count: int) -> np.ndarray:
 MATRICES = ((random_matrix, 2), (random_matrix, 6), (steady, 5), (circles, 7), (standstill, 4))
 
 
-def compare_parts(student: Student, name: str, solve, index: int, parts: tuple) -> None:
-    """The parts of the dict that a function gives for matrices of all kinds."""
+def compare_parts(
+    student: Student, name: str, solve, index: int, parts: tuple, mistaken=None
+) -> None:
+    """The parts of the dict that a function gives for matrices of all kinds.
+
+    mistaken(matrix): part -> what mistakes make of it.
+    """
     rng = rng_of(index)
     for kind, count in MATRICES:
         matrix = kind(rng, count)
@@ -263,7 +280,8 @@ def compare_parts(student: Student, name: str, solve, index: int, parts: tuple) 
             said = f"{name}(<matrix {matrix.shape}>)"
         answer, expected = student.call(name, matrix), solve(matrix)
         for part, value in zip(parts, expect_fields(said, answer, *parts), strict=True):
-            expect_close(f"{said}: {part}", value, expected[part], EXACT)
+            mistakes = mistaken(matrix).get(part) if mistaken else None
+            expect_close(f"{said}: {part}", value, expected[part], EXACT, mistakes)
 
 
 # ------------------------------------------------------------------- 15.4
@@ -282,6 +300,47 @@ def profile_of(matrix: np.ndarray) -> dict:
     }
 
 
+def mistaken_profile(matrix: np.ndarray) -> dict:
+    """What mistakes make of a profile."""
+    count = len(matrix)
+    before, after = range(1, count), range(count - 1)
+    return {
+        "ancient": {
+            "Only the generation just before counts, not all ancient ones.": [
+                matrix[g, g - 1] for g in before
+            ],
+            "Only the very first generation counts, not all ancient ones.": matrix[1:, 0],
+            "The present competitors count as ancient ones, too.": [
+                matrix[g, : g + 1].mean() for g in before
+            ],
+            "These are sums over the ancient competitors, not means.": [
+                matrix[g, :g].sum() for g in before
+            ],
+            "The mean goes down a column: competitors are the columns of a row.": [
+                matrix[:g, g].mean() for g in before
+            ],
+        },
+        "future": {
+            "Only the next generation counts, not all future ones.": [
+                matrix[g, g + 1] for g in after
+            ],
+            "Only the very last generation counts, not all future ones.": matrix[:-1, -1],
+            "The present competitors count as future ones, too.": [
+                matrix[g, g:].mean() for g in after
+            ],
+            "The last generation is left out of the future.": [
+                matrix[g, g + 1 : -1].mean() if g + 2 < count else np.nan for g in after
+            ],
+            "These are sums over the future competitors, not means.": [
+                matrix[g, g + 1 :].sum() for g in after
+            ],
+            "The mean goes down a column: competitors are the columns of a row.": [
+                matrix[g + 1 :, g].mean() for g in after
+            ],
+        },
+    }
+
+
 @times.check(4)
 def against_the_present(student: Student):
     compare_parts(student, "profile", profile_of, 8, ("present",))
@@ -289,7 +348,7 @@ def against_the_present(student: Student):
 
 @times.check(8)
 def against_the_past_and_the_future(student: Student):
-    compare_parts(student, "profile", profile_of, 9, ("ancient", "future"))
+    compare_parts(student, "profile", profile_of, 9, ("ancient", "future"), mistaken_profile)
 
 
 # ------------------------------------------------------------------- 15.5
@@ -364,6 +423,38 @@ def parts_of(matrix: np.ndarray) -> dict:
     }
 
 
+def mistaken_parts(matrix: np.ndarray) -> dict:
+    """What mistakes make of the two parts."""
+    rows, columns = matrix[1:] - matrix[0], matrix[:, 1:] - matrix[:, :1]
+    other_axis = "The mean is taken along the other axis: see axis=."
+    return {
+        "own": {
+            other_axis: rows.mean(axis=0)[1:],
+            "Each generation is compared with the one before it, not with the first.": np.diff(
+                matrix, axis=0
+            ).mean(axis=1),
+            "The competitors of the first generation alone hold still: take the mean over all.": (
+                rows[:, 0]
+            ),
+            "The competitors change with the generation: the very same ones are asked for.": (
+                np.diag(matrix)[1:] - matrix[0, 1:]
+            ),
+        },
+        "others": {
+            other_axis: columns.mean(axis=1)[1:],
+            "Each generation is compared with the one before it, not with the first.": np.diff(
+                matrix, axis=1
+            ).mean(axis=0),
+            "The first generation of the side alone holds still: take the mean over all.": (
+                columns[0]
+            ),
+            "The sign is turned around: what competitors leave to the side is asked for.": (
+                -columns.mean(axis=0)
+            ),
+        },
+    }
+
+
 @hiding.check(3)
 def what_is_seen(student: Student):
     compare_parts(student, "red_queen", parts_of, 13, ("change",))
@@ -371,7 +462,7 @@ def what_is_seen(student: Student):
 
 @hiding.check(7)
 def what_is_hidden(student: Student):
-    compare_parts(student, "red_queen", parts_of, 14, ("own", "others"))
+    compare_parts(student, "red_queen", parts_of, 14, ("own", "others"), mistaken_parts)
 
 
 # ------------------------------------------------------------------- 15.7
@@ -588,11 +679,94 @@ def at_the_limits() -> np.ndarray:
     return poses
 
 
+def mistaken_descriptions(poses: np.ndarray) -> dict:
+    """What mistakes make of a description."""
+    before, after = poses[:-1], poses[1:]
+
+    def along(step: np.ndarray, heading: np.ndarray) -> np.ndarray:
+        return step[..., 0] * np.cos(heading) + step[..., 1] * np.sin(heading)
+
+    def bearings(these: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Angles of the other robot from the heading: as subtracted, and the short way around."""
+        to_other = (these[:, ::-1] - these)[..., :2]
+        raw = np.arctan2(to_other[..., 1], to_other[..., 0]) - these[..., 2]
+        return raw, (raw + np.pi) % (2 * np.pi) - np.pi
+
+    moved = after[..., :2] - before[..., :2]
+    turned = after[..., 2] - before[..., 2]
+    short = (turned + np.pi) % (2 * np.pi) - np.pi
+    raw, bearing = bearings(before)
+    mixed = np.where(abs(raw) > np.pi, 9, raw)
+    late = np.concatenate([before[..., :2], after[..., 2:]], axis=2)
+    ends = "This looks at the end of each step, not at its beginning."
+    quarter = np.pi / 4
+    shown = {
+        "turning": {
+            "The difference of two headings is not taken the short way around.": 10 * abs(turned),
+            "Turns to the left and to the right cancel out: the sign is to be left out.": 10
+            * short,
+            "This is the turning of a step, not that of a second.": abs(short),
+            "No step turns: the heading of poses[t] is to be compared with that of poses[t + 1].": (
+                0 * short
+            ),
+        },
+        "speed": {
+            "This is the speed of a step, not that of a second.": np.linalg.norm(moved, axis=2),
+            "The distance is counted as steps in x and y added up, not as the straight way.": 10
+            * abs(moved).sum(axis=2),
+        },
+        "backwards": {
+            "The movement is taken along the heading at the end of the step, not at its "
+            "beginning.": along(moved, after[..., 2]) < 0,
+            "This is the share of steps forwards.": along(moved, before[..., 2]) > 0,
+            "This is the share of steps in which x becomes smaller: the heading is left out.": (
+                moved[..., 0] < 0
+            ),
+        },
+        "facing": {
+            "The angle to the other robot is not taken the short way around: 350 degrees to the "
+            "left are 10 to the right.": abs(mixed) < quarter,
+            "The other robot counts only if it is on the left of the heading.": (bearing > 0)
+            & (bearing < quarter),
+            "The other robot counts only if it is on the right of the heading.": (bearing < 0)
+            & (bearing > -quarter),
+            "The other robot counts as faced within 90 degrees, not 45.": abs(bearing)
+            < 2 * quarter,
+            "45 degrees in all are taken: 22.5 to each side, not 45.": abs(bearing) < quarter / 2,
+            "45 is compared with an angle in rad.": abs(bearing) < 45,
+            "This takes the heading at the end of each step, not at its beginning.": abs(
+                bearings(late)[1]
+            )
+            < quarter,
+            "The other robot's heading is taken, not its own.": abs(
+                bearings(np.concatenate([before[..., :2], before[:, ::-1, 2:]], axis=2))[1]
+            )
+            < quarter,
+            ends: abs(bearings(after)[1]) < quarter,
+        },
+        "wall": {
+            ends: np.minimum(after[..., :2], 3000 - after[..., :2]).min(axis=2) < 300,
+            "Only the walls on the left and below count.": before[..., :2].min(axis=2) < 300,
+            "Only the walls on the left and on the right count.": (
+                np.minimum(before[..., 0], 3000 - before[..., 0]) < 300
+            ),
+            "Only the walls above and below count.": (
+                np.minimum(before[..., 1], 3000 - before[..., 1]) < 300
+            ),
+        },
+    }
+    return {
+        name: {text: np.mean(values, axis=0) for text, values in these.items()}
+        for name, these in shown.items()
+    }
+
+
 def compare_described(student: Student, walks: list[np.ndarray], names: tuple) -> None:
     for poses in walks:
         answer, expected = student.call("describe", poses), described(poses)
+        mistakes = mistaken_descriptions(poses)
         for name, value in zip(names, expect_fields(student.said, answer, *names), strict=True):
-            expect_close(f"{student.said}: {name}", value, expected[name], 1e-7)
+            expect_close(f"{student.said}: {name}", value, expected[name], 1e-7, mistakes.get(name))
 
 
 def walks_of(index: int) -> list[np.ndarray]:

@@ -194,8 +194,9 @@ class Expressions:
         for keyword in part.keywords:
             rest = [each for each in part.keywords if each is not keyword]
             yield f"`{keyword.arg}=` is left out in `{name}`.", ast.Call(part.func, part.args, rest)
-            if keyword.arg == "axis" and isinstance(keyword.value, ast.Constant):
-                other = [*rest, ast.keyword("axis", ast.Constant(int(keyword.value.value == 0)))]
+            if keyword.arg in ("axis", "dim") and isinstance(keyword.value, ast.Constant):
+                place = ast.Constant(int(keyword.value.value == 0))
+                other = [*rest, ast.keyword(keyword.arg, place)]
                 yield (
                     f"`{name}` is taken along the other axis.",
                     ast.Call(part.func, part.args, other),
