@@ -282,7 +282,7 @@ def evolve_both(robot, steps, seeds):
 # +     alive, moved = (max(0.0, float(parts[key].sum())) for key in ("alive", "progress"))
 
 
-# %% every_robot_must_be_upright loses 9.1, 9.3
+# %% every_robot_must_be_upright loses 9.1
 # Ant and Humanoid must be upright, too, which the table does not ask of them.
 # says: this
 # -         return np.where(height > 0.26, 1.0, -1.0)
