@@ -574,6 +574,8 @@ def train(environment, seed, iterations=50, episodes=20, **others):
 
     improve(network, optimiser, chosen["observations"], chosen["actions"], loss, 20)
     return {"parameters": parameters_of(network), "returns": returns}
+
+
 # %% shares_of_the_scores loses 12.1
 # Divides the shifted scores by their sum, without the exponential.
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
