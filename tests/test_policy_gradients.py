@@ -271,6 +271,7 @@ def test_bad_hyperparameters_are_sentences():
         ({"gamma": 1.2}, "gamma"),
         ({"net_arch": [0]}, "net_arch"),
         ({"net_arch": [8] * 9}, "net_arch"),
+        ({"net_arch": {"pi": [2**31]}}, "at most 4096 neurons"),
         ({"clip_range": "linaer 3"}, "clip_range"),
         ({"activation_fn": "sine"}, "activation_fn"),
     ):

@@ -10,7 +10,7 @@ from botschool.errors import BotschoolError
 from botschool.inifile import nearest, shown
 from botschool.rl.parameters import OF_POLICY, RANGES, linear
 
-MOST_LAYERS = 7
+MOST_LAYERS, WIDEST = 7, 4096
 """Hidden layers of a network at most."""
 
 
@@ -81,8 +81,9 @@ class Hyperparameters:
         pair = (arch.get("pi", []), arch.get("vf", [])) if isinstance(arch, dict) else (arch, arch)
         for part in pair:
             good = isinstance(part, list) and len(part) <= MOST_LAYERS
-            if not good or any(type(n) is not int or n < 1 for n in part):
-                raise _wrong("net_arch", arch, f"{OF_POLICY['net_arch']}, up to {MOST_LAYERS}")
+            if not good or any(type(n) is not int or not 1 <= n <= WIDEST for n in part):
+                most = f"up to {MOST_LAYERS} layers of at most {WIDEST} neurons"
+                raise _wrong("net_arch", arch, f"{OF_POLICY['net_arch']}, {most}")
         if self.share_layers:
             if isinstance(arch, dict):
                 raise _wrong("net_arch", arch, "one list of layers where they are shared")
