@@ -15,7 +15,7 @@ from running import call, environment_of_command, experiment, one_sentence, same
 pytest.importorskip("distributed")
 
 from botschool import _core, problems
-from botschool.cluster import Open, answers, files, wire
+from botschool.cluster import Open, answers, files, wire, worker
 from botschool.cluster.chunks import Batch
 from botschool.problems import Episodes
 from clusters import Cluster, registered
@@ -237,6 +237,13 @@ def test_evaluation_survives_damaged_answers(tmp_path, monkeypatch):
     alone = problems.of(own).evaluate(policy, genotypes, None, episodes, 60)
     assert sum(damaged) >= 2
     assert (outcome.fitness == alone.fitness).all() and (outcome.steps == alone.steps).all()
+
+
+@pytest.mark.parametrize("name", ["text", None, {}])
+def test_names_of_tables_are_bytes(name):
+    """A damaged request asked for a table named None, and the answer was none of the kinds."""
+    told = worker._answer(wire.pack({"tables": {}, "needs": [name]}), lambda request: {})
+    assert "not bytes" in answers.read(told)["failure"]
 
 
 def test_no_dashboard_is_named_where_there_is_none(tmp_path, capsys):

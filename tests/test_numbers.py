@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 
 import numpy as np
 import pytest
@@ -126,18 +125,6 @@ def test_a_hundred_million_draws_are_numpy_s():
     for seed in range(100):
         ours = generator(seed, 7).standard_normal(1_000_000)
         assert (ours == numpy_s(seed, 7).standard_normal(1_000_000)).all()
-
-
-@pytest.mark.long
-def test_draws_take_about_numpy_s_time():
-    """Processor time of both by turns, the best of seven."""
-    out, best = np.empty(1_000_000), [math.inf, math.inf]
-    for _ in range(7):
-        for i, numbers in enumerate((generator(1, 0), numpy_s(1, 0))):
-            began = time.process_time()
-            numbers.standard_normal(out=out)
-            best[i] = min(best[i], time.process_time() - began)
-    print(f"\n{best[0] * 1e3:.2f} ms for a million draws, numpy {best[1] * 1e3:.2f} ms")
 
 
 @built

@@ -41,11 +41,14 @@ def page(
     from botschool.config import load
     from botschool.page import write_page
     from botschool.page.training import write_training_page
+    from botschool.paths import own_file
     from botschool.render.watch import read_genotype
 
+    file = own_file(file, "experiments")
     if file.suffix != ".ini" and not file.is_file():
         write_training_page(output, str(file), seed, genotype)
     else:
-        saved = None if genotype is None else read_genotype(genotype)
-        write_page(output, load(file), seed, saved, genotype.name if genotype else "")
+        robot = None if genotype is None else own_file(genotype, "genotypes")
+        saved = None if robot is None else read_genotype(robot)
+        write_page(output, load(file), seed, saved, robot.name if robot else "")
     print(f"Wrote {output} ({output.stat().st_size / 1000:.0f} KB): open it in a browser.")

@@ -60,6 +60,8 @@ def _answer(message: bytes, function: Callable[[dict], dict]) -> bytes:
             for name, data in request["tables"].items():
                 _tables[name] = wire.table(data)
                 _shelf.put(name, len(data))
+            if not all(isinstance(name, bytes) for name in request["needs"]):
+                raise ValueError("the name of a table is not bytes")
             lacking = [name for name in request["needs"] if name not in _tables]
             if lacking:
                 return wire.pack({"lacks": lacking})
