@@ -988,8 +988,20 @@ training = exercise.task("10.10", "Train a controller", seconds=300)
 
 @training.check(8)
 def balances_after_training(student: Student):
-    seed = exercise.seed(80) % 100_000
+    """A training of one seed in some dozens is unlucky: then another seed decides."""
     robot = True, 1
+    for index in (80, 83):
+        seed = exercise.seed(index) % 100_000
+        said, layers, actions = trained(student, seed, robot)
+        if all(count == 500 for count in balanced(layers, robot, index + 1)):
+            break
+    else:
+        expect_balance(f"{said}, tried after another seed", layers, robot, index + 1)
+    expect_seeded(student, "train", seed, robot, actions)
+
+
+def trained(student: Student, seed: int, robot: tuple[bool, int]) -> tuple:
+    """The call in words, the layers that PPO has trained, and the actions of the first episodes."""
     said, report = learns(student, "train", seed, robot, np.inf)
     answer, actions, _, updates, same, change = report
     expect(
@@ -1006,7 +1018,6 @@ def balances_after_training(student: Student):
         weights = expect_array(f"{said}: weights of layer {i}", layer[0], (neurons, inputs))
         layers.append((weights, expect_array(f"{said}: biases of layer {i}", layer[1], (neurons,))))
         inputs = neurons
-    expect_balance(said, layers, robot, 81)
     expect(
         same is True,
         f"{said}: the layers are not those of a policy after one of PPO's updates, of which there "
@@ -1017,4 +1028,4 @@ def balances_after_training(student: Student):
         f"{said}: PPO's {show(updates)} updates changed the weights of the largest layer by "
         f"{change:.2g} on average: the network knew before what it should have learnt.",
     )
-    expect_seeded(student, "train", seed, robot, actions)
+    return said, layers, actions
