@@ -214,6 +214,22 @@ def test_a_copy_of_the_course_is_one_submission(find, tmp_path):
     assert is_solution(one.choices[3].file)
 
 
+def test_a_module_of_the_library_is_nobodys_work(find, tmp_path):
+    """openaies.py of the library was graded in place of a half-done openai_es.py."""
+    half = SKELETON.replace("def ", "X = 1\n\n\ndef ", 1)
+    for top in ("", "course/"):
+        files = {f"{top}exercises/{FOLDER}/{FILE}": half.encode()}
+        files |= {
+            f"{top}{place}/{FILE}": SOLUTION.encode() for place in ("lib/more", "solutions/x")
+        }
+        found, _ = find(written(tmp_path / f"download{len(top)}", files_of("anna", files)))
+        assert found["anna"].choices[3].file.read_text() == half
+
+
+def files_of(name, files):
+    return {f"{name}/{place}": content for place, content in files.items()}
+
+
 def test_an_unreadable_notebook_and_an_empty_folder_are_said(find, tmp_path):
     written(tmp_path / "class", {"ada/tiny.ipynb": b'{"cells": ', "bob/essay.docx": b"x"})
     (tmp_path / "class" / "carl").mkdir()

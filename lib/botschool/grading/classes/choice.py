@@ -37,6 +37,11 @@ DATA = (
     ".pth", ".onnx", ".yaml", ".yml", ".toml", ".xml", ".urdf", ".stl", ".obj", ".mp4",
 )  # fmt: skip
 """Suffixes of data files, which a program reads or writes."""
+GIVEN = (
+    ".venv/", "build/", "data/", "docs/", "envs/", "lib/", "solutions/", "tests/", "tools/",
+)  # fmt: skip
+"""Folders beside exercises/ that nobody solves an exercise in."""
+_COURSE = re.compile(r"((?:.*/)?)exercises/ex\d\d_")
 _STUB = re.compile(r"raise NotImplementedError\(\s*['\"]task \d")
 _NAMES = re.compile(r"^(?:async +def|def|class) +(\w+)", re.MULTILINE)
 _OLD = re.compile(r"old|backup|\bbak\b|orig|before|skeleton|template", re.IGNORECASE)
@@ -250,11 +255,15 @@ def _is_of(link: str, wanted: Wanted) -> bool:
 def _candidates(handed: Handed, wanted: Wanted) -> tuple[list[Candidate], bool]:
     """Return the files that fit, and whether an unreadable one may be the exercise's.
 
-    Files of other names count only if every file of the exercise's name is unchanged.
+    Files of other names count only if every file of the exercise's name is unchanged, and what the
+    course gives out beside the exercises never: its library has modules of similar names.
     """
-    named = {file for file in handed.files if wanted.stem in squashed(file.name)}
+    courses = {match[1] for file in handed.files if (match := _COURSE.match(file.shown))}
+    given = tuple(course + folder for course in courses for folder in GIVEN)
+    own = {file for file in handed.files if not file.shown.startswith(given)}
+    named = {file for file in own if wanted.stem in squashed(file.name)}
     found, unread = [], False
-    for files in (named, set(handed.files) - named):
+    for files in (named, own - named):
         for file in sorted(files, key=lambda file: file.shown):
             suffix = re.search(r"\.\w+$", file.name)
             if (suffix[0].lower() if suffix else "") not in SUFFIXES:
