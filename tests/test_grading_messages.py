@@ -19,6 +19,7 @@ from botschool.grading.declare.exercise import Exercise as Declared
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.trust import trust
 from botschool.grading.declare.values import apart, kind, pasted, show
+from botschool.grading.judge.known import VARIED
 from botschool.grading.judge.looking import same
 from botschool.grading.judge.submission import grade
 from botschool.grading.run.confined import fork_server
@@ -246,9 +247,9 @@ def test_a_call_can_be_pasted():
 
 def test_the_call_and_the_cause_stand_below(graded):
     message = graded("def double(x): return -2 * x\n").tasks[0].message
-    first, cause, call, *_ = message.splitlines()
+    cause, first, call, *_ = message.splitlines()
     assert first.startswith("double([")
-    assert cause == "  Only the sign is wrong: it is reversed."
+    assert cause == f"{VARIED} The sign is reversed."
     assert call.startswith("  To try it: double(np.array([")
     assert eval(call.partition(": ")[2], {"np": np, "double": len}) == 4
 

@@ -19,7 +19,10 @@ class Training(Kind):
     def __init__(self, folder: Path) -> None:
         super().__init__(folder)
         self.run = next((folder / "rl").glob("ppo/*"), None) or self._trained()
-        self.whole = (self.run / self.name).read_bytes()
+        kept = folder / "whole"  # the run's own file is damaged when a second turn begins
+        if not kept.exists():
+            kept.write_bytes((self.run / self.name).read_bytes())
+        self.whole = kept.read_bytes()
 
     def _trained(self) -> Path:
         from botschool.rl.training import train

@@ -90,17 +90,6 @@ def gradient_by_torch(inputs, targets, *parameters):
     return found | {name: 2 * found[name] for name in ("w1", "b1", "w2", "b2")}
 
 
-# %% single_precision loses 11.3
-# Computes in torch's usual single precision.
-def gradient_by_torch(inputs, targets, *parameters):
-    w1, b1, w2, b2 = tensors = [torch.tensor(p).float().requires_grad_() for p in parameters]
-    hidden = torch.sigmoid(torch.tensor(inputs).float() @ w1.T + b1)
-    loss = ((hidden @ w2.T + b2 - torch.tensor(targets).float()) ** 2).mean()
-    loss.backward()
-    gradients = [tensor.grad.numpy() for tensor in tensors]
-    return {"loss": loss.item(), **dict(zip(("w1", "b1", "w2", "b2"), gradients, strict=True))}
-
-
 # %% loss_after_the_step loses 11.4
 # The loss of each epoch is measured after the step instead of before it.
 # says: one place too early

@@ -30,7 +30,7 @@ TOLD = "Your code answers exactly as with this known mistake:"
 VARIED = "Your code answers exactly as ours does with this slip:"
 """The words before the sentence of a known mistake, and before that of a slip."""
 SECONDS = 3.0
-"""Processor seconds for all attempts of a task."""
+"""Processor seconds for all slips of a task; known mistakes, which are few, have twice as many."""
 SLIP_SECONDS = 0.1
 """Processor seconds for one answer with a slip in our solution, which may loop without end."""
 BATCH = 16
@@ -75,7 +75,7 @@ def known_mistake(
         file.write_text(known.solution, encoding="utf-8")
         ours = None
         try:
-            ours = Student(file, SECONDS, task.memory, server, True, refused=task.refused)
+            ours = Student(file, 2 * SECONDS, task.memory, server, True, refused=task.refused)
             calls = _calls(ours, checks)
             for call in calls:
                 call.got = submission.ask(unpack(call.request))
@@ -139,7 +139,7 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
         return
     first = min(telling, key=lambda call: len(call.request))
     slips = variations(known.solution, task.id)
-    while batch := list(islice(slips, BATCH)):
+    while ours.seconds_left > SECONDS and (batch := list(islice(slips, BATCH))):
         texts, request = [each.text for each in batch], unpack(first.request)
         made = ours.run(tried, texts, request, SLIP_SECONDS, said="slips in our solution")
         for slip, answers in zip(batch, made, strict=True):
