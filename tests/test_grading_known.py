@@ -142,18 +142,20 @@ def test_right_answers_start_no_trial(messages, monkeypatch):
         messages(RIGHT + BY_N)
 
 
-def test_time_is_limited(messages, monkeypatch):
-    """A mistake that never ends uses up the time of those after it; nothing else happens."""
+@pytest.mark.parametrize(("when", "told"), [("True", True), ("len(values) > 3", False)])
+def test_time_is_limited(messages, monkeypatch, when, told):
+    """A mistake that never ends costs little; after a first answer that fits, all the time."""
     monkeypatch.setattr(replay, "SECONDS", 0.5)
     endless = (
-        "\n\n# %% endless loses 3.1\n# It never ends.\ndef spread(values):\n    while True: pass\n"
+        "\n\n# %% endless loses 3.1\n# It never ends.\ndef spread(values):\n"
+        f"    while {when}: pass\n    return float(np.std(values))\n"
     )
     by_n, rest = MISTAKES.split("\n\n# %% half", 1)
     head, by_n = by_n.split("\n\n# %% by_n", 1)
     text = f"{head}{endless}\n\n# %% by_n{by_n}\n\n# %% half{rest}"
     assert [case.name for case in read_cases(3, text)][:2] == ["endless", "by_n"]
     first, _ = messages(RIGHT + BY_N, declared(mistakes=text))
-    assert first.startswith("spread(...) returned")
+    assert first.startswith(TOLD if told else "spread(...) returned")
 
 
 def test_mistakes_that_import_something_come_last():

@@ -33,6 +33,8 @@ SECONDS = 3.0
 """Processor seconds for all slips of a task; known mistakes, which are few, have twice as many."""
 SLIP_SECONDS = 0.1
 """Processor seconds for one answer with a slip in our solution, which may loop without end."""
+CASE_SECONDS = 0.25
+"""Processor seconds for the first answer of a known mistake."""
 BATCH = 16
 """Slips that are tried in one request."""
 MOST = 16
@@ -81,8 +83,7 @@ def known_mistake(
                 call.got = submission.ask(unpack(call.request))
             if not _tells(calls, [call.got for call in calls]):
                 return ""
-            texts = ((case.what, _changed(case, known.solution)) for case in cases)
-            for what, text in texts:
+            for what, text in _likely_first(ours, cases, known.solution, calls):
                 if _explains(ours, text, calls):
                     return f"{TOLD} {what}"
             return next((f"{VARIED} {what}" for what in _slips(ours, task, known, calls)), "")
@@ -114,6 +115,28 @@ def _changed(case: Case, solution: str) -> str:
         return ""
 
 
+def _likely_first(
+    ours: Student, cases: list[Case], solution: str, calls: list[Call]
+) -> list[tuple[str, str]]:
+    """Return sentences and texts of mistakes; first come those that fit one wrong answer alone."""
+    made = [(case.what, _changed(case, solution)) for case in cases]
+    texts = [text for _, text in made if text]
+    near = _near(ours, texts, _telling(calls), CASE_SECONDS, "known mistakes")
+    likely = {text for text, fitting in zip(texts, near, strict=True) if fitting}
+    return sorted(made, key=lambda each: each[1] not in likely)
+
+
+def _telling(calls: list[Call]) -> Call:
+    """Return the call with the shortest request among those whose answers are wrong."""
+    return min(calls, key=lambda c: (distance(c.got, c.ours) <= TIE, len(c.request)))
+
+
+def _near(ours: Student, texts: list[str], call: Call, seconds: float, said: str) -> list[bool]:
+    """Return which texts answer a call as the submission does."""
+    made = ours.run(tried, texts, unpack(call.request), seconds, said=said)
+    return [bool(answers) and fits(call.got, answers[0], call.ours) for answers in made]
+
+
 def _explains(ours: Student, text: str, calls: list[Call]) -> bool:
     """Return whether a wrong solution answers as the submission does."""
     if not text:
@@ -137,14 +160,12 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
     telling = [call for call in calls if distance(call.got, call.ours) > TIE]
     if all(counts(call.got) for call in telling) and len(telling) < COUNTS:
         return
-    first = min(telling, key=lambda call: len(call.request))
     slips = variations(known.solution, task.id)
     while ours.seconds_left > SECONDS and (batch := list(islice(slips, BATCH))):
-        texts, request = [each.text for each in batch], unpack(first.request)
-        made = ours.run(tried, texts, request, SLIP_SECONDS, said="slips in our solution")
-        for slip, answers in zip(batch, made, strict=True):
-            near = bool(answers) and fits(first.got, answers[0], first.ours)
-            if near and _explains(ours, slip.text, calls):
+        texts = [each.text for each in batch]
+        near = _near(ours, texts, _telling(calls), SLIP_SECONDS, "slips in our solution")
+        for slip, fitting in zip(batch, near, strict=True):
+            if fitting and _explains(ours, slip.text, calls):
                 yield slip.what
 
 
