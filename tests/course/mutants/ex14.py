@@ -512,3 +512,102 @@ def warning_signs(indicators, total, signs):
 # The range of the steps follows from the last group only.
 # -     curves = [curve for group in groups.values() for curve in group]
 # +     curves = [*groups.values()][-1]
+
+
+# %% steps_shared_by_the_seeds loses 14.1
+# Divides the steps by the number of seeds.
+# -             run = train("ppo", environment, Path(folder) / name, params=params, steps=steps,
+# +             run = train("ppo", environment, Path(folder) / name, params=params, steps=steps // len(seeds),
+
+
+# %% settings_kept_from_the_last_variation loses 14.1
+# Settings of one variation stay for the next one, which does not set them.
+# -     for name, params in variations.items():
+# -         for seed in seeds:
+# +     params = {}
+# +     for name, own in variations.items():
+# +         params = {**params, **own}
+# +         for seed in seeds:
+
+
+# %% steps_from_zero loses 14.2
+# Steps count from the first entry.
+# -             "steps": np.array([entry.step for entry in entries]),
+# +             "steps": np.array([entry.step - entries[0].step for entry in entries]),
+
+
+# %% times_for_steps loses 14.2
+# Each value stands at the step of the entry before it was filtered.
+# -             "steps": np.array([entry.step for entry in entries]),
+# +             "steps": np.array([entry.step for entry in log.Scalars(name)][: len(entries)]),
+
+
+# %% area_by_right_edges loses 14.3
+# The area under the curve is made of rectangles as high as their right edge, not of trapezoids.
+# -     area = np.sum(widths * (means[:-1] + means[1:]) / 2)
+# +     area = np.sum(widths * means[1:])
+
+
+# %% solved_at_the_last_failure loses 14.3
+# Gives the steps of the last post-evaluation below the goal instead of the next one.
+# -         if mean < goal:
+# -             break
+# -         solved = int(when)
+# +         if mean < goal:
+# +             solved = int(when) if solved is not None else None
+# +             break
+# +         solved = int(when)
+
+
+# %% median_for_mean loses 14.4
+# The median of the returns takes the place of the mean.
+# -     means = {variant: np.mean(list(found.values())) for variant, found in results.items()}
+# +     means = {variant: np.median(list(found.values())) for variant, found in results.items()}
+
+
+# %% deviation_of_the_mean loses 14.4
+# Gives the standard error of the mean instead of the standard deviation.
+# -                 "deviation": float(np.std(values, ddof=1)) if len(values) > 1 else None,
+# +                 "deviation": float(np.std(values, ddof=1) / len(values) ** 0.5) if len(values) > 1 else None,
+
+
+# %% gain_turned_around loses 14.4
+# The gain is the baseline's mean minus the variation's.
+# -                 "gain": float(means[variant] - means[baseline]),
+# +                 "gain": float(means[baseline] - means[variant]),
+
+
+# %% sums_for_means loses 14.5
+# Compares the sums of the two groups, not the means.
+# -     differences = abs(totals / n - (together.sum() - totals) / m)
+# +     differences = abs(totals - (together.sum() - totals))
+
+
+# %% total_of_the_last_step loses 14.6
+# Divides the steps up to the last entry into parts, not those of the whole training.
+# -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
+# +         inside = (steps * parts > part * steps.max()) & (steps * parts <= (part + 1) * steps.max())
+
+
+# %% covariance_of_ranks loses 14.7
+# The covariance of the ranks is not divided by their deviations.
+# -     return float((a * b).sum() / below) if below > 0 else 0.0
+# +     return float((a * b).mean()) if below > 0 else 0.0
+
+
+# %% medians_within loses 14.7
+# Subtracts the median of the variation instead of its mean.
+# -     means = {name: numbers[names == name].mean() for name in set(variants)}
+# +     means = {name: np.median(numbers[names == name]) for name in set(variants)}
+
+
+# %% ends_where_the_last_ends loses 14.8
+# The steps go on to the end of the longest run.
+# -     end = min(curve["steps"][-1] for curve in curves)
+# +     end = max(curve["steps"][-1] for curve in curves)
+
+
+# %% starts_at_the_first loses 14.8
+# The steps begin where the first run has its first value.
+# -     start = max(curve["steps"][0] for curve in curves)
+# +     start = min(curve["steps"][0] for curve in curves)

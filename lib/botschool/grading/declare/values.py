@@ -6,6 +6,7 @@ The work is bounded, whatever a submission returns.
 from __future__ import annotations
 
 import reprlib
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -32,6 +33,9 @@ class _Short(reprlib.Repr):
     def repr1(self, value: Any, level: int) -> str:
         self._left -= 1
         return super().repr1(value, level) if self._left > 0 else "..."
+
+    def repr_ndarray(self, value: np.ndarray, level: int) -> str:
+        return show(value) if value.size > 200 else self.repr_instance(value, level)
 
     def repr_int(self, value: int, level: int) -> str:
         many = value.bit_length()
@@ -108,11 +112,17 @@ def argument(value: Any) -> str:
     """Return an argument for the name of a call: few numbers, or the shape."""
     if isinstance(value, np.ndarray):
         return numbers(value, 5) if value.size <= FEW else f"<array {value.shape}>"
-    if isinstance(value, (list, tuple)) and len(repr_of(value)) > 40:
+    if isinstance(value, (list, tuple)) and _long(value, value):
         return f"<list of {len(value)}>"
-    if isinstance(value, dict) and len(repr_of(value)) > 40:
+    if isinstance(value, dict) and _long(value, value.values()):
         return f"<dict: {', '.join(map(str, list(value)[:4]))}{', ...' if len(value) > 4 else ''}>"
     return show(value, 40)
+
+
+def _long(value: Any, parts: Iterable[Any]) -> bool:
+    """Return whether repr() has more than 40 characters; where parts tell it, without repr()."""
+    many = len(value) > 13 or any(isinstance(p, np.ndarray) and p.size > 12 for p in parts)
+    return many or len(repr_of(value)) > 40
 
 
 def pasted(
