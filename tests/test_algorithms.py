@@ -275,7 +275,10 @@ def step(algorithm):
         algorithm.advance(lambda one, other, pairs, seed=None: win(one[pairs[0]] - other[pairs[1]]))
     else:
         candidates, _ = algorithm.ask()
-        algorithm.tell(-(np.asarray(candidates) ** 2).sum(axis=1))
+        told = [-(np.asarray(candidates) ** 2).sum(axis=1)]
+        if getattr(algorithm, "behaves", False):
+            told.append(np.asarray(candidates)[:, None, :2].repeat(2, axis=1))
+        algorithm.tell(*told)
 
 
 def win(difference):

@@ -427,7 +427,7 @@ def test_describe_lists_every_hyperparameter_with_default_and_help():
     assert (
         len(listed)
         == len(rows)
-        == 5 + 23 + 17 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12 + 8 + 6 + 4 + 6
+        == 5 + 23 + 17 + 7 + 7 + 4 + 6 + 6 + 6 + 9 + 11 + 13 + 12 + 8 + 6 + 4 + 6 + 9
     )
     for section, defaults in (
         (

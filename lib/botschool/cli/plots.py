@@ -1,4 +1,4 @@
-"""Define `botschool plotstat`, `plotave` and `showrobot`: pictures of runs and robots."""
+"""Define `plotstat`, `plotave`, `plotelites` and `showrobot`: pictures of runs and robots."""
 
 from __future__ import annotations
 
@@ -37,6 +37,22 @@ def plotave(folders: Folders = None, output: Picture = None) -> None:
     from botschool.analysis.plots import plot_ave
 
     plot_ave(folders or [Path(".")], output)
+
+
+@app.command(epilog="Example: botschool plotelites results -s 1 -o gaits.png --replay gaits.html")
+def plotelites(
+    folder: Annotated[Path, typer.Argument(help="Folder of a run of MAP-Elites.")] = Path("."),
+    seed: Annotated[int, typer.Option("-s", "--seed", help="The run's seed.")] = 1,
+    output: Picture = None,
+    replay: Annotated[
+        Path | None,
+        typer.Option(help="Also write a page that plays the elites shown.", metavar="FILE"),
+    ] = None,
+) -> None:
+    """Draw the map of MAP-Elites: the fitness of each behaviour, and pictures of nine robots."""
+    from botschool.analysis.elites import plot_elites
+
+    plot_elites(folder, seed, output, replay)
 
 
 @app.command(epilog="Example: botschool showrobot minitaur --sheet minitaur.png")

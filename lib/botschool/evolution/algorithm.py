@@ -26,7 +26,10 @@ class Algorithm(Protocol):
     Its state is a pure function of its hyperparameters, `initial`, the seed and the fitness values
     that it was told. Its hyperparameters include those of `RunConfig`. `Stateful` has the methods
     `state` and `restore`. The class may have an attribute `conflicts(config)` that yields pairs of
-    hyperparameters that exclude each other, as botschool.config.conflicts does.
+    hyperparameters that exclude each other, as botschool.config.conflicts does, and a method
+    `check(config, policy)` that raises BotschoolError for a policy that it cannot evolve. With
+    `behaves = True` the run calls `tell(fitness, behaviour)`; behaviour, shape (n, 2,
+    observations), is the mean and the standard deviation of each observation in an episode.
     """
 
     generation: int
@@ -207,11 +210,20 @@ class Entry:
     competitive: bool
     """Whether it has two sides (then botschool.evolution.coevolution runs it)."""
 
+    @property
+    def behaves(self) -> bool:
+        """Return whether the algorithm is told how robots behave."""
+        return getattr(self.make, "behaves", False)
+
     def conflicts(self, config: Any) -> Iterator[tuple[tuple[str, ...], str]]:
         """Yield hyperparameters that cannot go together: their names and a sentence with the
         remedy.
         """
         yield from getattr(self.make, "conflicts", lambda config: ())(config)
+
+    def check(self, config: Any, policy: Any) -> None:
+        """Raise BotschoolError for a policy that the algorithm cannot evolve."""
+        getattr(self.make, "check", lambda config, policy: None)(config, policy)
 
 
 class Registry(dict[str, Entry]):

@@ -23,6 +23,14 @@ class Measured:
 
     fitness: np.ndarray
     steps: int
+    behaviour: np.ndarray | None = None
+    """(candidates, 2, observations): mean and standard deviation of each observation in an
+    episode, averaged over the episodes; None if nobody asks for it.
+    """
+
+    def told(self) -> tuple[np.ndarray, ...]:
+        """Return what the algorithm is told."""
+        return (self.fitness,) if self.behaviour is None else (self.fitness, self.behaviour)
 
 
 def mean(values: np.ndarray) -> float:
@@ -53,8 +61,11 @@ class Evaluator:
         seed: int,
         workers: int = 1,
         stopping: Callable[[], bool] = lambda: False,
+        behaviour: bool = False,
     ) -> None:
+        """Make the evaluator; behaviour: whether `measure` tells how candidates behave."""
         self.problem = problem
+        self._behaviour = behaviour
         self.policy = policy
         self.seed = seed
         self._workers = workers
@@ -88,11 +99,20 @@ class Evaluator:
                 np.concatenate([own.episode, post.episode]),
             )
         candidate, episode = self._behind[len(seeds)]
-        both = Episodes(candidate, np.concatenate([own.seed, post.seed]), episode)
+        collect = own.collect
+        if collect is not None:
+            collect = np.concatenate([collect, np.zeros(len(post), np.uint8)])
+        both = Episodes(candidate, np.concatenate([own.seed, post.seed]), episode, collect)
         outcome = self._run(self.problem.rows(candidates, genotype[None]), both)
         n = len(own)
         return (
-            self._measured(Outcome(outcome.fitness[:n], outcome.steps[:n])),
+            self._measured(
+                Outcome(
+                    outcome.fitness[:n],
+                    outcome.steps[:n],
+                    None if outcome.moments is None else outcome.moments[:n],
+                )
+            ),
             Measured(outcome.fitness[n:], int(outcome.steps[n:].sum())),
         )
 
@@ -106,12 +126,25 @@ class Evaluator:
             self._alone[len(seeds)] = made.candidate, made.episode
         candidate, episode = self._alone[len(seeds)]
         seed = np.asarray(seeds, dtype=np.uint64).repeat(episodes)
-        return Episodes(candidate, seed, episode)
+        collect = np.ones(len(seed), np.uint8) if self._behaviour else None
+        return Episodes(candidate, seed, episode, collect)
 
     def _measured(self, outcome: Outcome) -> Measured:
         self._owed_next = self._owed + COLLECTED * len(outcome.fitness)
         fitness = means(outcome.fitness, self.policy.config.episodes)
-        return Measured(fitness, int(outcome.steps.sum()))
+        behaviour = self._behaviour_of(outcome) if self._behaviour else None
+        return Measured(fitness, int(outcome.steps.sum()), behaviour)
+
+    def _behaviour_of(self, outcome: Outcome) -> np.ndarray:
+        """Return the behaviour of each candidate; all its episodes collect moments."""
+        assert outcome.moments is not None
+        counts = self.problem.interface.robots * outcome.steps[:, None, None].astype(np.float64)
+        sums = outcome.moments.reshape(len(counts), 2, -1) / counts
+        mean = sums[:, 0]
+        spread = np.sqrt(np.maximum(sums[:, 1] - mean**2, 0))
+        episodes = self.policy.config.episodes
+        each = np.stack([mean, spread], axis=1).reshape(-1, episodes, *sums.shape[1:])
+        return np.add.reduce(each, axis=1) / episodes
 
     @property
     def post_steps(self) -> int:

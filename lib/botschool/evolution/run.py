@@ -103,11 +103,11 @@ class Run:
 
     def begin(self) -> None:
         """Make the algorithm, its evaluator, the record and the budget."""
-        self.algorithm = ALGORITHMS[self.experiment.exp.algo].make(
-            self.experiment.algo, partial(self.policy.initial, self.seed), self.seed
-        )
+        entry, config = ALGORITHMS[self.experiment.exp.algo], self.experiment.algo
+        entry.check(config, self.policy)
+        self.algorithm = entry.make(config, partial(self.policy.initial, self.seed), self.seed)
         self.evaluator = Evaluator(
-            self.problem, self.policy, self.seed, self.workers, self.stopping
+            self.problem, self.policy, self.seed, self.workers, self.stopping, entry.behaves
         )
         self.record = Record()
         self.budget = self.limit = Limit(steps=self.max_steps)
@@ -184,7 +184,7 @@ class Run:
             before = {owner: getattr(self, owner).state() for owner in ("algorithm", "evaluator")}
         else:
             post = self.evaluator.post_evaluate(candidates[best])
-        self.algorithm.tell(measured.fitness)
+        self.algorithm.tell(*measured.told())
         self.evaluator.refresh()
         self._open = Unsettled(
             saved,

@@ -43,6 +43,9 @@ class PostEvaluation:
     Without a saved genotype the robot is the random one that evolution starts from.
     """
 
+    occasion = "post-evaluated with seed"
+    """Words for the episodes, before the seed of the run."""
+
     def __init__(
         self,
         experiment: Experiment,
@@ -54,6 +57,8 @@ class PostEvaluation:
         self.problem = problems.of(experiment)
         self.policy = self.problem.policy(experiment.policy)
         self.seed = seed
+        self.episodes_seed = seed + POST_EVALUATION_SEED
+        """The seed of the episodes."""
         self.maxsteps = experiment.policy.post_steps
         self.fitness: list[float] = []
         self.others: list[float] = []
@@ -80,10 +85,9 @@ class PostEvaluation:
     def play(self, episode: int, render: bool = False) -> Iterator[Transition]:
         """Play one episode, record its fitness and steps, and print them."""
         genotype, normalisation, number = self.cast(episode)
-        seed = self.seed + POST_EVALUATION_SEED
         transition = None
         steps = self.problem.play(
-            self.policy, genotype, normalisation, seed, number, self.maxsteps, render
+            self.policy, genotype, normalisation, self.episodes_seed, number, self.maxsteps, render
         )
         if render:
             from botschool.render.scenes import with_frames
@@ -143,7 +147,7 @@ class PostEvaluation:
         write_replay(
             path,
             self.problem.name,
-            f"{self.name}, post-evaluated with seed {self.seed}",
+            f"{self.name}, {self.occasion} {self.seed}",
             (self.play(episode, render=True) for episode in range(episodes)),
             self.problem.fps,
             self.neurons,
