@@ -122,6 +122,29 @@ def test_the_nearest_generations_take_part_with_a_warning(es, text, missing, tak
     assert code == 0
 
 
+def test_the_nearest_generation_is_shown_with_a_warning(es):
+    _, asked, _ = es("p-11-2")
+    _, saved, _ = es("p-10-2")
+    warning = "warning: generation 11 is not saved; the nearest takes part: generation 10\n"
+    assert asked.replace(warning, "") == saved and warning in asked
+
+
+def test_without_a_run_of_your_own_the_one_of_the_course_takes_part(command, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    own = ("es", "-f", "predprey.ini", "-p", "-g", "p-1000-1")
+    code, said, note = command(*own, "-s", 12)
+    assert code == 0 and "generation 300: fitness" in said
+    assert "This folder has no such run; here is the one that comes with botschool: " in note
+    code, _, refusal = command(*own, "-s", 3)
+    assert code == 2 and "holds no populations of seed 3" in refusal
+    code, _, refusal = command(*own, "-s", 12, "-o", tmp_path)
+    assert code == 2 and "holds no populations of seed 12" in refusal
+    write_run(tmp_path)
+    (tmp_path / "own.ini").rename("predprey.ini")
+    code, said, note = command(*own, "-s", 12)
+    assert code == 0 and "generation 40: fitness" in said and "comes with" not in note
+
+
 def test_all_generations_meet(es, results):
     code, said, _ = es("M-40-10", "-w", 2)
     assert code == 0
@@ -147,7 +170,6 @@ def test_the_table_of_one_generation_is_a_row_of_that_of_all(es):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("p-11-2", "generations 0, 10, 20 and 40 of seed 12"),
         ("p-10-4", "at most 3"),
         ("m-0-5", "generations 0, 10, 20 and 40 of seed 12"),
         ("m-0-1", "no generation before 0"),

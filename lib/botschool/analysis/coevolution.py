@@ -140,7 +140,8 @@ def _post_evaluate(contest: Contest, folder: Path, request: Request, show: Show)
         return
     populations = Populations(folder, contest.seed, contest.policy, contest.single)
     if request.kind in "Pp":
-        population = populations.load(request.generation).best(request.number)
+        [generation] = nearest(populations, [request.generation])
+        population = populations.load(generation).best(request.number)
         if request.kind == "P":
             show(population)
         _pairs(contest, population)
@@ -266,19 +267,27 @@ def earlier(populations: Populations, generation: int, every: int) -> list[int]:
 
     Prints a warning about missing ones.
     """
-    there = populations.generations
-    wanted = range(generation, -1, -every)
-    nearest = [min(there, key=lambda saved: abs(saved - g)) for g in wanted]
-    found = sorted(set(nearest))
-    if missing := sorted(set(wanted) - set(there)):
-        names = counted(missing).removesuffix(" alone")
-        are = "is" if len(missing) == 1 else "are"
-        print(f"warning: {names} {are} not saved; the nearest take part: {counted(found)}")
+    found = nearest(populations, list(range(generation, -1, -every)))
     if len(found) < 2:
         raise BotschoolError(
             f"There is no generation before {generation} in steps of {every}: "
             f"{populations.there()}."
         )
+    return found
+
+
+def nearest(populations: Populations, wanted: list[int]) -> list[int]:
+    """Return the saved generations that are nearest to the wanted ones, sorted.
+
+    Prints a warning about missing ones.
+    """
+    there = populations.generations
+    found = sorted({min(there, key=lambda saved: abs(saved - g)) for g in wanted})
+    if missing := sorted(set(wanted) - set(there)):
+        names, instead = (counted(some).removesuffix(" alone") for some in (missing, found))
+        are = "is" if len(missing) == 1 else "are"
+        take = "takes" if len(found) == 1 else "take"
+        print(f"warning: {names} {are} not saved; the nearest {take} part: {instead}")
     return found
 
 

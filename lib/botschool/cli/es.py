@@ -100,12 +100,13 @@ def es(
 ) -> None:
     """Evolve robots, or show an evolved one (-p). Without -f: list all hyperparameters.
 
-    For predators and prey, -g also takes one of these (-o names the folder of the run):
+    For predators and prey, -g also takes one of these (-o names the folder of the run). For a
+    generation that is not saved, the nearest one takes part:
 
     - `P-100-5`: watch the 5 best predators of generation 100 chase its 5 best prey;
       `p-100-5`: only measure them
-    - `m-100-20`: measure generation 100 against generations 100, 80, 60 ... (the nearest saved
-      ones); `M-100-20`: measure all of these against each other
+    - `m-100-20`: measure generation 100 against generations 100, 80, 60 ...;
+      `M-100-20`: measure all of these against each other
     - `c-FILE1-FILE2`: measure the populations of two runs against each other
 
     Example: botschool es -f predprey.ini -s 12 -o results -p -g m-100-20

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -83,11 +84,32 @@ def tournament(
     from botschool.terminal import has_display
 
     machines = options.machines(cluster, no_tls, patience, workers)
-    experiment = config.load(file)
+    experiment = config.load(own_file(file, "experiments"))
+    folder = own_run(folder, experiment, seed)
     wanted = coevolution.generations_in(generations, every)
     coevolution.tournament(
         experiment, folder, seed, wanted, every, best, workers or 1, output, has_display(), machines
     )
+
+
+def own_run(folder: Path, experiment: Experiment, seed: int | None) -> Path:
+    """Return the folder; if the user named none and the present one has no populations of this
+    seed (None: of any), return that of the run that comes with botschool, if there is one.
+    """
+    from botschool.analysis.populations import seeds_of
+    from botschool.examples import ROBOTS, examples
+
+    own = examples(ROBOTS).get(experiment.path.stem) if experiment.path else None
+    if folder != Path(".") or own is None or not own.is_dir():
+        return folder
+    here, there = seeds_of(folder), seeds_of(own)
+    if here if seed is None else seed in here or seed not in there:
+        return folder
+    print(
+        f"This folder has no such run; here is the one that comes with botschool: {own}",
+        file=sys.stderr,
+    )
+    return own
 
 
 def post_evaluate(
@@ -109,6 +131,7 @@ def post_evaluate(
         path = own_file(genotype, "genotypes")
         watching.show(PostEvaluation(experiment, seed, read_genotype(path), path.name))
     else:
+        folder = own_run(folder, experiment, seed)
         request = coevolution.parse(genotype, folder)
         if watching.asked and request.kind != "P":
             raise BotschoolError(
