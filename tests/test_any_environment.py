@@ -257,6 +257,13 @@ def test_an_experiment_file_names_wrappers(tmp_path, command):
     assert code == 2 and "wrappers = tiny_envs:Doubled(times=5)" in errors
 
 
+@pytest.mark.parametrize("text", ["7'", "A,,B", "A(x)"])
+def test_a_text_that_names_no_wrapper_gets_a_whole_sentence(text):
+    """Found by `make fuzz` in the config.yaml of a training."""
+    with pytest.raises(BotschoolError, match=r"\.$"):
+        wrappers.parse(text)
+
+
 @pytest.mark.parametrize(
     ("named", "says"),
     [

@@ -78,10 +78,13 @@ def refusal(path: str | PathLike[str], line: int, sentence: str) -> BotschoolErr
     return BotschoolError(f"{place}: {sentence}{'' if sentence.endswith('?') else '.'}")
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
-    """Return a remedy for an unknown word: the most similar known one, or all of them."""
+def nearest(word: object, known: Iterable[str]) -> str:
+    """Return a remedy for an unknown word: the most similar known one, or all of them.
+
+    word: whatever a file holds in the place of a name.
+    """
     names = {name.lower(): name for name in known}
-    close = difflib.get_close_matches(word.lower()[:80], names, n=1)
+    close = difflib.get_close_matches(str(word).lower()[:80], names, n=1)
     return f"did you mean {names[close[0]]}?" if close else f"known are {', '.join(names.values())}"
 
 

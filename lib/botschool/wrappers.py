@@ -110,7 +110,7 @@ def keywords(text: str) -> dict[str, Any]:
     except (ValueError, SyntaxError, AttributeError, MemoryError, RecursionError):
         raise BotschoolError(
             f"'{shown(text)}' cannot be read as options: write name=value, separated by commas, "
-            "with numbers, words in quotes, lists or tuples, as in num_good=1, speeds=(2, 3)"
+            "with numbers, words in quotes, lists or tuples, as in num_good=1, speeds=(2, 3)."
         ) from None
     return found
 
@@ -130,11 +130,11 @@ def _split(text: str) -> list[str]:
 def _wrapper(text: str) -> Wrapper:
     match = re.fullmatch(r"(?:([A-Za-z_][\w.]*)[:.])?([A-Za-z_]\w*)\s*(\(.*\))?", text, re.DOTALL)
     if not text:
-        raise BotschoolError("the wrappers have a comma too many: put a name between two commas")
+        raise BotschoolError("the wrappers have a comma too many: put a name between two commas.")
     if not match:
         raise BotschoolError(
             f"'{shown(text)}' is no wrapper: write its name, as FlattenObservation, "
-            "my_module:MyWrapper or ResizeObservation(shape=(32, 32))"
+            "my_module:MyWrapper or ResizeObservation(shape=(32, 32))."
         )
     module, name, brackets = match.groups()
     try:
@@ -144,6 +144,6 @@ def _wrapper(text: str) -> Wrapper:
     except (ValueError, SyntaxError, AttributeError, MemoryError, RecursionError):
         raise BotschoolError(
             f"The arguments of the wrapper {name} cannot be read: write numbers, words in quotes, "
-            "lists or tuples, as in ResizeObservation(shape=(32, 32))"
+            "lists or tuples, as in ResizeObservation(shape=(32, 32))."
         ) from None
     return Wrapper(module or "", name, given, named)
