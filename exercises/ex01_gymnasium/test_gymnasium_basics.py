@@ -258,6 +258,29 @@ def goes_on_to_the_end(student: Student):
         )
 
 
+def ended_twice(module, steps, seed):
+    """The student's report of an episode whose task and time are over in the same step."""
+    import gymnasium
+    import numpy
+
+    class Short(gymnasium.Env):
+        observation_space = gymnasium.spaces.Box(-1, 1, (1,))
+        action_space = gymnasium.spaces.Discrete(2)
+
+        def reset(self, *, seed=None, options=None):
+            super().reset(seed=seed)
+            self.left = steps
+            return numpy.zeros(1, dtype=numpy.float32), {}
+
+        def step(self, action):
+            self.left -= 1
+            return numpy.zeros(1, dtype=numpy.float32), 0.5, self.left <= 0, False, {}
+
+    name = f"Short{len(gymnasium.registry)}-v0"
+    gymnasium.register(name, entry_point=Short, max_episode_steps=steps, disable_env_checker=True)
+    return module.random_episode(name, seed, 1000)
+
+
 @episode.check(7)
 def tells_the_two_ends_apart(student: Student):
     for case, (name, maxsteps) in enumerate(CASES):
@@ -269,6 +292,12 @@ def tells_the_two_ends_apart(student: Student):
         told_ends, ends = ((each["terminated"], each["truncated"]) for each in (report, replay))
         why = f"in the last of its {len(actions)} steps {name} said"
         expect_ends(student.said, told_ends, ends, why)
+
+    said = "random_episode(an environment whose task ends in step 7, its time limit, ...)"
+    report = student.run(ended_twice, 7, seed_of(0), said=said)
+    _, actions, _, *told_ends = expect_fields(said, report, *KEYS)
+    expect_close(f"{said}: the number of actions", len(actions), 7)
+    expect_ends(said, tuple(told_ends), (True, True), "in its last step the environment said")
 
 
 # ------------------------------------------------------------------- 1.3
@@ -356,6 +385,24 @@ def knows_both_limits(student: Student):
             "(0.20944 radians).",
         )
 
+    sides = rng.choice([-1.0, 1.0], size=8)
+    observations = np.zeros((8, 4))
+    observations[:4, 0] = sides[:4] * 2.4 * [0.9999, 1.0001, 0.99995, 1.00005]
+    # Gymnasium's documentation rounds the angle to 0.2095, and others to 0.2094: both may stand
+    observations[4:, 2] = sides[4:] * np.deg2rad(12) * [0.9995, 1.0005, 0.9997, 1.0004]
+    got = student.run(answers, "fallen", observations, None, said="fallen(observation)")
+    got = truth_values(student.said, got, len(observations))
+    for i, (observation, value) in enumerate(zip(observations, got, strict=True)):
+        over = "above" if i % 2 else "below"
+        measure = f"{abs(observation[0]):.5f} metres, just {over} 2.4"
+        if i >= 4:
+            measure = f"{np.rad2deg(abs(observation[2])):.4f} degrees, just {over} 12"
+        expect(
+            value == (over == "above"),
+            f"fallen({observation.tolist()}) returned {value}: this is {measure}. Compare with "
+            "exactly 2.4 metres and 12 degrees (0.20944 radians), not with rounded numbers.",
+        )
+
     for position, wanted in ((2.4, False), (-2.4, False), (np.nextafter(2.4, 3), True)):
         observation = [float(position), 0.5, 0.0, 0.0]
         got = student.run(answers, "fallen", np.array([observation]), None, said="fallen(...)")
@@ -388,6 +435,16 @@ def gives_the_rewards_of_gymnasium(student: Student):
             abs(value - wanted) < 1e-6,
             f"cartpole_reward({show(observation)}, ...) returned {value:g}, but Gymnasium gave "
             f"{wanted:g} for a step that began so.",
+        )
+    near = [[2.4, 0, 0, 0], [-2.4, 0, 0, 0], [2.4001, 0, 0, 0], [0, 0, -0.20955, 0], [-3, 0, 0, 0]]
+    for observation, wanted in zip(near, (1, 1, 0, 0, 0), strict=True):
+        said = f"cartpole_reward({observation}, 1)"
+        got = student.run(answers, "cartpole_reward", np.array([observation]), [1], said=said)
+        (value,) = single_numbers(said, got, 1)
+        expect(
+            abs(value - wanted) < 1e-6,
+            f"{said} returned {value:g}, but {wanted} was expected: the pole is up until the cart "
+            "is more than 2.4 metres away or the pole leans more than 12 degrees.",
         )
 
 
@@ -469,6 +526,7 @@ def knows_the_torque(student: Student):
 @pendulum.check(4)
 def cuts_the_torque(student: Student):
     expect_rewards(student, 32, lambda rng: rng.choice([-1, 1]) * rng.uniform(5, 40))
+    expect_rewards(student, 33, lambda rng: rng.choice([-1, 1]) * rng.uniform(2.1, 3))
 
 
 # ------------------------------------------------------------------- 1.5
@@ -505,8 +563,23 @@ def mean_steps(student: Student) -> float:
     return float(steps.mean())
 
 
+def expect_no_memory(student: Student) -> None:
+    """The same actions whatever was observed before."""
+    rng = np.random.default_rng(exercise.seed(42))
+    observations = rng.normal(size=(200, 4)) * (1, 1, 0.05, 0.3)
+    forwards = actions_for(student, observations)
+    backwards = actions_for(student, observations[::-1])[::-1]
+    for observation, one, other in zip(observations, forwards, backwards, strict=True):
+        expect(
+            one == other,
+            f"balance({show(observation)}) returned {one}, and {other} when it was called again "
+            "after other observations: the action must depend on the observation alone.",
+        )
+
+
 @balancing.check(4)
 def pushes_to_where_the_pole_falls(student: Student):
+    expect_no_memory(student)
     rng = np.random.default_rng(exercise.seed(41))
     sides = rng.permutation([0, 1] * 10)
     observations = np.zeros((20, 4), dtype=np.float32)
@@ -518,17 +591,6 @@ def pushes_to_where_the_pole_falls(student: Student):
             action == side,
             f"balance({show(observation)}) returned {action}: the pole falls to the "
             f"{('left', 'right')[side]}, so bring the cart there, with action {side}.",
-        )
-
-    rng = np.random.default_rng(exercise.seed(42))
-    observations = rng.normal(size=(200, 4)) * (1, 1, 0.05, 0.3)
-    forwards = actions_for(student, observations)
-    backwards = actions_for(student, observations[::-1])[::-1]
-    for observation, one, other in zip(observations, forwards, backwards, strict=True):
-        expect(
-            one == other,
-            f"balance({show(observation)}) returned {one}, and {other} when it was called again "
-            "after other observations: the action must depend on the observation alone.",
         )
 
 
@@ -600,7 +662,10 @@ def deviation_of_returns(student: Student):
 
 
 def compared(module, steps, episodes, seed):
-    """The length in each row of a table of an environment whose episodes last so many steps."""
+    """The length in each row of a table of an environment that has no time limit.
+
+    Its episodes last so many steps and as many more as the seed of their reset.
+    """
     import gymnasium
     import numpy
 
@@ -610,13 +675,15 @@ def compared(module, steps, episodes, seed):
 
         def reset(self, *, seed=None, options=None):
             super().reset(seed=seed)
+            self.left = steps + (seed or 0)
             return numpy.zeros(1, dtype=numpy.float32), {}
 
         def step(self, action):
-            return numpy.zeros(1, dtype=numpy.float32), 0.5, False, False, {}
+            self.left -= 1
+            return numpy.zeros(1, dtype=numpy.float32), 0.5, self.left <= 0, False, {}
 
     name = f"Long{len(gymnasium.registry)}-v0"
-    gymnasium.register(name, entry_point=Long, max_episode_steps=steps, disable_env_checker=True)
+    gymnasium.register(name, entry_point=Long, disable_env_checker=True)
     return [row["length"] for row in module.compare([name], episodes, seed)]
 
 
@@ -624,6 +691,9 @@ def compared(module, steps, episodes, seed):
 def mean_length(student: Student):
     expect_column(student, "length", lambda runs: np.mean([len(run["rewards"]) for run in runs]))
     steps = 1500 + exercise.seed(60) % 500
-    said = f"compare([an environment whose episodes last {steps} steps], episodes=2, seed=1)"
+    said = (
+        f"compare([an environment without a time limit whose episodes end after {steps + 1} and "
+        f"{steps + 2} steps], episodes=2, seed=1)"
+    )
     lengths = student.run(compared, steps, 2, 1, said=said)
-    expect_close(f"{said}: the length in each row", lengths, [steps])
+    expect_close(f"{said}: the length in each row", lengths, [steps + 1.5], 1e-6)

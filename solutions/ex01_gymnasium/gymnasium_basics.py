@@ -101,7 +101,8 @@ def random_episode(environment_id: str, seed: int, maxsteps: int) -> dict:
     - "actions": a list of the `steps` actions, as they were drawn;
     - "rewards": a list of the `steps` rewards;
     - "terminated", "truncated": True or False, as the last step said. Both are False when only
-      `maxsteps` stopped the episode; when the last of `maxsteps` steps ended it, one is True.
+      `maxsteps` stopped the episode; when the last of `maxsteps` steps ended it, one is True. Both
+      are True when the task ends in the very step in which the environment's time limit is over.
     """
     ### BEGIN SOLUTION task 1.2: run a random episode
     env = gymnasium.make(environment_id)

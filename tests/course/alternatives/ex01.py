@@ -371,3 +371,91 @@ def pendulum_reward(observation, action):
     torque = np.clip(np.asarray(action, dtype=np.float32), -2, 2)[0]
     values = np.array([angle, observation[2], torque], dtype=np.float32)
     return float(-(weights * values**2).sum())
+
+
+# %% counted_backwards
+# Counts the steps left, reads the limits from the source's own numbers, and looks rows up in dicts.
+def random_episode(environment_id, seed, maxsteps):
+    with gymnasium.make(environment_id) as env:
+        env.action_space.seed(seed)
+        seen, left, ends = [env.reset(seed=seed)[0]], maxsteps, (False, False)
+        record = {"actions": [], "rewards": []}
+        while left and ends == (False, False):
+            record["actions"] += [env.action_space.sample()]
+            after, paid, *ends, _ = env.step(record["actions"][-1])
+            ends = tuple(bool(end) for end in ends)
+            seen += [after]
+            record["rewards"] += [float(paid)]
+            left -= 1
+    return record | {"observations": np.stack(seen), **dict(zip(("terminated", "truncated"), ends))}
+
+
+def fallen(observation):
+    limits = np.array([2.4, np.inf, 12 * 2 * np.pi / 360, np.inf])
+    return bool((np.abs(np.asarray(observation, dtype=np.float64)) > limits).any())
+
+
+def cartpole_reward(observation, action):
+    return float(not fallen(observation))
+
+
+def pendulum_reward(observation, action):
+    z = complex(observation[0], observation[1])
+    effort = sorted((-2.0, float(np.squeeze(action)), 2.0))[1]
+    costs = np.array([np.angle(z), observation[2], effort], dtype=np.float64) ** 2
+    return -float(costs @ [1, 0.1, 0.001])
+
+
+def balance(observation):
+    return 1 if np.dot(observation, [0.02, 0.1, 1.0, 0.6]) > 0 else 0
+
+
+def compare(environment_ids, episodes, seed):
+    rows = []
+    for name in environment_ids:
+        lives = [random_episode(name, s, float("inf")) for s in range(seed, seed + episodes)]
+        totals = np.array([np.sum(life["rewards"]) for life in lives])
+        spread = 0.0
+        if episodes > 1:
+            spread = float(np.sqrt(np.sum((totals - totals.mean()) ** 2) / (episodes - 1)))
+        steps = sum(len(life["actions"]) for life in lives) / episodes
+        rows.append(dict(environment=name, mean=totals.mean(), deviation=spread, length=steps))
+    return rows
+
+
+# %% arccosine_squared
+# The square of the angle is that of its arc cosine; an environment is kept for each name.
+_kept = {}
+
+
+def random_episode(environment_id, seed, maxsteps):
+    env = _kept.setdefault(environment_id, gymnasium.make(environment_id))
+    first, _ = env.reset(seed=seed)
+    env.action_space.seed(seed)
+    observations, actions, rewards = np.array([first]), [], []
+    for _ in range(int(maxsteps)):
+        actions.append(env.action_space.sample())
+        after, reward, terminated, truncated, _ = env.step(actions[-1])
+        observations = np.vstack([observations, after])
+        rewards.append(reward)
+        if terminated or truncated:
+            break
+    return {
+        "observations": observations,
+        "actions": actions,
+        "rewards": rewards,
+        "terminated": terminated,
+        "truncated": truncated,
+    }
+
+
+def pendulum_reward(observation, action):
+    angle = np.arccos(np.clip(observation[0], -1, 1))
+    torque = min(2, abs(float(action[0])))
+    return (-(angle * angle) - observation[2] ** 2 / 10 - torque**2 / 1000).item()
+
+
+# %% limit_of_the_documentation
+# Takes 0.2095 for 12 degrees, as Gymnasium's documentation does.
+def fallen(observation):
+    return bool(np.abs(observation[0]) > 2.4 or np.abs(observation[2]) > 0.2095)

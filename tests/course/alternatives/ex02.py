@@ -361,3 +361,82 @@ def run_episode(environment_id, network, seed, maxsteps=200):
         observation, reward, terminated, truncated, _ = env.step(actions[-1])
         total, done, maxsteps = total + reward, terminated | truncated, maxsteps - 1
     return {"actions": actions, "return": total}
+
+
+# %% global_generator_and_one_matrix
+# The old generator of NumPy; biases as a column of the weights; argmax by max; a running mean.
+def parameters(ninputs, nhiddens, noutputs, seed):
+    np.random.seed(np.random.SeedSequence(seed).generate_state(4))
+    names = [("W1", nhiddens, ninputs), ("W2", noutputs, nhiddens)]
+    network = {
+        name: np.random.normal(scale=0.1, size=(rows, columns)) for name, rows, columns in names
+    }
+    return network | {"b1": np.zeros((nhiddens,)), "b2": np.zeros((noutputs,))}
+
+
+def forward(network, observation):
+    values = np.asarray(observation, dtype=np.float32)
+    for layer in "12":
+        table = np.column_stack([network["W" + layer], network["b" + layer]])
+        values = np.tanh(table.astype(np.float32) @ np.append(values, np.float32(1)))
+    return values
+
+
+def sizes(environment_id):
+    env = gymnasium.make(environment_id)
+    sample = env.observation_space.sample()
+    space = env.action_space
+    many = getattr(space, "n", None)
+    return [sample.size, int(many) if many is not None else space.sample().size]
+
+
+def act(outputs, action_space):
+    values = [float(each) for each in outputs]
+    if hasattr(action_space, "n"):
+        return values.index(max(values)) + int(action_space.start)
+    middle = (action_space.high.astype(float) + action_space.low) / 2
+    reach = (action_space.high.astype(float) - action_space.low) / 2
+    return np.array(values) * reach + middle
+
+
+def run_episode(environment_id, network, seed, maxsteps=200):
+    env = gymnasium.make(environment_id)
+    now, _ = env.reset(seed=seed)
+    done, rewards = [], []
+    for _ in range(maxsteps):
+        choice = act(forward(network, now), env.action_space)
+        if not isinstance(choice, int):
+            choice = choice.astype(env.action_space.dtype)
+        now, reward, *ends, _ = env.step(choice)
+        done.append(choice)
+        rewards.append(reward)
+        if any(ends):
+            break
+    return {"return": sum(rewards), "actions": done}
+
+
+def fitness(environment_id, network, seeds, maxsteps=200):
+    mean = 0.0
+    for count, seed in enumerate(seeds, start=1):
+        mean += (run_episode(environment_id, network, seed, maxsteps)["return"] - mean) / count
+    return mean
+
+
+def forward_batch(networks, observations):
+    values = observations
+    for layer in ("1", "2"):
+        sums = (networks["W" + layer] * values[:, np.newaxis, :]).sum(axis=-1)
+        values = np.tanh(sums + networks["b" + layer])
+    return values
+
+
+def random_search(environment_id, nnetworks, nhiddens, seed):
+    ninputs, noutputs = sizes(environment_id)
+    tried = []
+    for number in range(seed, seed + nnetworks):
+        network = parameters(ninputs, nhiddens, noutputs, number)
+        tried.append(
+            (fitness(environment_id, network, np.arange(seed, seed + 10).tolist()), network)
+        )
+    best = max(range(nnetworks), key=lambda number: (tried[number][0], -number))
+    return {"best": best, "fitness": [each for each, _ in tried], "networks": [n for _, n in tried]}

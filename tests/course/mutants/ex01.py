@@ -356,3 +356,151 @@ def compare(environment_ids, episodes, seed, table=[]):  # noqa: B006
 # Gives the length of the last episode, not the mean length.
 # -                 "length": float(np.mean([len(run["rewards"]) for run in runs])),
 # +                 "length": float(len(runs[-1]["rewards"])),
+
+
+# %% last_choice loses 1.1
+# Takes start + n - 1, the highest choice, for the number of choices.
+# says: this
+# -             return {"kind": "Discrete", "choices": int(space.n), "first": int(space.start)}
+# +             return {"kind": "Discrete", "choices": int(space.start + space.n), "first": int(space.start)}
+
+
+# %% reset_twice loses 1.2
+# Resets a second time, without the seed.
+# -     env.action_space.seed(seed)
+# +     env.action_space.seed(seed)
+# +     observation, _ = env.reset()
+
+
+# %% whole_rewards loses 1.2
+# Makes whole numbers of the rewards.
+# says: this
+# -         rewards.append(float(reward))
+# +         rewards.append(int(reward))
+
+
+# %% terminated_wins loses 1.2
+# Calls an episode truncated only if it is not terminated in the same step.
+# says: Both can be True
+# -         "truncated": bool(truncated),
+# +         "truncated": bool(truncated and not terminated),
+
+
+# %% degrees_for_radians loses 1.3
+# Compares radians with 12.
+# says: this
+# -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
+# +     return bool(abs(position) > 2.4 or abs(angle) > 12)
+
+
+# %% rounded_limit loses 1.3
+# Takes 0.21 for 12 degrees.
+# says: not with rounded numbers
+# -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
+# +     return bool(abs(position) > 2.4 or abs(angle) > 0.21)
+
+
+# %% over_at_the_limit_for_the_reward loses 1.3
+# Pays only while cart and pole are inside the limits, not at them.
+# says: exactly|until the cart is more
+# -     return 0.0 if fallen(observation) else 1.0
+# +     return 1.0 if abs(observation[0]) < 2.4 and abs(observation[2]) < np.deg2rad(12) else 0.0
+
+
+# %% pole_alone_pays loses 1.3
+# Pays while the pole is up, wherever the cart is.
+# says: this
+# -     return 0.0 if fallen(observation) else 1.0
+# +     return 1.0 if abs(observation[2]) <= np.deg2rad(12) else 0.0
+
+
+# %% costs_swapped loses 1.4
+# Exchanges the factors of speed and torque.
+# says: this
+# -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
+# +     return float(-(angle**2 + 0.001 * speed**2 + 0.1 * torque**2))
+
+
+# %% arcsine loses 1.4
+# Takes the angle from the sine alone.
+# says: this
+# -     angle = np.arctan2(sine, cosine)
+# +     angle = np.arcsin(sine)
+
+
+# %% cut_after_the_square loses 1.4
+# Cuts the square of the torque.
+# says: this
+# -     torque = np.clip(float(action[0]), -2.0, 2.0)
+# -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
+# +     effort = np.clip(float(action[0]) ** 2, -2.0, 2.0)
+# +     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * effort))
+
+
+# %% half_circle_only loses 1.4
+# Counts the angle from 0 to 2 pi.
+# says: this
+# -     angle = np.arctan2(sine, cosine)
+# +     angle = np.arctan2(sine, cosine) % (2 * np.pi)
+
+
+# %% refuses_large_torques loses 1.4
+# Pays nothing for a torque beyond the limits.
+# says: this
+# -     torque = np.clip(float(action[0]), -2.0, 2.0)
+# +     torque = float(action[0]) if abs(action[0]) <= 2 else 0.0
+
+
+# %% alternates loses 1.5
+# Pushes left and right in turn, whatever happens.
+# says: depend on the observation alone
+_turn = [0]
+
+
+def balance(observation):
+    _turn[0] = 1 - _turn[0]
+    return _turn[0]
+
+
+# %% lean_and_speed_both loses 1.5
+# Pushes to the right only if the pole leans and turns to the right.
+# says: this
+# -     return int(angle + 0.5 * speed > 0)
+# +     return int(angle > 0 and speed > 0)
+
+
+# %% seed_runs_on loses 1.6
+# Goes on counting the seeds in the next environment.
+# says: this
+# -         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
+# +         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
+# +         seed += episodes
+
+
+# %% error_of_the_mean loses 1.6
+# Divides the standard deviation by the root of the number of episodes.
+# says: this
+# -                 "deviation": float(np.std(returns, ddof=1)) if episodes > 1 else 0.0,
+# +                 "deviation": float(np.std(returns, ddof=1) / episodes**0.5) if episodes > 1 else 0.0,
+
+
+# %% length_rounded_down loses 1.6
+# Divides the steps as whole numbers.
+# says: an environment without a time limit
+# -                 "length": float(np.mean([len(run["rewards"]) for run in runs])),
+# +                 "length": float(sum(len(run["rewards"]) for run in runs) // episodes),
+
+
+# %% limit_from_the_spec loses 1.6
+# Takes 1000 steps for the limit of an environment that has none.
+# says: without a time limit
+# -         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
+# +         limit = gymnasium.spec(environment_id).max_episode_steps or 1000
+# +         runs = [random_episode(environment_id, seed + i, limit) for i in range(episodes)]
+
+
+# %% two_decimals loses 1.6
+# Rounds the mean to two places.
+# says: this
+# -                 "mean": float(np.mean(returns)),
+# +                 "mean": round(float(np.mean(returns)), 2),

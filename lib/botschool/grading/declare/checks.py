@@ -221,6 +221,8 @@ def mixed_up(got: tuple[Any, Any], wanted: tuple[bool, bool]) -> str:
             (False, True): ": if only the time is over, terminated stays False.",
         }
         return f"Both are True, as the old `done` was{rest.get(wanted, '.')}"
+    if wanted == (True, True):
+        return "Both can be True: the time limit may be over in the very step that ends the task."
     if got == (False, True) and wanted == (False, False):
         return (
             "truncated means that the environment's own time limit is over. Stopping "

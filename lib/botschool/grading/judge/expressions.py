@@ -106,13 +106,12 @@ class Expressions:
             for i, value in enumerate(part.values):
                 rest = [each for j, each in enumerate(part.values) if j != i]
                 kept = rest[0] if len(rest) == 1 else ast.BoolOp(part.op, rest)
-                yield f"One of several conditions is left out:{self.quoted(value)}.", kept
+                about = colon(self.quoted(value))
+                yield f"One of several conditions is left out{about}.", kept
         elif isinstance(part, ast.IfExp):
             yield f"The case{self.quoted(part.test)} is left out.", part.orelse
-            yield (
-                f"The case is left out in which{self.quoted(part.test)} does not hold.",
-                (part.body),
-            )
+            test = self.quoted(part.test) or " a condition"
+            yield f"The case is left out in which{test} does not hold.", part.body
             yield (
                 "The two cases of a condition are exchanged.",
                 ast.IfExp(part.test, part.orelse, part.body),
