@@ -47,6 +47,7 @@ Crew::~Crew() {
 }
 
 void Crew::share(int tasks) {
+  tasks_ = tasks;
   unfinished_ = tasks;
   waiting_ = tasks;
   if (asleep_ > 0) {  // a thread that falls asleep now looks at waiting_ first, under the mutex
@@ -60,11 +61,11 @@ void Crew::share(int tasks) {
   done_.wait(lock, ready);
 }
 
-/// A task that was taken keeps share() from returning, so that call_ and work_ belong to it.
+/// A task that was taken keeps share() from returning, so that call_, work_ and tasks_ belong to it.
 void Crew::work(int thread) {
   for (int left = waiting_; left > 0;) {
     if (!waiting_.compare_exchange_weak(left, left - 1)) continue;
-    call_(work_, left - 1, thread);
+    call_(work_, tasks_ - left, thread);  // the caller begins: task 0 is usually its own
     if (--unfinished_ == 0 && thread > 0) {
       const std::lock_guard<std::mutex> lock(mutex_);
       done_.notify_one();

@@ -62,6 +62,7 @@ class Crew {
   std::condition_variable wake_, done_;
   void (*call_)(const void*, int, int) = nullptr;
   const void* work_ = nullptr;
+  int tasks_ = 0;
   std::vector<std::thread> others_;
 };
 

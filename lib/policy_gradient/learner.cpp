@@ -83,17 +83,28 @@ Indicators Learner::loss(Batch batch, const int* rows, int n, double clip_range,
   if (parts_.size() < chunks * stride) parts_.resize(chunks * stride);
   found_.resize(chunks);
   const auto part = [&](int chunk) { return parts_.data() + chunk * stride; };
-  crew_.run(chunks, [&](int c, int thread) {
-    const int from = c * kChunk;
-    kernels_.gradient(agent, parameters.data(), batch, rows + from, std::min(kChunk, n - from),
-                      workspaces_[thread]->scratch, part(c), found_[c],
-                      log_probs ? log_probs + from : nullptr, values ? values + from : nullptr);
-  });
-  for (int apart = 1; apart < chunks; apart *= 2)  // pairwise, whoever has computed them
-    for (int c = 0; c + apart < chunks; c += 2 * apart) {
-      kernels_.add(part(c), part(c + apart), agent.size);
-      add(found_[c], found_[c + apart]);
+  // Parts are added pairwise, in the same order whoever has computed them: those of a group by the
+  // thread whose cache has them, then those of all groups.
+  int group = 1;
+  while (2 * group * crew_.threads() <= chunks) group *= 2;
+  const auto add_pairs = [&](int from, int to, int apart) {
+    for (; apart < to - from; apart *= 2)
+      for (int c = from; c + apart < to; c += 2 * apart) {
+        kernels_.add(part(c), part(c + apart), agent.size);
+        add(found_[c], found_[c + apart]);
+      }
+  };
+  crew_.run((chunks + group - 1) / group, [&](int g, int thread) {
+    const int first = g * group, last = std::min(first + group, chunks);
+    for (int c = first; c < last; ++c) {
+      const int from = c * kChunk;
+      kernels_.gradient(agent, parameters.data(), batch, rows + from, std::min(kChunk, n - from),
+                        workspaces_[thread]->scratch, part(c), found_[c],
+                        log_probs ? log_probs + from : nullptr, values ? values + from : nullptr);
     }
+    add_pairs(first, last, 1);
+  });
+  add_pairs(0, chunks, group);
   return times(found_[0], 1.0 / n);
 }
 
