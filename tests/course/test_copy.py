@@ -19,7 +19,7 @@ from botschool.grading.copies.release import release
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.report.showing import show
 from browser import Browser, find_browser
-from test_nbgrader import every_second, partly
+from test_nbgrader import every_second, own_function, partly
 
 pytestmark = pytest.mark.course
 
@@ -123,7 +123,22 @@ def test_from_nothing_to_the_first_points(copy):
 # --- Platforms that grade by themselves give each exercise the points that `grade` gives.
 
 
-HOSTILE = "import os\n\n\ndef {name}(*arguments, **options):\n    os._exit(0)\n"
+FORGED = """
+def {name}(*arguments, **options):
+    import os
+
+    content = '{{"score": 100, "max-score": 100, "tests": []}}'
+    for folder in (".", "..", "../..", os.environ.get("AUTOGRADER", "/autograder")):
+        for name in ("results/results.json", "results.json", "result.json", "grades.json"):
+            try:
+                with open(os.path.join(folder, name), "w") as file:
+                    file.write(content)
+            except OSError:
+                pass
+    print(content, flush=True)
+    os._exit(0)
+"""
+"""Writes what platforms read, wherever it may lie, and ends the process."""
 RUNNER = dict.fromkeys(
     ("CLASSROOM", "ASSIGNMENT", "SUBMISSION_TAG", "COMMIT_URL", "RELEASE_URL", "OWNER"), "x"
 )
@@ -131,12 +146,13 @@ PYTHON = {"BOTSCHOOL_PYTHON": sys.executable}  # in place of the one that a plat
 
 
 def text_of(kind: str, source: building.Source) -> str:
-    name = next(name for names in source.functions.values() for name in names)
     return {
         "skeleton": source.skeleton,
         "solution": source.solution,
         "half": partly(source.solution, every_second),
-        "hostile": HOSTILE.format(name=name),
+        "hostile": building.inserted(
+            source.solution, FORGED.format(name=own_function(source.number))
+        ),
     }[kind]
 
 
