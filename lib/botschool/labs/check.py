@@ -148,24 +148,29 @@ class Check:
         part.points = round(part.points, 1)
 
     def _prove(self) -> list[str]:
-        """Leave the runs that are proven; return the names of the others."""
-        false = []
-        again = {(r.condition.name, r.seed) for r in drawn(self.runs, self.lab.redone, self.draw)}
+        """Leave the runs that are proven; return the names of the others.
+
+        Each robot must get the fitness in its files; runs that are drawn are made again. If one of
+        them is false, or two runs have the same robot, all are made again.
+        """
+        order = drawn(self.runs, sum(map(len, self.runs.values())), self.draw)
+        robots = {run.genotype.tobytes() for run in order}
+        told = {run.key: "" for run in order}
+        for run in order:
+            if not run.condition.maker.genuine(run):
+                told[run.key] = "its robot gets another fitness"
         with ExitStack() as stack:
-            for name, runs in self.runs.items():
-                proven = []
-                for run in runs:
-                    redo, maker = (name, run.seed) in again, run.condition.maker
-                    told = "" if maker.genuine(run) else "its robot gets another fitness"
-                    if not told and redo and run.condition.own:
-                        told = self._replayed(run, stack)
-                    elif not told and redo:
-                        told = self._made_again(run)
-                    if told:
-                        false.append(f"{name}, seed {run.seed} ({told})")
-                    else:
-                        proven.append(run)
-                self.runs[name] = proven
+            for number, run in enumerate(order):
+                doubtful = len(robots) < len(order) or any(told.values())
+                if number >= self.lab.redone and not doubtful:
+                    break
+                if not told[run.key]:
+                    own = run.condition.own
+                    told[run.key] = self._replayed(run, stack) if own else self._made_again(run)
+        false = []
+        for name, runs in self.runs.items():
+            self.runs[name] = [run for run in runs if not told[run.key]]
+            false += [f"{name}, seed {r.seed} ({told[r.key]})" for r in runs if told[r.key]]
         return false
 
     def _made_again(self, run: SavedRun) -> str:

@@ -29,6 +29,11 @@ class SavedRun:
     populations: dict[int, np.ndarray] = field(default_factory=dict)
     """Co-evolution: generation -> (2 n, parameters), the predators, then the prey."""
 
+    @property
+    def key(self) -> tuple[str, int]:
+        """The condition's name and the seed, which no other run of a sheet has."""
+        return self.condition.name, self.seed
+
     def plain(self) -> dict[str, Any]:
         """What measure.py is given."""
         told = {
