@@ -118,10 +118,12 @@ def centred_ranks(student: Student):
     rng = generator(2)
     cases = [np.round(rng.normal(size=size) * 100, 2) for size in (2, 5, 40)]
     cases += [np.array([10, 40, 20, 30, 0]), rng.permutation(7) - 3]
+    # hardly apart, and far apart
+    cases += [rng.permutation([-1e-4, 2e-4, 0.3, 0.4]), -rng.permutation([1.0, 1e3, 1e6, 1e9])]
+    cases += [rng.permutation(np.linspace(-0.003, 0.004, 5))]
     for fitness in cases:
-        size = len(fitness)
         answer = student.call("utilities", fitness)
-        if size == 5:
+        if len(fitness) in (4, 5):
             student.said = f"utilities({fitness.tolist()})"
         expect_close(student.said, answer, ranked(fitness))
     expect_unchanged(student, "utilities", [cases[1]])
@@ -135,10 +137,14 @@ def equals_in_their_order(student: Student):
         if len(fitness) < 10:
             student.said = f"utilities({fitness.tolist()})"
         order = np.sort(fitness)
-        shared = [np.flatnonzero(order == each).mean() for each in fitness]
-        mistakes = {
-            "Equals share their mean rank, but the one that comes first has the lower one.":
-            np.array(shared) / (len(fitness) - 1) - 0.5,
+        shared = [np.flatnonzero(order == each) for each in fitness]
+        all_equal = "All get 0, but equals have ranks of their own, even if all are equal."
+        mistakes = {all_equal: 0 * fitness} if len(fitness) == 6 else {}
+        mistakes |= {
+            f"Equals share their {word} rank, but the one that comes first has the lower one.":
+            np.array([rank(each) for each in shared]) / (len(fitness) - 1) - 0.5
+            for word, rank in (("mean", np.mean), ("lowest", np.min), ("highest", np.max))
+        } | {
             "Of equals the last has the lower rank, but the first is to have it.":
             ranked(fitness[::-1])[::-1],
         }  # fmt: skip
@@ -297,17 +303,18 @@ whole = exercise.task(
 def evolved(module, centre, target, generations, seed, options):
     """Run the student's algorithm on a fitness that the grader can compute again.
 
-    Another run comes first: what it leaves behind must not count. Returns the answer, the number of
-    calls of evaluate, and whether the first centre is as it was.
+    Another run comes first: what it leaves behind must not count. With "decimals" in `options`,
+    fitness is rounded, so that many candidates are equal. Returns the answer, the number of calls
+    of evaluate, and whether the first centre is as it was.
     """
     import numpy
 
-    calls = []
+    calls, decimals = [], options.pop("decimals", 15)
 
     def evaluate(candidates, seed):
         calls.append(seed)
         goal = target + 0.3 * numpy.sin(seed + numpy.arange(len(target)))
-        return -numpy.abs(candidates - goal).sum(axis=1)
+        return numpy.round(-numpy.abs(candidates - goal).sum(axis=1), decimals)
 
     module.evolve(evaluate, centre + 1, 2, seed + 5)
     calls.clear()
@@ -316,26 +323,31 @@ def evolved(module, centre, target, generations, seed, options):
     return [answer, len(calls), bool(numpy.all(start == centre))]
 
 
-def compare_run(student: Student, index: int, n: int, generations: int, **options) -> None:
+def compare_run(
+    student: Student, index: int, n: int, generations: int, decimals: int | None = None, **options
+) -> None:
     rng, seed = generator(index), exercise.seed(index + 100) % 100_000
     start, target = rng.normal(size=n), rng.normal(size=n)
-    said = f"evolve(evaluate, centre, generations={generations}, seed={seed}"
+    evaluate = "evaluate" if decimals is None else "evaluate (some candidates have equal fitness)"
+    said = f"evolve({evaluate}, centre, generations={generations}, seed={seed}"
     said += "".join(f", {key}={value}" for key, value in options.items()) + ")"
-    answer = student.run(evolved, start, target, generations, seed, options, said=said)
+    asked = options | ({} if decimals is None else {"decimals": decimals})
+    answer = student.run(evolved, start, target, generations, seed, asked, said=said)
     expect(isinstance(answer, list) and len(answer) == 3, f"{said} gave no answer.")
     answer, calls, kept = answer
     expect_fields(said, answer, "centre", "history")
     settings = {"samplesize": 20, "noiseStdDev": 0.02, "stepsize": 0.01, "wdecay": 0, **options}
 
-    def run(first=0, **others) -> tuple[list, list, np.ndarray]:
+    def run(first=0, last=0, **others) -> tuple[list, list, np.ndarray]:
         """Mean and best fitness of each generation, and the last centre."""
         samplesize, noise, stepsize, wdecay = (settings | others).values()
         samples_rng, centre, history, best = np.random.default_rng(seed), start, [], []
         m, v = np.zeros(n), np.zeros(n)
-        for generation in range(generations):
+        for generation in range(generations - last):
             samples = samples_rng.standard_normal((samplesize, n))
             goal = target + 0.3 * np.sin(seed + first + generation + np.arange(n))
             fitness = -np.abs(around(centre, samples, noise) - goal).sum(axis=1)
+            fitness = fitness if decimals is None else np.round(fitness, decimals)
             history.append(fitness.mean())
             best.append(fitness.max())
             d = decayed(estimated(samples, ranked(fitness)), centre, wdecay)
@@ -343,13 +355,19 @@ def compare_run(student: Student, index: int, n: int, generations: int, **option
         return history, best, centre
 
     history, best, centre = run()
+    defaults = {"noiseStdDev": 0.02, "samplesize": 20, "stepsize": 0.01}
     mistakes = {
+        f"{key} is not handed on: the default is taken.": run(**{key: default})[0]
+        for key, default in defaults.items()
+        if settings[key] != default
+    } | {
         "It is the fitness of the best candidate, but the mean is asked for.": best,
         "The weight decay (wdecay) is not handed on.": run(wdecay=0)[0],
         "The seeds begin with seed + 1, but the first generation's is seed.": run(first=1)[0],
     }
     expect_close(f"{said}: history", answer["history"], history, 1e-5, mistakes)
-    expect_close(f"{said}: centre", answer["centre"], centre, 1e-5)
+    mistakes = {"The last step is missing: every generation makes one.": run(last=1)[2]}
+    expect_close(f"{said}: centre", answer["centre"], centre, 1e-5, mistakes)
     expect(
         calls == generations,
         f"{said} called evaluate {calls} times: call it once in each of the "
@@ -368,6 +386,7 @@ def one_generation(student: Student):
 def many_generations(student: Student):
     compare_run(student, 16, 8, 40, samplesize=6, noiseStdDev=0.1, stepsize=0.05, wdecay=1)
     compare_run(student, 17, 5, 25, samplesize=9, noiseStdDev=0.2, stepsize=0.1, wdecay=2)
+    compare_run(student, 65, 3, 8, decimals=1, samplesize=20, noiseStdDev=0.1, stepsize=0.02)
 
 
 @whole.check(2)
@@ -386,6 +405,11 @@ def smooths(student: Student):
         expected = [curve[i : i + width].mean() for i in range(length - width + 1)]
         answer = student.call("smooth", curve, width)
         expect_close(student.said, answer, expected)
+    for curve, width in ((np.array([1, 2, 6, 1]), 2), (generator(66).integers(-300, 300, 15), 4)):
+        answer = student.call("smooth", curve, width)
+        expected = [curve[i : i + width].mean() for i in range(len(curve) - width + 1)]
+        mistakes = {"The means of whole numbers are cut off to whole numbers.": np.trunc(expected)}
+        expect_close(student.said, answer, expected, mistakes=mistakes)
     expect_unchanged(student, "smooth", [curve, width])
 
 
@@ -423,18 +447,24 @@ def drops(student: Student):
     cases = [rising_with_fall(23 + i, fall, i % 2 == 0) for i, fall in enumerate((0.2, 0.5, 0.07))]
     cases += [np.round(generator(26).normal(size=50), 3), np.array([0.0, 8.0, 6.0, 10.0])]
     cases += [np.arange(5.0), np.full(6, 9.0), np.array([5.0, 1.0]), np.array([3.0])]
-    cases += [np.array([2, 10, 4, 9])]
+    cases += [np.array([2, 10, 4, 9]), 1e-6 * np.array([1.0, 5.0, 3.0, 6.0])]  # almost flat, too
     for curve in cases:
         said, answer, right = judged(student, curve)
         height = max(float(np.ptp(curve)), 1e-300)
         steps = np.diff(curve, prepend=curve[0])
         mistakes = {
-            "Only the end is compared with the highest point: falls that recover count, too.":
-            (curve.max() - curve[-1]) / height,
             "Only falls from one value to the next are looked at: a fall may take many.":
             max(0.0, -steps.min()) / height,
             "The drop is to be a share of the curve's whole range.": right["drop"] * height,
+            "It is a share of 100 (percent), but a share of 1 is asked for.": 100 * right["drop"],
+            "It is rounded: return it as it is.": [
+                round(right["drop"], places) for places in (1, 2, 3, 4)
+            ][min(3, len(str(answer["drop"]).partition(".")[2]) - 1)],
         }  # fmt: skip
+        if curve[-1] < curve.max():
+            mistakes[
+                "Only the end is compared with the highest point: falls that recover count, too."
+            ] = (curve.max() - curve[-1]) / height
         expect_close(f"{said}: drop", answer["drop"], right["drop"], mistakes=mistakes)
     expect_unchanged(student, "stability", [cases[0]])
 
@@ -445,7 +475,7 @@ def places_of_the_fall(student: Student):
     cases += [np.round(generator(29).normal(size=50), 3)]
     cases += [np.array([1.0, 4.0, 4.0, 2.0, 3.0, 2.0, 9.0]), np.array([0.0, 5.0, 3.0, 6.0, 1.0])]
     cases += [np.array([-5.0, -1.0, -3.0, 2.0, 0.0]), np.arange(4.0), np.full(3, -7.0)]
-    cases += [np.array([3.0, 3.0, 0.0, 4.0])]
+    cases += [np.array([3.0, 3.0, 0.0, 4.0]), np.array([-9.0, -4.0, -9.0, -2.0, -7.0])]
     for curve in cases:
         said, answer, right = judged(student, curve)
         for key in ("peak", "bottom"):
@@ -465,7 +495,8 @@ def verdicts(student: Student):
         expect(
             isinstance(answer["verdict"], str) and answer["verdict"] == right["verdict"],
             f"{said}: the verdict is {show(answer['verdict'])}, but should be "
-            f"{right['verdict']!r}: the drop is {right['drop']:.3g}.",
+            f"{right['verdict']!r}: the drop is {right['drop']:.3g}, and is not to be rounded "
+            "before it is compared with 0.1 and 0.3. Exactly so much is still the better verdict.",
         )
 
 
@@ -478,14 +509,16 @@ training = exercise.task(
 EXPLAINED = 0.6
 """The cosine of `explained` must be larger. Measured with OpenAI-ES in nine variants (decay, long
 steps, restarts, plain gradient ascent): 0.92 to 1."""
+BEGINNING = 8
 
 
-def trained(module, environment, seed, signs):
+def trained(module, environment, seed, signs, least):
     """The student's centre, and evidence of how it was found.
 
     In between, each parameter reaches the network with a sign of its own: OpenAI-ES does not notice
     this, as its samples are as often positive as negative. Evidence: all candidates with their
-    fitness, and the first candidates of another training with this seed and of one with the next.
+    fitness, and the first candidates (BEGINNING of them, and of three calls, at least) of this
+    training, of another one with this seed and of one with the next.
     """
     import contextlib
 
@@ -494,7 +527,7 @@ def trained(module, environment, seed, signs):
     from botschool.course import evaluation
     from botschool.course.rewiring import rewired
 
-    robot, rows, scores, begun = evaluation.Robot, [], [], [[]]
+    robot, rows, scores, begun, calls = evaluation.Robot, [], [], [[]], [0]
     kept = robot.evaluate
 
     class EnoughSeen(BaseException):
@@ -502,9 +535,8 @@ def trained(module, environment, seed, signs):
 
     def evaluate(self, population, *arguments, **options):
         found = numpy.array(population, dtype=float)
-        if len(begun[-1]) < 3:
-            begun[-1].append(found[0])
-        elif len(begun) > 1:
+        begins = calls[-1] < 3 or len(begun[-1]) < least
+        if not begins and len(begun) > 1:
             raise EnoughSeen
         fitness = kept(self, population, *arguments, **options)
         order, half = numpy.arange(len(found)), len(found) // 2
@@ -512,6 +544,9 @@ def trained(module, environment, seed, signs):
             middles = (found[:half] + found[half:]) / 2
             if numpy.allclose(middles, middles[0], atol=1e-9):
                 order = order.reshape(2, half).T.ravel()
+        if begins:
+            begun[-1].extend(found[order])
+            calls[-1] += 1
         if len(begun) == 1:
             rows.extend(found[order])
             scores.extend(numpy.array(fitness, dtype=float)[order])
@@ -523,6 +558,7 @@ def trained(module, environment, seed, signs):
             centre = module.train(environment, seed=seed)
             for other in (seed, seed + 1):
                 begun.append([])
+                calls.append(0)
                 with contextlib.suppress(EnoughSeen):
                     module.train(environment, seed=other)
     finally:
@@ -576,6 +612,31 @@ def explained(generations: list[tuple], centre: np.ndarray) -> tuple[float, np.n
     return float(way @ gone) / length if length > 0 else 0.0, centres[starts[nearest]]
 
 
+def is_candidate(generations: list[tuple], centre: np.ndarray) -> bool:
+    """Whether a centre is one of the candidates at the two sides of another one."""
+    sides = [middle + sign * e for middle, e, _ in generations for sign in (1, -1)]
+    return any(bool((np.abs(side - centre).max(axis=1) < 1e-5).any()) for side in sides)
+
+
+def expect_other_beginning(said: str, seed: int, first: np.ndarray, other: np.ndarray) -> None:
+    """A training with the next seed has another first centre, and other samples around it."""
+    pairs = [generations_of(each, np.zeros(len(each))) for each in (first, other)]
+    if not all(pairs):  # it begins in another way
+        return
+    (centre, samples, _), (next_centre, next_samples, _) = (each[0] for each in pairs)
+    expect(
+        not np.allclose(centre, next_centre, 1e-6, 1e-9),
+        f"{said} and seed={seed + 1} begin at the same centre, {show(centre)}: draw the weights "
+        "of the first centre anew from each seed.",
+    )
+    few = min(len(samples), len(next_samples))
+    expect(
+        not np.allclose(samples[:few], next_samples[:few], 1e-6, 1e-9),
+        f"{said} and seed={seed + 1} begin with the same samples around the first centre: hand "
+        "the seed on to evolve.",
+    )
+
+
 def expect_mean(student: Student, environment: str, index: int, goal: float, what: str) -> None:
     """With one of three seeds the centre reaches the goal, over 100 episodes that are new to it."""
     robot, means, tried = Robot(environment), [], []
@@ -588,7 +649,7 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
     while not means or (max(means) < goal and len(means) < 3):
         tried.append(exercise.seed(index + 200 * len(means)) % 100_000)
         said = f"train({environment!r}, seed={tried[-1]})"
-        answer = student.run(trained, environment, tried[-1], signs, said=said)
+        answer = student.run(trained, environment, tried[-1], signs, BEGINNING, said=said)
         expect(isinstance(answer, list) and len(answer) == 6, f"{said} gave no answer.")
         centre = expect_array(said, answer[0], (size,))
         means.append(mean_of(signs * centre))
@@ -608,6 +669,11 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
     if rows.ndim == 2 and rows.shape == (len(scores), size) and len(scores) > 3:
         generations = generations_of(rows, scores)
         if generations:
+            expect(
+                not is_candidate(generations, centre),
+                f"{said} returned a candidate, centre + noiseStdDev * sample or centre - "
+                "noiseStdDev * sample. Return a centre: the steps of the algorithm lead to it.",
+            )
             share, start = explained(generations, centre)
             evolved_here = share > EXPLAINED and mean_of(signs * start) < goal
     expect(
@@ -624,6 +690,7 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
         f"{said} and seed={tried[-1] + 1} begin with the same candidates: evolve anew from each "
         "seed.",
     )
+    expect_other_beginning(said, tried[-1], first, other)
 
 
 @training.check(5)

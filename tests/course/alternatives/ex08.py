@@ -326,3 +326,83 @@ def train(environment, seed):
         if found[-1][0] > goal[environment]:
             break
     return max(found, key=lambda one: one[0])[1]
+
+
+# %% generators_and_views
+# Generators, partitions and views; a training that looks at its first centre before it begins.
+def candidates_around(centre, samples, noiseStdDev):
+    return np.vstack([centre + sign * noiseStdDev * e for e in samples for sign in (1, -1)])
+
+
+def utilities(fitness):
+    pairs = sorted((value, i) for i, value in enumerate(np.asarray(fitness).tolist()))
+    places = {i: rank for rank, (_, i) in enumerate(pairs)}
+    return np.fromiter((places[i] / (len(pairs) - 1) - 0.5 for i in range(len(pairs))), float)
+
+
+def gradient(samples, utilities):
+    plus, minus = np.asarray(utilities).reshape(-1, 2).T
+    return np.tensordot(plus - minus, samples, 1) / (2 * len(samples))
+
+
+def descent(gradient, centre, wdecay):
+    match wdecay:
+        case 1:
+            return 0.005 * centre - gradient
+        case 2:
+            return 0.005 * ((centre > 0) * 1.0 - (centre < 0)) - gradient
+        case _:
+            return -gradient
+
+
+def smooth(curve, width):
+    return np.lib.stride_tricks.sliding_window_view(np.asarray(curve, float), width).mean(axis=1)
+
+
+def stability(curve):
+    curve = np.asarray(curve, dtype=float)
+    falls = np.append(0, np.maximum.accumulate(curve)[:-1] - curve[1:])
+    bottom = falls.argmax()
+    peak = curve.tolist().index(max(curve[: bottom + 1]))
+    height = np.ptp(curve)
+    drop = falls[bottom] / height if height else 0.0
+    verdict = next(
+        word
+        for limit, word in (
+            (0.1, "monotonic"),
+            (0.3, "mild regressions"),
+            (2, "severe regressions"),
+        )
+        if drop <= limit
+    )
+    return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
+
+
+def train(environment, seed):
+    robot, rng = Robot(environment), np.random.default_rng(seed + 11)
+    centre = np.concatenate([np.zeros(robot.nbiases), rng.normal(0, 0.1, robot.nweights)])
+    robot.evaluate(centre[None], seed, episodes=2)
+    run = evolve(
+        robot.evaluate, centre, 90 if "Cart" in environment else 600, seed,
+        samplesize=18, noiseStdDev=0.22, stepsize=0.05,
+    )  # fmt: skip
+    return np.float32(run["centre"])
+
+
+# %% first_look_at_all_pairs_alone
+# Evaluates pair after pair, and keeps the centre with the best mean of its candidates.
+def train(environment, seed):
+    robot, rng = Robot(environment), np.random.default_rng(seed)
+    centre = np.zeros(robot.nbiases + robot.nweights)
+    centre[robot.nbiases :] = 0.1 * rng.standard_normal(robot.nweights)
+    m, v, best = np.zeros_like(centre), np.zeros_like(centre), (-np.inf, centre)
+    for g in range(80 if "Cart" in environment else 600):
+        samples = rng.standard_normal((16, len(centre)))
+        candidates = candidates_around(centre, samples, 0.2)
+        fitness = np.concatenate(
+            [robot.evaluate(candidates[i : i + 2], seed + g, 10) for i in range(0, 32, 2)]
+        )
+        best = max(best, (fitness.mean(), centre), key=lambda one: one[0])
+        d = descent(gradient(samples, utilities(fitness)), centre, 0)
+        centre, m, v = adam(centre, d, m, v, g + 1, 0.05)
+    return max(best, (robot.evaluate(centre[None], seed, 50)[0], centre), key=lambda one: one[0])[1]

@@ -550,3 +550,592 @@ def train(environment, seed):
 # says: this
 # -     peak = int(np.argmax(curve[: bottom + 1]))
 # +     peak = bottom - int(np.argmax(curve[: bottom + 1][::-1]))
+
+
+# %% old_m loses 8.5
+# Steps with the m of the generation before.
+# says: this
+def adam(centre, d, m, v, t, stepsize):
+    new_m = 0.9 * m + 0.1 * d
+    new_v = 0.999 * v + 0.001 * d**2
+    step = (m / (1 - 0.9**t)) / (np.sqrt(new_v / (1 - 0.999**t)) + 1e-8)
+    return centre - stepsize * step, new_m, new_v
+
+
+# %% one_size_for_all loses 8.5
+# Keeps one v for all parameters, the mean of the squares.
+# says: this
+def adam(centre, d, m, v, t, stepsize):
+    m = 0.9 * m + 0.1 * d
+    v = 0.999 * v + 0.001 * np.mean(d**2)
+    step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+    return centre - stepsize * step, m, v
+
+
+# %% epsilon_before_correction loses 8.5
+# Adds 1e-8 to the root of the uncorrected v.
+# says: this
+def adam(centre, d, m, v, t, stepsize):
+    m = 0.9 * m + 0.1 * d
+    v = 0.999 * v + 0.001 * d**2
+    rate = stepsize * np.sqrt(1 - 0.999**t) / (1 - 0.9**t)
+    return centre - rate * m / (np.sqrt(v) + 1e-8), m, v
+
+
+# %% clipped_step loses 8.5
+# Cuts every step to stepsize at most.
+# says: this
+def adam(centre, d, m, v, t, stepsize):
+    m = 0.9 * m + 0.1 * d
+    v = 0.999 * v + 0.001 * d**2
+    step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+    return centre - stepsize * np.clip(step, -1, 1), m, v
+
+
+# %% sizes_for_squares loses 8.5
+# Averages the size of d, not its square.
+# says: this
+# -     v = 0.999 * v + 0.001 * d**2
+# +     v = 0.999 * v + 0.001 * np.abs(d)
+
+
+# %% correction_multiplied loses 8.5
+# Multiplies by the shares instead of dividing.
+# says: this
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# +     step = (m * (1 - 0.9**t)) / (np.sqrt(v * (1 - 0.999**t)) + 1e-8)
+
+
+# %% d_for_m loses 8.5
+# Steps along d, not along its mean.
+# says: this
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# +     step = d / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+
+
+# %% same_share_for_both loses 8.5
+# Corrects v with 0.9 as well.
+# says: this
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# +     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.9**t)) + 1e-8)
+
+
+# %% gradient_of_the_scaled loses 8.6
+# Multiplies the samples by noiseStdDev before the gradient as well.
+# says: this
+# -         samples = rng.standard_normal((samplesize, len(centre)))
+# -         fitness = evaluate(candidates_around(centre, samples, noiseStdDev), seed + generation)
+# +         samples = rng.normal(0, noiseStdDev, (samplesize, len(centre)))
+# +         fitness = evaluate(candidates_around(centre, samples, 1), seed + generation)
+
+
+# %% returns_the_best loses 8.6
+# Returns the centre of the generation with the best mean.
+# says: this
+# -     return {"centre": centre, "history": history}
+# +     return {"centre": best, "history": history}
+# -     m, v, history = np.zeros(len(centre)), np.zeros(len(centre)), []
+# +     m, v, history, best = np.zeros(len(centre)), np.zeros(len(centre)), [], centre
+# -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
+# +         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
+# +         if history[-1] == max(history):
+# +             best = centre
+
+
+# %% looks_at_the_centre_too loses 8.6
+# Evaluates the centre as well and keeps its fitness.
+# says: this
+# -         history.append(float(np.mean(fitness)))
+# +         history.append(float(evaluate(centre[None], seed + generation)[0]))
+
+
+# %% decays_the_start loses 8.6
+# Pulls the first centre at every generation.
+# says: this
+# -         d = descent(gradient(samples, utilities(fitness)), centre, wdecay)
+# +         d = descent(gradient(samples, utilities(fitness)), start, wdecay)
+# -     m, v, history = np.zeros(len(centre)), np.zeros(len(centre)), []
+# +     m, v, history, start = np.zeros(len(centre)), np.zeros(len(centre)), [], centre
+
+
+# %% rng_of_each_generation loses 8.6
+# Makes a new generator in each generation.
+# says: this
+# -         samples = rng.standard_normal((samplesize, len(centre)))
+# +         samples = np.random.default_rng(seed + generation).standard_normal((samplesize, len(centre)))
+
+
+# %% m_forgotten loses 8.6
+# Begins every generation with m and v of zeros.
+# says: this
+# -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
+# +         centre, _, _ = adam(centre, d, m, v, generation + 1, stepsize)
+
+
+# %% range_until_then loses 8.7
+# Divides each fall by the height of the curve until then.
+# says: this
+def stability(curve):
+    curve = np.asarray(curve, float)
+    highs, lows = np.maximum.accumulate(curve), np.minimum.accumulate(curve)
+    spans = highs - lows
+    drops = np.where(spans > 0, (highs - curve) / np.where(spans > 0, spans, 1), 0)
+    bottom = int(np.argmax(drops))
+    peak = int(np.argmax(curve[: bottom + 1]))
+    drop = float(drops[bottom])
+    verdict = (
+        "monotonic" if drop <= 0.1 else "mild regressions" if drop <= 0.3 else "severe regressions"
+    )
+    return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
+
+
+# %% highest_from_zero loses 8.7
+# Begins with a highest value of 0.
+# says: this
+def stability(curve):
+    highest, high_at, fall, bottom, peak = 0.0, 0, 0.0, 0, 0
+    for i, value in enumerate(curve):
+        if value > highest:
+            highest, high_at = value, i
+        if highest - value > fall:
+            fall, bottom, peak = highest - value, i, high_at
+    height = max(curve) - min(curve)
+    drop = float(fall / height) if height else 0.0
+    verdict = (
+        "monotonic" if drop <= 0.1 else "mild regressions" if drop <= 0.3 else "severe regressions"
+    )
+    return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
+
+
+# %% smooths_in_stability loses 8.7
+# Smooths the curve first.
+# says: this
+# -     curve = np.asarray(curve, dtype=float)
+# +     curve = smooth(np.asarray(curve, dtype=float), 2)
+
+
+# %% height_from_the_start loses 8.7
+# Divides by the rise from the first value.
+# says: this
+# -     height = curve.max() - curve.min()
+# +     height = curve.max() - curve[0]
+
+
+# %% bottom_is_the_lowest loses 8.7
+# Takes the lowest value for the bottom.
+# says: this
+# -     bottom = int(np.argmax(falls))
+# +     bottom = int(np.argmin(curve))
+
+
+# %% peak_of_a_rise loses 8.7
+# Says the last index for a curve that never falls.
+# says: this
+# -     return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
+# +     if drop == 0:
+# +         bottom = peak = len(curve) - 1
+# +     return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
+
+
+# %% stacked_last loses 8.1
+# Stacks the two sides along the last axis and reshapes.
+# says: this
+def candidates_around(centre, samples, noiseStdDev):
+    both = np.stack([centre + noiseStdDev * samples, centre - noiseStdDev * samples], axis=-1)
+    return both.reshape(-1, len(centre))
+
+
+# %% minus_of_the_next loses 8.1
+# Subtracts the next sample instead of the same one.
+# says: this
+def candidates_around(centre, samples, noiseStdDev):
+    rows = []
+    for b in range(len(samples)):
+        rows.append(centre + noiseStdDev * samples[b])
+        rows.append(centre - noiseStdDev * samples[b - 1])
+    return np.array(rows)
+
+
+# %% scaled_samples_in_place loses 8.1
+# Multiplies the samples that it was given by noiseStdDev.
+# says: changed
+def candidates_around(centre, samples, noiseStdDev):
+    samples *= noiseStdDev
+    out = np.repeat(samples, 2, axis=0)
+    out[1::2] *= -1
+    return centre + out
+
+
+# %% variance_for_deviation loses 8.1
+# Takes noiseStdDev for a variance.
+# says: this
+def candidates_around(centre, samples, noiseStdDev):
+    out = np.repeat(np.sqrt(noiseStdDev) * samples, 2, axis=0)
+    out[1::2] *= -1
+    return centre + out
+
+
+# %% around_zero loses 8.1
+# Mirrors the plus candidate at 0, not at the centre.
+# says: this
+def candidates_around(centre, samples, noiseStdDev):
+    out = np.empty((2 * len(samples), len(centre)))
+    out[0::2] = centre + noiseStdDev * samples
+    out[1::2] = -out[0::2]
+    return out
+
+
+# %% same_rank_for_equals loses 8.2
+# Gives equals the same rank.
+# says: lowest rank
+def utilities(fitness):
+    fitness = np.asarray(fitness)
+    ranks = np.searchsorted(np.sort(fitness), fitness)
+    return ranks / (len(fitness) - 1) - 0.5
+
+
+# %% rank_by_dictionary loses 8.2
+# Looks ranks up by the fitness, so that the last rank of equals counts for all.
+# says: highest rank
+def utilities(fitness):
+    rank = {value: i for i, value in enumerate(sorted(fitness))}
+    return np.array([rank[value] for value in fitness]) / (len(fitness) - 1) - 0.5
+
+
+# %% whole_fitness loses 8.2
+# Ranks the whole numbers of the fitness.
+# says: this
+def utilities(fitness):
+    order = np.argsort(np.asarray(fitness).astype(int), kind="stable")
+    u = np.empty(len(order))
+    u[order] = np.linspace(-0.5, 0.5, len(order))
+    return u
+
+
+# %% sorts_the_argument loses 8.2
+# Sorts the fitness that it was given.
+# says: changed an array
+def utilities(fitness):
+    order = np.argsort(fitness, kind="stable")
+    u = np.empty(len(order))
+    u[order] = np.linspace(-0.5, 0.5, len(order))
+    fitness.sort()
+    return u
+
+
+# %% best_half_only loses 8.2
+# Sets the utilities of the worse half to 0.
+# says: this
+def utilities(fitness):
+    order = np.argsort(fitness, kind="stable")
+    u = np.empty(len(order))
+    u[order] = np.linspace(-0.5, 0.5, len(order))
+    return np.maximum(u, 0)
+
+
+# %% all_equal_zero loses 8.2
+# Returns zeros if all fitness is equal.
+# says: All get 0
+def utilities(fitness):
+    fitness = np.asarray(fitness)
+    if fitness.max() == fitness.min():
+        return np.zeros(len(fitness))
+    order = np.argsort(fitness, kind="stable")
+    u = np.empty(len(order))
+    u[order] = np.linspace(-0.5, 0.5, len(order))
+    return u
+
+
+# %% signs_of_the_differences loses 8.3
+# Counts only which side won.
+# says: this
+def gradient(samples, utilities):
+    return np.sign(utilities[0::2] - utilities[1::2]) @ samples / len(utilities)
+
+
+# %% over_parameters loses 8.3
+# Divides by the number of parameters.
+# says: this
+def gradient(samples, utilities):
+    return (utilities[0::2] - utilities[1::2]) @ samples / (2 * samples.shape[1])
+
+
+# %% plus_only loses 8.3
+# Uses the utilities of the plus candidates only.
+# says: this
+def gradient(samples, utilities):
+    return 2 * utilities[0::2] @ samples / len(utilities)
+
+
+# %% winners_only loses 8.3
+# Adds only those samples whose plus candidate won.
+# says: this
+def gradient(samples, utilities):
+    weights = utilities[0::2] - utilities[1::2]
+    return np.maximum(weights, 0) @ samples / len(utilities)
+
+
+# %% unit_length loses 8.3
+# Divides the gradient by its length.
+# says: this
+def gradient(samples, utilities):
+    g = (utilities[0::2] - utilities[1::2]) @ samples / len(utilities)
+    return g / np.linalg.norm(g)
+
+
+# %% zero_counts_as_positive loses 8.4
+# Pulls a parameter that is 0.
+# says: this
+def descent(gradient, centre, wdecay):
+    if wdecay == 0:
+        return -gradient
+    if wdecay == 1:
+        return -gradient + 0.005 * centre
+    return -gradient + np.where(centre < 0, -0.005, 0.005)
+
+
+# %% negates_in_place loses 8.4
+# Turns the gradient that it was given around.
+# says: changed an array
+def descent(gradient, centre, wdecay):
+    gradient *= -1
+    if wdecay == 1:
+        gradient += 0.005 * centre
+    elif wdecay == 2:
+        gradient += 0.005 * np.sign(centre)
+    return gradient
+
+
+# %% returns_the_gradient_itself loses 8.4
+# Multiplies by wdecay.
+# says: this
+def descent(gradient, centre, wdecay):
+    return -gradient + 0.005 * wdecay * centre
+
+
+# %% size_for_sign loses 8.4
+# Pulls by the absolute values.
+# says: this
+def descent(gradient, centre, wdecay):
+    return -gradient + 0.005 * {0: 0 * centre, 1: centre, 2: np.abs(centre)}[wdecay]
+
+
+# %% counts_its_own_steps loses 8.5
+# Counts its calls instead of using t.
+# says: kept from call to call
+_steps = 0
+
+
+def adam(centre, d, m, v, t, stepsize):
+    global _steps
+    _steps += 1
+    m = 0.9 * m + 0.1 * d
+    v = 0.999 * v + 0.001 * d**2
+    step = (m / (1 - 0.9**_steps)) / (np.sqrt(v / (1 - 0.999**_steps)) + 1e-8)
+    return centre - stepsize * step, m, v
+
+
+# %% at_least_one loses 8.6
+# Makes a generation even if none was asked for.
+# -     for generation in range(generations):
+# +     for generation in range(max(generations, 1)):
+
+
+# %% truncated_smooth loses 8.7
+# Keeps the type of the curve, so that means of whole numbers lose their fractions.
+# says: cut off
+def smooth(curve, width):
+    curve = np.asarray(curve)
+    out = np.zeros_like(curve[width - 1 :])
+    for i in range(len(out)):
+        out[i] = curve[i : i + width].mean()
+    return out
+
+
+# %% cumulated_sum_loses_first loses 8.7
+# Takes differences of running sums and loses the first mean.
+# says: first one is missing
+def smooth(curve, width):
+    sums = np.cumsum(curve, dtype=float)
+    return (sums[width:] - sums[:-width]) / width
+
+
+# %% rounded_drop loses 8.7
+# Rounds the drop before the verdict.
+# says: not to be rounded
+# -     if drop <= 0.1:
+# +     if round(drop, 1) <= 0.1:
+# -     elif drop <= 0.3:
+# +     elif round(drop, 1) <= 0.3:
+
+
+# %% flat_within_a_thousandth loses 8.7
+# Calls a curve flat whose height is below 0.001.
+# -     drop = float(falls[bottom] / height) if height > 0 else 0.0
+# +     drop = float(falls[bottom] / height) if height > 1e-3 else 0.0
+
+
+# %% start_without_seed loses 8.8
+# Starts from the same centre for every seed.
+# says: begin at the same centre
+# -     weights = 0.1 * np.random.default_rng(seed).standard_normal(robot.nweights)
+# +     weights = 0.1 * np.random.default_rng(0).standard_normal(robot.nweights)
+
+
+# %% best_candidate loses 8.8
+# Returns the best candidate, not a centre.
+# says: returned a candidate
+# -     def evaluate(candidates, seed):
+# -         return robot.evaluate(candidates, seed, episodes=10)
+# +     best = [-np.inf, centre]
+# +
+# +     def evaluate(candidates, seed):
+# +         found = robot.evaluate(candidates, seed, episodes=10)
+# +         if found.max() >= best[0]:
+# +             best[:] = found.max(), candidates[np.argmax(found)]
+# +         return found
+# -     return run["centre"]
+# +     return best[1]
+
+
+# %% climbs_a_hill loses 8.8
+# Keeps the best candidate of each generation instead of following the gradient.
+# says: returned a candidate
+# -     run = evolve(evaluate, centre, generations, seed, noiseStdDev=0.2, stepsize=0.05)
+# -     return run["centre"]
+# +     rng, best = np.random.default_rng(seed), -np.inf
+# +     for g in range(generations):
+# +         candidates = candidates_around(centre, rng.standard_normal((20, len(centre))), 0.2)
+# +         found = evaluate(candidates, seed + g)
+# +         centre = candidates[np.argmax(found)]
+# +     return centre
+
+
+# %% one_centre_for_all_seeds loses 8.8
+# Remembers the centre of an environment.
+_found = {}
+_train = train
+
+
+def train(environment, seed):
+    if environment not in _found:
+        _found[environment] = _train(environment, seed)
+    return _found[environment]
+
+
+# %% unstable_in_evolve loses 8.6
+# Ranks anew in evolve, by a sort that may exchange equals.
+# says: equal fitness
+# -         d = descent(gradient(samples, utilities(fitness)), centre, wdecay)
+# +         u = np.argsort(np.argsort(fitness)) / (2 * samplesize - 1) - 0.5
+# +         d = descent(gradient(samples, u), centre, wdecay)
+
+
+# %% decay_of_one_kind loses 8.6
+# Hands on whether there is decay, not which.
+# -         d = descent(gradient(samples, utilities(fitness)), centre, wdecay)
+# +         d = descent(gradient(samples, utilities(fitness)), centre, int(bool(wdecay)))
+
+
+# %% last_generation_left_out loses 8.6
+# Returns the centre before the last step.
+# says: last step is missing
+# -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
+# +         if generation < generations - 1:
+# +             centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
+
+
+# %% default_noise loses 8.6
+# Takes noiseStdDev 0.02, whatever is asked for.
+# says: noiseStdDev is not handed on
+# -         fitness = evaluate(candidates_around(centre, samples, noiseStdDev), seed + generation)
+# +         fitness = evaluate(candidates_around(centre, samples, 0.02), seed + generation)
+
+
+# %% history_of_one_side loses 8.6
+# The history holds the mean fitness of the plus candidates only.
+# -         history.append(float(np.mean(fitness)))
+# +         history.append(float(np.mean(fitness[0::2])))
+
+
+# %% rounded_history loses 8.6
+# Rounds the history to three places.
+# -         history.append(float(np.mean(fitness)))
+# +         history.append(round(float(np.mean(fitness)), 3))
+
+
+# %% median_filter loses 8.7
+# Takes the median of neighbours.
+def smooth(curve, width):
+    return np.array([np.median(curve[i : i + width]) for i in range(len(curve) - width + 1)])
+
+
+# %% percent loses 8.7
+# Gives the drop in percent.
+# says: percent
+# -     return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
+# +     return {"drop": 100 * drop, "bottom": bottom, "peak": peak, "verdict": verdict}
+
+
+# %% drop_of_two_places loses 8.7
+# Rounds the drop to two places.
+# says: It is rounded
+# -     drop = float(falls[bottom] / height) if height > 0 else 0.0
+# +     drop = round(float(falls[bottom] / height), 2) if height > 0 else 0.0
+
+
+# %% short_verdict loses 8.7
+# Shortens the verdicts.
+# says: 'mild'
+# -     verdict = "severe regressions"
+# +     verdict = "severe"
+# -         verdict = "mild regressions"
+# +         verdict = "mild"
+
+
+# %% width_too_narrow loses 8.7
+# Divides by width + 1.
+# -     return np.convolve(curve, np.full(width, 1 / width), mode="valid")
+# +     return np.convolve(curve, np.full(width, 1 / (width + 1)), mode="valid")
+
+
+# %% shrinks_the_gradient loses 8.4
+# Pulls the gradient, not the centre.
+def descent(gradient, centre, wdecay):
+    pull = {0: np.zeros(len(centre)), 1: gradient, 2: np.sign(gradient)}[wdecay]
+    return -gradient + 0.005 * pull
+
+
+# %% best_plus_side loses 8.8
+# Returns the plus candidate of the last generation's best pair.
+# says: returned a candidate
+# -     def evaluate(candidates, seed):
+# -         return robot.evaluate(candidates, seed, episodes=10)
+# +     last = [centre]
+# +
+# +     def evaluate(candidates, seed):
+# +         found = robot.evaluate(candidates, seed, episodes=10)
+# +         last[0] = np.array(candidates[2 * np.argmax(found[0::2])])
+# +         return found
+# -     return run["centre"]
+# +     return last[0]
+
+
+# %% same_samples_for_all_seeds loses 8.8
+# Draws only the first weights from the seed.
+# says: the same samples
+# -     run = evolve(evaluate, centre, generations, seed, noiseStdDev=0.2, stepsize=0.05)
+# +     run = evolve(evaluate, centre, generations, 7, noiseStdDev=0.2, stepsize=0.05)
+
+
+# %% from_nothing loses 8.8
+# Starts from zeros, whatever the seed is.
+# says: begin at the same centre
+# -     centre = np.concatenate([np.zeros(robot.nbiases), weights])
+# +     centre = np.zeros(robot.nbiases + robot.nweights)
+
+
+# %% pendulum_ends_early loses 8.8
+# Evolves Pendulum for as few generations as CartPole.
+# -     generations = 80 if "CartPole" in environment else 600
+# +     generations = 80
