@@ -41,16 +41,20 @@ def has_one_row_per_individual(student: Student):
     expect_array(student.said, population, (20, 72))
     population = student.call("initial_population", 6, 2, 9, seed=exercise.seed(1))
     expect_array(student.said, population, (6, 11))
+    population = student.call("initial_population", 1, 2, 9, seed=exercise.seed(1))
+    expect_array(student.said, population, (1, 11))
 
 
 @initial.check(3)
 def biases_are_zero(student: Student):
     population = student.call("initial_population", 12, 5, 30, seed=3)
     population = expect_array(student.said, population, (12, 35))
+    wrong = np.any(population[:, :5] != 0, axis=1) | np.any(population[:, 5:] == 0, axis=1)
+    row = int(wrong.argmax())
     expect(
-        bool(np.all(population[:, :5] == 0)) and bool(np.all(population[:, 5:] != 0)),
+        not wrong.any(),
         f"{student.said}: the first 5 values of each row are the biases and must be 0, "
-        "the 30 weights after them must not.",
+        f"the 30 weights after them must not; row {row} is {show(population[row])}.",
     )
 
 
@@ -65,14 +69,42 @@ def individuals_differ(student: Student):
     )
 
 
+DEVIATIONS = {
+    0.1**0.5: "0.1 is the standard deviation, not the variance: multiply by 0.1, not by its root.",
+    0.01: "0.1 is the standard deviation: multiply by it once, do not square it.",
+    200**-0.5: "You divide by the root of the number of weights, but 0.1 is 0.1 for every size.",
+}
+
+
+def slip_of(value: float, slips: dict[float, str]) -> str:
+    """A sentence on the slip that leads to a measured value, or ""."""
+    return next((f" {said}" for each, said in slips.items() if abs(value / each - 1) < 0.04), "")
+
+
+def drawn_again(module, *arguments):
+    """Whether a second population is as the first was before it was changed."""
+    import numpy
+
+    one = module.initial_population(*arguments)
+    before = numpy.array(one)
+    if isinstance(one, numpy.ndarray):
+        one += 1
+    return bool(numpy.array_equal(module.initial_population(*arguments), before))
+
+
 @initial.check(4)
 def weights_are_gaussian(student: Student):
     weights = student.call("initial_population", 100, 0, 200, seed=exercise.seed(2))
     weights = expect_array(student.said, weights, (100, 200))
     expect(
+        bool(weights.min() < 0 < weights.max()),
+        f"{student.said}: all weights have the same sign, but half of Gaussian numbers with mean 0 "
+        "are negative.",
+    )
+    expect(
         abs(weights.std() - 0.1) < 0.004,
         f"{student.said}: the weights have standard deviation {weights.std():.3f}, but 0.1 is "
-        "asked for.",
+        f"asked for.{slip_of(weights.std(), DEVIATIONS)}",
     )
     expect(
         abs(weights.mean()) < 0.005,
@@ -100,10 +132,20 @@ def seed_decides(student: Student):
     other = student.call("initial_population", 4, 2, 9, seed=exercise.seed(3) + 1)
     other = expect_array(student.said, other, (4, 11))
     expect(not np.array_equal(one, other), f"{student.said}: another seed gave the same numbers.")
+    one = student.call("initial_population", 40, 2, 9, seed=exercise.seed(3))
+    one = expect_array(student.said, one, (40, 11))
+    for later in (1, 2, 10):
+        other = student.call("initial_population", 40, 2, 9, seed=exercise.seed(3) + later)
+        expect(
+            not same_rows(expect_array(student.said, other, (40, 11)), one).any(),
+            f"{student.said} holds individuals of the population of seed={exercise.seed(3)}: make "
+            "one generator from the seed, and draw all individuals from it.",
+        )
+    said = "initial_population(4, 2, 9, seed=1), after the array of an earlier call was changed,"
     expect(
-        not same_rows(other, np.asarray(one)).any(),
-        f"{student.said} holds individuals of the population of seed={exercise.seed(3)}: make one "
-        "generator from the seed, and draw all individuals from it.",
+        student.run(drawn_again, 4, 2, 9, 1, said=said) is True,
+        f"{said} gives the changed array, so one evolution changes where the next begins: make a "
+        "new array in every call.",
     )
 
 
@@ -115,7 +157,8 @@ ranking = exercise.task("3.2", "Ranking")
 def best_comes_first(student: Student):
     rng = np.random.default_rng(exercise.seed(5))
     for size in (3, 10, 21):
-        for fitness in (rng.normal(size=size), 7 + 1e-4 * rng.normal(size=size)):
+        small, large = rng.normal(size=size), rng.permutation(size) - 4
+        for fitness in (small, 7 + 1e-4 * small, 1e9 * large, -3e9 - 1e8 * (large + 4), small[:2]):
             order = student.call("rank", fitness)
             expect_close(student.said, order, np.argsort(-fitness))
 
@@ -149,9 +192,10 @@ def steps(module, population, fitness, mutrate, seed):
     """Two calls with one generator, one call with the same generator anew."""
     import numpy
 
-    rng, before = numpy.random.default_rng(seed), population.copy()
+    rng, before, same = numpy.random.default_rng(seed), population.copy(), fitness.copy()
     after = [module.next_population(population, fitness, mutrate, rng)]
-    unchanged = bool((population == before).all())
+    unchanged = [bool((population == before).all()), bool((fitness == same).all())]
+    fitness = same
     after.append(module.next_population(before.copy(), fitness, mutrate, rng))
     rng = numpy.random.default_rng(seed)
     after.append(module.next_population(before.copy(), fitness, mutrate, rng))
@@ -165,9 +209,13 @@ ZEROS = 8
 class Step:
     """A random population, its fitness, and what the student makes of it."""
 
-    def __init__(self, student: Student, popsize: int, mutrate: float, index: int) -> None:
+    def __init__(
+        self, student: Student, popsize: int, mutrate: float, index: int, scale: float = 1.0
+    ) -> None:
+        """scale: the standard deviation of the population's parameters."""
         rng = np.random.default_rng(exercise.seed(index))
         population, fitness = rng.normal(size=(popsize, 40)), rng.permutation(popsize) - 3.5
+        population *= scale
         population[:, :ZEROS] = 0
         after, self.unchanged = student.run(
             steps, population, fitness, mutrate, exercise.seed(index),
@@ -214,9 +262,11 @@ def expect_overwritten(step: Step) -> None:
 
 @following.check(4)
 def better_half_stays(student: Student):
-    step = Step(student, 10, 0.02, 6)
-    expect_close(f"{step.said}: the better half", step.sorted_out(step.after)[0], step.better, 1e-6)
-    expect_overwritten(step)
+    for popsize, scale in ((10, 1), (6, 1), (2, 1), (10, 100)):
+        step = Step(student, popsize, 0.02, 6, scale)
+        better = step.sorted_out(step.after)[0]
+        expect_close(f"{step.said}: the better half", better, step.better, 1e-6)
+        expect_overwritten(step)
 
 
 @following.check(3)
@@ -246,37 +296,64 @@ def equal_fitness(student: Student):
 
 @following.check(4)
 def worse_half_becomes_mutated_copies(student: Student):
-    step = Step(student, 20, 0.02, 7)
-    expect_overwritten(step)
-    expect(
-        bool(np.all(np.abs(step.noise(step.after)).mean(axis=1) < 0.05)),
-        f"{step.said}: a row of the worse half is no mutated copy of one of the better half.",
-    )
-    expect(
-        len(set(step.parents(step.after))) == 10,
-        f"{step.said}: each of the better half must be copied exactly once.",
-    )
+    for scale in (1, 100):
+        step = Step(student, 20, 0.02, 7, scale)
+        expect_overwritten(step)
+        away = np.abs(step.noise(step.after)).mean(axis=1)
+        expect(
+            bool(np.all(away < 0.05)),
+            f"{step.said}: a row of the worse half is no mutated copy of one of the better half: "
+            f"its parameters differ by {away.max():.3f} on average from those of the nearest one, "
+            "but noise with standard deviation 0.02 makes it 0.016.",
+        )
+        copies = np.bincount(step.parents(step.after), minlength=10).tolist()
+        expect(
+            copies == [1] * 10,
+            f"{step.said}: each of the better half must be copied exactly once, but they are "
+            f"copied {copies} times.",
+        )
+
+
+def noises(mutrate: float) -> dict[float, str]:
+    """The standard deviation of a typical mistake -> what is wrong."""
+    return {
+        mutrate**0.5: "mutrate is the standard deviation, not the variance: do not take its root.",
+        mutrate**2: "mutrate is squared: multiply by it once.",
+        1.0: "mutrate is left out.",
+        mutrate * 3**-0.5: "These are evenly distributed numbers, not Gaussian ones.",
+        mutrate * (1 - 2 / np.pi) ** 0.5: "All noise has the same sign.",
+    }
 
 
 @following.check(3)
 def noise_is_gaussian(student: Student):
-    for mutrate in (0.02, 0.3):
-        step = Step(student, 200, mutrate, 8)
+    for mutrate in (0.02, 0.3, 1.5):
+        step = Step(student, 200, mutrate, 8, max(1, 20 * mutrate))
         noise = step.noise(step.after) / mutrate
+        none = float(np.mean(noise[:, ZEROS:] == 0))
+        expect(
+            none < 0.02,
+            f"{step.said}: {100 * none:.0f} % of the parameters of the copies got no noise, but "
+            "every parameter gets some: mutrate is the standard deviation of the noise, not the "
+            "probability or the share of changes.",
+        )
         expect(
             noise[:, :ZEROS].std() > 0.5,
             f"{step.said}: parameters that are 0 get no noise, but biases begin at 0 and must "
             "mutate, too: add the noise, whatever the parameter is.",
         )
         expect(
-            len(np.unique(noise.round(6))) > 0.95 * noise.size,
-            f"{step.said}: the same noise was added to several parameters or several copies, but "
-            "each parameter of each copy needs a random number of its own.",
+            len(np.unique(np.abs(noise).round(6))) > 0.95 * noise.size,
+            f"{step.said}: the same noise (but for its sign) was added to several parameters or "
+            f"several copies: the first copy got {show(noise[0, ZEROS : ZEROS + 3] * mutrate)}..., "
+            f"the second {show(noise[1, ZEROS : ZEROS + 3] * mutrate)}.... Each parameter of each "
+            "copy needs a random number of its own.",
         )
         expect(
             0.93 < noise.std() < 1.07 and abs(noise.mean()) < 0.1,
             f"{step.said}: the noise has mean {mutrate * noise.mean():.3f} and standard deviation "
-            f"{mutrate * noise.std():.3f}.",
+            f"{mutrate * noise.std():.3f}, but 0 and {mutrate:g} are asked for."
+            f"{slip_of(mutrate * noise.std(), noises(mutrate))}",
         )
         beyond = float(np.mean(np.abs(noise) > 2))
         expect(
@@ -306,10 +383,8 @@ def noise_comes_from_rng(student: Student):
 def argument_is_not_changed(student: Student):
     step = Step(student, 10, 0.1, 10)
     expect_overwritten(step)
-    expect(
-        step.unchanged is True,
-        f"{step.said} changed the population that it was given: work on a copy.",
-    )
+    for name, same in zip(("population", "fitness"), step.unchanged, strict=True):
+        expect(same is True, f"{step.said} changed the {name} that it was given: work on a copy.")
 
 
 # ------------------------------------------------------------------- 3.4
@@ -354,9 +429,10 @@ class Evolved:
         least: float = 0.0,
         later: int = 0,
         zero: bool = False,
+        next: int = 0,
     ) -> None:
-        """zero: whether the seed is 0; later: how many seeds after the usual one, else."""
-        seed = 0 if zero else 11 * (exercise.seed(index) % 100 + later) + 4
+        """zero: whether the seed is 0; else the usual one, plus 11 times later, plus next."""
+        seed = 0 if zero else 11 * (exercise.seed(index) % 100 + later) + 4 + next
         target = np.linspace(-1, 1, start.shape[-1])
         run, calls, self.unchanged = student.run(
             evolved, name, start, target, generations, mutrate, seed, least,
@@ -385,20 +461,57 @@ class Evolved:
 
     def expect_report(self) -> None:
         """best, fitness and history are those of the populations that were evaluated."""
-        highest = [each.max() for each in self.fitness]
-        expect_close(f"{self.said}: history", self.run["history"], highest, 1e-6)
-        expect_close(f"{self.said}: fitness", self.run["fitness"], max(highest), 1e-6)
+        table = np.array(self.fitness)
+        highest = table.max(axis=1)
+        expect_close(
+            f"{self.said}: history", self.run["history"], highest, 1e-6,
+            mistakes={
+                "This is the mean of each generation, not its highest fitness.": table.mean(axis=1),
+                "This is the lowest fitness of each generation.": table.min(axis=1),
+                "This is the highest fitness so far, but each generation's own is asked for.":
+                    np.maximum.accumulate(highest),
+                "This is the fitness of individual 0, not the highest.": table[:, 0],
+            },
+        )  # fmt: skip
+        expect_close(
+            f"{self.said}: fitness", self.run["fitness"], highest.max(), 1e-6,
+            mistakes={
+                "This is the highest fitness of the first generation only.": highest[0],
+                "This is the highest fitness of the last generation only.": highest[-1],
+                "This is the lowest fitness that was met.": table.min(),
+                "This is the lowest of the generations' highest fitness.": highest.min(),
+            },
+        )  # fmt: skip
         best = int(np.argmax(highest))
-        winner = self.populations[best][self.fitness[best].argmax()]
+        place = int(table[best].argmax())
+        winner = self.populations[best][place]
+        last = expect_array(f"{self.said}: population", self.run["population"],
+                            self.populations[0].shape)  # fmt: skip
+        mistakes = {
+            "This is what stands in its row after the last generation: keep a copy of the row "
+            "(.copy()), not a view, which changes with the array.": last[place],
+            "This is the best of the last generation, not the best of all.":
+                self.populations[-1][table[-1].argmax()],
+            "This is individual 0 at the end.": last[0],
+        }  # fmt: skip
+        for g, i in enumerate(table.argmax(axis=1)):
+            if g != best:
+                said = f"This is the best of generation {g}, whose fitness is lower."
+                mistakes.setdefault(said, self.populations[g][i])
         expect_close(
             f"{self.said}: best (the highest fitness was met in generation {best})",
-            self.run["best"], winner, 1e-6,
+            self.run["best"], winner, 1e-6, mistakes,
         )  # fmt: skip
 
     def expect_lineage(self) -> None:
         """From each population to the next: the better half kept, the others variations of it."""
         last = expect_array(f"{self.said}: population", self.run["population"],
                             self.populations[0].shape)  # fmt: skip
+        expect(
+            not np.array_equal(last, self.populations[-1]),
+            f"{self.said}: population is the one that was evaluated in the last generation, but "
+            "the one after it is asked for: selection and mutation follow every evaluation.",
+        )
         before, all_noise = None, []
         for g, after in enumerate([*self.populations[1:], last]):
             order = np.argsort(self.distance[g])
@@ -413,11 +526,17 @@ class Evolved:
                 f"{self.said}: {which} does not hold the better half of generation {g}.",
             )
             others = after[~same.any(axis=1)]
+            older = np.concatenate(self.populations[: g + 1])
+            expect(
+                not same_rows(others, older).any(),
+                f"{self.said}: {which} holds an individual that had been thrown away: besides the "
+                f"better half of generation {g} it should hold only mutated copies of it.",
+            )
             expect(
                 len(others) == half,
                 f"{self.said}: {which} should hold {half} mutated copies, but has {len(others)} "
                 f"rows that were not in the better half of generation {g} (is the same noise added "
-                "again and again?).",
+                "again and again? Does one stay twice?).",
             )
             noise = others[:, None] - better[None]
             noise = noise[np.arange(half), np.abs(noise).mean(axis=2).argmin(axis=1)]
@@ -433,11 +552,13 @@ class Evolved:
             )
             before = noise
             all_noise.append(noise)
+        self.noise = np.concatenate(all_noise)
         deviation = float(np.std(all_noise))
         expect(
             0.6 < deviation / self.mutrate < 1.6,
             f"{self.said}: the noise of all generations has standard deviation {deviation:.3f}, "
-            f"but mutrate={self.mutrate:g} is asked for.",
+            f"but mutrate={self.mutrate:g} is asked for."
+            f"{slip_of(deviation, noises(self.mutrate))}",
         )
         if np.size(all_noise) > MANY and len(self.populations[0]) == 2:  # so the parent is known
             third = len(all_noise) // 3
@@ -494,6 +615,7 @@ def reports_best_and_history(student: Student):
         (12, 1, -100.0),
         (17, 5, -1e5),
         (17, 5, 200.0),
+        (17, 5, 1e4),
     ):
         start = start_of(index, 10, 8)
         evolution = Evolved(student, "evolve", start, generations, index, least=least)
@@ -514,6 +636,14 @@ def seed_decides_the_noise(student: Student):
         zero.unchanged is True,
         f"{zero.said} changed the population that it was given: the next run would begin with "
         "another one. Work on a copy.",
+    )
+    run, following = (Evolved(student, "evolve", start, 6, 14, next=i) for i in range(2))
+    run.expect_lineage()
+    following.expect_lineage()
+    expect(
+        not same_rows(run.noise, following.noise).any(),
+        f"{following.said} added noise that {run.said} added, too: make the generator once, from "
+        "the seed, before the loop, and not in every generation.",
     )
 
 
@@ -548,6 +678,7 @@ def never_steps_down(student: Student):
         f"{student.said}: the solution that was kept got worse in a generation.",
     )
     expect(distance[-1] < distance[0] / 2, f"{student.said}: there was hardly any progress.")
+    expect(climb.unchanged is True, f"{student.said} changed start: work on a copy.")
 
 
 @climber.check(3)
@@ -559,6 +690,13 @@ def reports_like_evolve(student: Student):
         not np.array_equal(climb.populations[0], climb.populations[-1]),
         f"{student.said} evaluated the same two individuals in all generations.",
     )
+    start = start_of(16, 5)
+    student.stop()
+    one, again, other = (
+        Evolved(student, "hill_climb", start, 4, 16, later=i, mutrate=0.3) for i in (0, 0, 1)
+    )
+    one.expect_seeded(again, other)
+    Evolved(student, "hill_climb", start, 1, 16, mutrate=0.3, least=-100.0).expect_report()
 
 
 # ------------------------------------------------------------------- 3.6
@@ -572,7 +710,8 @@ def replicated(module, histories, seeds):
 
     def experiment(seed):
         asked.append(int(seed))
-        history = [float(value) for value in histories[before.index(seed)]]
+        row = before.index(seed) if seed in before else 0
+        history = [float(value) for value in histories[row]]
         return {"history": history, "fitness": max(history), "best": None, "population": None}
 
     return [module.replicate(experiment, seeds), asked, seeds]
@@ -584,6 +723,12 @@ def curves_of(student: Student, n: int, seed: int):
     result, asked, after = student.run(
         replicated, histories, seeds, said=f"replicate(experiment, {show(seeds, 30)})"
     )
+    others = [seed for seed in asked if seed not in seeds]
+    expect(
+        not others,
+        f"{student.said} ran the experiment with the seeds {show(asked[:4])}..., of which some are "
+        "not in the list: use the seeds that are given.",
+    )
     expect(
         sorted(asked) == sorted(seeds),
         f"{student.said} ran the experiment {len(asked)} times for {n} seeds: run each once, and "
@@ -594,17 +739,55 @@ def curves_of(student: Student, n: int, seed: int):
     return histories, result
 
 
+SO_FAR = "These are the values of the best so far, but each generation's own ones are asked for."
+
+
 @replications.check(5)
 def mean_and_best(student: Student):
     histories, result = curves_of(student, 6, exercise.seed(14))
-    expect_close(f"{student.said}: mean", result["mean"], histories.mean(axis=0))
-    expect_close(f"{student.said}: best", result["best"], histories.max(axis=1))
+    order = np.argsort(np.random.default_rng(exercise.seed(14)).permutation(50)[:6])
+    expect_close(
+        f"{student.said}: mean", result["mean"], histories.mean(axis=0),
+        mistakes={
+            SO_FAR: np.maximum.accumulate(histories, axis=1).mean(axis=0),
+            "This is the median of the replications.": np.median(histories, axis=0),
+            "This is the highest value of the replications.": histories.max(axis=0),
+            "This is the sum over the replications: divide by their number.": histories.sum(axis=0),
+        },
+    )  # fmt: skip
+    expect_close(
+        f"{student.said}: best", result["best"], histories.max(axis=1),
+        mistakes={
+            "These are the last values of the histories, not each run's \"fitness\".":
+                histories[:, -1],
+            "These are not in the order of the seeds.": histories[order].max(axis=1),
+            "These are in rising order, not in the order of the seeds.":
+                np.sort(histories.max(axis=1)),
+            "These are in falling order, not in the order of the seeds.":
+                -np.sort(-histories.max(axis=1)),
+            "These are the means of the histories, not each run's \"fitness\".":
+                histories.mean(axis=1),
+        },
+    )  # fmt: skip
 
 
 @replications.check(4)
 def deviation(student: Student):
     histories, result = curves_of(student, 5, exercise.seed(15))
-    expect_close(f"{student.said}: deviation", result["deviation"], histories.std(axis=0, ddof=1))
+    wanted = histories.std(axis=0, ddof=1)
+    expect_close(
+        f"{student.said}: deviation", result["deviation"], wanted,
+        mistakes={
+            "This is divided by the number of replications, not by that number minus one.":
+                histories.std(axis=0),
+            SO_FAR: np.maximum.accumulate(histories, axis=1).std(axis=0, ddof=1),
+            "This is the variance: take its root.": wanted**2,
+            "This is the error of the mean: do not divide by the root of the number.":
+                wanted / np.sqrt(len(histories)),
+            "This is divided by the number of generations minus one.":
+                wanted * np.sqrt((len(histories) - 1) / (histories.shape[1] - 1)),
+        },
+    )  # fmt: skip
 
 
 @replications.check(1)
@@ -665,9 +848,15 @@ def expect_trained(student: Student, environment: str, index: int, wanted: float
     runs = [Trained(student, environment, each, gains) for each in (index, index + 1)]
     for run in runs:
         expect(
+            run.many > 0,
+            f"{run.said} returned parameters without evaluating anything: evolve in every call, "
+            "from the seed, and keep nothing from an earlier call, in memory or in a file.",
+        )
+        expect(
             run.was_evaluated,
             f"{run.said} returned parameters that it has not evaluated ({run.many} others were): "
-            "return one of the candidates that you gave to robot.evaluate.",
+            "return one of the candidates that you gave to robot.evaluate, not their mean or a "
+            "changed copy.",
         )
     passed = sum(run.mean >= wanted for run in runs)
     for number, run in enumerate(runs):

@@ -335,3 +335,177 @@ def train(environment, seed):
     population = evolve(robot.evaluate, population, second, rate, 10 * seed + 9)["population"]
     scores = sum(robot.evaluate(population, seed + k, episodes=20) for k in (501, 502, 503))
     return np.asarray(population[int(np.argmax(scores))], dtype=np.float32)
+
+
+# %% plain_python
+# Python's random and recursion; rows are lists, histories tuples; Fractions for the statistics.
+import functools
+import math
+import random
+from collections import OrderedDict
+from fractions import Fraction
+
+
+def initial_population(popsize, nbiases, nweights, seed):
+    draw = random.Random(seed)
+    return tuple(
+        (0,) * nbiases + tuple(draw.gauss(0, 0.1) for _ in range(nweights)) for _ in range(popsize)
+    )
+
+
+def rank(fitness):
+    def before(i, j):
+        return float(fitness[j] > fitness[i]) - float(fitness[j] < fitness[i]) or i - j
+
+    return sorted(range(len(fitness)), key=functools.cmp_to_key(before))
+
+
+def next_population(population, fitness, mutrate, rng):
+    order = rank(fitness)
+    half = len(order) // 2
+    better = [tuple(population[i]) for i in order[:half]]
+    children = [tuple(rng.normal(value, mutrate) for value in parent) for parent in better]
+    return children[::-1] + better
+
+
+def evolve(evaluate, population, generations, mutrate, seed):
+    rng = np.random.default_rng(seed)
+
+    history, met = (), []
+    for g in range(generations):
+        fitness = [float(value) for value in evaluate(np.array(population), seed + g)]
+        i = fitness.index(max(fitness))
+        history += (fitness[i],)
+        met.append((fitness[i], -g, population[i]))
+        population = next_population(population, fitness, mutrate, rng)
+    fitness, _, best = max(met, key=lambda each: each[:2])
+    return OrderedDict(best=best, fitness=fitness, history=history, population=population)
+
+
+def hill_climb(evaluate, start, generations, mutrate, seed):
+    return evolve(evaluate, (tuple(start), tuple(start)), generations, mutrate, seed)
+
+
+def replicate(experiment, seeds):
+    runs = [experiment(seed) for seed in tuple(seeds)]
+    n = len(runs)
+    means, deviations = [], []
+    for values in zip(*(run["history"] for run in runs)):
+        exact = [Fraction(float(value)) for value in values]
+        mean = sum(exact) / n
+        means.append(float(mean))
+        deviations.append(math.sqrt(sum((x - mean) ** 2 for x in exact) / (n - 1)) if n > 1 else 0)
+    return OrderedDict(mean=means, deviation=deviations, best=tuple(run["fitness"] for run in runs))
+
+
+# %% selection_matrices
+# Single precision; selection by a matrix of zeros and ones; noise for all, masked; a class for the run.
+def initial_population(popsize, nbiases, nweights, seed):
+    rng = np.random.Generator(np.random.Philox(seed))
+    mask = np.r_[np.zeros(nbiases), np.ones(nweights)].astype(np.float32)
+    return np.einsum(
+        "pw,w->pw",
+        rng.standard_normal((popsize, nbiases + nweights), dtype=np.float32),
+        mask * np.float32(0.1),
+    )
+
+
+def rank(fitness):
+    values = np.asarray(fitness)
+    i = np.arange(len(values))
+    ahead = (values[None] > values[:, None]) | (
+        (values[None] == values[:, None]) & (i[None] < i[:, None])
+    )
+    order = np.empty(len(values), dtype=np.uint16)
+    order[ahead.sum(axis=1)] = i
+    return order
+
+
+def next_population(population, fitness, mutrate, rng):
+    population = np.asarray(population, dtype=np.float32)
+    n = len(population)
+    order = np.asarray(rank(fitness), dtype=int)
+    pick = np.zeros((n, n), dtype=np.float32)
+    pick[order[: n // 2], order[: n // 2]] = 1
+    pick[order[n // 2 :], order[: n // 2][::-1]] = 1
+    keep = np.zeros((n, 1), dtype=np.float32)
+    keep[order[n // 2 :]] = mutrate
+    return np.einsum("ij,jk->ik", pick, population) + keep * rng.standard_normal(
+        population.shape
+    ).astype(np.float32)
+
+
+class Run:
+    def __init__(self, evaluate, population, mutrate, seed):
+        self.evaluate, self.mutrate, self.seed, self.rng = (
+            evaluate,
+            mutrate,
+            seed,
+            np.random.default_rng(seed),
+        )
+        self.population = np.array(population, dtype=np.float32)
+        self.history = np.array([], dtype=np.float32)
+        self.record = None
+
+    def generation(self):
+        fitness = np.asarray(
+            self.evaluate(self.population, self.seed + len(self.history)), dtype=np.float32
+        )
+        if self.record is None or fitness.max() > self.record[0]:
+            self.record = fitness.max(), self.population[fitness.argmax()]
+        self.history = np.append(self.history, fitness.max())
+        self.population = next_population(self.population, fitness, self.mutrate, self.rng)
+
+    def report(self):
+        return dict(
+            best=self.record[1],
+            fitness=self.record[0],
+            history=self.history,
+            population=self.population,
+        )
+
+
+def evolve(evaluate, population, generations, mutrate, seed):
+    run = Run(evaluate, population, mutrate, seed)
+    for _ in range(generations):
+        run.generation()
+    return run.report()
+
+
+def hill_climb(evaluate, start, generations, mutrate, seed):
+    run = Run(evaluate, np.broadcast_to(start, (2, len(start))), mutrate, seed)
+    [run.generation() for _ in range(generations)]
+    return run.report()
+
+
+def replicate(experiment, seeds):
+    runs = [experiment(seed) for seed in iter(seeds)]
+    table = np.array([run["history"] for run in runs], dtype=np.float32)
+    deviation = np.std(table, axis=0, ddof=1) if len(runs) != 1 else 0.0 * table[0]
+    return {
+        "mean": table.mean(axis=0),
+        "deviation": deviation,
+        "best": np.float32([run["fitness"] for run in runs]),
+    }
+
+
+# %% antithetic_training
+# Trains with pairs of opposite noise and a moving centre that is evaluated as well; SeedSequence for all.
+def train(environment, seed):
+    robot = Robot(environment)
+    sequence = np.random.SeedSequence(seed)
+    rng = np.random.default_rng(sequence)
+    n = robot.nbiases + robot.nweights
+    best = (-np.inf, None)
+    for attempt in range(3):
+        centre = rng.normal(0, 0.1, n)
+        rate = 0.3 if environment == "CartPole-v0" else 0.6
+        for g in range(40 if environment == "CartPole-v0" else 350):
+            noise = rng.standard_normal((30, n))
+            candidates = np.vstack([centre + rate * noise, centre - rate * noise])
+            fitness = robot.evaluate(candidates, int(rng.integers(1 << 30)))
+            centre = candidates[np.argsort(fitness)[-12:]].mean(axis=0)
+        value = robot.evaluate(centre[None], 12345, episodes=60)[0]
+        if value > best[0]:
+            best = (value, centre)
+    return best[1]

@@ -483,3 +483,128 @@ def evolve(evaluate, population, generations, mutrate, seed, history=[]):  # noq
 # +         runs.append(experiment(seeds.pop(0)))
 # +     histories = np.array([run["history"] for run in runs])
 # +     many = len(runs) > 1
+
+
+# %% rate_of_a_variance loses 3.1
+# Takes 0.1 for the variance.
+# says: not the variance
+# -     weights = 0.1 * rng.standard_normal((popsize, nweights))
+# +     weights = np.sqrt(0.1) * rng.standard_normal((popsize, nweights))
+
+
+# %% positive_weights loses 3.1
+# All weights are positive.
+# says: same sign
+# -     weights = 0.1 * rng.standard_normal((popsize, nweights))
+# +     weights = 0.1 * np.abs(rng.standard_normal((popsize, nweights)))
+
+
+# %% cached_population loses 3.1
+# Keeps populations in a dict and gives the same array again.
+# says: gives the changed array
+_made, _fresh = {}, initial_population
+
+
+def initial_population(popsize, nbiases, nweights, seed):
+    key = (popsize, nbiases, nweights, seed)
+    if key not in _made:
+        _made[key] = _fresh(*key)
+    return _made[key]
+
+
+# %% spread_by_size loses 3.1
+# Divides by the root of the number of weights.
+# says: root of the number
+# -     weights = 0.1 * rng.standard_normal((popsize, nweights))
+# +     weights = rng.standard_normal((popsize, nweights)) / np.sqrt(nweights)
+
+
+# %% rate_as_probability loses 3.3
+# Takes the mutation rate for the probability that a parameter changes.
+# -     following[worst] = population[best] + mutrate * noise
+# +     following[worst] = population[best] + noise * (rng.random(noise.shape) < mutrate)
+
+
+# %% rate_as_variance loses 3.3
+# Takes the mutation rate for the variance of the noise.
+# says: differ by
+# -     following[worst] = population[best] + mutrate * noise
+# +     following[worst] = population[best] + np.sqrt(mutrate) * noise
+
+
+# %% clipped_parameters loses 3.3
+# Clips the parameters to the range from -5 to 5.
+# -     return following
+# +     return np.clip(following, -5, 5)
+
+
+# %% best_is_a_view loses 3.4
+# Overwrites its own copy of the population, and the record is a view of a row of it.
+# says: keep a copy
+# -     best, best_fitness, history = population[0], -np.inf, []
+# +     population = population.copy()
+# +     best, best_fitness, history = population[0], -np.inf, []
+# -             best, best_fitness = population[winner].copy(), float(fitness[winner])
+# -         population = next_population(population, fitness, mutrate, rng)
+# +             best, best_fitness = population[winner], float(fitness[winner])
+# +         population[:] = next_population(population, fitness, mutrate, rng)
+
+
+# %% mean_history loses 3.4
+# The history holds the mean fitness of each generation.
+# says: mean of each
+# -         history.append(float(fitness[winner]))
+# +         history.append(float(np.mean(fitness)))
+
+
+# %% population_before_the_last loses 3.4
+# Gives the last population that was evaluated.
+# says: evaluated in the last
+# -         population = next_population(population, fitness, mutrate, rng)
+# -     return {"best": best, "fitness": best_fitness, "history": history, "population": population}
+# +         last = population
+# +         population = next_population(population, fitness, mutrate, rng)
+# +     return {"best": best, "fitness": best_fitness, "history": history, "population": last}
+
+
+# %% best_put_back loses 3.4
+# Puts the best ever met back into each population.
+# -         population = next_population(population, fitness, mutrate, rng)
+# +         population = next_population(population, fitness, mutrate, rng)
+# +         population[rank(fitness)[-1]] = best
+
+
+# %% seed_of_each_generation loses 3.4
+# The generator of each generation has the seed of the generation: neighbouring runs share their noise.
+# says: once, from
+# -         fitness = evaluate(population, seed + generation)
+# +         rng = np.random.default_rng(seed + generation)
+# +         fitness = evaluate(population, seed + generation)
+
+
+# %% running_best loses 3.6
+# Averages the best so far of each replication.
+# says: best so far
+# -     histories = np.array([run["history"] for run in runs])
+# +     histories = np.maximum.accumulate([run["history"] for run in runs], axis=1)
+
+
+# %% last_fitness loses 3.6
+# Gives the last fitness of each history for the best.
+# says: last values
+# -         "best": [run["fitness"] for run in runs],
+# +         "best": [run["history"][-1] for run in runs],
+
+
+# %% medians loses 3.6
+# Gives the median.
+# says: median
+# -         "mean": histories.mean(axis=0),
+# +         "mean": np.median(histories, axis=0),
+
+
+# %% seeds_counted loses 3.6
+# Uses the seeds from seeds[0] on, counted.
+# says: not in the list
+# -     runs = [experiment(seed) for seed in seeds]
+# +     runs = [experiment(seeds[0] + i) for i in range(len(seeds))]
