@@ -359,3 +359,22 @@ def test_other_answers_are_no_slip(messages):
     for end in ("{'kept': [], 'many': 3, 'below': 0.25}", "{}"):
         text = f"def bounds(values, low, high):\n    return {end}\n"
         assert replay.VARIED not in messages(text, bounded())[0]
+
+
+def test_a_slip_in_a_right_solution_of_another_style_is_named(messages):
+    """The slip changes a part that our own solution does not have."""
+    style = (
+        "\n# %% by_masks\n# Arrays and masks.\n"
+        "def bounds(values, low, high):\n"
+        "    import numpy as np\n\n"
+        "    values = np.asarray(values)\n"
+        "    kept = values[(values >= low) & (values < high)]\n"
+        "    below = np.minimum(values - low, 0).sum() + low * (values < low).sum()\n"
+        "    return {'kept': kept.tolist(), 'many': len(kept), 'below': float(below)}\n"
+    )
+    wrong = style.split("masks.\n")[1].replace("np.minimum(values - low, 0)", "(values - low)")
+    exercise = bounded()
+    assert replay.VARIED not in messages(wrong, exercise)[0]
+    exercise.knows(BOUNDS, style)
+    (told,) = messages(wrong, exercise)
+    assert told.startswith(replay.VARIED) and "A limit is left out" in told.splitlines()[0]

@@ -25,7 +25,6 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import (
-    MISTAKES,
     STATE,
     Exercise,
     Number,
@@ -33,6 +32,7 @@ from botschool.grading.declare.exercise import (
     load_exercise,
     make_state,
 )
+from botschool.grading.declare.mistakes import case_files
 from botschool.grading.declare.secret import DEFAULT, VARIABLE
 from botschool.grading.judge.submission import Result, grade
 from botschool.grading.run.confined import MachineFault, Unread, content_digest, machine_fault
@@ -281,7 +281,7 @@ def _versions(root: Path, number: Number) -> str:
         folder = folder_of(number, root)
         own += sorted(folder.glob("test_*.py"))
         own += sorted((root / "solutions" / folder.name).glob("*.py"))
-        own += root.glob(f"{MISTAKES}/ex{number:02d}.py")
+        own += case_files(root, number)
     for path in (*sorted((IMPORT_ROOT / "botschool").rglob("*")), *own):
         if path.suffix in (".py", ".so", ".pyd"):
             status = path.stat()

@@ -16,7 +16,8 @@ from pathlib import Path
 
 from botschool.errors import BotschoolError
 from botschool.grading.copies.skeleton import find_leaks, pairs, skeleton
-from botschool.grading.declare.exercise import MISTAKES, exercise_numbers, folder_of
+from botschool.grading.declare.exercise import exercise_numbers, folder_of
+from botschool.grading.declare.mistakes import case_files
 from botschool.grading.declare.trust import check_trusted, trust
 from botschool.grading.packed import PACKED, is_packed, pack, pack_answers, pack_module
 from botschool.output import written_whole
@@ -207,14 +208,13 @@ def _build(root: Path, made: Path, numbers: set[int], compiled: bool) -> None:
 
 
 def _packed(grader: str, root: Path, folder: str) -> str:
-    """Return a grader packed with its solution and the wrong ones."""
+    """Return a grader packed with its solution, wrong ones, and right ones in other styles."""
     file = re.search(r'file="([^"]+)"', grader)
     if is_packed(grader) or not file:
         return grader
     solution = (root / "solutions" / folder / file[1]).read_text(encoding="utf-8")
-    mistakes = root / MISTAKES / f"{folder[:4]}.py"
-    known = mistakes.read_text(encoding="utf-8") if mistakes.is_file() else ""
-    return pack(grader, solution, known)
+    cases = case_files(root, int(folder[2:4]))
+    return pack(grader, solution, "\n".join(path.read_text(encoding="utf-8") for path in cases))
 
 
 def pack_measures(package: Path, target: Path) -> None:

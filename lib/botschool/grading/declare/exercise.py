@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError, listed
-from botschool.grading.declare.mistakes import Known
+from botschool.grading.declare.mistakes import Known, case_files
 from botschool.grading.declare.references import pruned
 from botschool.grading.declare.secret import DEFAULT, VARIABLE, grading_secret
 from botschool.grading.declare.trust import check_trusted
@@ -26,8 +26,6 @@ POINTS = 100
 """Points of every exercise."""
 ABSENT = "botschool.grading.run.absent"
 """The module that replaces packages which are not installed but which a submission imports."""
-MISTAKES = "tests/course/mutants"
-"""A course's folder of wrong solutions of the exercises; the students' copy has them packed."""
 
 
 Check = Callable[[Any], None]
@@ -253,9 +251,8 @@ def load_exercise(number: int, root: Path | None = None) -> Exercise:
     root = root or course_root()
     solution = root / "solutions" / folder.name / exercise.file
     if not exercise.known.solution and solution.is_file():
-        mistakes = root / MISTAKES / f"ex{number:02d}.py"
-        text = mistakes.read_text(encoding="utf-8") if mistakes.is_file() else ""
-        exercise.knows(solution.read_text(encoding="utf-8"), text)
+        cases = [path.read_text(encoding="utf-8") for path in case_files(root, number)]
+        exercise.knows(solution.read_text(encoding="utf-8"), "\n".join(cases))
     return exercise
 
 

@@ -23,9 +23,15 @@ if the message has it.
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import groupby
+from pathlib import Path
 
+CASES = ("tests/course/mutants", "tests/course/alternatives")
+"""A course's folders of wrong solutions, and of right ones in other styles; the students' copy has
+them packed.
+"""
 THIS = "this"
 """The word with which a case `says` its second line."""
 _TITLE = re.compile(r"(\w+)(?: loses (\d+\.\d+(?:, \d+\.\d+)*))?")
@@ -62,11 +68,19 @@ class Case:
 
 @dataclass(frozen=True)
 class Known:
-    """An exercise's solution, and the texts of its wrong solutions, for the grader."""
+    """An exercise's solution, and the texts of other ones, wrong and right, for the grader."""
 
     number: int = 0
     solution: str = ""
     mistakes: str = ""
+
+    def styles(self) -> list[str]:
+        """Return the right solutions in other styles: the cases that cost no points."""
+        found = []
+        for case in read_cases(self.number, self.mistakes):
+            with suppress(ValueError):  # it no longer fits the solution
+                found += [case.of(self.solution)] if not case.loses else []
+        return found
 
     def of(self, task: str) -> list[Case]:
         """Return the mistakes that cost a task points: first those made in this task.
@@ -75,6 +89,12 @@ class Known:
         """
         found = [case for case in read_cases(self.number, self.mistakes) if task in case.loses]
         return sorted(found, key=lambda c: (bool(_IMPORT.search(c.code)), c.loses.index(task)))
+
+
+def case_files(root: Path, number: int) -> list[Path]:
+    """Return the files of an exercise's cases; root: the course."""
+    paths = [root / folder / f"ex{number:02d}.py" for folder in CASES]
+    return [path for path in paths if path.is_file()]
 
 
 def inserted(text: str, addition: str) -> str:

@@ -3,7 +3,8 @@
 The result never changes the points. The checks run on our solution in a confined child; its calls
 are repeated on the submission and on each known mistake. A mistake is reported if all its answers
 equal the submission's, and if at least two of them, to different calls, differ from ours. If none
-is, the same is tried with our solution and one slip in it (variations.py).
+is, the same is tried with our solution, and then with right ones in other styles, and one slip in
+it (variations.py).
 """
 
 from __future__ import annotations
@@ -31,6 +32,8 @@ VARIED = "Your code answers exactly as ours does with this slip:"
 """The words before the sentence of a known mistake, and before that of a slip."""
 SECONDS = 3.0
 """Processor seconds for all slips of a task; known mistakes, which are few, have twice as many."""
+TOTAL = 3 * SECONDS
+"""Processor seconds of our child."""
 SLIP_SECONDS = 0.1
 """Processor seconds for one answer with a slip in our solution, which may loop without end."""
 CASE_SECONDS = 0.25
@@ -77,13 +80,15 @@ def known_mistake(
         file.write_text(known.solution, encoding="utf-8")
         ours = None
         try:
-            ours = Student(file, 2 * SECONDS, task.memory, server, True, refused=task.refused)
+            ours = Student(file, TOTAL, task.memory, server, True, refused=task.refused)
             calls = _calls(ours, checks)
             for call in calls:
                 call.got = submission.ask(unpack(call.request))
             if not _tells(calls, [call.got for call in calls]):
                 return ""
             for what, text in _likely_first(ours, cases, known.solution, calls):
+                if ours.seconds_left < SECONDS:
+                    break
                 if _explains(ours, text, calls):
                     return f"{TOLD} {what}"
             return next((f"{VARIED} {what}" for what in _slips(ours, task, known, calls)), "")
@@ -160,8 +165,9 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
     telling = [call for call in calls if distance(call.got, call.ours) > TIE]
     if all(counts(call.got) for call in telling) and len(telling) < COUNTS:
         return
-    slips = variations(known.solution, task.id)
-    while ours.seconds_left > SECONDS and (batch := list(islice(slips, BATCH))):
+    slips = variations(known.solution, task.id, known.styles())
+    end = ours.seconds_left - SECONDS
+    while ours.seconds_left > end and (batch := list(islice(slips, BATCH))):
         texts = [each.text for each in batch]
         near = _near(ours, texts, _telling(calls), SLIP_SECONDS, "slips in our solution")
         for slip, fitting in zip(batch, near, strict=True):

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -38,22 +39,34 @@ class Variation:
     text: str
 
 
-def variations(solution: str, task: str) -> Iterator[Variation]:
-    """Yield the solution with one slip in a task's functions, then with one made everywhere."""
+def variations(solution: str, task: str, styles: Iterable[str] = ()) -> Iterator[Variation]:
+    """Yield the solution with one slip in a task's functions, then with one made everywhere.
+
+    styles: right solutions in other styles, whose functions are then varied, too.
+    """
     public = set(re.findall(r"\w+", _REGION.sub("", solution)))
+    done = {solution}
+    for text in (solution, *styles):
+        yield from _of_one(text, task, public, done)
+
+
+def _of_one(text: str, task: str, public: set[str], done: set[str]) -> Iterator[Variation]:
+    """Yield the slips in one solution, unless they are done."""
     regions = [
-        range(*(solution.count("\n", 0, at) + 1 for at in found.span()))
-        for found in _REGION.finditer(solution)
+        range(*(text.count("\n", 0, at) + 1 for at in found.span()))
+        for found in _REGION.finditer(text)
         if found[1] == task
     ]
-    lines = solution.splitlines(keepends=True)
-    functions = [
-        node
-        for node in ast.parse(solution).body
-        if isinstance(node, _FUNCTIONS)
-        and any(node.lineno <= region.start <= (node.end_lineno or 0) for region in regions)
-    ]
-    done = {solution}
+    lines = text.splitlines(keepends=True)
+    named = [node for node in ast.parse(text).body if isinstance(node, _FUNCTIONS)]
+    last = {node.name: node for node in named}
+    functions: list[Any] = []
+    for node in named:
+        if any(node.lineno <= region.start <= (node.end_lineno or 0) for region in regions):
+            functions.append(last[node.name])
+            if last[node.name] is not node:  # written anew, below
+                regions.append(range(functions[-1].lineno, (functions[-1].end_lineno or 0) + 1))
+    done |= {ast.unparse(function) for function in functions}
     several: list[tuple[Any, str, list[Edit]]] = []
     for function in functions:
         where = f"In `{function.name}`: " if len(functions) > 1 else ""
@@ -78,7 +91,9 @@ def _made(
         edit.swap()
     try:
         text = ast.unparse(function)
-        compile(text, "<variation>", "exec")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SyntaxWarning)
+            compile(text, "<variation>", "exec")
     except (SyntaxError, ValueError, TypeError, AttributeError, RecursionError):
         text = ""
     for edit in reversed(edits):
