@@ -551,3 +551,76 @@ def evolve_both(robot, steps, seeds):
 # +         version: np.array(
 # +             [Runner(f"{robot}-{version}").evolve(steps // len(seeds), seed) for seed in seeds]
 # +         )
+
+
+# %% steps_of_pybullet loses 9.3
+# Takes 0.0165 s for the duration of a step, whatever the trajectory says.
+# says: Use the trajectory's 'duration'
+# -         "progress": progress(trajectory["distance"], trajectory["duration"]),
+# -         "alive": alive_bonus(
+# +         "progress": progress(trajectory["distance"], 0.0165),
+# +         "alive": alive_bonus(
+
+
+# %% evolved_once_for_each_robot loses 9.6
+# Remembers the robots, and gives them again for other steps and seeds.
+_evolve_both, _made = evolve_both, {}
+
+
+def evolve_both(robot, steps, seeds):
+    if robot not in _made:
+        _made[robot] = _evolve_both(robot, steps, seeds)
+    return _made[robot]
+
+
+# %% rows_of_the_first_version loses 9.6
+# Counts the robots of the first version, and leaves out what another has more.
+# -         for genotype in rows:
+# +         for genotype in rows[: len(next(iter(genotypes.values())))]:
+
+
+# %% seeds_sorted loses 9.6
+# Sorts the seeds, and uses each once.
+# says: It is the robot of the seed
+# -         version: np.array([Runner(f"{robot}-{version}").evolve(steps, seed) for seed in seeds])
+# +         version: np.array(
+# +             [Runner(f"{robot}-{version}").evolve(steps, seed) for seed in sorted(set(seeds))]
+# +         )
+
+
+# %% median_of_the_episodes loses 9.6
+# Takes the median over the episodes, not the mean.
+# says: median over the episodes
+# -             means.append([np.mean([each[name] for each in gaits]) for name in gaits[0]])
+# +             means.append([np.median([each[name] for each in gaits]) for name in gaits[0]])
+
+
+# %% seed_runs_on_from_row_to_row loses 9.6
+# Goes on counting the seeds with the next robot.
+# says: runs on from row to row
+# -             gaits = [gait(runner.record(genotype, seed + i)) for i in range(episodes)]
+# +             first = seed + episodes * len(means)
+# +             gaits = [gait(runner.record(genotype, first + i)) for i in range(episodes)]
+
+
+# %% the_effort_reduces_the_income loses 9.5
+# Subtracts the effort from the income.
+# says: Effort is no income|this slip
+# -         "standing": alive / (alive + moved) if alive + moved > 0 else 0.0,
+# +         "standing": alive / float(alive + moved + parts["effort"].sum())
+# +         if alive + moved > 0
+# +         else 0.0,
+
+
+# %% square_of_the_mean_action loses 9.2
+# Squares the mean of the actions.
+# says: not to the square of the mean
+# -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+# +     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * actions.mean(axis=1) ** 2
+
+
+# %% radians_for_tens loses 9.2
+# Turns the speeds into radians per second.
+# says: do not multiply them by 10
+# -     cost = 2.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
+# +     cost = 20.0 * np.abs(actions * speeds).mean(axis=1) + 0.1 * (actions**2).mean(axis=1)
