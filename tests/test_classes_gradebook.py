@@ -75,6 +75,13 @@ def test_heads_of_rosters_vary(tmp_path, text):
     assert (ada.name, ada.mail) == ("Ada Lovelace", "ada@x.org") and (ada.id or ada.user)
 
 
+def test_a_file_whose_name_has_a_line_break_is_refused_in_one_line(tmp_path):
+    """Found by `make fuzz` in a class.yaml."""
+    with pytest.raises(BotschoolError) as refused:
+        read_roster(tmp_path / "students.csv\n3")
+    assert "students.csv 3 cannot be read" in str(refused.value)
+
+
 def test_a_table_that_is_no_roster(tmp_path):
     for text, sentence in (
         ("", "is empty"),

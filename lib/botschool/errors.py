@@ -7,8 +7,13 @@ MOST = 300
 class BotschoolError(Exception):
     """Something the user can mend: one sentence that says what, where and what to do.
 
-    The command prints the sentence and exits with code 2; it never shows a traceback.
+    The command prints the sentence and exits with code 2; it never shows a traceback. The sentence
+    is one line, even if it names a file whose name has line breaks.
     """
+
+    def __str__(self) -> str:
+        """Return the sentence."""
+        return super().__str__().replace("\r", " ").replace("\n", " ")
 
 
 def listed(words: list[str]) -> str:
