@@ -62,7 +62,8 @@ def _of_one(text: str, task: str, public: set[str], done: set[str]) -> Iterator[
     last = {node.name: node for node in named}
     functions: list[Any] = []
     for node in named:
-        if any(node.lineno <= region.start <= (node.end_lineno or 0) for region in regions):
+        own = any(node.lineno <= region.start <= (node.end_lineno or 0) for region in regions)
+        if own and last[node.name] not in functions:
             functions.append(last[node.name])
             if last[node.name] is not node:  # written anew, below
                 regions.append(range(functions[-1].lineno, (functions[-1].end_lineno or 0) + 1))
