@@ -108,8 +108,9 @@ class ArenaScene(Scene):
             self.add("line", [(x, y - tick / 2), (x, y + tick / 2)], "muted", radius=0.15 * tick)
         where = (start + length / 2, y - 0.035 * self.side)
         self.add("text", [where], "muted", text=f"{length:g} mm")
+        first, apart = (0.55, 0.25) if len(self.looks) < 3 else (0.35, 0.19)
         for place, look in enumerate(self.looks):
-            x = self.side * (0.55 + 0.25 * place)
+            x = self.side * (first + apart * place)
             self.add("disc", [(x, y)], look.colour, radius=0.012 * self.side)
             self.add("text", [(x, y - 0.035 * self.side)], "muted", text=look.name)
 
