@@ -18,7 +18,7 @@ from style import (
 
 def draw() -> None:
     write(result(13, "own_training.png", 640), "ex13_own_training")
-    write(result(13, "hidden_layer.png", 760, (0, 0, 0.543, 1)), "ex13_result")
+    write(result(13, "hidden_layer.png", 1000), "ex13_result")
     clipping()
     horizon()
 

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from botschool.course.films import first_frame
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 def draw_curves(
@@ -96,18 +100,12 @@ def draw_verdicts(
                 axes.plot(
                     [peak, bottom], [curve[peak], curve[bottom]], "--o", color=colour, markersize=4
                 )
-                axes.annotate(
-                    f"{-100 * found['drop']:.0f} %",
-                    (bottom, curve[bottom]),
-                    xytext=(4, -10),
-                    textcoords="offset points",
-                    color=colour,
-                    fontsize=9,
-                )
         axes.set_title(title, fontsize=10)
         axes.grid(alpha=0.3)
         axes.spines[["top", "right"]].set_visible(False)
         axes.margins(y=0.12)
+    for curves, axes in zip(panels.values(), grid, strict=False):  # limits are shared in a row
+        _label_falls(axes, [(curve, found, colours[found["verdict"]]) for curve, found in curves])
     for axes in grid[(rows - 1) * columns :]:
         axes.set_xlabel("generation")
     for axes in grid[::columns]:
@@ -116,6 +114,30 @@ def draw_verdicts(
     figure.legend(lines, colours, loc="outside upper center", ncols=3, frameon=False)
     figure.savefig(file, dpi=100)
     print(f"picture: {file}")
+
+
+def _label_falls(axes: Axes, falls: list[tuple[np.ndarray, dict, str]]) -> None:
+    """Write how large each curve's fall is below its end, and labels that would meet in one row.
+
+    falls: curve, verdict and colour of each.
+    """
+    left, right = axes.get_xlim()
+    low, high = axes.get_ylim()
+    words: list[tuple[float, float, str, str]] = []
+    for curve, found, colour in falls:
+        if found["verdict"] == "monotonic":
+            continue
+        bottom = found["bottom"]
+        x, y = (bottom - left) / (right - left), (curve[bottom] - low) / (high - low)
+        words.append((x, y, f"{-100 * found['drop']:.0f} %", colour))
+    taken: list[tuple[float, float]] = []
+    for x, y, text, colour in sorted(words):
+        x = min(x + 0.015, 0.84)
+        y -= 0.07
+        while any(abs(x - one) < 0.17 and abs(y - other) < 0.065 for one, other in taken):
+            y += 0.07
+        taken.append((x, y))
+        axes.text(x, y, text, color=colour, fontsize=9, transform=axes.transAxes)
 
 
 def draw_bands(
