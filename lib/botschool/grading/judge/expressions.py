@@ -328,6 +328,8 @@ class Expressions:
                     )
         elif isinstance(part, (ast.Tuple, ast.List)) and len(part.elts) < 7:
             for i in range(len(part.elts) - 1):
+                if any(isinstance(e, ast.Name) and e.id == "_" for e in part.elts[i : i + 2]):
+                    continue  # a value that is dropped: nobody would call this an exchange
                 elements = [*part.elts]
                 elements[i], elements[i + 1] = elements[i + 1], elements[i]
                 both = [self.quoted(each) for each in part.elts[i : i + 2]]
