@@ -4,23 +4,21 @@ The simulated students of tests/lab_answers do each laboratory with small budget
 the first one are then spoiled in each way. `-k lab09` proves laboratory 9 alone.
 """
 
-import re
 import shutil
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from botschool.evolution.record import RunFiles
 from botschool.labs.check import Check
-from botschool.labs.declare import NUMBERS, PARTS
+from botschool.labs.declare import NUMBERS
 from botschool.labs.folder import Place, start
 from botschool.labs.runs import make_runs, own_runs
-from botschool.labs.sheet import seeds_of
-from lab_students import answer, conclude, copied, edit, honest, predicted, small, student
+from lab_cheats import FULL, IF_DRAWN, NOTHING, SPOILED, without
+from lab_students import answer, conclude, copied, honest, predicted, small, student
 
 pytestmark = pytest.mark.course
-FULL = {name: float(most) for name, most in PARTS.items()}
-NOTHING = dict.fromkeys(FULL, 0)
 each_lab = pytest.mark.parametrize("number", NUMBERS, ids=lambda number: f"lab{number:02}")
 
 
@@ -71,138 +69,12 @@ def test_an_empty_sheet_gets_nothing(number, tmp_path):
     assert points(place) == NOTHING
 
 
-# --- each gives what is left of the points, and a part of what is said
-def no_runs(place, other):
-    shutil.rmtree(place.runs)
-    return NOTHING, "There are no runs yet"
-
-
-def runs_of_another(place, other):
-    """As they are: their seeds follow from another name."""
-    shutil.rmtree(place.runs)
-    shutil.copytree(other.runs, place.runs)
-    return NOTHING, "belong to"
-
-
-def runs_of_another_renamed(place, other):
-    """Under the seeds of this student."""
-    shutil.rmtree(place.runs)
-    mine, his = (seeds_of(each.sheet(), each.lab) for each in (place, other))
-    for name, seeds in mine.items():
-        (place.runs / name).mkdir(parents=True)
-        for seed, old in zip(seeds, his[name], strict=True):
-            for path in (other.runs / name).glob(f"*S{old}*.np*"):
-                shutil.copy(path, place.runs / name / path.name.replace(str(old), str(seed)))
-    there = own_runs(place.lab, place.sheet(), place.runs)
-    assert all(len(runs) == place.lab.replications for runs in there.values())
-    return NOTHING, "Evolving from the same seeds gives other files"
-
-
-def another_robot(place, other):
-    """A genotype edited, in the best run of the last condition."""
-    name = place.lab.conditions[-1].name
-    runs = own_runs(place.lab, place.sheet(), place.runs)[name]
-    best = max(runs, key=lambda run: run.stat[-1, 2])
-    file = place.runs / name / f"bestgS{best.seed}.npy"
-    genotype = np.load(file)
-    genotype[: len(genotype) // 2] = 0
-    np.save(file, genotype)
-    return without(place.lab, name, evidence=0), f"{name}, seed {best.seed}"
-
-
-def too_few(place, other):
-    name = place.lab.conditions[-1].name
-    next((place.runs / name).glob("statS*.npy")).unlink()
-    left = place.lab.replications - 1
-    return without(place.lab, name, evidence=15), f"{name} has {left}"
-
-
-def another_prediction(place, other):
-    answer(place, {"why": "I knew it before because somebody has told me the result of it all."})
-    return NOTHING, "The prediction has changed since the runs were made"
-
-
-def invented_number(place, other):
-    """A cell of the table."""
-    lab = place.lab
-    name = lab.conditions[-1].name
-    at = next(i for i, column in enumerate(lab.columns) if column.only(name))
-    row = [*place.sheet().row(name)]
-    row[at] = re.sub(r"[-\d.]+", "-77777", row[at])
-    line = f"| {name} | {' | '.join(row)} |"
-    edit(place, lambda text: re.sub(rf"^\| {re.escape(name)} \|.*$", line, text, flags=re.M))
-    most = len(cells(lab))
-    left = FULL | {"measurements": round(10 + 15 * (most - 1) / most, 1)}
-    return left, f"The table, {name}, {lab.columns[at].title}: your runs give"
-
-
-def one_choice_against_its_data(place, other):
-    """The first choice of the conclusion."""
-    kinds = {field.id: field.kind for field in place.lab.fields}
-    statement = next(s for s in place.lab.statements if kinds[s.field] == "choice")
-    contradict(place, [statement])
-    return FULL | {"conclusion": 25 - statement.points}, f"{statement.field}: "
-
-
-def conclusions_against_their_data(place, other):
-    """Every one."""
-    contradict(place, place.lab.statements)
-    return FULL | {"conclusion": 0}, f"{place.lab.statements[-1].field}: "
-
-
-SPOILED = [
-    no_runs,
-    runs_of_another,
-    runs_of_another_renamed,
-    another_robot,
-    too_few,
-    another_prediction,
-    invented_number,
-    one_choice_against_its_data,
-    conclusions_against_their_data,
-]
-
-
-def contradict(place, statements):
-    """Answer what the student's own data do not support."""
-    found = Check(place).all()
-    fields = {field.id: field for field in place.lab.fields}
-    for statement in statements:
-        field = fields[statement.field]
-        offered = re.findall(r"\[.\] (.+?)(?=   |$)", place.sheet().raw(field.id), re.M)
-        if field.kind == "number":
-            offered = np.linspace(field.low, field.high, 7)
-
-        def wrong(given, judge=statement.judge, id=field.id):
-            right, _ = judge(found.data, found.answers | {id: given})
-            return not right(given)
-
-        found.answers[field.id] = next(filter(wrong, offered))
-        answer(place, {field.id: found.answers[field.id]})
-
-
-def cells(lab):
-    """The condition of each cell of the table."""
-    return [c.name for c in lab.conditions for column in lab.columns if column.only(c.name)]
-
-
-def without(lab, condition, evidence):
-    """The points that are left where a condition lacks a run; evidence: for the other runs."""
-    most, all_cells = len(lab.conditions), cells(lab)
-    kept = sum(name != condition for name in all_cells)
-    return FULL | {
-        "runs": round(evidence + 10 * (most - 1) / most, 1),
-        "measurements": round(10 + 15 * kept / len(all_cells), 1),
-        "conclusion": sum(s.points for s in lab.statements if condition not in s.needs),
-    }
-
-
 @each_lab
-@pytest.mark.parametrize("spoil", SPOILED, ids=lambda spoil: spoil.__name__)
-def test_a_wrong_sheet_loses_exactly_what_it_should(number, spoil, students, tmp_path):
+@pytest.mark.parametrize("spoil", SPOILED + IF_DRAWN, ids=lambda spoil: spoil.__name__)
+def test_a_spoiled_sheet_loses_exactly_what_it_should(number, spoil, students, tmp_path):
     place, other = students(number)[:2]
     place = copied(place, tmp_path)
-    if spoil is runs_of_another_renamed:
+    if spoil in IF_DRAWN:
         place = all_redone(place)
     left, says = spoil(place, other)
     found, told = checked(place)
@@ -299,6 +171,25 @@ def test_a_strategy_that_changed_after_the_runs_costs_its_runs(number, students,
     expected = FULL | {"runs": 5, "measurements": 17.5, "figure": 0, "conclusion": 5}
     assert found == (expected if number == 8 else NOTHING), told
     assert "strategy.py" in told
+
+
+@pytest.mark.parametrize("number", [8, 9])
+@pytest.mark.parametrize("spoil", ["swapped", "edited", "missing"])
+def test_a_checkpoint_that_is_not_the_runs_own_costs_the_run(number, spoil, students, tmp_path):
+    place = all_redone(copied(students(number)[0], tmp_path))
+    name = next(c.name for c in place.lab.conditions if c.own)
+    one, two = own_runs(place.lab, place.sheet(), place.runs)[name][:2]
+    file, other = (RunFiles(place.runs / name, run.seed).checkpoint for run in (one, two))
+    with np.load(file) as saved:
+        content = dict(saved)
+    if spoil == "edited":
+        content["algorithm.told"][-1] += 1
+        np.savez(file, **content)
+    else:
+        file.write_bytes(other.read_bytes()) if spoil == "swapped" else file.unlink()
+    found, told = checked(place)
+    assert found == without(place.lab, name, evidence=0), told
+    assert f"{name}, seed {one.seed}" in told and str(two.seed) not in told
 
 
 def test_runs_of_other_rules_than_the_students_are_not_his(students, tmp_path):

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from botschool.evolution.algorithms.own import POPSIZE
-from botschool.evolution.evaluate import mean
+from botschool.evolution.evaluate import Evaluator, mean
 from botschool.evolution.record import RunFiles
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.run.student import Student
@@ -27,6 +27,8 @@ GENERATIONS = 5
 """How many generations of a run are evaluated again, beside that of its best robot."""
 EQUAL = 0.9
 """The share of candidates that must get the very same fitness."""
+LONGER = 2
+"""How many times longer or shorter a generation may be than its stat file tells."""
 
 
 def told_fitness(run: SavedRun, folder: Path) -> np.ndarray | None:
@@ -51,7 +53,8 @@ def replayed(run: SavedRun, folder: Path, student: Student, rng: np.random.Gener
         return "its checkpoint is missing or damaged"
     evaluator = evaluator_of(run.condition, run.seed)
     best = int((run.stat[:, 2] == run.stat[-1, 2]).argmax())
-    drawn = {best, *rng.permutation(len(run.stat))[:GENERATIONS].tolist()}
+    took = np.diff(run.stat[:, 0], prepend=0)
+    drawn = {best, int(took.argmax()), *rng.permutation(len(run.stat))[:GENERATIONS].tolist()}
     experiment, at = run.condition.experiment, 0
     options = experiment["algo"].get("options", "")
     rows = keywords(options).get("popsize", POPSIZE)
@@ -72,14 +75,26 @@ def replayed(run: SavedRun, folder: Path, student: Student, rng: np.random.Gener
                 return "strategy.py does not come to its robot"
             if generation in drawn:
                 seeds = np.full(len(candidates), int(asked["seed"]), dtype=np.uint64)
-                again = evaluator.measure(candidates, seeds).fitness
-                if (again == given).mean() < EQUAL:
-                    return f"strategy.py gives other candidates in generation {generation}"
+                if said := _measured_again(evaluator, candidates, seeds, given, took[generation]):
+                    return f"{said} in generation {generation}"
     except Wrong as error:
         return str(error)
     except (KeyError, TypeError, ValueError):
         return "strategy.py gives no candidates"
     return "" if at == len(told) else "its checkpoint is of another run"
+
+
+def _measured_again(
+    evaluator: Evaluator, candidates: np.ndarray, seeds: np.ndarray, told: np.ndarray, took: float
+) -> str:
+    """What is wrong with a generation's fitness and its number of steps; "" if nothing is."""
+    again = evaluator.measure(candidates, seeds)
+    if (again.fitness == told).mean() < EQUAL:
+        return "strategy.py gives other candidates"
+    steps = again.steps + evaluator.post_evaluate(candidates[told.argmax()], stoppable=False).steps
+    if not steps <= took * LONGER <= steps * LONGER**2:
+        return f"its stat file tells {took:.0f} steps instead of {steps}"
+    return ""
 
 
 def _ask(
