@@ -170,6 +170,13 @@ def reward(student: Student):
             f"{said} returned {value:g}, but Gymnasium gives {wanted:g}: the free end is at "
             f"{height_of(state):.2f}.",
         )
+    for side in (1.0, -1.0):
+        value = student.call("reward", np.array([0, side, 0, side, 0, 0], dtype=np.float32))
+        expect(
+            number(student.said, value) == -1,
+            f"{student.said} returned {value:g}, but the free end is exactly on the line, not above "
+            "it: -1 was expected.",
+        )
 
 
 # ------------------------------------------------------------------- 4.3

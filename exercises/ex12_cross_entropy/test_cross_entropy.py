@@ -158,6 +158,15 @@ def unlikely_and_certain_actions(student: Student):
     compare_choices(student, 14, np.array([0.0, 1.0, 0.0]), 30)
     compare_choices(student, 15, np.array([0.0, 0.3, 0.0, 0.7]), 60)
     compare_choices(student, 16, np.array([1.0]), 5)
+    seed = exercise.seed(17)
+    dart = float(np.random.default_rng(seed).random())
+    said = f"choose([{dart:.4f}, {1 - dart:.4f}], rng)"
+    answer = student.run(chosen, np.array([dart, 1 - dart]), seed, 1, said=said)
+    expect(
+        answer == [1],
+        f"{said} returned {show(answer)[1:-1]} when rng.random() gave exactly the first "
+        "probability, but 1 was expected: the sum of the probabilities must be greater than u.",
+    )
 
 
 # ------------------------------------------------------------------- 12.3
@@ -799,10 +808,10 @@ def trained(module, environment, seed, signs, side, most):
         return any(numpy.allclose(each, last, rtol=1e-4, atol=1e-5) for each in same)
 
     class Changed(creator):
-        def reset(self, **options):
+        def reset(self, **kwargs):
             if len(played) >= most:
                 raise BrokenOff
-            observation, info = super().reset(**options)
+            observation, info = super().reset(**kwargs)
             played.append([0.0, 0.0])
             self.number = len(played) - 1
             return (observation * signs).astype(observation.dtype), info

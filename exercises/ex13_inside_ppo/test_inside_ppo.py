@@ -688,7 +688,7 @@ def after_loop(student: Student, seed: int, steps: int, order: int = 1, **option
     return [expect_array(f"{said}: parameters", answer[0], (n,)), *answer[2:]]
 
 
-@looping.check(5)
+@looping.check(4)
 def one_batch_an_epoch(student: Student):
     """A batch of all steps has no order, so that the parameters are known."""
     seed = exercise.seed(70) % 100_000
@@ -709,6 +709,20 @@ def one_batch_an_epoch(student: Student):
             f"move by {moved:.3g} in all). Each rollout needs its advantages and returns, "
             f"{epochs} epochs, and an early stop where target_kl asks for one.",
         )
+
+
+@looping.check(1)
+def the_stop_ends_the_rollout(student: Student):
+    """The first batch has no divergence; each one after a step has more than this target allows."""
+    seed = exercise.seed(81) % 100_000
+    options = {"n_epochs": 3, "batch_size": 128, "target_kl": 1e-6}
+    sizes = after_loop(student, seed, 1024, **options)[2]
+    expect(
+        np.array_equal(sizes, [128] * 4),
+        f"{student.said}: of each rollout the second batch already has too large a divergence, so "
+        f"2 batches of each of the 2 rollouts were expected, but {len(sizes)} were taken. The early "
+        "stop ends all epochs of a rollout, and the next rollout begins anew.",
+    )
 
 
 @looping.check(4)

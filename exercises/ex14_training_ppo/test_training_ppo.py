@@ -559,6 +559,8 @@ def borders_gaps_and_nan(student: Student):
     compare_phases(student, np.array([0, 100, 200, 300]), rng.normal(size=4), 300, 3)
     compare_phases(student, np.array([0, 40, 50, 100]), generator(65).normal(size=4), 100, 2)
     compare_phases(student, np.array([80, 290]), rng.normal(size=2), 300, 3)
+    compare_phases(student, np.array([142, 143, 285, 286, 999, 1000]), rng.normal(size=6), 1000, 7)
+    compare_phases(student, np.array([33, 34, 66, 67, 100]), generator(64).normal(size=5), 100, 3)
     values = rng.normal(size=12)
     values[[0, 5]] = np.nan
     compare_phases(student, np.arange(50, 650, 50), values, 600, 4)

@@ -292,3 +292,11 @@ def curves(stats, column, budgets):
 # +     while seeds:
 # +         seed = seeds.pop(0)
 # +         run = Run(experiment, seed)
+
+
+# %% rewarded_on_the_line loses 4.2
+# Gives 0 on the line, too.
+# says: exactly on the line
+# -     return 0.0 if height(observation) > 1 else -1.0
+# +     c1, s1, c2, s2 = observation[:4]
+# +     return 0.0 if -c1 - (c1 * c2 - s1 * s2) >= 1 else -1.0

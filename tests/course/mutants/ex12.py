@@ -638,3 +638,10 @@ def train(environment, seed, iterations=50, episodes=20, **others):
 # The network learns from all episodes instead of the elite.
 # -         best = elite(found, percentile)
 # +         best = elite(found, 0)
+
+
+# %% dart_on_the_border loses 12.2
+# Stops as soon as the sum has reached the dart.
+# says: must be greater than u
+# -     beyond = np.cumsum(probabilities) > rng.random()
+# +     beyond = np.cumsum(probabilities) >= rng.random()

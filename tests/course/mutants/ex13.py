@@ -663,3 +663,24 @@ def responses(activations, observations):
 # The advantages are computed with lambda 1, whatever the hyperparameters say.
 # -             h.gamma, h.gae_lambda,
 # +             h.gamma, 1.0,
+
+
+# %% stop_ends_the_epoch loses 13.8
+# The early stop ends one epoch only.
+# says: ends all epochs of a rollout
+# -         orders = [rng.permutation(ended.size) for _ in range(h.n_epochs)]
+# -         for rows in np.concatenate(orders).reshape(-1, h.batch_size):
+# -             batch = ppo.minibatch(rows)
+# -             loss = ppo.loss(batch)
+# -             divergence = approx_kl(loss.log_probs, batch.log_probs)
+# -             if h.target_kl is not None and divergence > 1.5 * h.target_kl:
+# -                 break
+# -             ppo.step(loss.gradient)
+# +         for _ in range(h.n_epochs):
+# +             for rows in rng.permutation(ended.size).reshape(-1, h.batch_size):
+# +                 batch = ppo.minibatch(rows)
+# +                 loss = ppo.loss(batch)
+# +                 divergence = approx_kl(loss.log_probs, batch.log_probs)
+# +                 if h.target_kl is not None and divergence > 1.5 * h.target_kl:
+# +                     break
+# +                 ppo.step(loss.gradient)

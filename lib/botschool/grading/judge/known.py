@@ -40,7 +40,7 @@ CASE_SECONDS = 0.25
 """Processor seconds for the first answer of a known mistake."""
 BATCH = 16
 """Slips that are tried in one request."""
-MOST = 16
+MOST = 40
 """Mistakes of a task to try."""
 INPUTS, COUNTS = 2, 4
 """Different calls that must point to a mistake, at least; calls that must point to a slip if all

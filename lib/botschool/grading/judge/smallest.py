@@ -113,8 +113,9 @@ def _difference(said: str, got: Any, right: Any) -> str:
 
 
 def _of_parts(answer: Any) -> bool:
-    """Return whether an answer is a list with arrays or dicts."""
-    return isinstance(answer, list) and any(isinstance(part, (np.ndarray, dict)) for part in answer)
+    """Return whether an answer is a list with arrays, dicts or None."""
+    kinds = (np.ndarray, dict, type(None))
+    return isinstance(answer, list) and any(isinstance(part, kinds) for part in answer)
 
 
 def _smaller(request: dict[str, Any]) -> Iterator[dict[str, Any]]:
