@@ -174,8 +174,8 @@ def reward(student: Student):
         value = student.call("reward", np.array([0, side, 0, side, 0, 0], dtype=np.float32))
         expect(
             number(student.said, value) == -1,
-            f"{student.said} returned {value:g}, but the free end is exactly on the line, not above "
-            "it: -1 was expected.",
+            f"{student.said} returned {value:g}, but the free end is exactly on the line, not "
+            "above it: -1 was expected.",
         )
 
 

@@ -719,9 +719,9 @@ def the_stop_ends_the_rollout(student: Student):
     sizes = after_loop(student, seed, 1024, **options)[2]
     expect(
         np.array_equal(sizes, [128] * 4),
-        f"{student.said}: of each rollout the second batch already has too large a divergence, so "
-        f"2 batches of each of the 2 rollouts were expected, but {len(sizes)} were taken. The early "
-        "stop ends all epochs of a rollout, and the next rollout begins anew.",
+        f"{student.said}: the second batch of each rollout already has too large a divergence, so "
+        f"2 batches of each of the 2 rollouts were expected, but {len(sizes)} were taken. The "
+        "early stop ends all epochs of a rollout, and the next rollout begins anew.",
     )
 
 
