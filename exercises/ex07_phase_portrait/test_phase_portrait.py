@@ -366,13 +366,16 @@ def evolved(module, seed, gains):
     with rewired(gains), recorded() as evaluated:
         stages = module.three_stages(seed)
     rows = numpy.asarray(stages, dtype=float).reshape(-1, len(gains))[:3]
-    return [stages, [evaluated.nearest(row) for row in rows]]
+    return [stages, [evaluated.nearest(row) for row in rows], evaluated.first(100)]
 
 
-def stages_for(student: Student, seed: int, gains: np.ndarray) -> np.ndarray:
-    """The student's three stages, which must be candidates that were evaluated."""
+def stages_for(student: Student, seed: int, gains: np.ndarray, begin=None) -> np.ndarray:
+    """The student's three stages, which must be candidates that were evaluated.
+
+    begin: a list to put the candidates of the first evaluations into.
+    """
     answer = student.run(evolved, seed, gains, said=f"three_stages(seed={seed})")
-    expect(isinstance(answer, list) and len(answer) == 2, f"{student.said} gave no answers.")
+    expect(isinstance(answer, list) and len(answer) == 3, f"{student.said} gave no answers.")
     parameters = expect_array(student.said, answer[0], (3, len(gains)))
     for name, row, near in zip(("first", "middle", "last"), parameters, answer[1], strict=True):
         expect(
@@ -380,6 +383,14 @@ def stages_for(student: Student, seed: int, gains: np.ndarray) -> np.ndarray:
             f"{student.said}: the {name} stage was never evaluated: return candidates of your "
             "evolution as they were.",
         )
+    early = expect_array(student.said, answer[2], np.shape(answer[2]))
+    expect(
+        bool(np.isclose(early, parameters[0], rtol=1e-5, atol=1e-5).all(axis=1).any()),
+        f"{student.said}: the first stage is none of the candidates that were evaluated first: "
+        "return the best of generation 0 of the evolution that leads to the other stages.",
+    )
+    if begin is not None:
+        begin.append(early)
     return parameters
 
 
@@ -434,13 +445,20 @@ def seed_decides(student: Student):
     gains, seed = secret_gains(), exercise.seed(25) % 100_000
     one = stages_for(student, seed, gains)
     student.stop()
-    again = stages_for(student, seed, gains)
+    begins: list[np.ndarray] = []
+    again = stages_for(student, seed, gains, begins)
     expect(
         np.array_equal(one, again),
         f"{student.said} gave other stages when it was called again: everything that is random "
         "must follow from the seed.",
     )
-    other = stages_for(student, exercise.seed(30) % 100_000, gains)
+    other = stages_for(student, exercise.seed(30) % 100_000, gains, begins)
+    shared = (begins[0][:, None] == begins[1][None]).all(axis=2).any(axis=1).mean()
+    expect(
+        bool(shared < 0.1),
+        f"{student.said} begins with the same candidates as with another seed: give the seed to "
+        "the algorithm, too.",
+    )
     likeness = np.sum(one * other, axis=1) / np.sqrt(np.sum(one**2, 1) * np.sum(other**2, 1))
     expect(
         bool(likeness.max() < 0.8),
@@ -571,14 +589,50 @@ def expect_fixed_axes(student: Student, found: list[tuple[float, float]]) -> Non
 @picture.check(3)
 def one_panel_for_each(student: Student):
     here, three = around(1, 2), [CENTRE] * 3
-    drawings = [(three, [here if i == k else CENTRE for i in range(3)]) for k in range(3)]
-    found = [left for left, _ in places(student, drawings)]
+    for what in ("paths", "fields"):
+        drawings = [(three, [here if i == k else CENTRE for i in range(3)]) for k in range(3)]
+        drawings = drawings if what == "paths" else [pair[::-1] for pair in drawings]
+        found = [left for left, _ in places(student, drawings)]
+        expect(
+            all(k / 3 < left < (k + 1) / 3 for k, left in enumerate(found)),
+            f"{student.said}: {what}[0], {what}[1] and {what}[2] should be in the left, the middle "
+            "and the right third of the picture, but are "
+            f"{', '.join(f'{100 * x:.0f} %' for x in found)} from the left.",
+        )
+    path_lies_above(student)
+    axes_end_exactly(student)
+
+
+def path_lies_above(student: Student) -> None:
+    """Where both are drawn, the picture of both is that of the path."""
+    here = np.vstack([around(1, 2), CENTRE])
+    pairs = (([here], [here]), ([CENTRE], [here]), ([here], [CENTRE]), ([CENTRE], [CENTRE]))
+    pictures = [pixels_of(student, *pair) for pair in pairs]
+    height, width = np.min([each.shape[:2] for each in pictures], axis=0)
+    both, path, field, none = (each[:height, :width] for each in pictures)
+    shared = (np.abs(path - none).max(axis=2) > 0.1) & (np.abs(field - none).max(axis=2) > 0.05)
     expect(
-        all(k / 3 < left < (k + 1) / 3 for k, left in enumerate(found)),
-        f"{student.said}: the arrows of panel 0, 1 and 2 should be in the left, the middle and "
-        f"the right third of the picture, but are {', '.join(f'{100 * x:.0f} %' for x in found)} "
-        "from the left.",
+        bool(np.abs(both - path)[shared].sum() <= np.abs(both - field)[shared].sum()),
+        f"{student.said}: where an arrow of a path and one of the field lie upon each other, the "
+        "field covers the path: draw the path after the field.",
     )
+
+
+def axes_end_exactly(student: Student) -> None:
+    """Arrows just inside of the axes' limits are seen, those just outside are not."""
+    plain = pixels_of(student, [CENTRE], [CENTRE])
+    for angle, velocity, seen in (
+        (3.02, 1.0, True), (3.3, 1.0, False), (-3.34, 1.0, False), (1.0, 7.6, True),
+        (1.0, 8.5, False), (1.0, -8.7, False),
+    ):  # fmt: skip
+        arrow = np.array([[angle, velocity, 0.04, 0.2]])
+        picture = pixels_of(student, [CENTRE], [np.vstack([CENTRE, arrow])])
+        same = picture.shape == plain.shape and np.abs(picture - plain).max() <= VISIBLE
+        expect(
+            same != seen,
+            f"{student.said}: an arrow at angle {angle:g} and velocity {velocity:g} is "
+            f"{'not ' if seen else ''}seen: show exactly -pi to pi and -8 to 8.",
+        )
 
 
 ARROWS = np.array(

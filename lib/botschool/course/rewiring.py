@@ -56,6 +56,14 @@ class Evaluated:
         """Add a batch, shape (candidates, parameters)."""
         self._rows.append(np.array(genotypes, dtype=np.float32))
 
+    def first(self, many: int) -> np.ndarray:
+        """Return the candidates of the first evaluations, at least so many if there are any."""
+        found = [each for each in self._rows if each.shape[1:] == self._rows[0].shape[1:]]
+        before = np.cumsum([0, *map(len, found)])
+        return np.concatenate(
+            [e for e, n in zip(found, before, strict=False) if n < many] or [np.empty(0)]
+        )
+
     def nearest(self, parameters: np.ndarray) -> np.ndarray | None:
         """Return the candidate nearest to these parameters; None if none has their size."""
         size = np.shape(parameters)[-1:]
