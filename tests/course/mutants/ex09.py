@@ -479,12 +479,6 @@ def evolve_both(robot, steps, seeds):
 # +         )
 
 
-# %% one_robot_many_times loses 9.6
-# One robot is evolved for each version, and copied for the other seeds.
-# -         version: np.array([Runner(f"{robot}-{version}").evolve(steps, seed) for seed in seeds])
-# +         version: np.tile(
-# +             Runner(f"{robot}-{version}").evolve(steps, seeds[0]), (len(seeds), 1)
-# +         )
 # %% progress_of_the_mean loses 9.1
 # The progress is smoothed over two steps.
 # -     return (distance[:-1] - distance[1:]) / duration
