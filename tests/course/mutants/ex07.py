@@ -302,7 +302,7 @@ def three_stages(seed):
 
 # %% one_evolution_for_all_seeds loses 7.6
 # All seeds give the stages of the evolution with seed 1.
-# says: nearly the same parameters
+# says: begins with the same candidates as with another seed
 _chosen = three_stages
 
 
