@@ -6,6 +6,8 @@ They need the core for pages; `make test-long` builds it.
 import hashlib
 import json
 import math
+import os
+import re
 import shutil
 import subprocess
 import sys
@@ -28,6 +30,7 @@ from botschool.page.training import page_data, settings_of, write_training_page
 from botschool.problems.native import NativeProblem
 from botschool.render.scenes import make_scene
 from botschool.rl.native import files, training
+from botschool.rl.native import problem as problem_of_training
 from botschool.rl.native.choosing import choose
 
 ROOT = Path(__file__).parents[1]
@@ -128,9 +131,9 @@ def digests_of_the_command(experiment, seed, folder):
     return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
 
 
-def evolved_by_node(experiment, seed, tmp_path):
+def evolved_by_node(experiment, seed, tmp_path, core=None):
     _, data = written(experiment, tmp_path, seed)
-    given = {"core": core_of(experiment), "experiment": data["experiment"], "seed": seed}
+    given = {"core": core or core_of(experiment), "experiment": data["experiment"], "seed": seed}
     (tmp_path / "given.json").write_text(json.dumps(given))
     script = EVOLVE.replace("readFileSync(0)", f'readFileSync("{tmp_path}/given.json")')
     return node(tmp_path, script)
@@ -151,6 +154,43 @@ def test_run_files_are_the_command_s(problem, algo, tmp_path):
     experiment = experiment_of(problem, algo, **kinds.get(problem, {}))
     expected = digests_of_the_command(experiment, 3, tmp_path / "run")
     assert evolved_by_node(experiment, 3, tmp_path) == expected
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("algo", ["OpenAI-ES", "SSS", "coevo2"])
+@pytest.mark.parametrize("problem", [*PROBLEMS, "ErPredprey"])
+def test_a_core_without_simd_gives_the_command_s_files(problem, algo, baseline, tmp_path):
+    """The kernels compiled for WebAssembly without vector instructions."""
+    if (algo == "coevo2") != (problem == "ErPredprey"):
+        pytest.skip("coevo2 has two robots, the others one")
+    race = algo == "coevo2"
+    experiment = predators_and_prey() if race else experiment_of(problem, algo)
+    expected = digests_of_the_command(experiment, 3, tmp_path / "run")
+    assert evolved_by_node(experiment, 3, tmp_path, baseline(problem)) == expected
+
+
+@pytest.fixture(scope="module")
+def baseline():
+    """Return the core of a problem, compiled without vector instructions."""
+    compiler = ROOT / ".venv/web-compiler"
+    if not compiler.exists():
+        pytest.skip("no compiler for pages: make web")
+
+    def built_core(problem):
+        part = page.part_of(problem)
+        folder = ROOT / "build/web-baseline" / part
+        path = {"PATH": f"{ROOT}/.venv/bin:{os.environ['PATH']}"}
+        options = [f"-DBOTSCHOOL_WEB={part}", "-DCMAKE_SYSTEM_NAME=Generic"]
+        options += ["-DCMAKE_SYSTEM_PROCESSOR=wasm32", f"-DCMAKE_CXX_COMPILER={compiler}"]
+        options += ["-DCMAKE_CXX_COMPILER_WORKS=ON", "-DCMAKE_CXX_FLAGS=-target wasm32-wasi -w"]
+        for command in (
+            ["cmake", "-G", "Ninja", "-S", ROOT / "lib", "-B", folder, *options],
+            ["cmake", "--build", folder],
+        ):
+            subprocess.run(command, env=os.environ | path, check=True, capture_output=True)
+        return str(folder / f"{part}.wasm")
+
+    return built_core
 
 
 @built
@@ -435,29 +475,98 @@ def test_frozen_memory_stays(tmp_path):
     assert (late[31:, 1:3] != free[31:, 1:3]).any()
 
 
-# The page
+def frozen_by_python(experiment, genotype, when):
+    """Each step from `when` on is the first one after the same `when` steps."""
+    from botschool import _core
+
+    native = NativeProblem(experiment.exp.environment)
+    policy, stepper = native.policy(experiment.policy), _core.make_stepper(native.dynamics)
+    stepper.set(native.steps(experiment.policy.maxsteps))
+    stepper.start(5, 0)
+    policy.load(genotype, None)
+    policy.reset(5, 0)
+    seen, rows = [], []
+    for step in range(40):
+        if step >= when:
+            policy.reset(5, 0)
+            for observation in seen:
+                policy.act(observation.copy())
+        else:
+            seen.append(stepper.observation.copy())
+        action = np.atleast_1d(policy.act(stepper.observation)).astype(np.float64)
+        reward, ended = stepper.step(action)
+        rows.append([reward, *stepper.state, *policy.network.activations])
+        if ended:
+            break
+    return np.array(rows)
 
 
 @built
-def test_a_page_is_small_and_whole(tmp_path):
-    saved = {
-        "planarhopper": "planarhopper.npy",
-        "discrim": "discrim.npy",
-        "predprey": "predprey/S12G300.npy",
-    }
-    for name in ("acrobot", "planarhopper", "discrim", "predprey"):
-        experiment = config.load(ROOT / f"data/experiments/{name}.ini")
-        file = saved.get(name)
-        given = {"saved": np.load(ROOT / "data/genotypes" / file), "name": file} if file else {}
-        path, data = written(experiment, tmp_path, seed=11, **given)
+@pytest.mark.parametrize("architecture", [1, 2, 3])
+@pytest.mark.parametrize("problem", ["ErDiscrim", "ErDpole"])
+def test_frozen_memory_is_what_the_steps_before_left(problem, architecture, tmp_path):
+    experiment = experiment_of(problem, "OpenAI-ES", architecture=architecture)
+    genotype = NativeProblem(problem).policy(experiment.policy).initial(4)
+    found = benched(experiment, genotype, [[6, "freeze", 0, 0]], tmp_path)
+    np.testing.assert_array_equal(found, frozen_by_python(experiment, genotype, 6))
+
+
+# The page
+
+
+PAGES = (
+    *("acrobot", "cartpole", "cartpole_openaies", "discrim", "dpole", "dpole_lstm"),
+    *("mountaincarcontinuous", "pendulum", "planarhalfcheetah", "planarhopper", "planarwalker2d"),
+    *("predprey", "predprey_archive", "predprey_archivestar", "predprey_maxsolvestar", "swingup"),
+)
+"""Experiment files that can be pages."""
+
+
+@built
+def test_each_page_is_small_and_whole(tmp_path):
+    """Each experiment file is a page below 250 KB, with its evolved robot, or is refused."""
+    fitting = []
+    for file in sorted((ROOT / "data/experiments").glob("*.ini")):
+        experiment = config.load(file)
+        name = "predprey/S12G300" if file.stem.startswith("predprey") else file.stem
+        robot = ROOT / f"data/genotypes/{name}.npy"
+        given = {"saved": np.load(robot), "name": robot.name} if robot.exists() else {}
+        try:
+            path, data = written(experiment, tmp_path, seed=11, **given)
+        except BotschoolError as error:
+            assert "\n" not in str(error) and str(error).endswith("."), file
+            continue
+        fitting.append(file.stem)
         text = path.read_text()
-        assert path.stat().st_size < 250_000, name
+        assert path.stat().st_size < 250_000, file
         assert "http" not in text.replace("http-equiv", "")
         assert "/*" not in text.partition("<script>")[0].partition("</style>")[2]
         assert len(data["first"]) > 0
-    for env in ("Acrobot-v1", "botschool/Discrim-v0", "botschool/PlanarHopper-v5"):
-        write_training_page(tmp_path / "training.html", env)
+    assert set(fitting) == set(PAGES)
+    trainable = problem_of_training._PROBLEMS
+    assert {"CartPole-v1", "botschool/PlanarHalfCheetah-v5"} <= trainable.keys()
+    for env in trainable:
+        try:
+            write_training_page(tmp_path / "training.html", env)
+        except BotschoolError as error:
+            assert re.search("has no picture in a page|cannot train this", str(error))
+            continue
         assert (tmp_path / "training.html").stat().st_size < 250_000, env
+
+
+@pytest.mark.parametrize("algo", ["MAP-Elites", "CMA-ES", "ARS", "GA", "PGPE", "(1+1)-ES", "xNES"])
+def test_an_algorithm_that_pages_lack_is_refused(algo, refused, tmp_path):
+    file = tmp_path / "a.ini"
+    text = (ROOT / "data/experiments/planarhopper.ini").read_text().partition("[ALGO]")[0]
+    lines = [f"algo = {algo}" if re.match("algo *=", one) else one for one in text.splitlines()]
+    file.write_text("\n".join(lines) + "\n")
+    refused("page", file, "-o", tmp_path / "a.html", says=[algo, "OpenAI-ES or SSS"])
+    assert not (tmp_path / "a.html").exists()
+
+
+def test_maphopper_is_refused(refused, tmp_path):
+    file = ROOT / "data/experiments/maphopper.ini"
+    refused("page", file, "-o", tmp_path / "a.html", says=["MAP-Elites", "OpenAI-ES or SSS"])
 
 
 @pytest.mark.parametrize(
@@ -652,3 +761,89 @@ def test_in_a_browser(browser, tmp_path):
     assert browser.run("cuts.size + bench.blind.reduce((a, b) => a + b)") == 0
     assert browser.errors == []
     assert {url.partition(":")[0] for url in browser.requests} <= {"file", "data", "about", "blob"}
+
+
+WALK = """({ id: document.activeElement.id, role: document.activeElement.className,
+  name: document.activeElement.getAttribute("aria-label") || document.activeElement.innerText
+    || document.activeElement.labels?.[0]?.innerText })"""
+CONTROLS = """[...document.querySelectorAll(
+  "button, input, select, summary, a[href], canvas[tabindex]")
+].filter((one) => one.checkVisibility()).length"""
+
+
+@built
+def test_by_keyboard_alone(browser, tmp_path):
+    """Every control is reached in order, has a name, and does what a click would do."""
+    experiment = experiment_of("ErDiscrim", "OpenAI-ES", maxsteps=200, architecture=3)
+    path, _ = written(experiment, tmp_path)
+    browser.errors.clear()
+    browser.resize(1280, 900)
+    browser.open(path)
+    browser.wait("bench && game.step > 2")
+    enter, space = ("Enter", "\r"), (" ", " ")
+
+    def focus(name):
+        for _ in range(80):
+            browser.press("Tab")
+            if browser.run(WALK)["id"] == name:
+                return
+        raise AssertionError(f"the tabulator does not reach {name}")
+
+    focus("scene")  # the first of all
+    browser.press(*space)
+    assert not browser.run("game.playing")
+    before = np.array(browser.run("[...bench.state]"))
+    browser.press("ArrowRight", modifiers=8)
+    browser.press("ArrowDown", modifiers=8)
+    moved = np.array(browser.run("[...bench.state]"))
+    view = browser.run("data.scene.view")
+    size = (view[2] - view[0]) / 50
+    np.testing.assert_allclose(moved - before, [0, 0, 0, size, -size, 0], atol=1e-9)
+    browser.press("g", "g")
+    browser.press("ArrowLeft", modifiers=8)
+    left = np.array(browser.run("[...bench.state]"))
+    np.testing.assert_allclose(left - moved, [-size, 0, 0, 0, 0, 0], atol=1e-9)
+
+    count = browser.run(CONTROLS)
+    reached = []
+    for _ in range(count - 1):
+        browser.press("Tab")
+        reached.append(browser.run(WALK))
+    assert all(one["name"] for one in reached), reached
+    named = [one["id"] for one in reached if one["id"]]
+    order = ["pause", "once", "again", "speed", "seed", "evolve", "freeze", "heal", "load"]
+    assert [name for name in named if name in order] == order
+    assert len([one for one in reached if one["role"] == "neuron"]) == browser.run("chips.length")
+    browser.press("Tab")
+
+    step = browser.run("game.step")
+    focus("once")
+    browser.press(*enter)
+    assert browser.run("game.step") == step + 1
+    browser.press("Tab")
+    browser.press(*space)
+    assert browser.run("game.step") == 0
+    focus("freeze")
+    browser.press(*enter)
+    assert browser.run("byId('freeze').getAttribute('aria-pressed')") == "true"
+    browser.run("chips[3].made.focus()")
+    browser.press(*space)
+    assert browser.run("[...bench.blind]") == [0, 0, 0, 1, 0, 0, 0, 0]
+    browser.press("Tab")
+    assert browser.run("document.activeElement === chips[4].made")
+    focus("heal")
+    browser.press(*enter)
+    assert browser.run("bench.blind.reduce((a, b) => a + b)") == 0
+    focus("evolve")
+    browser.press(*enter)
+    browser.wait("!byId('downloads').hidden")
+    label = browser.run("byId('curve').getAttribute('aria-label')")
+    assert re.fullmatch(
+        r"Fitness against steps: mean .* from .* to .*; best .* from .* to .*", label
+    )
+    browser.run("document.querySelector('details summary').focus()")
+    browser.press(*enter)
+    assert browser.run("document.querySelector('details').open")
+    browser.press("Tab")
+    assert browser.run("document.activeElement.id").startswith("field-")
+    assert browser.errors == []

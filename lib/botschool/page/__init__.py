@@ -117,7 +117,7 @@ def _data(experiment: Experiment, problem: NativeProblem, policy: Any) -> dict:
     limit = problem.steps(p.maxsteps)
     return drawn | {
         "title": problem.name,
-        "about": "evolves in this page, with the bits of the command; nothing leaves your computer",
+        "about": _about(experiment),
         "name": experiment.path.stem if experiment.path else "experiment",
         "groups": [[label, size] for label, size in groups],
         "networks": policy.networks,
@@ -193,6 +193,14 @@ def _algorithm(experiment: Experiment) -> list[float] | None:
             steps = [a.stepsize, a.noiseStdDev, a.wdecay]
             return [2, a.popsize, *steps, drawn, a.selsize, a.samplesize]
     return None
+
+
+def _about(experiment: Experiment) -> str:
+    """Return what the page's robots do, in words."""
+    what = "evolves in this page, with the bits of the command"
+    if experiment.exp.algo not in ALGORITHMS:
+        what = f"acts in this page ({experiment.exp.algo} evolves it outside)"
+    return f"{what}; nothing leaves your computer"
 
 
 PLACES = {
@@ -274,6 +282,9 @@ def assemble(data: dict, seed: int) -> bytes:
     folder, drawing = files("botschool.page"), files("botschool.render") / "replay_draw.js"
     read = {name: _shorter((folder / name).read_text("utf-8")) for name in (*SCRIPTS, "worker.js")}
     scripts = "\n".join([*(read[name] for name in SCRIPTS), _shorter(drawing.read_text("utf-8"))])
+    # a picture can have hundreds of shapes, as a ruler has marks
+    shapes = json.dumps(data["scene"]["shapes"], separators=(",", ":")).encode()
+    data = data | {"scene": data["scene"] | {"shapes": _packed(shapes)}}
     # "<" never appears in the JSON, so nothing in it can end its element.
     text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
     page = (folder / "page.html").read_text(encoding="utf-8")

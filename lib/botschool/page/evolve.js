@@ -130,6 +130,9 @@ function drawCurve(chosen) {
   pen.fillText(orange, 58, 9);
   pen.fillStyle = colour("muted");
   pen.fillText(muted, 190, 9);
+  const told = lines.map(([name, line]) =>
+    `${name === "orange" ? orange : muted} from ${show(line[0][1])} to ${show(line[count - 1][1])}`);
+  byId("curve").setAttribute("aria-label", `Fitness against ${total ? "generations" : "steps"}: ${told.join("; ")}`);
 }
 
 // The experiment file
