@@ -377,7 +377,7 @@ def train(environment, seed):
 
 # %% the_best_of_the_pairs loses 8.8
 # The centre jumps to the best candidate: no gradient is estimated.
-# says: not by this algorithm
+# says: Return a centre: the steps of the algorithm lead to it
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
     centre = 0.1 * rng.standard_normal(robot.nbiases + robot.nweights)
