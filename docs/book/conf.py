@@ -15,6 +15,8 @@ html_theme = "furo"
 html_title = "botschool"
 html_show_sourcelink = False
 html_copy_source = False
+html_static_path = ["static"]
+html_css_files = ["print.css"]
 autodoc_typehints = "description"
 
 LIVE = {

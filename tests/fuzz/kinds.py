@@ -278,8 +278,12 @@ class Submission(Kind):
         from botschool.grading.run.cells import definitions, whole
 
         submission = Read(path, None)
-        with contextlib.suppress(SyntaxError, ValueError, RecursionError, MemoryError):
+        try:
             whole(submission._cells()), definitions(submission._cells())
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            pass
+        finally:
+            submission.__exit__()  # its folder
 
 
 class Wire(Kind):
