@@ -232,6 +232,8 @@ console.log(JSON.stringify({
         ("Pendulum-v1", {"normalize": True, "clip_range_vf": 0.2, "net_arch": [16]}),
         ("Acrobot-v1", {"normalize": True, "target_kl": 0.01, "ortho_init": False}),
         ("botschool/Discrim-v0", {"ent_coef": 0.01, "share_layers": True}),
+        ("botschool/DoublePole-v0", {"normalize": True}),
+        ("botschool/SwingUp-v0", {"gae_lambda": 0.9}),
         ("botschool/PlanarHopper-v5", {"normalize": True, "activation_fn": "relu"}),
     ],
 )
