@@ -117,7 +117,7 @@ def draw_verdicts(
 
 
 def _label_falls(axes: Axes, falls: list[tuple[np.ndarray, dict, str]]) -> None:
-    """Write how large each curve's fall is below its end, and labels that would meet in one row.
+    """Write each curve's fall in percent below the place where it ends; labels never overlap.
 
     falls: curve, verdict and colour of each.
     """
