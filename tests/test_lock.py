@@ -6,7 +6,9 @@ import os
 import signal
 import subprocess
 import sys
+import sysconfig
 import time
+from pathlib import Path
 
 import pytest
 
@@ -121,6 +123,48 @@ def test_ctrl_c_while_the_command_is_imported(module):
     )
     assert (done.returncode, done.stdout) == (130, "")
     assert done.stderr == "Stopped before anything was done.\n"
+
+
+def pressing_ctrl_c():
+    """Leave a Ctrl-C that waits until the process can answer it."""
+    heeding_ctrl_c()
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    os.kill(os.getpid(), signal.SIGINT)
+
+
+COMMAND = Path(sysconfig.get_path("scripts")) / "botschool"
+
+
+def test_ctrl_c_while_python_starts():
+    done = subprocess.run(
+        [COMMAND, "--version"], capture_output=True, text=True, preexec_fn=pressing_ctrl_c
+    )
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr == "Stopped before anything was done.\n"
+
+
+@pytest.mark.parametrize("milliseconds", [1, 4, 8, 12, 16, 24, 32, 64])
+def test_ctrl_c_a_moment_after_the_start(milliseconds):
+    process = subprocess.Popen(
+        [COMMAND, "es", "--help"],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=heeding_ctrl_c,
+    )
+    time.sleep(milliseconds / 1000)
+    process.send_signal(signal.SIGINT)
+    errors = process.communicate()[1]
+    silent = (-signal.SIGINT, ""), (0, "")  # before the launcher runs; when all is done
+    said = (130, "Stopped before anything was done.\n"), (130, "Stopped.\n")
+    assert (process.returncode, errors) in silent + said
+
+
+def test_the_command_runs_no_module_of_the_folder_that_it_is_called_in(tmp_path):
+    for name in ("botschool", "typer", "signal"):
+        (tmp_path / f"{name}.py").write_text("raise SystemExit(f'{__name__} is not trusted')")
+    done = subprocess.run([COMMAND, "--version"], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "") and done.stdout.startswith("botschool ")
 
 
 LATE = """

@@ -10,6 +10,8 @@ def main() -> None:
     """Run the command; Ctrl-C ends it with one sentence at any time."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _stop)
+    if hasattr(signal, "pthread_sigmask"):  # lib/launcher has held Ctrl-C back
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     from botschool.cli.app import run
 
     run()
