@@ -1,8 +1,7 @@
-"""Experiment files: the text of an .ini file <-> a typed, checked `Experiment`.
+"""Read experiment files: the text of an .ini file becomes a typed, checked `Experiment`.
 
-Hyperparameters are declared in botschool.policies.hyperparameters and, those of an algorithm, in
-its file of botschool.evolution.algorithms; reading, checking and listing all follow from these
-declarations.
+botschool.policies.hyperparameters declares hyperparameters; each algorithm declares its own in its
+file of botschool.evolution.algorithms. Reading, checking and listing use these declarations.
 """
 
 from __future__ import annotations
@@ -90,19 +89,19 @@ ALIASES = {
 
 @dataclass
 class Experiment:
-    """One experiment file; `path` is where it was read from, and takes no part in equality."""
+    """An experiment file; `path` is the file it was read from and does not count in comparisons."""
 
     exp: Exp
     policy: PolicyConfig
     algo: Any
     """The hyperparameters of `exp.algo`, in the dataclass that its file declares."""
     arena: Any = None
-    """What the section [ARENA] declares (arenas.section.ArenaConfig), None without one."""
+    """The section [ARENA] (arenas.section.ArenaConfig), None without one."""
     path: Path | None = field(default=None, compare=False)
 
     @property
     def competitive(self) -> bool:
-        """Whether two populations evolve against each other in it."""
+        """Whether two populations evolve against each other."""
         return ALGORITHMS[self.exp.algo].competitive
 
     @property
@@ -117,14 +116,14 @@ class Experiment:
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """Its parts, named as in to_dict."""
+        """Its sections, named as in to_dict."""
         return ("exp", "policy", "algo") + (("arena",) if self.arena is not None else ())
 
 
 def load(path: str | PathLike[str]) -> Experiment:
     """Read and check an experiment file.
 
-    Raises BotschoolError with one sentence: the file, the line, what is wrong, what to do.
+    Raises BotschoolError; its sentence names the file, the line, the error and the remedy.
     """
     return _experiment(read_sections(path, (*SECTIONS, ARENA), ALIASES), path)
 
@@ -135,9 +134,9 @@ def to_dict(experiment: Experiment) -> dict[str, dict[str, Any]]:
 
 
 def from_dict(data: dict[str, dict[str, Any]], source: str = "experiment") -> Experiment:
-    """Return the experiment that `to_dict` gave; keys that are missing get their default.
+    """Return the experiment that `to_dict` gave; missing keys get their default.
 
-    Raises BotschoolError, whose sentence starts with `source`, where `load` would.
+    Raises BotschoolError in the same cases as `load`; its sentence starts with `source`.
     """
     if not isinstance(data, dict) or not all(isinstance(part, dict) for part in data.values()):
         raise BotschoolError(f"{source}: expected the nested dict that to_dict gives.")
@@ -149,7 +148,7 @@ def from_dict(data: dict[str, dict[str, Any]], source: str = "experiment") -> Ex
 
 
 def defaults(experiment: Experiment) -> dict[str, dict[str, Any]]:
-    """Return the defaults of all its hyperparameters that have one, as in to_dict."""
+    """Return all of the experiment's hyperparameters that have a default, as in to_dict."""
     return {
         part: {f.name: f.default for f in fields(getattr(experiment, part))}
         for part in experiment.parts
@@ -157,16 +156,16 @@ def defaults(experiment: Experiment) -> dict[str, dict[str, Any]]:
 
 
 def free(experiment: Experiment) -> set[tuple[str, str]]:
-    """(section, key), as in to_dict, of what may change when a run is resumed."""
+    """Return the (section, key) pairs, as in to_dict, that may change when a run is resumed."""
     return {("algo", f.name) for f in fields(experiment.algo) if f.metadata.get("free")}
 
 
 def describe() -> list[tuple[str, str, Any, str]]:
     """Return rows (section, name, default, help) of all hyperparameters of all algorithms.
 
-    Sections are `EXP`, `POLICY`, `ARENA` and `ALGO NAME` of each algorithm. The default is
-    None where a value must be given; of robot1, robot2 and the like the first stands for all. The
-    help ends with the allowed values.
+    Sections are `EXP`, `POLICY`, `ARENA` and `ALGO NAME` of each algorithm. The default is None for
+    hyperparameters that must be given. robot1 also stands for robot2, robot3 and so on. The help
+    ends with the allowed values.
     """
     parts = [("EXP", Exp), ("POLICY", PolicyConfig), (ARENA, ArenaConfig)]
     parts += [(f"ALGO {name}", ALGORITHMS[name].config) for name in sorted(ALGORITHMS)]
@@ -202,7 +201,7 @@ def _experiment(sections: dict[str, dict[str, Entry]], path: str | PathLike[str]
 
 
 def _arena(exp: Exp, entries: dict[str, Entry] | None, path: str | PathLike[str]) -> Any:
-    """Return the section [ARENA], whose plan can be; None if there is none."""
+    """Return the section [ARENA] after checking its plan; None if there is none."""
     declared = exp.environment == PROBLEM
     if entries is None and not declared:
         return None
@@ -277,7 +276,7 @@ def _value(f: Field, entry: Entry) -> Any:
 
 
 def _text(f: Field, raw: Any, said: str) -> str:
-    """Return the value of a hyperparameter that is a text: one of its choices, or a name."""
+    """Return the value of a text hyperparameter: one of its choices, or a name."""
     if "check" in f.metadata:
         f.metadata["check"](str(raw))
         return str(raw)
@@ -298,8 +297,8 @@ def _text(f: Field, raw: Any, said: str) -> str:
 
 
 def _number(raw: Any) -> float | int | None:
-    """Return the number that a text or a value is, nan and the infinities included; None if it is
-    none.
+    """Return the number that a text or a value is, including nan and infinities; None for other
+    values.
     """
     if isinstance(raw, str):
         pattern = r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?|[+-]?(nan|inf|infinity)"
@@ -310,7 +309,7 @@ def _number(raw: Any) -> float | int | None:
 
 
 def _allowed(f: Field) -> str:
-    """Return what a value may be, as the end of a sentence."""
+    """Return the allowed values, as the end of a sentence."""
     limits = f.metadata
     if "choices" in limits:
         *most, last = [f"{value} ({meaning})" for value, meaning in limits["choices"].items()]
@@ -333,7 +332,7 @@ def _also(f: Field) -> str:
 
 
 def _unknown(key: str, section: str, cls: type) -> str:
-    """Return the sentence for a key that its section does not have."""
+    """Return the sentence about a key that its section does not have."""
     name = key.lower()
     if section == ARENA and (kind := re.fullmatch(r"(\D+?)s?(\d*)", name)) and kind[1] in KINDS:
         if kind[2]:

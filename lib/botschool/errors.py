@@ -1,14 +1,14 @@
-"""The one exception that users see, and what others say."""
+"""Define the one exception that users see, and quote the messages of others."""
 
 MOST = 300
-"""Letters of what a foreign exception says that are shown."""
+"""Characters to show of another exception's message."""
 
 
 class BotschoolError(Exception):
-    """Something the user can mend: one sentence that says what, where and what to do.
+    """An error that the user can mend: one sentence that says what, where and what to do.
 
-    The command prints the sentence and exits with code 2; it never shows a traceback. The sentence
-    is one line, even if it names a file whose name has line breaks.
+    The command prints the sentence and exits with code 2, without a traceback. The sentence takes
+    one line, even if it names a file whose name has line breaks.
     """
 
     def __str__(self) -> str:
@@ -22,6 +22,6 @@ def listed(words: list[str]) -> str:
 
 
 def said(error: BaseException) -> str:
-    """What an exception says, on one line without a full stop; its type if it says nothing."""
+    """Return an exception's message on one line without a full stop; without a message its type."""
     text = " ".join(str(error).split()).rstrip(".") or type(error).__name__
     return text if len(text) <= MOST else f"{text[:MOST]}..."

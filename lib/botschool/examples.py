@@ -1,4 +1,4 @@
-"""The experiments and robots that come with botschool: listed, and copied."""
+"""List and copy the experiments and robots that come with botschool."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from botschool.paths import material
 
 ROBOTS = "genotypes"
 KINDS = {"experiments": ".ini", ROBOTS: ".npy"}
-"""Folders of data/, and what the names of their files end with."""
+"""Folder of data/ -> ending of its files' names."""
 
 
 def examples(kind: str) -> dict[str, Path]:
-    """Return name -> file or folder, of a kind that KINDS names."""
+    """Return name -> file or folder for a kind of KINDS."""
     folder = material() / "data" / kind
     found = sorted(folder.iterdir()) if folder.is_dir() else []
     return {path.name: path for path in found if path.suffix == KINDS[kind] or path.is_dir()}
@@ -35,9 +35,9 @@ def purpose(experiment: Path) -> str:
 
 
 def copy(names: list[str], folder: Path) -> Iterator[Path]:
-    """Copy examples into a folder; yield what was made. Raises BotschoolError.
+    """Copy examples into a folder; yield each new path. Raises BotschoolError.
 
-    Nothing is overwritten.
+    Existing files are never overwritten.
     """
     known = {name: path for kind in KINDS for name, path in examples(kind).items()}
     for name in names:

@@ -1,6 +1,6 @@
-"""The text of an .ini file -> its sections, keys and values, each with its line number.
+"""Read the text of an .ini file: sections, keys and values, each with its line number.
 
-The standard library's configparser forgets line numbers, and a sentence for a learner needs them.
+The standard library's configparser forgets line numbers, which messages for learners need.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from botschool.errors import BotschoolError
 
 LONGEST_FILE = 1_000_000
-"""Characters; no experiment file comes near, so a longer file is something else."""
+"""Largest number of characters; a longer file is no experiment file."""
 
 
 class Entry(NamedTuple):
@@ -73,7 +73,7 @@ def read_sections(
 
 
 def refusal(path: str | PathLike[str], line: int, sentence: str) -> BotschoolError:
-    """Return the error whose sentence starts with the file and, unless it is 0, the line."""
+    """Return an error whose sentence starts with the file and, unless it is 0, the line."""
     place = f"{os.fspath(path)}, line {line}" if line else f"{os.fspath(path)}"
     return BotschoolError(f"{place}: {sentence}{'' if sentence.endswith('?') else '.'}")
 
@@ -89,7 +89,7 @@ def nearest(word: object, known: Iterable[str]) -> str:
 
 
 def shown(value: Any) -> str:
-    """Return a value as it can be quoted in a sentence: short, on one line."""
+    """Return a value in a form to quote in a sentence: short, on one line."""
     text = str(value) if str(value).isprintable() and str(value) else ascii(value)
     return text if len(text) <= 40 else f"{text[:37]}..."
 
@@ -125,7 +125,9 @@ def _twice(key: str, first: Entry) -> str:
 
 
 def _read(path: str | PathLike[str]) -> str:
-    """Return the text of the file. Latin-1 is tolerated, for comments: no key or value needs it."""
+    """Return the text of the file. Latin-1 is accepted, too: comments may hold it, keys and values
+    not.
+    """
     try:
         with open(path, "rb") as file:
             data = file.read(LONGEST_FILE + 1)
@@ -147,7 +149,7 @@ def _read(path: str | PathLike[str]) -> str:
 
 
 def _instead(path: Path) -> str:
-    """Return what to give instead of a missing file: the .ini files of its folder."""
+    """Return a hint in place of a missing file: the .ini files of its folder."""
     folder = "this folder" if path.parent == Path() else f"the folder {path.parent}"
     try:
         found = sorted(file.name for file in path.parent.iterdir() if file.suffix.lower() == ".ini")

@@ -1,7 +1,7 @@
-"""Linear algebra whose bits are the same on every machine: sums have a fixed order.
+"""Compute linear algebra with the same bits on every machine: sums have a fixed order.
 
-numpy hands products and decompositions to BLAS and LAPACK, whose last bits depend on the library,
-on its threads and on the instruction set; its `exp` and `log` have variants too.
+numpy passes products and decompositions to BLAS and LAPACK, whose last bits depend on the library,
+its threads and the instruction set. Its `exp` and `log` differ between machines, too.
 """
 
 from __future__ import annotations
@@ -17,25 +17,25 @@ def _doubles(values: ArrayLike) -> np.ndarray:
 
 
 def product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """a @ b of two matrices, shapes (rows, inner) and (inner, columns)."""
+    """Return the matrix product a @ b, shapes (rows, inner) and (inner, columns)."""
     return _core.product(_doubles(a), _doubles(b))
 
 
 def eigen(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Eigenvalues of a symmetric matrix, rising, and its eigenvectors as rows.
+    """Return the eigenvalues of a symmetric matrix, rising, and its eigenvectors as rows.
 
-    Only the upper triangle is read. Raises ValueError if an element is not finite.
+    The function reads only the upper triangle. Raises ValueError if an element is not finite.
     """
     return _core.symmetric_eigen(_doubles(matrix))
 
 
 def exp(values: ArrayLike) -> np.ndarray:
-    """e to the power of each value of a vector; between exp(-708) and exp(709)."""
+    """Return e to the power of each value of a vector, limited to exp(-708) ... exp(709)."""
     return _core.exp(_doubles(values))
 
 
 def log(values: ArrayLike) -> np.ndarray:
-    """Natural logarithm of each value of a vector; they must be positive."""
+    """Return the natural logarithm of each value of a vector of positive numbers."""
     return _core.log(_doubles(values))
 
 

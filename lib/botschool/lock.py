@@ -1,4 +1,4 @@
-"""Locks on output folders: two commands never write the same run."""
+"""Lock output folders, so that no two commands write the same run."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ TAKEN = (errno.EACCES, errno.EAGAIN)
 
 @contextmanager
 def locked(folder: Path, what: str, first: int = 0, count: int = 1) -> Iterator[None]:
-    """Hold the runs with numbers first, first + 1, ... of a folder, which must exist.
+    """Lock the runs with numbers first, first + 1, ... of an existing folder during the block.
 
-    Raises BotschoolError if another process holds one of them; what: the sentence's subject, as
-    "the run with seed 1". The system ends a lock with its process, so a killed one leaves none.
-    Where the folder's file system has no locks, a line on stderr says so.
+    what: the subject of the error, such as "the run with seed 1". The system ends a lock with its
+    process, so a killed process leaves none. If the folder's file system has no locks, a line on
+    stderr says so. Raises BotschoolError if another process holds one of the runs.
     """
     if fcntl is None:
         yield

@@ -1,4 +1,4 @@
-"""Old names of modules, for files that users wrote when the modules had these names."""
+"""Import modules by their old names, which files of users may still have."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MOVED = {
 
 
 class Finder:
-    """Import an old name as a module with the contents of the new one."""
+    """Imports an old name as a module with the contents of the new one."""
 
     def find_spec(self, name: str, path: Any = None, target: Any = None) -> ModuleSpec | None:
         """Return a spec for an old name; Python asks here last."""
@@ -35,7 +35,7 @@ class Finder:
         """Let Python make an empty module."""
 
     def exec_module(self, module: ModuleType) -> None:
-        """Fill it from the new one."""
+        """Fill the module with the contents of the new one."""
         new = import_module(f"botschool.{MOVED[module.__name__.partition('.')[2]]}")
         vars(module).update({k: v for k, v in vars(new).items() if not k.startswith("__")})
 

@@ -1,4 +1,4 @@
-"""Output files: whole or absent, and one sentence when they cannot be written."""
+"""Write output files completely or not at all, with clear errors."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from botschool.errors import BotschoolError
 
 
 def check_output(path: Path | str, suffixes: Sequence[str]) -> Path:
-    """Return the path, if a file of one of these kinds (lower-case, as ".png") can lie there.
+    """Return the path if a file of one of these kinds (lower-case, such as ".png") can be written.
 
     Raises BotschoolError otherwise.
     """
@@ -44,10 +44,10 @@ def cannot_write(path: Path | str, reason: str) -> BotschoolError:
 
 @contextmanager
 def written_whole(path: Path | str) -> Iterator[Path]:
-    """Return a temporary path beside `path`; what is written there takes its name at the end.
+    """Yield a temporary path beside `path`; at the end it replaces `path`.
 
-    When the block fails nothing is left behind, an earlier `path` stays as it was, and the
-    block's exception goes on. Raises BotschoolError if the file cannot be completed.
+    If the block fails, nothing is left behind, an earlier `path` stays as it was, and the exception
+    goes on. Raises BotschoolError if the file cannot be completed.
     """
     path = Path(path)
     temporary = _temporary(path, os.getpid())
@@ -65,7 +65,7 @@ def written_whole(path: Path | str) -> Iterator[Path]:
 
 
 def remove_leftovers(path: Path) -> None:
-    """Remove what killed processes left of unfinished versions of `path`."""
+    """Remove unfinished versions of `path` that killed processes left behind."""
     for temporary in path.parent.glob(_temporary(path, "*").name):
         with suppress(OSError):
             temporary.unlink()
@@ -76,21 +76,21 @@ def _temporary(path: Path, process: object) -> Path:
 
 
 def save_npy(path: Path, array: np.ndarray) -> None:
-    """np.save, whole or not at all. Raises BotschoolError."""
+    """Write an .npy file completely or not at all. Raises BotschoolError."""
     buffer = BytesIO()
     np.save(buffer, array, allow_pickle=False)
     save_bytes(path, buffer.getvalue())
 
 
 def save_npz(path: Path, arrays: dict[str, Any]) -> None:
-    """np.savez, whole or not at all. Raises BotschoolError."""
+    """Write an .npz file completely or not at all. Raises BotschoolError."""
     buffer = BytesIO()
     np.savez(buffer, **arrays)
     save_bytes(path, buffer.getvalue())
 
 
 def save_bytes(path: Path, content: bytes) -> None:
-    """A file with this content, whole or not at all. Raises BotschoolError."""
+    """Write a file with this content completely or not at all. Raises BotschoolError."""
     try:
         with written_whole(path) as temporary:
             temporary.write_bytes(content)

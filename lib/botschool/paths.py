@@ -1,4 +1,4 @@
-"""Where the course is, and modules in the present folder."""
+"""Find the course, the files that come with botschool, and modules in the current folder."""
 
 from __future__ import annotations
 
@@ -14,11 +14,14 @@ from types import ModuleType
 from botschool.errors import BotschoolError, said
 
 MATERIAL = "material"
-"""In the installed package: a copy of the course, as `botschool course` makes it."""
+"""Folder of the installed package with a copy of the course, as `botschool course` makes it."""
 
 
 def course_root() -> Path:
-    """Return the folder that holds exercises/; looked for from the present folder upwards."""
+    """Return the folder that holds exercises/: the current one or the nearest one above it.
+
+    BOTSCHOOL_COURSE names another place to start from. Raises BotschoolError if there is none.
+    """
     given = os.environ.get("BOTSCHOOL_COURSE")
     here = Path(given) if given else Path.cwd()
     for folder in (here, *here.resolve().parents):
@@ -31,9 +34,9 @@ def course_root() -> Path:
 
 
 def material() -> Path:
-    """The folder with the data/ and exercises/ that come with botschool.
+    """Return the folder with the data/ and exercises/ that come with botschool.
 
-    It is a part of the installed package, or else the checkout that the package lies in.
+    It is part of the installed package, or else the checkout that holds the package.
     """
     package = Path(__file__).resolve().parent
     installed = package / MATERIAL
@@ -41,10 +44,10 @@ def material() -> Path:
 
 
 def own_file(name: str | os.PathLike[str], folder: str = "") -> Path:
-    """The file of this name, or the one of data/FOLDER that comes with botschool.
+    """Return the file with this name, or botschool's own file in data/FOLDER.
 
-    name: as the user wrote it, as acrobot.ini or data/experiments/acrobot.ini. What exists is taken
-    as it is.
+    name: as the user wrote it, such as acrobot.ini or data/experiments/acrobot.ini. An existing
+    file comes first.
     """
     path = Path(name)
     if not path.exists() and not path.is_absolute() and ".." not in path.parts:
@@ -56,16 +59,17 @@ def own_file(name: str | os.PathLike[str], folder: str = "") -> Path:
 
 
 def look_here(module: str) -> None:
-    """Let a module be imported from the present folder, and say so if it is there."""
+    """Let Python import a module from the current folder; say so if it lies there."""
     if os.getcwd() not in sys.path:
         sys.path.insert(0, os.getcwd())
     _say_if_here(module)
 
 
 def import_here(module: str, purpose: str) -> ModuleType:
-    """Return the module, installed or in the present folder.
+    """Return the module, which is installed or lies in the current folder.
 
-    purpose: what is wanted of it, as "take the wrapper Doubled from". Raises BotschoolError.
+    purpose: what the caller wants of it, such as "take the wrapper Doubled from". Raises
+    BotschoolError.
     """
     look_here(module)
     try:
@@ -85,7 +89,7 @@ def import_here(module: str, purpose: str) -> ModuleType:
 
 @cache
 def _say_if_here(module: str) -> None:
-    """A line on stderr, once, when a module is taken from the present folder."""
+    """Print a line on stderr, once, if a module lies in the current folder."""
     if multiprocessing.parent_process() is not None:
         return
     try:

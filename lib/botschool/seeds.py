@@ -1,4 +1,4 @@
-"""Random numbers of Python: every stream is a pure function of what it is keyed by."""
+"""Draw Python's random numbers: every stream is a pure function of its key."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ POST_EVALUATION_SEED = 100_000
 
 
 Place = tuple[int, int, int, int]
-"""Of a stream: seed, generation, words drawn, and the half word that is left, or -1."""
+"""Position in a stream: seed, generation, words drawn, and the half word left over, or -1."""
 
 
 class _Source(_core.Numbers):
@@ -29,9 +29,9 @@ class _Source(_core.Numbers):
 class Numbers(Generator):
     """numpy's Generator(Philox(key=[seed, generation])), with the same bits on every system.
 
-    Normal numbers, whole numbers from 0 and permutations are drawn in C++, as in a page
-    (lib/evolution/normals.hpp): numpy's take logarithms from the system's C library. All other
-    methods are numpy's own.
+    C++ draws normal numbers, whole numbers from 0 and permutations, as in a page
+    (lib/evolution/normals.hpp), because numpy takes logarithms from the system's C library. All
+    other methods are numpy's own.
     """
 
     def standard_normal(  # type: ignore[override]
@@ -55,15 +55,14 @@ class Numbers(Generator):
         return found if found.ndim else found[()]
 
     def permutation(self, x: Any, axis: int = 0) -> Any:
-        """Return the numbers from 0 to before x, or the rows of x, in a random order, as numpy
-        does."""
+        """Return the numbers from 0 to x - 1, or the rows of x, in random order, as numpy does."""
         if isinstance(x, (int, np.integer)) and 0 <= x < 2**32:
             return self._source.permutation(int(x))
         return super().permutation(x, axis)
 
     @property
     def place(self) -> Place:
-        """Where in the stream the next number is."""
+        """The position of the next number in the stream."""
         return self._source.state
 
     @place.setter
@@ -76,6 +75,6 @@ class Numbers(Generator):
 
 
 def generator(seed: int, generation: int) -> Numbers:
-    """Return numbers of one generation: Philox4x64-10 (Salmon et al. 2011) keyed by both."""
+    """Return the random numbers of a generation: Philox4x64-10 (Salmon et al. 2011)."""
     source: Any = _Source(int(seed), int(generation))
     return Numbers(source)

@@ -1,4 +1,4 @@
-"""What long-running commands share: requests to stop, a progress bar, display or none."""
+"""Help commands that take long: requests to stop, progress bars, numbers to read."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from functools import partial
 
 SHOW_CURSOR = b"\x1b[?25h\n"
-"""What a terminal needs after a progress bar that was broken off."""
+"""Shows the cursor again after an interrupted progress bar."""
 
 
 SIGNALS = [
@@ -21,12 +21,11 @@ SIGNALS = [
 
 @contextmanager
 def stoppable() -> Iterator[Callable[[], bool]]:
-    """Return a function that tells whether the user has asked to stop.
+    """Yield a function that tells whether the user has asked to stop.
 
-    Ctrl-C, SIGTERM and a closed terminal ask; a second time ends the process at once.
-
-    Nothing is tidied up after a second request: like after a kill, files are whole and --resume
-    goes on from the last ones, and worker processes end with this one.
+    Ctrl-C, SIGTERM or closing the terminal asks to stop. A second request ends the process at once,
+    as a kill does: files are whole, --resume continues from the last ones, and worker processes
+    end.
     """
     requested = False
     before = {}
@@ -50,9 +49,9 @@ def stoppable() -> Iterator[Callable[[], bool]]:
 
 @contextmanager
 def exits_on_signals() -> Iterator[None]:
-    """SIGTERM and a closed terminal raise SystemExit in the block, so that it can tidy up.
+    """Raise SystemExit in the block on SIGTERM or a closed terminal, so that it can clean up.
 
-    A second one ends the process at once.
+    A second signal ends the process at once.
     """
     asked = False
 
@@ -77,7 +76,10 @@ def exits_on_signals() -> Iterator[None]:
 
 @contextmanager
 def unheard(signals: list[int] = SIGNALS) -> Iterator[None]:
-    """Processes that start meanwhile never get these signals; here they come at the end."""
+    """Hold back these signals during the block; deliver them to this process at its end.
+
+    Processes that start within the block never get them.
+    """
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
@@ -90,14 +92,17 @@ def unheard(signals: list[int] = SIGNALS) -> Iterator[None]:
 
 @contextmanager
 def progress_bar(seed: int) -> Iterator[Callable[[float, int, int, str], None]]:
-    """Return a function to call with the share done, the steps so far, decimals of their millions,
-    and a text."""
+    """Yield a function that moves a progress bar.
+
+    Its arguments are the share done, the steps so far, the number of decimals of millions of steps,
+    and a text.
+    """
     with progress_bars() as bars:
         yield partial(bars.show, seed)
 
 
 class Bars:
-    """A progress bar for each seed that has been shown and is not finished."""
+    """Progress bars of several seeds, one for each seed that runs."""
 
     def __init__(self, progress) -> None:
         """progress: rich.progress.Progress with the columns of `progress_bars`."""
@@ -105,7 +110,7 @@ class Bars:
         self._tasks = {}
 
     def show(self, seed: int, share: float, steps: int, decimals: int, numbers: str) -> None:
-        """What `progress_bar` says, for a seed."""
+        """Move a seed's bar; the other arguments are as in `progress_bar`."""
         if seed not in self._tasks:
             empty = {"steps": "", "numbers": ""}
             self._tasks[seed] = self._progress.add_task("", total=1.0, seed=seed, **empty)
@@ -113,7 +118,7 @@ class Bars:
         self._progress.update(self._tasks[seed], completed=min(share, 1.0), **fields)
 
     def finish(self, seed: int, text: str) -> None:
-        """Put a text in the place of a seed's bar."""
+        """Replace a seed's bar by a text."""
         if seed in self._tasks:
             self._progress.remove_task(self._tasks.pop(seed))
         self._progress.print(text, markup=False, highlight=False, soft_wrap=True)
@@ -121,7 +126,7 @@ class Bars:
 
 @contextmanager
 def progress_bars() -> Iterator[Bars]:
-    """Return several progress bars, one below the other."""
+    """Yield several progress bars, one below the other."""
     from rich.progress import (
         BarColumn,
         Progress,
@@ -143,9 +148,10 @@ def progress_bars() -> Iterator[Bars]:
 
 
 def readable(value: float) -> str:
-    """Return a fitness, with the digits that its size asks for: 2261.4, -66.31, 0.6500, 0.0001234.
+    """Return a fitness with as many digits as its size needs: 2261.4, -66.31, 0.6500, 0.0001234.
 
-    Four digits that count and at least one decimal; powers of ten past 10^7 and below 10^-6.
+    That is at least four significant digits and one decimal; below 10^-6 and from 10^7 on, a power
+    of ten.
     """
     size = abs(value)
     if not math.isfinite(value) or size >= 1e7 or 0 < size < 1e-6:
@@ -156,7 +162,7 @@ def readable(value: float) -> str:
 
 
 def has_display() -> bool:
-    """Return whether a window can be expected to open."""
+    """Return whether a window can probably open."""
     if os.environ.get("SDL_VIDEODRIVER") in ("dummy", "offscreen"):
         return False
     if sys.platform in ("win32", "darwin"):

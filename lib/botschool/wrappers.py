@@ -1,9 +1,9 @@
-"""Wrappers around environments, as an experiment file names them: Gymnasium's, or one's own.
+"""Read wrappers around environments from an experiment file: Gymnasium's, or your own.
 
     wrappers = TimeAwareObservation, ResizeObservation(shape=(32, 32)), my_module:MyWrapper
 
 The first one is the innermost. Arguments are literals: numbers, words in quotes, lists, tuples.
-The options of the environment itself are read here too (`keywords`).
+`keywords` reads the options of the environment itself.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Wrapper:
     """A wrapper's name and arguments."""
 
     module: str
-    """Where it is; "" for Gymnasium's own."""
+    """Its module; "" for Gymnasium's own wrappers."""
     name: str
     given: tuple[Any, ...] = ()
     named: dict[str, Any] = field(default_factory=dict)
@@ -116,7 +116,7 @@ def keywords(text: str) -> dict[str, Any]:
 
 
 def _split(text: str) -> list[str]:
-    """At the commas outside of brackets."""
+    """Split a text at the commas outside of brackets."""
     parts, depth = [""], 0
     for character in text:
         depth += (character in "([{") - (character in ")]}")

@@ -2,7 +2,7 @@
 
 P-g-n          the n best predators of generation g against its n best prey, shown
 p-g-n          the same without a picture
-m-g-i          generation g against those of generations g, g - i, g - 2 i, ...
+m-g-i          generation g against generations g, g - i, g - 2 i, ...
 M-g-i          all of these generations against each other
 c-FILE1-FILE2  populations of two runs against each other
 """
@@ -41,8 +41,7 @@ _STRING = re.compile(r"(?P<kind>[PpmM])-(?P<generation>\d{1,9})-(?P<number>\d{1,
 
 
 def names_file(text: str) -> bool:
-    """Return whether -g means a file of one predator and one prey, rather than one of the strings
-    above.
+    """Return whether -g names a file of one predator and one prey, not one of the strings above.
 
     Raises BotschoolError for a file of populations.
     """
@@ -65,9 +64,9 @@ class Request:
 
 
 def parse(text: str, folder: Path) -> Request:
-    """Return what the string means.
+    """Return the meaning of the string.
 
-    Raises BotschoolError for what is none of the five, with what the folder holds.
+    Raises BotschoolError for any other string; the sentence lists what the folder holds.
     """
     if text.startswith("c-"):
         return Request("c", files=split_files(text, folder))
@@ -316,7 +315,7 @@ def equal_parts(loaded: list[Population], best: int | None = None) -> list[Popul
 
 
 def cross_test(contest: Contest, files: tuple[Path, Path]) -> None:
-    """Evaluate the best of two runs against each other, and against those of their own run."""
+    """Evaluate the best individuals of two runs against each other and against their own run's."""
     loaded = [read_population(path, contest.policy, str(path), contest.single) for path in files]
     print(_taking_part(loaded := equal_parts(loaded), "population"))
     report.print_cross(master_tournament(contest, loaded), [str(path) for path in files])
@@ -328,7 +327,7 @@ def _pairs(contest: Contest, population: Population) -> None:
 
 
 def _row(contest: Contest, populations: list[Population]) -> tuple[Table, Table]:
-    """Return the last generation's predators, and its prey, against those of all."""
+    """Return the tables of the last generation's predators and prey against all generations."""
     last = populations[-1]
     hunting = play(contest, [last.predators], [population.prey for population in populations])
     hunted = play(contest, [population.predators for population in populations], [last.prey])

@@ -82,7 +82,7 @@ class Map:
 
 
 class Elites(PostEvaluation):
-    """Episodes of some elites, one each: the first episode that evolution let them play."""
+    """One episode of each of some elites: the first one that evolution evaluated."""
 
     occasion = "in an episode of the run with seed"
 

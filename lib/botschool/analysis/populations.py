@@ -1,9 +1,9 @@
 """Read the populations that co-evolution saves (docs/specification.md, "Run files").
 
 `S12G200.npy` holds the populations of seed 12 after 200 generations: first all predators, then all
-prey, one network per row. `S12FitG200.npy` holds the fitness of each of them against each
-competitor. If one population plays both sides (`single`), the files hold only that one, and its
-individuals are both predators and prey.
+prey, one network per row. `S12FitG200.npy` holds the fitness of each network against
+each competitor. If one population plays both sides (`single`), the files hold this population, and
+its individuals are both predators and prey.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Population:
 class Populations:
     """The saved generations of the run with this seed.
 
-    Raises BotschoolError that lists the seeds in the folder if there are none of this seed.
+    Raises BotschoolError if the folder holds none; the sentence lists the seeds that it holds.
     """
 
     def __init__(self, folder: Path, seed: int, policy: Policy, single: bool = False) -> None:

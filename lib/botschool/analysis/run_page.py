@@ -79,7 +79,7 @@ def write_page(experiment: Experiment, seed: int, folder: Path, robot: bool = Tr
 
 
 def curve(rows: np.ndarray) -> str:
-    """Return fitness against steps as SVG; rows: those of a stat file."""
+    """Return fitness against steps as SVG; rows: of a stat file, shape (generations, 6)."""
     rows = rows[np.unique(np.linspace(0, len(rows) - 1, POINTS).round().astype(int))]
     values = rows[:, [column for column, _, _ in LINES]]
     low, high = np.nanmin(values), np.nanmax(values)

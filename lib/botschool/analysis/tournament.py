@@ -75,8 +75,8 @@ class Contest:
     def meet(self, predators: np.ndarray, prey: np.ndarray) -> np.ndarray:
         """Return the predators' fitness, shape (predators, prey); both given as (n, nparameters).
 
-        If the prey's fitness is not 1 minus it (`problem.constant_sum`), return that of both: (2,
-        ...).
+        Unless the prey's fitness is 1 minus it (`problem.constant_sum`), return the fitness of both
+        sides, (2, predators, prey).
         """
         repeats = self.policy.config.pepisodes
         # Neighbouring episodes share a predator, so its parameters stay in the cache.
@@ -110,8 +110,9 @@ def play(
     """Play predators of several generations against prey of several generations.
 
     All generations of one side have the same number of individuals. Return the predators' fitness,
-    float64, of shape (generations of predators, generations of prey, predators, prey), or that of
-    both sides, (2, ...). `report` gets the number of generations of predators that are done.
+    float64, of shape (generations of predators, generations of prey, predators, prey), or the
+    fitness of both sides, (2, ...). `report` gets the number of generations of predators that are
+    done.
     """
     competitors = np.concatenate(prey)
     parts = []
@@ -125,7 +126,7 @@ def play(
 
 @dataclass(frozen=True)
 class Table:
-    """Mean fitness of a side's generations (rows) against those of the other side (columns)."""
+    """Mean fitness of one side's generations (rows) against the other side's (columns)."""
 
     role: str
     mean: np.ndarray
@@ -181,10 +182,10 @@ def historical_progress(fitness: np.ndarray) -> np.ndarray:
 
         mean over all pairs i < j of   mean over all k <= i of   f(j, k) - f(i, k)
 
-    Both generations of a pair meet the same competitors: those of i and of the generations before
-    it. The unit is fitness. 0 means no progress. Below 0, later generations have lost what earlier
-    ones could do (a little below if strategies come and go in cycles, because each is at its best
-    against those of its own time). fitness: (..., g, g) with g >= 2; returns (...).
+    Both generations of a pair meet the same competitors, from generation 0 to i. The unit is
+    fitness. 0 means no progress. Below 0, later generations have lost what earlier ones could do (a
+    little below if strategies come and go in cycles, because each is at its best against
+    competitors of its own time). fitness: (..., g, g) with g >= 2; returns (...).
     """
     count = fitness.shape[-1]
     ancient = np.cumsum(fitness, axis=-1) / np.arange(1, count + 1)
@@ -235,8 +236,8 @@ def verdict(table: Table, names: Sequence[str]) -> str:
     """Return a sentence on whether later generations beat ancient competitors more than earlier
     ones.
 
-    It says so only if 0 is outside the interval of the historical progress. names: those of the
-    generations.
+    The answer is yes or no only if 0 is outside the interval of the historical progress. names: the
+    names of the generations.
     """
     own, other = ROLES if table.role == ROLES[0] else ROLES[::-1]
     found = progress(table)

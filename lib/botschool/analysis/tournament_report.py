@@ -78,7 +78,7 @@ def print_row(predators: Table, prey: Table, name: str, names: Sequence[str]) ->
 
 
 def print_cross(tables: tuple[Table, Table], names: Sequence[str]) -> None:
-    """Print a cross test: predators and prey of each run against those of both, and which are
+    """Print a cross test: each run's predators and prey against both runs', and which are
     better.
     """
     predators, prey = tables

@@ -37,7 +37,7 @@ _TASKS = {
 
 
 class Arena:
-    """One arena with its robots; `make` makes one.
+    """An arena with its robots; call `make` to get one.
 
     The arrays belong to the arena and stay the same objects: write into them, or assign to them,
     which copies. Using an impossible state, such as a robot inside a wall, raises BotschoolError.
@@ -88,8 +88,8 @@ class Arena:
     def observation(self) -> np.ndarray:
         """Return the robots' observations, one robot after another, float64.
 
-        A robot of "discrim" has 8 values, of "predprey" 24, of "staybehind" 32, of a declared arena
-        those of its sensors. reset(), step() and sense() update the array.
+        A robot has 8 values in "discrim", 24 in "predprey", 32 in "staybehind"; in a declared
+        arena, its sensors determine the number. reset(), step() and sense() update the array.
         """
         return self._observation
 
@@ -97,8 +97,8 @@ class Arena:
     def action(self) -> np.ndarray:
         """Return the wheels' speeds, one robot after another, float64, shape (2 * robots,).
 
-        They are shares of the greatest speed, left and right, usually -1 to 1; in "staybehind"
-        speed and direction instead. step() reads the array and does not change it.
+        Left and right are shares of the greatest speed, usually -1 to 1. In "staybehind" the two
+        numbers are speed and direction. step() reads the array and does not change it.
         """
         return self._action
 
@@ -156,7 +156,7 @@ class Arena:
         steps.
 
         In "staybehind" it also holds, before the steps, which robot is blocked.
-        docs/specification.md, "Declared arenas", describes that of a declared arena.
+        docs/specification.md, "Declared arenas", describes the state of a declared arena.
         """
         state = self._state.copy()
         for first, values in self._parts():
@@ -199,9 +199,9 @@ class Arena:
     def step(self) -> float:
         """Move the robots by `action` from their present poses, and return the reward.
 
-        In "predprey" it is the predator's, otherwise that of all robots. The sensors' noise depends
-        on seed, episode and step. You can call it after the episode's end, too; `done` stays True
-        until reset().
+        In "predprey" it is the predator's reward, otherwise the reward of all robots. The sensors'
+        noise depends on seed, episode and step. You can also call it after the episode's end;
+        `done` stays True until reset().
         """
         _finite("action", self._action)
         self._place()
@@ -278,7 +278,9 @@ def make(
     """
     if isinstance(name, Plan):
         if models:
-            raise BotschoolError("The robots of a declared arena are those of its plan.")
+            raise BotschoolError(
+                "A declared arena takes its robots from its plan: leave out `models`."
+            )
         return Arena("arena", max_steps, noise, wall_table, round_table, (), name)
     if not isinstance(name, str) or name not in _TASKS:
         near = nearest(str(name), _TASKS)

@@ -1,4 +1,4 @@
-"""Give the points of a laboratory, part by part, from the evidence."""
+"""Check a laboratory's sheet and its evidence, and give points for each part."""
 
 from __future__ import annotations
 
@@ -25,17 +25,18 @@ from botschool.labs.saved import SavedRun, plain_runs
 from botschool.labs.sheet import Sheet, Unreadable, check_specific, numbers_in
 
 COMPLETE, EVIDENCE = 10, 15
-"""Points of the part `runs`: all are there; none is anything but evolved."""
+"""Points of the part `runs`: for complete runs; for runs that are all proven."""
 MEASURE, TABLE = 10, 15
-"""Points of the part `measurements`: measure.py; the table."""
+"""Points of the part `measurements`: for measure.py; for the table."""
 
 MARK = 3
-"""Points of the part `figure` for a line that marks a result, where one is asked for."""
+"""Points of the part `figure` for the vertical line that marks a result, if the sheet asks for one.
+"""
 
 
 @dataclass
 class Part:
-    """The points of a part of the sheet."""
+    """A part of the sheet, with its points."""
 
     name: str
     max_points: float
@@ -43,31 +44,31 @@ class Part:
     messages: list[str] = field(default_factory=list)
 
     def lose(self, message: str) -> None:
-        """Say why points are missing."""
+        """Add a sentence about missing points."""
         self.messages.append(message)
 
 
 @dataclass
 class Checked:
-    """A sheet that was checked."""
+    """The result of a check."""
 
     parts: list[Part]
     answers: dict[str, Any]
     data: dict[str, dict[str, np.ndarray]]
-    """The measurements of the student's runs that are proven."""
+    """Measurements of the student's proven runs."""
     runs: dict[str, list[SavedRun]]
     picture: bytes = b""
-    """The figure, as PNG."""
+    """The student's figure, as PNG."""
     words: str = ""
-    """What the instructor reads."""
+    """The text that the instructor reads."""
 
     @property
     def points(self) -> float:
-        """The points that a machine gives, of 90."""
+        """Return the points of all parts, at most 90; the instructor gives the other ten."""
         return round(sum(part.points for part in self.parts), 1)
 
     def plain(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return the points and messages as plain data for JSON."""
         return {
             "points": self.points,
             "max_points": sum(PARTS.values()),
@@ -77,7 +78,7 @@ class Checked:
 
 
 class Check:
-    """Checks one sheet; `draw` gives random bytes, by which runs to make again are drawn."""
+    """Checks one sheet. `draw` returns random bytes that decide which runs are made again."""
 
     def __init__(self, place: Place, draw: Callable[[int], bytes] = os.urandom) -> None:
         self.place, self.lab, self.draw = place, place.lab, draw
@@ -88,10 +89,10 @@ class Check:
         self.data: dict[str, dict[str, np.ndarray]] = {}
         self.picture = b""
         self.strategy: Student | None = None
-        """The student's own, confined, once a run of it is proven."""
+        """The student's own strategy in the sandbox, once a run has been replayed."""
 
     def all(self) -> Checked:
-        """Check every part. Raises BotschoolError for what is no fault of the sheet."""
+        """Check every part. Raises BotschoolError for errors that the sheet did not cause."""
         self._prediction()
         self._runs()
         self._measurements()
@@ -104,7 +105,7 @@ class Check:
 
     @property
     def whole(self) -> set[str]:
-        """The conditions with enough proven runs: what rests on others has no evidence."""
+        """Return the conditions with enough proven runs; only statements about these count."""
         return {name for name, runs in self.runs.items() if len(runs) == self.lab.replications}
 
     def _prediction(self) -> None:
@@ -148,10 +149,11 @@ class Check:
         part.points = round(part.points, 1)
 
     def _prove(self) -> list[str]:
-        """Leave the runs that are proven; return the names of the others.
+        """Keep the proven runs; return the name of each other run, with the reason.
 
-        Each robot must get the fitness in its files; runs that are drawn are made again. If one of
-        them is false, or two runs have the same robot, all are made again.
+        Each saved robot must get the fitness in its files, and the check makes some runs again,
+        drawn at random. If one of these differs, or two runs have the same robot, it makes all of
+        them again.
         """
         order = drawn(self.runs, sum(map(len, self.runs.values())), self.draw)
         robots = {run.genotype.tobytes() for run in order}
@@ -174,7 +176,7 @@ class Check:
         return false
 
     def _made_again(self, run: SavedRun) -> str:
-        """What is wrong with a run that is made again; "" if nothing is."""
+        """Make a run again; return what differs, "" if nothing."""
         learns = "learner" in run.condition.experiment
         own = student_file(self.place.folder / LEARN) if learns else nullcontext()
         try:
@@ -186,7 +188,7 @@ class Check:
         return "" if run.same(again) else "it comes out differently"
 
     def _replayed(self, run: SavedRun, stack: ExitStack) -> str:
-        """What is wrong with a run of the student's own strategy; "" if nothing is."""
+        """Replay a run of the student's own strategy; return what is wrong, "" if nothing."""
         if self.strategy is None:
             try:
                 path = self.place.folder / f"{STRATEGY}.py"
@@ -197,7 +199,7 @@ class Check:
         return replayed(run, self.place.runs, self.strategy, rng)
 
     def _measurements(self) -> None:
-        """measure.py on unseen runs, and on the student's own."""
+        """Call measure.py for unseen runs, then for the student's own runs."""
         part, names = self.parts["measurements"], tuple(self.lab.measures)
         if not any(self.runs.values()):
             part.lose("Measurements count once there are runs of your own that are proven.")
@@ -234,7 +236,7 @@ class Check:
         }
 
     def _compare(self, found: dict[str, float], run: dict[str, Any]) -> None:
-        """Raises Wrong unless the student's measures are those that the sheet describes."""
+        """Raise Wrong unless the student's measures are the ones that the sheet describes."""
         right = self._reference(run)
         for name, tolerance in self.lab.measures.items():
             if abs(found[name] - right[name]) > tolerance * max(1.0, abs(right[name])):
@@ -293,7 +295,7 @@ class Check:
             part.lose(f"figure.py: {error}")
 
     def _marked(self, verticals: np.ndarray) -> None:
-        """Take MARK points off a figure that lacks the vertical line that it needs."""
+        """Take MARK points off a figure without the vertical line that it needs."""
         part, figure = self.parts["figure"], self.lab.figure
         place = figure.mark(self.data) if set(figure.conditions) <= self.whole else None
         if place is not None and not np.isclose(verticals, place, atol=0.01).any():
@@ -316,14 +318,14 @@ class Check:
                 part.lose(f"{statement.field}: {told}")
 
     def _late(self, message: str) -> bool:
-        """Whether a message is about a field after the prediction."""
+        """Return whether a message is about a field after the prediction."""
         return any(message.startswith(field.what) for field in self.lab.fields)
 
 
 def _check_points(
     points: np.ndarray, conditions: tuple[str, ...], y: str, data: dict[str, Any]
 ) -> None:
-    """Raises Wrong unless every run's value is the height of a point."""
+    """Raise Wrong unless the figure has a point at the height of every run's value."""
     values = np.concatenate([data[name][y] for name in conditions])
     shown = Counter(float(f"{value:.4g}") for value in points[:, 1])
     lacking = Counter(float(f"{value:.4g}") for value in values) - shown
@@ -335,6 +337,6 @@ def _check_points(
 
 
 def _shortened(messages: list[str]) -> list[str]:
-    """The first six, and how many there are beyond."""
+    """Return the first six messages, and how many more there are."""
     rest = len(messages) - 6
     return messages[:6] + ([f"... and {rest} more of this kind."] if rest > 0 else [])

@@ -1,4 +1,4 @@
-"""Laboratories of a class: found in what students hand in, and graded with a secret choice."""
+"""Find the laboratories of a class in what students handed in, and grade them."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from botschool.labs.folder import Place
 from botschool.labs.sheet import MAX_BYTES
 
 SECONDS = 60
-"""Of processor time, that the parts of a laboratory may take one by one."""
+"""Processor seconds that each part of a laboratory may take."""
 MAX_FILE, MAX_ALL = 20 * 2**20, 45 * 2**20
 _TITLE = re.compile(rb"\s*#\s+Laboratory\s+(\d+)\.")
 _NEEDED = re.compile(
@@ -36,7 +36,7 @@ _NEEDED = re.compile(
 
 
 class Part(Task):
-    """A part of a laboratory, as tables and pages name it."""
+    """A part of a laboratory, in the form that tables and pages need."""
 
     points = 0
 
@@ -46,7 +46,7 @@ class Part(Task):
 
 
 class Sheet(Exercise):
-    """A laboratory as grade-all sees it: an exercise whose tasks are its parts."""
+    """A laboratory as an exercise for grade-all, whose tasks are its parts."""
 
     program = "botschool.labs.classes"
 
@@ -59,7 +59,7 @@ class Sheet(Exercise):
 
 
 class WantedSheet(Wanted):
-    """A laboratory among what a person handed in: its sheet, and the folder beside it."""
+    """Looks for a laboratory in what a person handed in: its sheet, and the files beside it."""
 
     def __init__(self, lab: Lab) -> None:
         self.number, self.file, self.folder, self.skeleton = _key(lab), "sheet.md", lab.name, ""
@@ -68,7 +68,7 @@ class WantedSheet(Wanted):
     def choose(
         self, handed: Handed, new_folder: Callable[[], Path], newest_first: bool = False
     ) -> Choice:
-        """Copy the sheet with the most runs, with what belongs to it, into a folder labNN."""
+        """Copy the sheet with the most runs, and the files that it needs, into a folder labNN."""
         sheets = [file for file in handed.files if self._is_ours(file)]
         if not sheets:
             return Choice(problem=f"There is no sheet.md of laboratory {self._lab.number}.")
@@ -110,7 +110,7 @@ class WantedSheet(Wanted):
 
 
 def _inside(handed: Handed, sheet: File) -> dict[str, File]:
-    """What the check of a sheet reads: path beside it -> file."""
+    """Return the files that the check of a sheet reads: path from the sheet -> file."""
     found = {}
     for file in handed.files:
         inner = file.shown[len(sheet.folder) :]
@@ -124,13 +124,17 @@ def _key(lab: Lab) -> Number:
 
 
 def laboratories() -> dict[Number, Laboratory]:
-    """All that exist, as grade-all takes them."""
+    """Return all laboratories, in the form that grade-all needs."""
     labs = [load_lab(number) for number in NUMBERS]
     return {_key(lab): Laboratory(Sheet(lab), WantedSheet(lab)) for lab in labs}
 
 
 def secret_choice(place: Place, secret: str) -> Callable[[int], bytes]:
-    """Draw the same for the same runs and secret, so that nobody else knows it before."""
+    """Return a `draw` for Check whose bytes follow from the runs and the secret.
+
+    Grading the same runs again therefore draws the same, and without the secret nobody can predict
+    it.
+    """
     digest = hmac.new(secret.encode(), digestmod=hashlib.sha256)
     for path in sorted(place.runs.rglob("*.npy")):
         digest.update(hashlib.sha256(path.read_bytes()).digest())
@@ -145,9 +149,9 @@ def secret_choice(place: Place, secret: str) -> Callable[[int], bytes]:
 
 
 def find_sheet(lab: Lab, submission: Path, folder: Path) -> tuple[Place, list[str]]:
-    """A copy of the laboratory in somebody's folder or zip file, and notes. Raises BotschoolError.
+    """Copy a laboratory from a person's folder or zip file; return its place, and notes.
 
-    folder: a temporary one.
+    folder: a temporary folder for the copy. Raises BotschoolError.
     """
     if not submission.exists():
         raise BotschoolError(f"There is no {submission}: name the folder that was handed in.")
@@ -160,7 +164,7 @@ def find_sheet(lab: Lab, submission: Path, folder: Path) -> tuple[Place, list[st
 
 
 def record(checked: Checked, lab: Lab) -> dict[str, Any]:
-    """The result as grade-all keeps it."""
+    """Return the result in the form that grade-all stores."""
     tasks = [
         {
             "id": f"{_key(lab)}.{part.name}",
@@ -203,5 +207,5 @@ def _grade(number: str, file: Path, tasks: list[str], alone: bool) -> dict[str, 
 
 
 def main() -> None:
-    """Grade a sheet as `serve` says."""
+    """Grade one sheet in a process of its own; see `serve`."""
     serve(_grade)

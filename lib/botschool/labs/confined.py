@@ -1,4 +1,4 @@
-"""Run a student's measure.py and figure.py in the sandbox; nothing of them is imported here."""
+"""Run a student's measure.py and figure.py in the sandbox; this process imports neither."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from botschool.grading.run.student import Student
 from botschool.grading.run.temporary import temporary_folder
 
 SECONDS = 30
-"""Of processor time, for all calls of one file."""
+"""Processor seconds for all calls of one file."""
 
 
 @contextmanager
 def student_file(path: Path) -> Iterator[Student]:
-    """A file alone in a child process. Raises Wrong if it is not there."""
+    """Yield a file alone in a child process. Raises Wrong if there is no such file."""
     if path.is_symlink() or not path.is_file():
         raise Wrong(f"{path.name} is missing: botschool lab N start makes it again.")
     with temporary_folder() as folder:
@@ -35,7 +35,7 @@ def student_file(path: Path) -> Iterator[Student]:
 
 
 def measured(student: Student, run: dict[str, Any], names: tuple[str, ...]) -> dict[str, float]:
-    """What measure(run) gives: one finite number for each name. Raises Wrong."""
+    """Return the numbers that measure(run) gives, one for each name. Raises Wrong."""
     answer = student.call("measure", run)
     if not isinstance(answer, dict):
         raise Wrong(f"measure(run) must return a dict, but returned {type(answer).__name__}.")
@@ -54,7 +54,7 @@ def measured(student: Student, run: dict[str, Any], names: tuple[str, ...]) -> d
 
 
 def drawn_figure(student: Student, measurements: dict[str, Any]) -> dict[str, Any]:
-    """What figure(measurements) shows: names of the axes, and the points. Raises Wrong."""
+    """Return what figure(measurements) shows: axes' names, points, lines, PNG. Raises Wrong."""
     found = student.run(_inspect, measurements, said="figure(measurements)")
     if not isinstance(found, dict) or not {"labels", "points", "verticals", "png"} <= found.keys():
         raise Wrong("figure(measurements) must return a matplotlib figure.")
@@ -66,7 +66,7 @@ def drawn_figure(student: Student, measurements: dict[str, Any]) -> dict[str, An
 
 
 def _inspect(student: Any, measurements: dict[str, Any]) -> dict[str, Any]:
-    """In the child: draw, then read the points back from the figure's axes."""
+    """Runs in the child: draw the figure, then read the points from its axes."""
     import io
 
     import matplotlib

@@ -1,4 +1,4 @@
-"""What a laboratory declares: conditions, measures, the fields of its sheet, and how they count."""
+"""Define the parts of a laboratory: conditions, measures, fields of the sheet, statements."""
 
 from __future__ import annotations
 
@@ -14,32 +14,32 @@ from botschool.config import Experiment, from_dict, to_dict
 from botschool.errors import BotschoolError
 
 PARTS = {"prediction": 5, "runs": 25, "measurements": 25, "figure": 10, "conclusion": 25}
-"""The points that a machine gives, part by part; WORDS are the instructor's."""
+"""Points of each part that the check gives; the instructor gives up to WORDS more."""
 WORDS = 10
 NUMBERS = tuple(
     sorted(int(path.stem[3:]) for path in Path(__file__).parent.glob("lab[0-9][0-9].py"))
 )
-"""The laboratories that exist: modules labNN beside this file."""
+"""Numbers of all laboratories: the modules labNN beside this file."""
 
 STRATEGY = "strategy"
-"""The module with the student's own strategy, in the laboratory's folder."""
+"""Name of the module with the student's own strategy, in the laboratory's folder."""
 
 Data = Mapping[str, Mapping[str, np.ndarray]]
 """Measurements: condition -> measure -> one value for each run."""
 Answers = Mapping[str, Any]
-"""The sheet's fields that can be read: id -> number, label of a choice, or text."""
+"""Readable fields of the sheet: id -> number, label of a choice, or text."""
 
 
 @dataclass(frozen=True)
 class Condition:
-    """One setting of the experiment, replicated with seeds of the student's."""
+    """One setting of the experiment, repeated with the student's seeds."""
 
     name: str
-    """In the sheet's table, and of the folder of its runs."""
+    """Its name in the sheet's table; also the name of the folder of its runs."""
     experiment: dict[str, dict[str, Any]]
-    """As config.to_dict gives it; keys that are missing have their default."""
+    """Like the result of config.to_dict; missing keys have their default."""
     generations: int | None = None
-    """Where a run ends; None: when the steps of the experiment are spent."""
+    """Generations of a run; None: until the experiment's steps are spent."""
     x: float = 0.0
     """Its place on the figure's horizontal axis."""
     kind: str = "evolving"
@@ -47,24 +47,24 @@ class Condition:
 
     @property
     def maker(self) -> Any:
-        """That module: make_all, read, made, genuine."""
+        """Return that module, which has make_all, read, made and genuine."""
         return import_module(f"botschool.labs.{self.kind}")
 
     @property
     def own(self) -> bool:
-        """Whether the student's own strategy evolves."""
+        """Return whether the student's own strategy evolves."""
         return str(self.experiment["exp"].get("algo")).startswith(f"{STRATEGY}:")
 
     def load(self) -> Experiment:
-        """The experiment of a run that evolves, checked."""
+        """Return the experiment of a run that evolves, checked."""
         return from_dict(self.experiment, self.name)
 
     def told(self) -> dict[str, Any]:
-        """The experiment as measure.py is given it."""
+        """Return the experiment in the form that measure.py gets."""
         return to_dict(self.load()) if self.kind == "evolving" else self.experiment
 
     def shortened(self, parts: int) -> Condition:
-        """The same with a budget `parts` times smaller."""
+        """Return the same condition with a budget `parts` times smaller."""
         algo = self.experiment["algo"]
         if "maxmsteps" in algo:
             algo = algo | {"maxmsteps": algo["maxmsteps"] / parts}
@@ -81,13 +81,13 @@ class Field:
 
     id: str
     kind: str
-    """number, choice or text."""
+    """"number", "choice" or "text"."""
     what: str
-    """What it asks for, as a message names it."""
+    """What the field asks for, in the words of messages."""
     low: float = -np.inf
     high: float = np.inf
     words: int = 0
-    """How many words a text has at least."""
+    """Smallest number of words of a text."""
 
 
 @dataclass(frozen=True)
@@ -96,36 +96,38 @@ class Column:
 
     title: str
     of: Callable[[Mapping[str, np.ndarray]], tuple[float, ...]]
-    """From a condition's measurements: one number, or the two ends of an interval."""
+    """Measurements of a condition -> one number, or the two ends of an interval."""
     tolerance: Callable[[tuple[float, ...]], float]
-    """How far each number may be off."""
+    """Right numbers -> largest error allowed in each."""
     only: Callable[[str], bool] = lambda condition: True
-    """Which conditions fill it in."""
+    """Name of a condition -> whether its row has this column."""
 
 
 @dataclass(frozen=True)
 class Statement:
-    """A field of the conclusion, right where the student's own data support it."""
+    """A field of the conclusion; it is right if the student's own data support it."""
 
     field: str
     points: int
     needs: tuple[str, ...]
-    """Conditions whose runs it rests on."""
+    """Names of the conditions whose runs it needs."""
     judge: Callable[[Data, Answers], tuple[Callable[[Any], bool], str]]
-    """Gives whether an answer is right, and what the data say as a sentence."""
+    """Data and answers -> a function that tells whether an answer is right, and a sentence on the
+    data.
+    """
 
 
 @dataclass(frozen=True)
 class Figure:
-    """What the figure must show."""
+    """The requirements of the figure."""
 
     y: str
-    """The measure whose values are the heights of its points."""
+    """The measure that gives the heights of the points."""
     conditions: tuple[str, ...]
     units: tuple[str, ...]
-    """Words of which the vertical axis's name holds one."""
+    """Words for the unit; the name of the vertical axis must hold one of them."""
     mark: Callable[[Data], float | None] = lambda data: None
-    """Where on the horizontal axis a vertical line must stand; None: none is needed."""
+    """Data -> where the figure must have a vertical line; None if it needs none."""
 
 
 @dataclass(frozen=True)
@@ -137,48 +139,50 @@ class Lab:
     conditions: tuple[Condition, ...]
     predictions: tuple[Field, ...]
     fields: tuple[Field, ...]
-    """Those after the prediction that the machine reads."""
+    """Fields after the prediction that the check reads."""
     measures: dict[str, float]
     """What measure.py returns: name -> relative tolerance."""
     reference: Callable[[dict[str, Any], Answers], dict[str, float]]
-    """Measures a run as measure.py should."""
+    """Returns the right measures of a run."""
     unseen: tuple[Condition, ...]
-    """Conditions of runs that measure.py meets in the check alone."""
+    """Conditions of the check's own runs, which measure.py has never seen."""
     columns: tuple[Column, ...]
     statements: tuple[Statement, ...]
     figure: Figure
     rubric: tuple[str, ...]
-    """For the instructor who reads the words."""
+    """Sentences for the instructor who grades the words."""
     robot: str
-    """What a run evolves, in the plural: hoppers."""
+    """Word for what a run makes, in the plural, such as "hoppers"."""
     shown: tuple[str, ...]
-    """Conditions whose best robots the report replays; none of trainings."""
+    """Conditions whose best robot the report replays; only conditions that evolve."""
     best: Callable[[Mapping[str, np.ndarray]], np.ndarray]
-    """A number for each run of a condition, the highest for the robot to replay."""
+    """Measurements of a condition -> a number for each run; the report replays the run with the
+    highest.
+    """
     separate: Callable[[list[dict[str, float]]], str] = lambda measured: ""
-    """What is wrong with the measures of the unseen runs taken together; "" if nothing."""
+    """Returns what is wrong with the measures of all unseen runs together; "" if nothing."""
     replications: int = 10
     quick: int = 10
-    """How many times smaller the budget of --quick is; it makes three runs of each condition."""
+    """With --quick, each condition has three runs with a budget this many times smaller."""
     redone: int = 3
-    """Whole runs that a check makes again."""
+    """Number of runs that a check makes again."""
     others: bool = False
-    """Whether measure.py is also given the robots of the condition's other runs."""
+    """Whether measure.py also gets the robots of the condition's other runs."""
     strategy: str = ""
-    """The exercise's file that strategy.py is copied from, as ex08_openai_es/openai_es.py."""
+    """The exercise's file that becomes strategy.py, such as ex08_openai_es/openai_es.py."""
 
     @property
     def name(self) -> str:
-        """Of its folder: lab09."""
+        """Return the name of its folder, such as lab09."""
         return f"lab{self.number:02}"
 
     def condition(self, name: str) -> Condition:
-        """The condition of that name."""
+        """Return the condition with this name."""
         return next(each for each in self.conditions if each.name == name)
 
 
 def load_lab(number: str | int) -> Lab:
-    """The laboratory of that number. Raises BotschoolError if there is none."""
+    """Return the laboratory with this number. Raises BotschoolError if there is none."""
     text = str(number).removeprefix("lab")
     if not text.isdigit() or int(text) not in NUMBERS:
         there = f"{', '.join(map(str, NUMBERS[:-1]))} and {NUMBERS[-1]}"

@@ -1,4 +1,4 @@
-"""Entries of a league: one file of some KB each, with a robot, its network's kind and a name."""
+"""Write and read entries of a league: small files with a robot, its network's kind and a name."""
 
 from __future__ import annotations
 
@@ -25,37 +25,37 @@ DISCIPLINES = {
     "CartPole-v1": "cart-pole",
     "ErPredprey": "chase",
 }
-"""Environment -> where its robots compete."""
+"""Environment -> the discipline in which its robots compete."""
 ALIKE = {"CartPole-v0": "CartPole-v1"} | {
     name.replace("v5", "v0"): name for name in DISCIPLINES if name.startswith("Planar")
 }
-"""Environments whose robots are the same."""
+"""Environment -> the environment in which its robots compete."""
 MAX_BYTES, MAX_CONTENT, MAX_NAME = 2**20, 4 * 2**20, 40
 LARGEST = {"nhiddens": 1000, "nhiddens2": 1000, "nlayers": 10}
 SUFFIX = ".robot.npz"
 
 
 class Unusable(ValueError):
-    """A file that is no entry; the text is a sentence without its name."""
+    """The file is no entry; the text is a sentence that follows the file's name."""
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A robot that takes part."""
+    """A robot in the league."""
 
     file: str
     name: str
-    """As its owner wishes to be called; "" for nobody who wants to be named."""
+    """The name that the owner chose; "" if the owner stays anonymous."""
     experiment: Experiment
     genotype: np.ndarray
 
     @property
     def discipline(self) -> str:
-        """Where it competes."""
+        """Return the discipline in which it competes."""
         return DISCIPLINES[self.experiment.exp.environment]
 
     def robot(self) -> tuple[Problem, Policy, np.ndarray, np.ndarray | None]:
-        """The problem, the policy, and what goes into it."""
+        """Return problem, policy, genotype and normalisation vectors (None without)."""
         problem = problems.of(self.experiment)
         policy = problem.policy(self.experiment.policy)
         return problem, policy, *policy.split(self.genotype)
@@ -64,7 +64,7 @@ class Entry:
 def write_entry(genotype: Path, experiment: Path | None, name: str, output: Path | None) -> Path:
     """Write an entry and return its file. Raises BotschoolError.
 
-    experiment: an .ini file; None for a run of a laboratory, whose folders tell it.
+    experiment: an .ini file; None for a run of a laboratory, whose folders tell the experiment.
     """
     told = load(experiment) if experiment else _of_laboratory(genotype)
     try:
@@ -95,7 +95,7 @@ def _of_laboratory(genotype: Path) -> Experiment:
 
 
 def read_entry(path: Path) -> Entry:
-    """Raises Unusable."""
+    """Read an entry. Raises Unusable."""
     try:
         if path.is_symlink() or not path.is_file():
             raise Unusable("is a link or no file: hand in the file itself.")
@@ -118,7 +118,10 @@ def read_entry(path: Path) -> Entry:
 
 
 def read_robot(file: str, name: str, about: str, genotype: np.ndarray) -> Entry:
-    """An entry of these parts. Only the network's settings are believed. Raises Unusable."""
+    """Return an entry made of these parts. Raises Unusable.
+
+    Of the experiment, it uses only the environment and the settings of the network.
+    """
     try:
         told = json.loads(about)
         environment, policy = str(told["exp"]["environment"]), dict(told["policy"])

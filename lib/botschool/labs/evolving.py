@@ -1,4 +1,4 @@
-"""Runs that evolve: made, read and looked at again."""
+"""Make runs that evolve, read them, and prove them by evaluating their robots again."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from botschool.labs.saved import SavedRun, numbers, stat_of
 def make_all(
     condition: Condition, seeds: list[int], folder: Path, workers: int, student: Any
 ) -> bool:
-    """Make the runs that are not there, or go on; False when the user stopped it."""
+    """Make or continue all runs that are not finished; return False if the user stopped."""
     terminal = sys.stdout.isatty()
     options = Options(
         workers=workers, generations=condition.generations, resume=True, terminal=terminal
@@ -41,7 +41,7 @@ def make_all(
 
 @contextmanager
 def own_strategy(folder: Path) -> Iterator[None]:
-    """Let the student's own strategy be imported from the laboratory's folder."""
+    """Let Python import the student's own strategy from the laboratory's folder."""
     here = Path.cwd()
     os.chdir(folder)
     sys.modules.pop(STRATEGY, None)
@@ -54,7 +54,7 @@ def own_strategy(folder: Path) -> Iterator[None]:
 
 
 def read(condition: Condition, seed: int, folder: Path) -> SavedRun | None:
-    """The run of that seed; None if it is not there, is damaged or has not come to its end."""
+    """Return the run with this seed; None if it is missing, damaged or not finished."""
     files, algo = RunFiles(folder, seed), condition.load().algo
     stat, genotype = stat_of(files.stat), numbers(files.bestg, 1)
     if stat is None or genotype is None:
@@ -73,7 +73,7 @@ def read(condition: Condition, seed: int, folder: Path) -> SavedRun | None:
 
 
 def milestones(condition: Condition) -> list[int]:
-    """Co-evolution: the generations whose populations are saved."""
+    """Return the generations whose populations a co-evolution saves; [] for other runs."""
     experiment = condition.load()
     if not experiment.competitive:
         return []
@@ -82,7 +82,7 @@ def milestones(condition: Condition) -> list[int]:
 
 
 def made(condition: Condition, seed: int, student: Any = None) -> SavedRun:
-    """The run, made here."""
+    """Make the run here and return it."""
     experiment = condition.load()
     wanted, populations = milestones(condition), {}
     run = (Coevolution if wanted else Run)(experiment, seed)
@@ -98,13 +98,13 @@ def made(condition: Condition, seed: int, student: Any = None) -> SavedRun:
 
 
 def _individuals(run: Any) -> np.ndarray:
-    """The populations of both sides, as their file has them."""
+    """Return the populations of both sides, in the order of their file."""
     networks, _ = run.algorithm.individuals(None)
     return np.concatenate(networks)
 
 
 def genuine(run: SavedRun) -> bool:
-    """Whether the saved robots get the fitness that the run's files tell, to the bit."""
+    """Return whether the saved robots get exactly the fitness that the run's files state."""
     if run.populations:
         return _met_alike(run)
     evaluator = evaluator_of(run.condition, run.seed)
@@ -116,14 +116,17 @@ def genuine(run: SavedRun) -> bool:
 
 
 def evaluator_of(condition: Condition, seed: int) -> Evaluator:
-    """What measures the candidates of a run. It imports no strategy."""
+    """Return an evaluator for the candidates of a run. This imports no strategy."""
     experiment = condition.load()
     problem = problems.of(experiment)
     return Evaluator(problem, problem.policy(experiment.policy), seed)
 
 
 def _met_alike(run: SavedRun) -> bool:
-    """Whether the first populations follow from the seed, and later ones meet as told."""
+    """Return whether the run's populations are genuine.
+
+    The first ones must follow from the seed. Later ones must get the fitness that the files state.
+    """
     again = Coevolution(run.condition.load(), run.seed)
     again.advance()
     first = _individuals(again)

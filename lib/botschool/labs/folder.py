@@ -1,4 +1,4 @@
-"""The folder of a laboratory: labNN with sheet.md, measure.py, figure.py and runs."""
+"""Make and find the folder of a laboratory: labNN with sheet.md, measure.py, figure.py, runs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ from botschool.labs.sheet import Sheet
 from botschool.paths import course_root
 
 FILE = re.compile(r"^<!-- file: (\S+) -->\n", re.MULTILINE)
-"""In labNN.md, begins what the student's folder gets under that name; the sheet is before it."""
+"""Line of labNN.md that begins a file of the student's folder; the sheet stands before the first
+one.
+"""
 NAME = Path(".botschool") / "name"
 
 
@@ -27,14 +29,14 @@ class Place:
 
     @classmethod
     def of(cls, number: str | int, here: Path | None = None) -> Place:
-        """labNN in the present folder, or the present folder itself if that is its name."""
+        """Return labNN in the current folder, or the current folder itself if it is labNN."""
         lab, here = load_lab(number), (here or Path.cwd())
         itself = here.resolve().name == lab.name and (here / "sheet.md").is_file()
         return cls(lab, here if itself else here / lab.name)
 
     @classmethod
     def find(cls, folder: Path) -> Place:
-        """The laboratory whose folder it is. Raises BotschoolError."""
+        """Return the place of a folder, whose name tells the laboratory. Raises BotschoolError."""
         found = re.fullmatch(r"lab(\d\d)", folder.resolve().name)
         if not found:
             raise BotschoolError(f"{folder.resolve()} is no folder of a laboratory: go to lab09.")
@@ -42,11 +44,11 @@ class Place:
 
     @property
     def runs(self) -> Path:
-        """The folder of its runs."""
+        """Return the folder of its runs."""
         return self.folder / "runs"
 
     def sheet(self) -> Sheet:
-        """Raises BotschoolError if it is not there."""
+        """Read and return the sheet. Raises BotschoolError if there is none."""
         if not (self.folder / "sheet.md").is_file():
             raise BotschoolError(
                 f"There is no {self.folder / 'sheet.md'}: botschool lab {self.lab.number} start "
@@ -56,7 +58,7 @@ class Place:
 
 
 def skeletons(lab: Lab) -> dict[str, str]:
-    """What the student's folder gets: name of the file -> its text."""
+    """Return the files that the student's folder gets: name -> text."""
     here = Path(__file__).parent
     sheet, *parts = FILE.split((here / f"{lab.name}.md").read_text(encoding="utf-8"))
     files = {"sheet.md": sheet.rstrip() + "\n"}
@@ -69,7 +71,7 @@ def skeletons(lab: Lab) -> dict[str, str]:
 
 
 def start(place: Place, name: str, course: str) -> list[Path]:
-    """Make the folder; return the files that were there already and stay as they are."""
+    """Make the folder; leave existing files as they are and return them."""
     place.folder.mkdir(parents=True, exist_ok=True)
     kept = []
     for target, text in skeletons(place.lab).items():
@@ -89,14 +91,14 @@ def start(place: Place, name: str, course: str) -> list[Path]:
 
 
 def _of_the_exercise(file: str) -> bytes:
-    """What the student wrote for an exercise; nothing if it is not here."""
+    """Return the student's file of an exercise, empty if there is none here."""
     with suppress(BotschoolError, OSError):
         return (course_root() / "exercises" / file).read_bytes()
     return b""
 
 
 def check_strategy(place: Place) -> None:
-    """Raises BotschoolError if a strategy is needed and is not there."""
+    """Raise BotschoolError if the laboratory needs a strategy and the folder has none."""
     file, path = Path(place.lab.strategy), place.folder / f"{STRATEGY}.py"
     if not place.lab.strategy or (path.is_file() and b"evolve" in path.read_bytes()):
         return
@@ -107,7 +109,7 @@ def check_strategy(place: Place) -> None:
 
 
 def known_name(here: Path) -> str:
-    """The name that was given to an earlier laboratory; "" if none was."""
+    """Return the name from an earlier laboratory; "" if there is none."""
     try:
         return " ".join((here / NAME).read_text(encoding="utf-8").split())
     except (OSError, UnicodeDecodeError):

@@ -1,4 +1,4 @@
-"""How statements of a conclusion are judged by the student's own data."""
+"""Judge statements of a conclusion by the student's own data."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from botschool.labs.measuring import interval, paired_test, permutation_test, po
 Judged = tuple[Callable[[Any], bool], str]
 CANNOT_TELL = "my runs cannot tell"
 LEVEL, NEAR = 0.05, (0.03, 0.07)
-"""p below LEVEL tells two groups apart; within NEAR either answer is right."""
+"""Two groups differ if p is below LEVEL; if p lies within NEAR, either answer is right."""
 FRESH = (
     Column(
         "median fitness in new episodes",
@@ -26,13 +26,13 @@ FRESH = (
         lambda true: 1 + 0.3 * (true[1] - true[0]),
     ),
 )
-"""The columns of the measure "fresh", fitness in new episodes."""
+"""Columns for the measure "fresh": fitness in new episodes."""
 
 
 def larger(
     measure: str, one: str, other: str, labels: tuple[str, str]
 ) -> Callable[[Data, Answers], Judged]:
-    """Judge which of two conditions has the larger mean; labels: one's, then the other's."""
+    """Judge which of two conditions has the larger mean; labels: of `one` and of `other`."""
 
     def judge(data: Data, answers: Answers) -> Judged:
         a, b = data[one][measure], data[other][measure]
@@ -54,7 +54,9 @@ def larger_of_pairs(
 
 
 def decided(a: np.ndarray, b: np.ndarray, p: float, labels: tuple[str, str], test: str) -> Judged:
-    """Which label is right, given p; near LEVEL "cannot tell" is, too."""
+    """Return which label is right for this p, and a sentence; near LEVEL, CANNOT_TELL is right,
+    too.
+    """
     winner = labels[0] if a.mean() > b.mean() else labels[1]
     right = {winner} if p < LEVEL else {CANNOT_TELL}
     if NEAR[0] < p < NEAR[1]:
@@ -72,7 +74,7 @@ def p_value(measure: str, one: str, other: str) -> Callable[[Data, Answers], Jud
 
 
 def p_of(test: Callable[[Data], float]) -> Callable[[Data, Answers], Judged]:
-    """Judge the p that a test of the data gives."""
+    """Judge the p of a test of the data."""
 
     def judge(data: Data, answers: Answers) -> Judged:
         p = test(data)
@@ -82,7 +84,7 @@ def p_of(test: Callable[[Data], float]) -> Callable[[Data, Answers], Judged]:
 
 
 def powerful(measure: str, one: str, other: str, runs: int) -> Callable[[Data, Answers], Judged]:
-    """Judge in how many of 100 cases so many runs a group would tell two conditions apart."""
+    """Judge in how many of 100 cases groups of so many runs would differ significantly."""
 
     def judge(data: Data, answers: Answers) -> Judged:
         found = 100 * power(data[one][measure], data[other][measure], runs)
@@ -93,6 +95,6 @@ def powerful(measure: str, one: str, other: str, runs: int) -> Callable[[Data, A
 
 
 def span(values: np.ndarray) -> tuple[float, float]:
-    """Where 95 of 100 values lie."""
+    """Return the interval that holds 95 of 100 values."""
     low, high = np.percentile(values, [2.5, 97.5], method="nearest")
     return float(low), float(high)

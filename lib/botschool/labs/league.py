@@ -1,4 +1,4 @@
-"""A league: robots of a class compete, measured here and not by what their files tell."""
+"""Let the robots of a class compete; measure every robot here and trust no stated result."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from botschool.policies.net import Network
 from botschool.policies.policy import Policy
 
 SEED, EPISODES = 1, 5
-"""Of the races: the seed, and how many episodes each robot runs."""
+"""Seed and number of episodes of each race."""
 RACE_STEPS, CHASE_STEPS, POLE_STEPS = 1000, 1000, 500
 POLES = tuple(round(1.0 * 1.1**k, 2) for k in range(41))
-"""Lengths of poles in metres, from CartPole's own on."""
+"""Lengths of poles in metres; the first one is CartPole's."""
 MAX_ENTRIES = 1000
 UNITS = {
     "hopper": "metres in 8 seconds",
@@ -31,12 +31,12 @@ UNITS = {
     "predator": "mean share of time left when it catches",
     "prey": "mean share of time that it stays free",
 }
-"""Discipline -> what is ranked; chases have a table for each side."""
+"""Discipline -> unit of its results; chases have a table for each side."""
 
 
 @dataclass(frozen=True)
 class Ranked:
-    """A place in a discipline."""
+    """A robot's rank in a discipline."""
 
     rank: int
     entry: Entry
@@ -45,15 +45,15 @@ class Ranked:
 
 @dataclass
 class League:
-    """What came out."""
+    """The results of a league."""
 
     tables: dict[str, list[Ranked]]
     refused: list[str]
-    """A sentence for each file that is no entry."""
+    """A sentence on each file that is no entry."""
     chases: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
     """The predators' fitness: predators in rows, prey in columns."""
     hunters: list[Entry] = field(default_factory=list)
-    """Whose they are."""
+    """Entries in the order of the rows and columns of `chases`."""
 
 
 def compete(folder: Path, told: Callable[[str], None] = lambda text: None) -> League:
@@ -91,7 +91,7 @@ def compete(folder: Path, told: Callable[[str], None] = lambda text: None) -> Le
 
 
 def ranked(entries: list[Entry], results: list[float]) -> list[Ranked]:
-    """The best first; equal results share a rank."""
+    """Return the entries with their ranks, the best first; equal results share a rank."""
     order = sorted(range(len(entries)), key=lambda i: (-results[i], entries[i].file))
     return [
         Ranked(1 + sum(other > results[i] for other in results), entries[i], results[i])
@@ -100,7 +100,7 @@ def ranked(entries: list[Entry], results: list[float]) -> list[Ranked]:
 
 
 def metres(entry: Entry) -> float:
-    """How far a runner goes ahead, the mean of the episodes."""
+    """Return the metres that a runner moves ahead, averaged over the episodes."""
     native: Any
     native, policy, genotype, normalisation = entry.robot()
     engine, steps = native.engine(policy), native.steps(RACE_STEPS)
@@ -112,7 +112,10 @@ def metres(entry: Entry) -> float:
 
 
 def longest_pole(entry: Entry) -> float:
-    """The longest pole that stays up in each episode, from CartPole's own on; 0 if none does."""
+    """Return the length in metres of the longest pole that stays up in all episodes.
+
+    Poles get longer from CartPole's own length on, until one falls. 0 if the first one falls.
+    """
     import gymnasium
 
     _, policy, genotype, normalisation = entry.robot()
@@ -147,13 +150,13 @@ MEASURES: dict[str, Callable[[Entry], float]] = {
 
 
 def everybody(entries: list[Entry]) -> np.ndarray:
-    """Every predator (rows) chases every prey (columns); the predators' fitness."""
+    """Return the predators' fitness of all chases: every predator (rows) and prey (columns)."""
     sides = [_networks(entry) for entry in entries]
     return np.array([[_chase(one[0], other[1]) for other in sides] for one in sides])
 
 
 def _networks(entry: Entry) -> tuple[Network, Network]:
-    """The predator's, then the prey's."""
+    """Return the networks of predator and prey."""
     _, policy, genotype, _ = entry.robot()
     found = []
     for half in np.split(genotype, 2):
@@ -180,7 +183,10 @@ def _chase(predator: Network, prey: Network) -> float:
 
 
 def means(chases: np.ndarray) -> tuple[list[float], list[float]]:
-    """Of each predator and each prey, against those of others; alone, against its own."""
+    """Return the mean fitness of each predator and of each prey.
+
+    Chases between the two robots of one entry do not count, unless there is just one entry.
+    """
     others = ~np.eye(len(chases), dtype=bool) if len(chases) > 1 else np.ones((1, 1), dtype=bool)
     predators = [float(row[mask].mean()) for row, mask in zip(chases, others, strict=True)]
     prey = [1 - float(row[mask].mean()) for row, mask in zip(chases.T, others.T, strict=True)]
@@ -188,12 +194,12 @@ def means(chases: np.ndarray) -> tuple[list[float], list[float]]:
 
 
 def shown_name(entry: Entry) -> str:
-    """The name, if the owner gave one."""
+    """Return the owner's name, or "anonymous"."""
     return entry.name or "anonymous"
 
 
 def results_csv(league: League) -> bytes:
-    """All results with the names of the files, for the instructor."""
+    """Return all results with the names of the files as CSV, for the instructor."""
     from botschool.grading.classes.tables import safe_cell
 
     stream = io.StringIO()

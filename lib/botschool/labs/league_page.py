@@ -1,4 +1,4 @@
-"""A league's page: ranks, replays of the winners, and who catches whom; one file."""
+"""Write a league's page: ranks, replays of the winners, and who catches whom."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ details { margin: .6rem 0 } summary { cursor: pointer }
 .who th.row { text-align: right; white-space: nowrap }
 """
 SHOWN = 10
-"""Places that stand open; the others are folded."""
+"""Ranks that the page shows unfolded."""
 
 
 def write_page(league: League, path: Path, folder: Path, title: str) -> None:
@@ -94,7 +94,7 @@ def _table(places: Sequence[Ranked]) -> str:
 
 
 def _replay(league: League, name: str, places: Sequence[Ranked], folder: Path) -> str:
-    """The first of a discipline, as a frame that holds a whole page."""
+    """Return a frame with the page that replays the winner of a discipline."""
     first = places[0].entry
     problem, policy, genotype, normalisation = first.robot()
     about, steps = shown_name(first), POLE_STEPS if name == "cart-pole" else RACE_STEPS
@@ -113,7 +113,10 @@ def _replay(league: League, name: str, places: Sequence[Ranked], folder: Path) -
 
 
 def _pair(league: League, own: np.ndarray) -> tuple[np.ndarray, str]:
-    """The best predator with the best prey where their networks are alike, else with its own."""
+    """Return the pair to replay, and a line about it.
+
+    The best predator chases the best prey if their networks are alike, otherwise its own prey.
+    """
     hunter, hunted = (league.tables[side][0].entry for side in ("predator", "prey"))
     if hunter.experiment.policy != hunted.experiment.policy:
         return own, f"{shown_name(hunter)}, both"
@@ -122,7 +125,7 @@ def _pair(league: League, own: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def _who(league: League) -> str:
-    """Who catches whom, from the best to the worst."""
+    """Return the table of who catches whom, both sides in the order of their ranks."""
     rank = {side: [each.entry for each in league.tables[side]] for side in ("predator", "prey")}
 
     def places(side: str) -> list[int]:

@@ -1,4 +1,4 @@
-"""Training with the student's own rule: how much each step of an episode counts."""
+"""Train with the student's own rule, which says how much each step of an episode counts."""
 
 from __future__ import annotations
 
@@ -14,10 +14,11 @@ from botschool.errors import BotschoolError
 
 
 def whole_episodes(ended: np.ndarray) -> list[tuple[int, int, int]]:
-    """Episodes that begin and end in a rollout: (environment, first step, step after the last).
+    """Return the episodes that begin and end in a rollout.
 
-    ended: (n_steps, n_envs), not 0 where an episode ends. The first one of each environment is
-    left out: it may have begun before.
+    Each is (environment, first step, step after the last). ended: (n_steps, n_envs), other than 0
+    where an episode ends. The first episode of each environment is left out, because it may have
+    begun in an earlier rollout.
     """
     found = []
     for environment in range(ended.shape[1]):
@@ -27,11 +28,14 @@ def whole_episodes(ended: np.ndarray) -> list[tuple[int, int, int]]:
 
 
 LEARN = "learn.py"
-"""The student's own functions, in the laboratory's folder."""
+"""File with the student's own functions, in the laboratory's folder."""
 
 
 def own_functions(path: Path) -> Callable[..., Any] | None:
-    """Call the student's functions by name, at home; None if he has no such file."""
+    """Return a function that calls the student's functions by name, in this process.
+
+    Return None if the student has no such file.
+    """
     if not path.is_file():
         return None
     space = runpy.run_path(str(path))
@@ -48,10 +52,10 @@ def own_functions(path: Path) -> Callable[..., Any] | None:
 
 
 def weigh(rollout: Any, learner: Any, student: Any) -> None:
-    """Let the student's function say how much each step counts, in place of advantages.
+    """Replace a rollout's advantages by the weights that the student's function returns.
 
-    learner: the function's name and its second argument. Steps of episodes that are cut off by the
-    rollout count 0. Raises BotschoolError when the function gives something else than numbers.
+    learner: the function's name and its second argument. Steps of episodes that the rollout cuts
+    off get the weight 0. Raises BotschoolError if the function returns anything but numbers.
     """
     name, argument = learner
     places = whole_episodes(rollout.ended)

@@ -1,8 +1,8 @@
-"""Prove runs of a student's own strategy: nothing of it is imported here.
+"""Prove runs of a student's own strategy, without importing it here.
 
-Its arithmetic may differ in the last bits from machine to machine, so a run need not come out
-equal. The strategy, confined, is told the fitness that the checkpoint holds. It must then give
-candidates that get this fitness, in generations drawn at random.
+Its arithmetic may differ in the last bits between machines, so a repeated run need not be equal.
+Instead, the strategy runs in the sandbox and is told the fitness values of the checkpoint. Its
+candidates must then get this fitness, in generations drawn at random.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ from botschool.sandbox.inside import read_inside
 from botschool.wrappers import keywords
 
 GENERATIONS = 5
-"""How many generations of a run are evaluated again, beside that of its best robot."""
+"""Generations of a run to evaluate again, besides the one of its best robot."""
 EQUAL = 0.9
-"""The share of candidates that must get the very same fitness."""
+"""Share of the candidates that must get exactly the same fitness."""
 LONGER = 2
-"""How many times longer or shorter a generation may be than its stat file tells."""
+"""Largest ratio of a generation's steps to the steps in its stat file, either way."""
 
 
 def told_fitness(run: SavedRun, folder: Path) -> np.ndarray | None:
-    """All fitness that the strategy was told, from the checkpoint; None if there is none."""
+    """Return all fitness values that the checkpoint holds; None if it is missing or damaged."""
     file = RunFiles(folder / run.condition.name, run.seed).checkpoint
     try:
         content = read_inside(file.parent, file.name, MAX_BYTES)
@@ -47,7 +47,7 @@ def told_fitness(run: SavedRun, folder: Path) -> np.ndarray | None:
 
 
 def replayed(run: SavedRun, folder: Path, student: Student, rng: np.random.Generator) -> str:
-    """What is wrong with a run, seen by its strategy in the sandbox; "" if nothing is."""
+    """Replay a run with its strategy in the sandbox; return what is wrong, "" if nothing."""
     told = told_fitness(run, folder)
     if told is None:
         return "its checkpoint is missing or damaged"
@@ -87,7 +87,7 @@ def replayed(run: SavedRun, folder: Path, student: Student, rng: np.random.Gener
 def _measured_again(
     evaluator: Evaluator, candidates: np.ndarray, seeds: np.ndarray, told: np.ndarray, took: float
 ) -> str:
-    """What is wrong with a generation's fitness and its number of steps; "" if nothing is."""
+    """Evaluate a generation again; return what is wrong with it, "" if nothing."""
     again = evaluator.measure(candidates, seeds)
     if (again.fitness == told).mean() < EQUAL:
         return "strategy.py gives other candidates"
@@ -100,7 +100,10 @@ def _measured_again(
 def _ask(
     student: Any, function: str, options: str, seed: int, generation: int, given: Any
 ) -> dict[str, Any]:
-    """In the child: tell the fitness, then ask; before the first generation, begin."""
+    """Runs in the child: tell the strategy the fitness, then ask it for candidates.
+
+    For generation 0, make the strategy instead of telling it.
+    """
     if generation == 0:
         from botschool.evolution.algorithms.own import Own, OwnConfig
 

@@ -1,4 +1,4 @@
-"""The runs of a sheet: made, read, and proven by doing them again."""
+"""Make and read the runs of a sheet, and draw runs to make again."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from botschool.output import save_bytes
 from botschool.sandbox.inside import read_inside
 
 ABOUT = "runs.json"
-"""In the folder of runs: the prediction that their seeds follow from."""
+"""File in the folder of runs; it holds the prediction from which their seeds follow."""
 
 
 def own_runs(lab: Lab, sheet: Sheet, folder: Path) -> dict[str, list[SavedRun]]:
-    """The finished runs whose seeds follow from the sheet: condition -> runs."""
+    """Return the finished runs whose seeds follow from the sheet: condition -> runs."""
     seeds = seeds_of(sheet, lab)
     return {
         c.name: [run for seed in seeds[c.name] if (run := c.maker.read(c, seed, folder / c.name))]
@@ -33,7 +33,7 @@ def own_runs(lab: Lab, sheet: Sheet, folder: Path) -> dict[str, list[SavedRun]]:
 
 
 def make_runs(lab: Lab, sheet: Sheet, folder: Path, workers: int, replications: int) -> bool:
-    """Make all runs that are not there; return False when the user stopped it."""
+    """Make all missing runs; return False if the user stopped."""
     seeds = seeds_of(sheet, lab, replications)
     _claim(lab, sheet, folder)
     total = replications * len(lab.conditions)
@@ -68,7 +68,10 @@ def make_runs(lab: Lab, sheet: Sheet, folder: Path, workers: int, replications: 
 
 
 def _claim(lab: Lab, sheet: Sheet, folder: Path) -> None:
-    """Note the prediction beside the runs. Raises BotschoolError when there are runs of another."""
+    """Store the prediction beside the runs.
+
+    Raises BotschoolError if the folder holds runs of another prediction.
+    """
     about = folder / ABOUT
     if told := changed(lab, sheet, folder):
         raise BotschoolError(f"{told} To start anew, move {folder} away and run again.")
@@ -78,7 +81,7 @@ def _claim(lab: Lab, sheet: Sheet, folder: Path) -> None:
 
 
 def changed(lab: Lab, sheet: Sheet, folder: Path) -> str:
-    """A sentence when the runs belong to another prediction, name or course; else ""."""
+    """Return a sentence if the runs belong to another prediction, name or course; else ""."""
     try:
         about = json.loads(read_inside(folder, ABOUT, MAX_BYTES))
         seed, prediction = int(about["seed"]), str(about["prediction"])
@@ -102,7 +105,7 @@ def _time(seconds: float) -> str:
 def drawn(
     runs: dict[str, list[SavedRun]], count: int, draw: Callable[[int], bytes] = os.urandom
 ) -> list[SavedRun]:
-    """Runs to make again, so that nobody knows before which they are."""
+    """Return runs to make again, drawn at random so that nobody can foresee them."""
     pool = [run for each in runs.values() for run in each]
     rng = np.random.default_rng(int.from_bytes(draw(16), "big"))
     return [pool[i] for i in rng.permutation(len(pool))[:count]]

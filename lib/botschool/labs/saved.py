@@ -1,4 +1,4 @@
-"""A run as its files tell it."""
+"""Read a run from its files."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ MAX_BYTES = 50_000_000
 
 @dataclass(frozen=True)
 class SavedRun:
-    """A run as its files tell it."""
+    """A run as its files describe it."""
 
     condition: Condition
     seed: int
     stat: np.ndarray
-    """(generations, 6), as STAT names the columns; of a training see labs/training.py."""
+    """(generations, 6); STAT names the columns, for a training labs/training.py does."""
     genotype: np.ndarray
     populations: dict[int, np.ndarray] = field(default_factory=dict)
-    """Co-evolution: generation -> (2 n, parameters), the predators, then the prey."""
+    """Co-evolution only: generation -> (2 n, parameters), predators first, then prey."""
 
     @property
     def key(self) -> tuple[str, int]:
-        """The condition's name and the seed, which no other run of a sheet has."""
+        """Return the condition's name and the seed; they identify a run of a sheet."""
         return self.condition.name, self.seed
 
     def plain(self) -> dict[str, Any]:
-        """What measure.py is given."""
+        """Return the run in the form that measure.py gets."""
         told = {
             "condition": self.condition.name,
             "seed": self.seed,
@@ -46,7 +46,7 @@ class SavedRun:
         return told | ({"populations": self.populations} if self.populations else {})
 
     def same(self, other: SavedRun) -> bool:
-        """Whether two runs are equal, bit by bit."""
+        """Return whether two runs are equal, bit by bit."""
         return (
             self.stat.tobytes() == other.stat.tobytes()
             and self.genotype.tobytes() == other.genotype.tobytes()
@@ -59,7 +59,7 @@ class SavedRun:
 
 
 def plain_runs(runs: list[SavedRun], others: bool) -> list[dict[str, Any]]:
-    """What measure.py is given of several runs; others: with the genotypes of all others."""
+    """Return runs in the form that measure.py gets; others: add the genotypes of all other runs."""
     told = [run.plain() for run in runs]
     if others:
         for number, each in enumerate(told):
@@ -68,7 +68,7 @@ def plain_runs(runs: list[SavedRun], others: bool) -> list[dict[str, Any]]:
 
 
 def numbers(path: Path, dimensions: int) -> np.ndarray | None:
-    """The finite float64 numbers of a regular file, None if there are none."""
+    """Return the finite float64 numbers of a regular file; None if it does not hold any."""
     try:
         content = read_inside(path.parent, path.name, MAX_BYTES)
         if len(content) > MAX_BYTES:
@@ -81,6 +81,6 @@ def numbers(path: Path, dimensions: int) -> np.ndarray | None:
 
 
 def stat_of(path: Path) -> np.ndarray | None:
-    """The rows of a stat file; None if it is not there or is damaged."""
+    """Return the rows of a stat file; None if it is missing or damaged."""
     flat = numbers(path, 1)
     return None if flat is None or flat.size % len(STAT) else flat.reshape(-1, len(STAT))

@@ -21,19 +21,19 @@ MAX_BYTES = 200_000
 
 
 class Unreadable(BotschoolError):
-    """A field that is empty or cannot be read; the text is a sentence."""
+    """A field is empty or cannot be read; the text is a sentence."""
 
 
 @dataclass(frozen=True)
 class Sheet:
-    """A sheet that was read."""
+    """The text of a sheet, and the answers in it."""
 
     text: str
-    """With line ends of one kind."""
+    """The sheet's text, with line ends normalised."""
 
     @classmethod
     def read(cls, path: Path) -> Sheet:
-        """Raises BotschoolError."""
+        """Read a sheet. Raises BotschoolError."""
         try:
             content = read_inside(path.parent, path.name, MAX_BYTES)
         except FileNotFoundError:
@@ -52,19 +52,19 @@ class Sheet:
         return cls("\n".join(text.splitlines()))
 
     def section(self, title: str) -> str:
-        """The text under the heading `## title`; "" if there is none."""
+        """Return the text under the heading `## title`; "" if there is none."""
         pattern = rf"^## +{re.escape(title)}[^\n]*\n(.*?)(?=^## |\Z)"
         found = re.search(pattern, self.text, re.MULTILINE | re.DOTALL | re.IGNORECASE)
         return found[1] if found else ""
 
     @property
     def prediction(self) -> str:
-        """What the prediction says, without what editors change: spaces and line ends."""
+        """Return the prediction without differences that editors cause: spaces, line ends."""
         text = re.sub(r"<!--.*?-->", " ", self.section("Prediction"), flags=re.DOTALL)
         return " ".join(text.replace("[X]", "[x]").split())
 
     def raw(self, id: str) -> str:
-        """The lines that belong to a field: to the next one, the next heading or table."""
+        """Return the lines of a field: up to the next field, heading or table."""
         markers = list(_MARKER.finditer(self.text))
         for marker, after in zip(markers, [*markers[1:], None], strict=False):
             if marker[1] == id:
@@ -75,7 +75,7 @@ class Sheet:
         )
 
     def value(self, field: Field) -> Any:
-        """The answer in a field. Raises Unreadable."""
+        """Return the answer in a field. Raises Unreadable."""
         raw = self.raw(field.id)
         if field.kind == "number":
             found = _ANSWER.search(raw)
@@ -101,14 +101,14 @@ class Sheet:
 
     @property
     def words(self) -> str:
-        """The text that the instructor reads; "" if there is none."""
+        """Return the text that the instructor reads; "" if there is none."""
         try:
             return _quoted(self.raw("words"))
         except Unreadable:
             return ""
 
     def values(self, fields: tuple[Field, ...]) -> tuple[dict[str, Any], list[str]]:
-        """The answers that can be read, and a sentence about each of the others."""
+        """Return the readable answers by id, and a sentence on each other field."""
         found, missing = {}, []
         for field in fields:
             try:
@@ -118,7 +118,7 @@ class Sheet:
         return found, missing
 
     def row(self, label: str) -> list[str]:
-        """The cells after the first one of the table's row with this label. Raises Unreadable."""
+        """Return the cells after the label in the table's row of this label. Raises Unreadable."""
         for line in self.text.splitlines():
             cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
             if line.strip().startswith("|") and cells[0] == label:
@@ -126,7 +126,7 @@ class Sheet:
         raise Unreadable(f"The table has no row {label}: put it back.")
 
     def text_of(self, id: str) -> str:
-        """A line after `answer:`; "" if there is none."""
+        """Return the text after `answer:` in a field; "" if there is none."""
         found = _ANSWER.search(self.raw(id))
         return " ".join(found[1].split()) if found else ""
 
@@ -137,7 +137,7 @@ def _quoted(raw: str) -> str:
 
 
 def numbers_in(text: str, what: str, count: int) -> tuple[float, ...]:
-    """The numbers of an answer. Raises Unreadable unless there are `count`."""
+    """Return the numbers in an answer. Raises Unreadable unless there are `count`."""
     text = re.sub(r"^answer:", "", text.strip(), flags=re.IGNORECASE).strip()
     asked = "a number" if count == 1 else f"{count} numbers, as 1.5 to 2.5,"
     if not text:
@@ -151,7 +151,7 @@ def numbers_in(text: str, what: str, count: int) -> tuple[float, ...]:
 
 
 def base_seed(sheet: Sheet, lab: Lab) -> int:
-    """The seed that all runs of a sheet derive from (docs/specification.md, "Laboratories")."""
+    """Return the seed from which all runs' seeds follow (docs/specification.md, "Laboratories")."""
     name, course = sheet.text_of("name").casefold(), sheet.text_of("course").casefold()
     return _first_seed("\0".join([name, lab.name, course, sheet.prediction]))
 
@@ -167,7 +167,7 @@ def _first_seed(key: str) -> int:
 
 
 def seeds_of(sheet: Sheet, lab: Lab, replications: int | None = None) -> dict[str, list[int]]:
-    """The seeds of the runs: condition -> consecutive numbers."""
+    """Return the seeds of the runs: condition -> consecutive numbers."""
     first, count = base_seed(sheet, lab), replications or lab.replications
     return {
         condition.name: list(range(first + 1000 * i, first + 1000 * i + count))
@@ -176,7 +176,7 @@ def seeds_of(sheet: Sheet, lab: Lab, replications: int | None = None) -> dict[st
 
 
 def check_specific(sheet: Sheet, lab: Lab) -> None:
-    """Raises BotschoolError unless there is a name and a prediction that can turn out wrong."""
+    """Raise BotschoolError unless the sheet has a name and a complete prediction."""
     try:
         named = sheet.text_of("name")
     except Unreadable as error:

@@ -1,9 +1,10 @@
-"""Runs that are trained by policy gradients: made, read and looked at again.
+"""Make trainings by policy gradients, read them, and prove them by evaluating them again.
 
-A row of their stat file: steps; best mean return of an iteration's episodes so far; best
-post-evaluated return so far; that mean return (until an episode has ended, the post-evaluation);
-the newest post-evaluation; episodes so far.
-The genotype is the network of the best post-evaluation, then how it normalises observations.
+The columns of their stat file: steps; best mean return of an iteration's episodes so far; best
+post-evaluated return so far; mean return of this iteration's episodes (before the first episode has
+ended, the post-evaluation); newest post-evaluation; episodes so far.
+
+The genotype holds the network of the best post-evaluation, then its normalisation of observations.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from botschool.terminal import stoppable
 def make_all(
     condition: Condition, seeds: list[int], folder: Path, workers: int, student: Any
 ) -> bool:
-    """Make the runs that are not there; False when the user stopped it."""
+    """Make all missing runs; return False if the user stopped."""
     folder.mkdir(parents=True, exist_ok=True)
     todo = [seed for seed in seeds if read(condition, seed, folder) is None]
     with stoppable() as stopping, ThreadPoolExecutor(workers) as pool:
@@ -44,7 +45,7 @@ def make_all(
 
 
 def read(condition: Condition, seed: int, folder: Path) -> SavedRun | None:
-    """The run of that seed; None if it is not there, is damaged or has not come to its end."""
+    """Return the run with this seed; None if it is missing, damaged or not finished."""
     files = RunFiles(folder, seed)
     stat, genotype = stat_of(files.stat), numbers(files.bestg, 1)
     if stat is None or genotype is None or stat[-1, 0] < _budget(condition):
@@ -55,9 +56,9 @@ def read(condition: Condition, seed: int, folder: Path) -> SavedRun | None:
 def made(
     condition: Condition, seed: int, student: Any = None, stopping: Any = lambda: False
 ) -> SavedRun | None:
-    """The run, made here; None when it was stopped.
+    """Make the run here and return it; None if it was stopped.
 
-    student: called with the name of a function and its arguments; gives what it returns.
+    student: calls the student's function with this name and these arguments and returns its result.
     """
     ppo, learner = agent(condition.experiment, seed), condition.experiment.get("learner")
     rows: list[tuple[float, ...]] = []
@@ -83,7 +84,7 @@ def made(
 
 
 def genuine(run: SavedRun) -> bool:
-    """Whether the saved network gets the return that the run's files tell, to the bit."""
+    """Return whether the saved network gets exactly the return that the run's files state."""
     told = run.condition.experiment
     ppo = filled(told, run.genotype)
     return ppo is not None and post_evaluated(told, ppo, run.seed) == run.stat[-1, 2]
@@ -94,7 +95,7 @@ def _budget(condition: Condition) -> int:
 
 
 def agent(experiment: dict[str, Any], seed: int = 1) -> PPO:
-    """The agent before its training; with a learner its critic says 0 and learns nothing."""
+    """Return the untrained agent; with a `learner`, its critic gives 0 and learns nothing."""
     ppo = PPO(experiment["exp"]["environment"], seed=seed, **experiment["ppo"])
     if "learner" in experiment:
         for name, each in ppo.weights.items():
@@ -104,13 +105,13 @@ def agent(experiment: dict[str, Any], seed: int = 1) -> PPO:
 
 
 def post_evaluated(experiment: dict[str, Any], ppo: PPO, seed: int) -> float:
-    """The mean return in `pepisodes` episodes of the run's seed, without exploring."""
+    """Return the mean return in `pepisodes` episodes of the run's seed, without exploration."""
     episodes = experiment["policy"]["pepisodes"]
     return float(play(ppo, seed, episodes).mean())
 
 
 def play(ppo: PPO, seed: int, episodes: int) -> np.ndarray:
-    """The returns of the episodes 0, 1, ... of a seed, without exploring."""
+    """Return the returns of the episodes 0, 1, ... of a seed, without exploration."""
     seeds = np.full(episodes, seed, dtype=np.uint64)
     return ppo.core.play(seeds, np.arange(episodes, dtype=np.uint32))[0]
 
@@ -123,7 +124,7 @@ def _vector(ppo: PPO) -> np.ndarray:
 
 
 def filled(experiment: dict[str, Any], genotype: np.ndarray) -> PPO | None:
-    """The agent with those numbers; None if they do not fit."""
+    """Return an agent with these numbers; None if they do not fit."""
     ppo = agent(experiment)
     if genotype.shape != _vector(ppo).shape:
         return None
