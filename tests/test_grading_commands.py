@@ -401,6 +401,7 @@ def test_show_opens_what_was_made(course, tmp_path):
         assert (code, errors) == (0, "") and not opened.exists()
         assert "made: results/ex03/table.csv" in out and "made: results/ex03/runs  (2 files)" in out
         assert "all on one page: results/ex03/all.html" in out
+        assert "Your own experiment comes next: botschool lab 3 start" in out
     code, out, _ = call("show", "3", cwd=course, env=there)
     assert code == 0 and "opened: results/ex03/all.html" in out
     assert opened.read_text() == f"{page.as_uri()}\n"

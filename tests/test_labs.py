@@ -12,7 +12,7 @@ from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
 from botschool.evolution.record import RunFiles
 from botschool.grading.packed import pack_module
-from botschool.labs.commands import run_command
+from botschool.labs.commands import lead_to, run_command
 from botschool.labs.declare import NUMBERS, PARTS, WORDS, Field, load_lab
 from botschool.labs.folder import Place, start
 from botschool.labs.measuring import interval, permutation_test
@@ -51,6 +51,13 @@ def test_points_add_up_and_sheets_have_every_field(number, tmp_path):
 def test_the_exercises_text_leads_to_its_laboratory(number):
     (text,) = ROOT.glob(f"exercises/ex{number:02}_*/README.md")
     assert f"botschool lab {number} start" in text.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("number", [1, 3, 10, 14])
+def test_show_leads_to_a_laboratory_where_there_is_one(number, capsys):
+    lead_to(number)
+    named = f"botschool lab {number} start" in capsys.readouterr().out
+    assert named == (number in NUMBERS) == (number in (3, 14))
 
 
 @pytest.mark.parametrize("ends", ["\n", "\r\n"])

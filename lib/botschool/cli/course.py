@@ -124,11 +124,12 @@ def show(
 ) -> None:
     """Run your finished file in results/exNN and open the result."""
     from botschool.grading.commands import answers_command, show_command
+    from botschool.labs.commands import lead_to
 
     if answers:
         answers_command(exercise)
     else:
-        show_command(exercise, submission, opens)
+        lead_to(show_command(exercise, submission, opens))
 
 
 @app.command(epilog="Example: botschool trust ~/course")

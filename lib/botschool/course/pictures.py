@@ -78,6 +78,8 @@ def draw_verdicts(
 ) -> None:
     """Draw fitness curves, coloured by their stability, with the largest fall of each marked.
 
+    Of several rows, the panels of each share their vertical axis.
+
     panels: title -> (curve, verdict) of each replication. A verdict is a dict with "drop", "peak",
     "bottom" and "verdict" ("monotonic", "mild regressions" or "severe regressions").
     """
@@ -90,7 +92,9 @@ def draw_verdicts(
     }
     rows = -(-len(panels) // columns)
     figure = Figure(figsize=(4.6 * columns, 3.0 * rows + 0.5), layout="constrained")
-    grid = figure.subplots(rows, columns, squeeze=False, sharey="row").ravel()
+    grid = figure.subplots(
+        rows, columns, squeeze=False, sharey="row" if rows > 1 else False
+    ).ravel()
     for (title, curves), axes in zip(panels.items(), grid, strict=False):
         for curve, found in curves:
             colour = colours[found["verdict"]]

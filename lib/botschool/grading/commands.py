@@ -303,8 +303,8 @@ def reset_command(what: str) -> None:
 
 
 @temporary_files_within()
-def show_command(what: str, submission: str | None, opens: bool) -> None:
-    """Run a finished exercise, name what it has made, and open it."""
+def show_command(what: str, submission: str | None, opens: bool) -> int:
+    """Run a finished exercise, name what it has made, open it, and return its number."""
     from botschool.grading.report.progress import answers
     from botschool.grading.report.showing import make_page, open_page, show
 
@@ -330,6 +330,7 @@ def show_command(what: str, submission: str | None, opens: bool) -> None:
     with contextlib.suppress(BotschoolError):
         if answers(number, course_root()):
             print(f"what our solution measured: botschool show {number} --answers")
+    return number
 
 
 def _size(path: Path) -> str:

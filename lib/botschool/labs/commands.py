@@ -1,4 +1,4 @@
-"""What `botschool lab N start|run|check|report` does."""
+"""Run `botschool lab N start|run|check|report`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from botschool.errors import BotschoolError
 from botschool.grading.run.temporary import temporary_folder
 from botschool.labs.check import Check, Checked
-from botschool.labs.declare import PARTS, WORDS, load_lab
+from botschool.labs.declare import NUMBERS, PARTS, WORDS, load_lab
 from botschool.labs.folder import Place, check_strategy, keep_name, known_name, start
 from botschool.labs.report import write_report
 from botschool.labs.runs import make_runs
@@ -20,8 +20,14 @@ COURSE = "botschool"
 QUICK_REPLICATIONS = 3
 
 
+def lead_to(exercise: int) -> None:
+    """Name the laboratory of an exercise, if there is one."""
+    if exercise in NUMBERS:
+        print(f"Your own experiment comes next: botschool lab {exercise} start")
+
+
 def start_command(number: str, name: str | None, course: str | None) -> None:
-    """Make the folder of a laboratory, for the name that is given, remembered or asked for."""
+    """Make a laboratory's folder for the given name, the remembered one, or one asked for."""
     here = Path.cwd()
     place = Place.of(number, here)
     told = " ".join((name or known_name(here)).split())
@@ -39,7 +45,7 @@ def start_command(number: str, name: str | None, course: str | None) -> None:
 
 
 def run_command(number: str, quick: bool, workers: int) -> bool:
-    """Make the runs; return False when the user stopped it."""
+    """Make the runs; return False if the user stopped."""
     place = Place.of(number)
     sheet, lab, folder = place.sheet(), place.lab, place.runs
     check_specific(sheet, lab)
@@ -59,9 +65,9 @@ def run_command(number: str, quick: bool, workers: int) -> bool:
 
 
 def check_command(number: str, as_json: bool, submission: Path | None = None) -> bool:
-    """Print the points; return whether all that a machine gives are earned.
+    """Print the points; return whether the check gave all that it can give.
 
-    submission: somebody else's folder or zip file, found and checked as grade-all does.
+    submission: another person's folder or zip file; it is found and checked as grade-all does.
     """
     if submission:
         return _check_other(number, as_json, submission)
@@ -106,7 +112,7 @@ def show(checked: Checked) -> None:
 
 
 def report_command(number: str) -> None:
-    """Check, and write the page."""
+    """Check the laboratory and write its page."""
     place = Place.of(number)
     checked = Check(place).all()
     with temporary_folder() as folder:
