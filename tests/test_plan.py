@@ -148,7 +148,7 @@ def test_what_python_cannot_declare():
         (lambda: Robot("Kepera"), "did you mean Khepera?"),
         (lambda: Robot(x="far"), "x = far is not a number"),
         (lambda: Robot(x=(1, 2, 3)), "is not a number"),
-        (lambda: arena.make(Plan(), models="e-puck"), "those of its plan"),
+        (lambda: arena.make(Plan(), models="e-puck"), "takes its robots from its plan"),
         (lambda: problems.make("CartPole-v1", plan=Plan()), "CartPole-v1 takes no such choice"),
     ]
     for call, words in refused_:

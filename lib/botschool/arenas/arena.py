@@ -219,8 +219,8 @@ class Arena:
         self.steps = int(state[-1])
 
     def _place(self) -> None:
-        """Put robots and objects where the arrays say. Raises BotschoolError if
-        that is impossible.
+        """Put robots and objects where the arrays say. Raises BotschoolError if that is
+        impossible.
         """
         _finite("robots", self._robots)
         _finite("lights", self._lights)

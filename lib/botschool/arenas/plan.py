@@ -70,7 +70,7 @@ TEAM = ("same-zone", "every-zone", "together", "camera")
 class Plan:
     """A declared arena, checked; see the top of this module. Raises BotschoolError.
 
-    Without robots there is one Khepera. The other fields are those of the section [ARENA].
+    Without robots there is one Khepera. The other fields are the keys of the section [ARENA].
     """
 
     width: float = 400.0

@@ -1,6 +1,6 @@
-"""Define the section [ARENA] of experiment files: its keys and their words.
+"""Define the section [ARENA] of experiment files: its keys and what they mean.
 
-botschool.arenas.plan checks how they fit together.
+botschool.arenas.plan checks that they fit together.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ REWARDS = {
     "on-zone": "1 on a zone",
     "same-zone": "1 while all robots are on the same zone",
     "every-zone": "1 while there is a robot on every zone",
-    "together": "the way of robots that stay near each other",
+    "together": "distance covered by robots that stay near each other",
 }
 
 
@@ -47,7 +47,7 @@ def _length(default: float, explanation: str) -> Any:
 
 @dataclass
 class Scalars:
-    """The keys of the section, except those of robots and objects."""
+    """The keys of the section except robots and objects."""
 
     width: float = _length(400.0, "of the arena, mm")
     height: float = _length(400.0, "of the arena, mm")
@@ -59,23 +59,28 @@ class Scalars:
         form=f"names separated by commas, of {', '.join(WORDS['sensors'])}",
     )
     noise: float = hyper(
-        0.0, "standard deviation of that of all readings but time and bias", low=0, high=10
+        0.0, "standard deviation of the noise of all readings except time and bias", low=0, high=10
     )
-    reward: str = hyper("avoid", "what is paid in a step", choices=REWARDS)
-    distance: float = _length(60.0, "what is near: mm between edges")
+    reward: str = hyper("avoid", "reward of each step", choices=REWARDS)
+    distance: float = _length(60.0, "largest distance that counts as near, in mm between edges")
     collisions: str = hyper(
         "block",
-        "what a collision does",
-        choices={"block": "the robot stays where it was", "end": "the episode ends, unpaid"},
+        "effect of a collision",
+        choices={
+            "block": "the robot stays where it was",
+            "end": "the episode ends without a reward",
+        },
     )
-    light_distance: float = _length(200.0, "mm at which a light is half as bright")
-    laser_beams: int = hyper(8, "beams of the laser", low=1, high=WORDS["beams"])
-    laser_angle: float = hyper(360.0, "degrees that they cover around ahead", above=0, high=360)
-    laser_range: float = _length(500.0, "how far they reach, mm")
+    light_distance: float = _length(200.0, "distance in mm at which a light is half as bright")
+    laser_beams: int = hyper(8, "number of laser beams", low=1, high=WORDS["beams"])
+    laser_angle: float = hyper(
+        360.0, "angle that the laser beams cover, in degrees, centred ahead", above=0, high=360
+    )
+    laser_range: float = _length(500.0, "range of the laser beams, mm")
 
 
 def reader(key: str, cls: type[Thing]) -> Callable[[str], Thing]:
-    """Return a reader of that key's text; its errors begin with the key."""
+    """Return a function that reads this key's text; its errors begin with the key."""
 
     def read(text: str) -> Thing:
         try:
@@ -101,10 +106,10 @@ def _lines() -> list[tuple[str, type, Any]]:
 if TYPE_CHECKING:
 
     class ArenaConfig(Scalars):
-        """Tells a type checker nothing of the numbered keys: robot1, robot2 ..."""
+        """Hides the numbered keys, robot1, robot2 ..., from type checkers."""
 
 else:
     ArenaConfig = make_dataclass(
         "ArenaConfig", _lines(), bases=(Scalars,), namespace={"__module__": __name__}
     )
-    ArenaConfig.__doc__ = """Section [ARENA]: what `environment = ErArena` is."""
+    ArenaConfig.__doc__ = """Section [ARENA]: the arena of `environment = ErArena`."""

@@ -32,16 +32,16 @@ GROUPS = {
     labs: None,
     rl: "rl",
 }
-"""Modules with commands, in the order of --help, and the word before their commands."""
+"""Module with commands -> the word before its commands; in the order of --help."""
 
 # numpy's BLAS would start threads that only wait: no command multiplies large matrices
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
 def commands(asked: str | None = None) -> typer.Typer:
-    """Return the command with the subcommand asked for, or with all if there is no such one.
+    """Return the command with one subcommand, or with all of them if there is no such one.
 
-    Making all subcommands takes longer than many runs.
+    Making all subcommands takes longer than many runs do.
     """
     app = typer.Typer(
         help="Train robots in simulation by evolution and by reinforcement learning.",
@@ -79,7 +79,9 @@ def _options(
 
 
 def run() -> NoReturn:
-    """Run the command and exit; a learner's error is one sentence and exit code 2."""
+    """Run the command and exit; print an error that the user can mend as one sentence, with exit
+    code 2.
+    """
     code, stopped = 130, False
 
     def stop(number: int, frame: object) -> None:
@@ -134,7 +136,7 @@ def _run() -> int:
 
 
 def _once(message: str) -> str:
-    """Return the message with one suggestion; Typer and Click each add theirs."""
+    """Return the message with one suggestion; Typer and Click each add one."""
     suggestion = r"\.? \(?Did you mean(?: one of:)? ([^?]*)\?.*"
     return re.sub(suggestion, r"; did you mean \1?", message)
 
@@ -145,7 +147,9 @@ def _refuse(sentence: str) -> int:
 
 
 def _silence(code: int) -> int:
-    """Drop what the interpreter would still print to a broken standard output; return the code."""
+    """Discard what the interpreter would still print to a broken standard output; return the
+    code.
+    """
     with suppress(OSError):
         sys.stdout.flush()
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

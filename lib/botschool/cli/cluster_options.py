@@ -39,7 +39,7 @@ Patience = Annotated[
 def machines(
     cluster: str | None, no_tls: bool, patience: float | None, workers: int | None
 ) -> Open | None:
-    """Return the cluster that the options name, not yet opened; None without --cluster."""
+    """Return the cluster that the options name, without opening it; None without --cluster."""
     if cluster is None:
         if no_tls or patience is not None:
             raise BotschoolError("--no-tls and --patience need --cluster: add --cluster ADDRESS.")

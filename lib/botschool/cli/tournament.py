@@ -50,7 +50,7 @@ def tournament(
     ] = None,
     every: Annotated[
         int | None,
-        typer.Option(min=1, help="Instead: generations that are multiples of this number."),
+        typer.Option(min=1, help="Instead: generations that this number divides."),
     ] = None,
     best: Annotated[
         int | None,
@@ -93,8 +93,10 @@ def tournament(
 
 
 def own_run(folder: Path, experiment: Experiment, seed: int | None) -> Path:
-    """Return the folder; if the user named none and the present one has no populations of this
-    seed (None: of any), return that of the run that comes with botschool, if there is one.
+    """Return the folder of the run to use.
+
+    If the user named no folder and the current one has no populations of this seed (None: of any
+    seed), return the folder of botschool's own run, if it has the seed.
     """
     from botschool.analysis.populations import seeds_of
     from botschool.examples import ROBOTS, examples

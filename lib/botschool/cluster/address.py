@@ -1,4 +1,4 @@
-"""Read and check the value of --cluster: where a cluster is."""
+"""Read and check the value of --cluster, which says where a cluster is."""
 
 from __future__ import annotations
 

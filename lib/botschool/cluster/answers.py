@@ -26,9 +26,9 @@ SHAPES: dict[str, dict[str, Any]] = {
 
 
 def read(data: bytes, kinds: Sequence[str] = tuple(SHAPES)) -> dict[str, Any]:
-    """Return an answer of one of these kinds, with all its fields and possible values.
+    """Return an answer of one of these kinds, after checking its fields and values.
 
-    Raises ValueError for everything else.
+    Raises ValueError for anything else.
     """
     answer = wire.unpack(data)
     kind = next((name for name in kinds if isinstance(answer, dict) and name in answer), None)

@@ -10,7 +10,7 @@ class Bottleneck:
 
     def __init__(self) -> None:
         self.sent = self.received = 0
-        """Bytes of messages, without what Dask adds."""
+        """Bytes of messages, without Dask's own."""
         self.candidates = 0
         """Genotypes that workers evaluated."""
         self.here = 0.0
@@ -28,7 +28,7 @@ class Bottleneck:
         self._idle = {}
 
     def nobody(self) -> None:
-        """Start the batch's time anew, because there are no workers."""
+        """Restart the batch's clock, because there are no workers."""
         self._began = time.monotonic()
 
     def evaluated(self, seconds: float) -> None:
@@ -36,7 +36,7 @@ class Bottleneck:
         self.busy += seconds
 
     def idle(self, worker: str, now: float) -> None:
-        """Note that there is nothing left to give to a worker."""
+        """Note that no work is left to give to a worker."""
         self._idle[worker] = now
 
     def end(self, workers: int) -> float:

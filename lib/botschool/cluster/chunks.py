@@ -68,7 +68,7 @@ class Batch:
         return slice(first, self._next)
 
     def give_back(self, chunk: slice) -> int:
-        """Take back a chunk whose worker is lost; return how often that has happened to it."""
+        """Take back the chunk of a lost worker; return how often this chunk was lost."""
         self._again.append(chunk)
         self._losses[chunk.start] = self._losses.get(chunk.start, 0) + 1
         return self._losses[chunk.start]
@@ -141,8 +141,8 @@ class _Part:
     """Genotypes of a batch, with the way they are sent."""
 
     def __init__(self, genotypes: np.ndarray, met: bool, single: bool) -> None:
-        """Prepare genotypes; met: each meets many opponents; single: only
-        single precision counts.
+        """Prepare genotypes; met: each meets many opponents; single: only single precision
+        counts.
         """
         self._genotypes = genotypes
         self._met, self._type = met, np.float32 if single else np.float64

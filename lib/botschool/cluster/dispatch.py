@@ -50,9 +50,9 @@ class Crew:
         say: Callable[[str], None],
         watch: Bottleneck,
     ) -> None:
-        """Prepare workers; setup: the experiment as a table; files: those that each worker must
-        have; bits: what each must compute, None if unknown; least: seconds that a chunk should
-        take.
+        """Prepare workers; setup: the experiment as a table; files: the files that each worker must
+        have; bits: the bits that each must compute, None if unknown; least: seconds that a chunk
+        should take.
         """
         self._connection = connection
         self._setup, self._name = setup, wire.digest(setup)
@@ -90,8 +90,9 @@ class Crew:
             self._watch.end(len(self.ready))
 
     def forget(self) -> None:
-        """Take back all chunks; workers that have not answered their greeting will be greeted
-        again.
+        """Take back all chunks.
+
+        Workers that have not answered their greeting will be greeted again.
         """
         for number in self._tasks:
             self._connection.forget(number)
@@ -186,7 +187,9 @@ class Crew:
         )
 
     def _give(self, batch: Batch) -> None:
-        """Give chunks to all workers that have room, beginning with those that have least."""
+        """Give chunks to all workers that have room, beginning with the workers that have
+        fewest.
+        """
         if not batch.waiting:
             return
         now, ready = time.monotonic(), self.ready

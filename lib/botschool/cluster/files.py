@@ -1,8 +1,8 @@
 """Compare the files that an evaluation runs on: here and on a worker.
 
-These are botschool's Python files, the C++ sources that its module was compiled from (compiled
-files differ between machines that compute the same), and the files of the modules that an
-experiment names: all of a package, or a module and what it imports from its own folder.
+These are botschool's Python files, the C++ sources of its module (compiled files differ between
+machines that compute the same), and the files of the modules that an experiment names: a whole
+package, or a module and the modules that it imports from its own folder.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ TOLD = 1_000
 """Largest number of differing files that a worker reports."""
 
 Manifest = dict[str, dict[str, bytes]]
-"""For each module: its files, by their path from the folder of the module, and their digests."""
+"""Module -> path from the module's folder -> digest of the file."""
 
 
 def manifest(problem: Problem) -> Manifest:
@@ -39,7 +39,7 @@ def manifest(problem: Problem) -> Manifest:
 
 
 def differing(asked: Manifest) -> list[str]:
-    """Return the names of files that are absent here, or differ from those of a manifest."""
+    """Return the names of files in a manifest that are missing here or differ."""
     found = []
     for module, files in asked.items():
         if module == CORE:

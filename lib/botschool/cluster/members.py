@@ -1,4 +1,4 @@
-"""Keep what the command knows of a cluster's workers: their tasks and the tables that they hold."""
+"""Track a cluster's workers: their tasks and the tables that they hold."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ UNKNOWN = 30.0
 
 
 class Shelf:
-    """Names, each with a size in bytes; the most recently used ones are kept, as many as fit."""
+    """A set of names with sizes in bytes; it drops the names that were used longest ago."""
 
     def __init__(self, limit: int) -> None:
         self._limit = limit

@@ -31,8 +31,8 @@ KEPT = 0.3
 class Distributed(Problem):
     """Evaluates on the workers of a connection.
 
-    Batches that this machine evaluates in less time than a message takes stay here. So does the
-    rest of the work after the user has asked to stop.
+    This machine keeps batches that it evaluates in less time than a message takes, and the rest of
+    the work after the user has asked to stop.
     """
 
     def __init__(
@@ -88,8 +88,8 @@ class Distributed(Problem):
         workers: int = 1,
         stopping: Callable[[], bool] = lambda: False,
     ) -> Outcome:
-        """See Problem.evaluate; genotypes may also be a result of `rows`. `workers`
-        has no effect.
+        """See Problem.evaluate; genotypes may also be a result of `rows`. `workers` has no
+        effect.
         """
         parts = list(genotypes) if isinstance(genotypes, tuple) else [genotypes]
         if self._short(len(episodes)):

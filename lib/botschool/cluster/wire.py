@@ -1,4 +1,5 @@
-"""Encode messages: dicts of plain values and arrays become bytes by msgpack, after a checksum.
+"""Encode messages: msgpack turns plain values and arrays into bytes, with a checksum in front.
+
 Unpacked data cannot contain code.
 """
 

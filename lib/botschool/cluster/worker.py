@@ -1,4 +1,4 @@
-"""The functions that Dask calls on workers. They take bytes and return bytes.
+"""Define the functions that Dask calls on workers. They take bytes and return bytes.
 
 A worker process keeps what it received: the experiment, from which it makes the problem and the
 policy, and tables (centres, populations) by their digests. It asks for tables that it lacks.
@@ -39,8 +39,10 @@ _made: dict[bytes, tuple[Problem, Policy]] = {}
 
 
 def hello(message: bytes) -> bytes:
-    """Return what this worker is: version, threads, its files that differ from those of the
-    request, and the bits of a probe of the experiment.
+    """Return what this worker is.
+
+    That is its version, its threads, its files that differ from the request's, and the bits of a
+    probe of the experiment.
     """
     return _answer(message, _hello)
 
@@ -51,8 +53,8 @@ def evaluate(message: bytes) -> bytes:
 
 
 def _answer(message: bytes, function: Callable[[dict], dict]) -> bytes:
-    """Return the function's result or its error as an answer: our own message, or
-    the error's text.
+    """Return the function's result as an answer, or its error: our sentence, or the error's
+    text.
     """
     try:
         with _one_at_a_time:
@@ -134,7 +136,9 @@ def _rows(part: dict) -> np.ndarray:
 
 
 def _cloud(name: bytes, told: tuple[bytes, ...]) -> Cloud:
-    """Return the cloud of a recipe: itself, or that of an ascent after it was told this fitness."""
+    """Return the cloud of a recipe: a table, or the cloud of an ascent after these fitness
+    values.
+    """
     if isinstance(_tables[name], Cloud):
         return _tables[name]
     known, ascent, cloud = _ascents.get(name, (None, None, None))
@@ -151,7 +155,7 @@ def _cloud(name: bytes, told: tuple[bytes, ...]) -> Cloud:
 
 
 def _experiment(name: bytes) -> tuple[Problem, Policy]:
-    """Return problem and policy of an experiment that was sent before."""
+    """Return the problem and the policy of an experiment received before."""
     if name not in _made:
         experiment = config.from_dict(_tables[name])
         problem = problems.of(experiment)
@@ -169,8 +173,10 @@ def _threads() -> int:
 
 
 def _may_have_children(problem: Problem) -> None:
-    """Allow child processes: Dask starts workers as daemons, which may have none, but episodes in
-    Python use a process per thread. These end with the worker, because they watch it.
+    """Allow child processes.
+
+    Dask starts workers as daemons, which may have none, but episodes in Python use a process per
+    thread. These processes end with the worker, because they watch it.
     """
     process: Any = multiprocessing.current_process()
     process._config["daemon"] = False

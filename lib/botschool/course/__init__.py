@@ -1,6 +1,6 @@
-"""Give exercises what they need ready-made: robots to evaluate, pictures, films.
+"""Give exercises ready-made parts: robots to evaluate, pictures, films.
 
-What only one exercise needs is in a module of its own, such as botschool.course.foraging.
+Parts for a single exercise have a module of their own, such as botschool.course.foraging.
 """
 
 from botschool.course.evaluation import Robot, SavedRobot, controller_of

@@ -32,7 +32,7 @@ def load_run(
 
     folder: a run of predprey.ini with a single seed, inside the course; if it holds fewer than two
     generations, the function loads the pre-evolved run.
-    most: number of generations at most, evenly spaced over the saved ones.
+    most: largest number of generations, evenly spaced over the saved ones.
     best: individuals of each population. Raises BotschoolError.
     """
     from botschool.analysis.populations import Populations, seeds_of
@@ -156,7 +156,7 @@ def _draw_profile(axes, profile: dict, generations: list[int], colour: str) -> N
 
 
 def draw_red_queen(file: str | Path, found: dict[str, dict], generations: list[int]) -> None:
-    """Draw what contemporary fitness shows and hides since the first generation.
+    """Draw how fitness against contemporaries hides the progress of both sides.
 
     found: "predators" and "prey" -> "change", "own" and "others", each (G - 1,), for all
     generations except the first.
@@ -167,7 +167,7 @@ def draw_red_queen(file: str | Path, found: dict[str, dict], generations: list[i
     for axes, (side, parts) in zip(figure.subplots(1, 2, sharey=True), found.items(), strict=True):
         other = next(name for name in found if name != side)
         lines = (
-            ("change", "what is seen: fitness against those of the same time", "black", "-"),
+            ("change", "what you see: fitness against contemporaries", "black", "-"),
             ("own", f"what the {side} have gained, against all {other}", COLOURS[side], "-"),
             ("others", f"what the {other} have taken, from all {side}", COLOURS[other], "--"),
         )

@@ -1,4 +1,4 @@
-"""Train CartPole by the student's own loop of exercise 13, beside the engine's loop."""
+"""Train CartPole by the student's own loop of exercise 13, and by the engine's loop."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ SETTINGS: dict[str, Any] = {
 
 
 class Pieces(PPO):
-    """Leave to the student what a loop does: without advantages, update and learn."""
+    """A PPO that leaves the loop to the student: without advantages, update() and learn()."""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__(*arguments, **named)
         self.ends: list[int] = []
         self.returns: list[float] = []
-        """Of the episodes in the order of their ends: steps so far, and returns."""
+        """Steps so far and return at the end of each episode, in the order of their ends."""
 
     def collect(self) -> Rollout:
-        """Act for a rollout; its advantages and returns are zeros."""
+        """Collect a rollout; its advantages and returns are zeros."""
         rollout = super().collect()
         rollout.advantages[:], rollout.returns[:] = 0, 0
         ends, returns, _ = self.episodes
@@ -36,19 +36,19 @@ class Pieces(PPO):
         return rollout
 
     def update(self) -> dict[str, float]:
-        """Refuse: this is what the student writes."""
+        """Refuse, because the student writes this."""
         raise NotImplementedError("write the loop over epochs and batches yourself")
 
     def learn(self, *arguments: Any, **named: Any) -> PPO:
-        """Refuse likewise."""
+        """Refuse, because the student writes this."""
         raise NotImplementedError("write the loop over rollouts yourself")
 
 
 def train_own(learn: Callable[[PPO, int, int], None] | None, seed: int) -> dict[str, Any]:
-    """Train on CartPole-v1 by the student's loop; None: by the engine's.
+    """Train on CartPole-v1 by the student's loop, or by the engine's loop if `learn` is None.
 
-    Return "steps" and "returns" of the episodes in the order of their ends, and "act", which takes
-    the trained policy's most probable action.
+    Return "steps" and "returns" of the episodes in the order of their ends, and "act", a function
+    that takes the trained policy's most probable action.
     """
     steps, returns = [], []
     if learn is None:
@@ -70,7 +70,7 @@ def train_own(learn: Callable[[PPO, int, int], None] | None, seed: int) -> dict[
 
 
 def draw_own_training(file: str | Path, runs: list[dict], reference: list[dict]) -> None:
-    """Draw the curves of both sides' trainings: mean of 20 episodes, and the mean of all runs."""
+    """Draw both kinds of trainings: means of 20 episodes, and the mean of all runs."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(8, 4.5), layout="constrained")
@@ -93,7 +93,7 @@ def draw_own_training(file: str | Path, runs: list[dict], reference: list[dict])
 
 
 def _smooth(run: dict) -> tuple[np.ndarray, np.ndarray]:
-    """Steps and running means of 20 episodes."""
+    """Return steps and running means of 20 episodes."""
     returns = np.array(run["returns"], dtype=float)
     window = min(20, len(returns))
     return np.array(run["steps"])[window - 1 :], np.convolve(

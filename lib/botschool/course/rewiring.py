@@ -1,4 +1,4 @@
-"""Change the gains of a robot's parameters: evolution masters this, known parameters do not.
+"""Change the gains of a robot's parameters, so that only strategies that evolve still work.
 
 A grader lets a submission train such a robot. Evolution starts from parameters of random signs, so
 the change makes no difference to it. Parameters that the student wrote down, or computed without
@@ -57,7 +57,7 @@ class Evaluated:
         self._rows.append(np.array(genotypes, dtype=np.float32))
 
     def first(self, many: int) -> np.ndarray:
-        """Return the candidates of the first evaluations, at least so many if there are any."""
+        """Return the candidates of the first evaluations: at least this many, or all."""
         found = [each for each in self._rows if each.shape[1:] == self._rows[0].shape[1:]]
         before = np.cumsum([0, *map(len, found)])
         return np.concatenate(

@@ -18,10 +18,10 @@ def draw_learning(
 ) -> None:
     """Draw every episode of some trainings as a dot, with the elite coloured; policies below.
 
-    runs: title -> (for each iteration the returns of its episodes, percentile of the elite).
-    maps: title -> (what the policy does over two observed numbers, shape (rows, columns), the first
-    row at the bottom; the names of the two; their limits (left, right, bottom, top); the meaning of
-    the colours).
+    runs: title -> (for each iteration the returns of its episodes, percentile of the elite). maps:
+    title -> (what the policy does over two observed numbers, shape (rows, columns), the first row
+    at the bottom; the names of both numbers; their limits (left, right, bottom, top); the meaning
+    of the colours).
     """
     from matplotlib.figure import Figure
 
@@ -63,9 +63,9 @@ def draw_hidden_layer(
     stages: title -> (layers, observations (N, observed), activations (N, neurons), responses
     (neurons, observed)). On the left are the sorted responses of all neurons. On the right are the
     activations of `shown` neurons over the two observed numbers `axes`, with the others 0 and the
-    observations as dots: first the neuron that follows each observed number best, then those whose
-    activation varies most. hidden(layers, observations) returns the activations of each layer.
-    names: of the observed numbers.
+    observations as dots: first the neuron that follows each observed number best, then the neurons
+    whose activation varies most. hidden(layers, observations) returns the activations of each
+    layer. names: the names of the observed numbers.
     """
     from matplotlib.figure import Figure
 
@@ -127,7 +127,7 @@ def draw_indicators(
     """Draw what trainings have logged: panels for each problem, a colour for each variation.
 
     trainings: problem -> (runs, each with its "variant"; for each run name of the indicator ->
-    {"steps", "values"}). names: of the indicators.
+    {"steps", "values"}). names: the names of the indicators.
     """
     from matplotlib.figure import Figure
 
@@ -196,7 +196,7 @@ def draw_trainings(
         mean = together[name].mean(axis=0)
         last.plot(together["steps"], mean, color=colour, linewidth=3, label=f"{name}, mean")
     last.axvspan(together["steps"][0], together["steps"][-1], color=GREY, alpha=0.15, lw=0)
-    last.set(xscale="log", xlabel="steps, those of post-evaluations included")
+    last.set(xscale="log", xlabel="steps, including post-evaluations")
     last.set(ylabel="best post-evaluation so far", title="equal steps (grey), and beyond")
     last.legend(frameon=False, loc="upper left")
     for panel in (*panels, last):

@@ -81,9 +81,9 @@ class BodyBrain(gymnasium.Env):
 
     docs/specification.md, "Bodies", has the exact rules. The torso is the rear end, and the chain
     begins to its right. The body starts with the middle of its extent above the middle of the flat
-    part, its lowest corner 0.1 m above the ground. Gravity is 10 m/s^2; the ground's friction is
-    that of the segments. Every episode has a world of its own, so it is a pure function of body,
-    seed and actions.
+    part, its lowest corner 0.1 m above the ground. Gravity is 10 m/s^2; ground and segments have
+    the same friction. Every episode has a world of its own, so it is a pure function of body, seed
+    and actions.
     """
 
     metadata: ClassVar[dict] = {"render_modes": ["human", "rgb_array"], "render_fps": FPS}

@@ -29,7 +29,7 @@ _one_at_a_time = threading.RLock()
 
 @contextmanager
 def hushed() -> Iterator[None]:
-    """Hide what C code writes to standard output or error meanwhile."""
+    """Hide the output of C code during the block, standard output and error."""
     with _one_at_a_time:
         _flush()
         kept = {}

@@ -83,7 +83,7 @@ class LocomotorBody:
     """Properties that distinguish one robot from the others."""
 
     model: str
-    """Its model file, among those of PyBullet."""
+    """Its model file, which comes with PyBullet."""
     feet: tuple[str, ...]
     """Parts whose contact with the floor is observed."""
     alive: Alive
@@ -98,7 +98,9 @@ class LocomotorBody:
     evolved_noise: float = 0.1
     """Version 5 starts with joints at most this far (radians) from their rest position."""
     start_height: float | None = None
-    """Height in metres relative to which height is observed; None: that of the episode's start."""
+    """Height in metres at which the observed height is 0; None: the height at the episode's
+    start.
+    """
     gains: type = np.float64
     """Precision of the torques."""
 

@@ -1,7 +1,7 @@
 """Simulate Hopper, HalfCheetah, Ant, Walker2D and Humanoid by PyBullet: robots that learn to run.
 
-Version 0 is that of pybullet_envs_gymnasium 0.6: the same robots, physics, observations, rewards
-and ends. Version 5 is for evolution: its reward is almost only progress, because a robot that is
+Version 0 equals pybullet_envs_gymnasium 0.6: the same robots, physics, observations, rewards and
+ends. Version 5 is for evolution: its reward is almost only progress, because a robot that is
 rewarded for standing learns to stand (Pagliuca, Milano and Nolfi, 2020).
 
 An episode depends only on its seed and actions. pybullet_envs_gymnasium measures the start of its
@@ -167,8 +167,10 @@ class Locomotor(gymnasium.Env):
         return self._observation.clip(*self._seen), {}
 
     def _forget_contacts(self) -> None:
-        """Clear contact points: restoring a state keeps those of the last episode, which changes
-        the last digits of one episode in hundreds. High above the floor there are none.
+        """Clear contact points, by lifting the robot high above the floor.
+
+        Restoring a state keeps the contact points of the last episode, which changes the last
+        digits of one episode in hundreds.
         """
         world = {"physicsClientId": self._client}
         self._bullet.resetBasePositionAndOrientation(
@@ -177,8 +179,8 @@ class Locomotor(gymnasium.Env):
         self._bullet.performCollisionDetection(**world)
 
     def step(self, action: np.ndarray):
-        """Simulate one step. Raises BotschoolError if the action holds a number that
-        is not finite.
+        """Simulate one step. Raises BotschoolError if the action holds a number that is not
+        finite.
         """
         action = np.asarray(action)
         torques = (self._gains * action.clip(*self._full)).tolist()
@@ -273,12 +275,12 @@ class Locomotor(gymnasium.Env):
         }
 
     def measured(self) -> dict[str, Any]:
-        """Return measurements after the last step: metres to the target, height (m), pitch and
-        heading (rad).
+        """Return measurements after the last step: metres to the target, height (m), pitch, heading
+        (rad).
 
-        "positions" and "speeds" are those of the joints, as observed but without limits. "touching"
-        is 1.0 if a part of a HalfCheetah other than its feet was on the floor after the step before
-        the last one, on which its alive bonus depends.
+        "positions" and "speeds" are the joints', as observed but without limits. "touching" is 1.0
+        if a part of a HalfCheetah other than its feet was on the floor after the step before the
+        last one; its alive bonus depends on this.
         """
         return {
             "distance": self._to_target,
@@ -291,7 +293,7 @@ class Locomotor(gymnasium.Env):
         }
 
     def render(self) -> np.ndarray | None:
-        """Return a picture with render_mode 'rgb_array', (300, 400, 3) uint8, new at every other
+        """Return a picture with render_mode 'rgb_array', (300, 400, 3) uint8, new at every second
         step.
         """
         if self.render_mode != "rgb_array":

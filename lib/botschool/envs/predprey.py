@@ -97,7 +97,7 @@ def _each(values) -> dict:
 def parallel_env(max_steps: int | None = None, render_mode: str | None = None) -> PredPrey:
     """Return the environment. max_steps: longest episode, None for the problem's own 2000.
 
-    Observations are float32 (24,), actions (2,) from -1 to 1; rewards are those of
-    PredpreySimulation.act.
+    Observations are float32 (24,), actions (2,) from -1 to 1; PredpreySimulation.act defines the
+    rewards.
     """
     return PredPrey(max_steps, render_mode)

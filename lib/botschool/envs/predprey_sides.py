@@ -25,7 +25,7 @@ FPS = round(1 / INFOS[PROBLEM]["seconds"])
 _SEES, _WHEELS = INFOS[PROBLEM]["observations"], INFOS[PROBLEM]["outputs"]
 
 POLICY = PolicyConfig(nhiddens=25, bias=1, architecture=3)
-"""Default network of the opponent: that of predprey.ini."""
+"""Default network of the opponent, as in predprey.ini."""
 
 
 def observation_space() -> spaces.Box:
@@ -61,9 +61,10 @@ class PredpreySimulation(Simulation):
     def act(self, predator: np.ndarray, prey: np.ndarray) -> tuple[tuple[float, float], bool]:
         """Let both act; return (the predator's and the prey's reward, whether the episode is over).
 
-        The predator gets 1 - step / max_steps when it catches the prey, else 0; the prey gets the
-        rest of 1 in the last step. When time runs out, the episode terminates and is not truncated,
-        because the robots observe the remaining time, and the last step is rewarded for it.
+        The predator gets 1 - step / max_steps when it catches the prey, else 0; in the last step,
+        the prey gets 1 minus the predator's return. When time runs out, the episode terminates and
+        is not truncated, because the robots observe the remaining time and this step brings the
+        prey its reward.
         """
         caught, ended = self.step(np.concatenate([predator, prey]))
         over = ended or self.steps >= self.limit
@@ -73,11 +74,11 @@ class PredpreySimulation(Simulation):
 class OneSide(gymnasium.Env):
     """One of the two robots against an opponent that does not learn.
 
-    side: "predator" or "prey". opponent: its genotype, as a run saves it (float64 array, or the
-    path of a .npy file), of one network or of both (then the opponent's is used); None means a
-    random initial network, always the same. experiment: the .ini file with whose [POLICY] the
-    genotype evolved, None for data/experiments/predprey.ini. max_steps: longest episode, None for
-    the problem's own. Rewards are those of PredpreySimulation.act. Raises BotschoolError.
+    side: "predator" or "prey". opponent: its genotype as a run saves it (float64 array, or the path
+    of a .npy file) with the network of one side or of both (then the opponent's counts); None means
+    a random initial network, always the same. experiment: the .ini file whose [POLICY] the genotype
+    evolved with, None for data/experiments/predprey.ini. max_steps: longest episode, None for the
+    problem's own. PredpreySimulation.act defines the rewards. Raises BotschoolError.
     """
 
     metadata: ClassVar[dict] = {"render_modes": RENDER_MODES, "render_fps": FPS}
@@ -119,7 +120,7 @@ class OneSide(gymnasium.Env):
 
 
 def _policy(experiment: str | os.PathLike[str] | None) -> Policy:
-    """Return the opponent's policy, as that of a single robot."""
+    """Return the opponent's policy as the policy of a single robot."""
     chosen = POLICY if experiment is None else config.load(experiment).policy
     alone = replace(chosen, nrobots=1, heterogeneous=0)
     return Policy(PROBLEM, Interface(_SEES, _WHEELS, discrete=False), alone)

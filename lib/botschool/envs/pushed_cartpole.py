@@ -1,6 +1,4 @@
-"""Simulate CartPole with a motor of continuous force, instead of full force to the
-left or right.
-"""
+"""Simulate CartPole with a motor of continuous force."""
 
 from __future__ import annotations
 
@@ -18,8 +16,7 @@ FORCE = 10.0
 class PushedCartPole(CartPoleEnv):
     """CartPole with another action: one number from -1 (10 N to the left) to 1 (10 N to the right).
 
-    Observation, physics, reward and end are those of Gymnasium's CartPole. The action is clipped to
-    its limits.
+    Observation, physics, reward and end are Gymnasium's. The action is clipped to its limits.
     """
 
     def __init__(self, render_mode: str | None = None) -> None:

@@ -1,5 +1,5 @@
-"""Show a robot without a policy: move its joints by sliders, in a film, or on a
-sheet of pictures.
+"""Show a robot without a policy: move its joints by sliders, in a film, or on a sheet of
+pictures.
 """
 
 from __future__ import annotations
@@ -274,8 +274,8 @@ def _sweeps(model: Model) -> Iterator[np.ndarray]:
 
 
 def _window(model: Model) -> None:
-    """Show PyBullet's window, with a slider for each joint and one for gravity, until
-    it is closed.
+    """Show PyBullet's window, with a slider for each joint and one for gravity, until it is
+    closed.
     """
     gui, world = model.bullet, {"physicsClientId": model.client}
     gui.configureDebugVisualizer(gui.COV_ENABLE_GUI, 1, **world)

@@ -60,8 +60,8 @@ class Simulation:
 
     @property
     def bounds(self) -> np.ndarray:
-        """Return the smallest and largest values of a robot's observation,
-        shape (2, observations).
+        """Return the smallest and largest values of a robot's observation, shape (2,
+        observations).
         """
         return self._stepper.bounds
 
@@ -156,5 +156,5 @@ class Window:
         self._clock.tick(self._fps)
 
     def close(self) -> None:
-        """Close it."""
+        """Close the window."""
         self._pygame.display.quit()

@@ -2,7 +2,7 @@
 
 A new algorithm is one file in botschool/evolution/algorithms: a dataclass of its hyperparameters
 and a class with the decorator `algorithm`. Experiment files, `botschool es`, checkpoints and the
-list of hyperparameters find it by itself.
+list of hyperparameters find it without further changes.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class Algorithm(Protocol):
     """One population: `ask` for candidates, measure them, `tell` their fitness, and repeat.
 
     Its state is a pure function of its hyperparameters, `initial`, the seed and the fitness values
-    that it was told. Its hyperparameters include those of `RunConfig`. `Stateful` has the methods
+    that it was told. Its hyperparameters include all of `RunConfig`. `Stateful` has the methods
     `state` and `restore`. The class may have an attribute `conflicts(config)` that yields pairs of
     hyperparameters that exclude each other, as botschool.config.conflicts does, and a method
     `check(config, policy)` that raises BotschoolError for a policy that it cannot evolve. With
@@ -38,10 +38,9 @@ class Algorithm(Protocol):
     def __init__(self, config: Any, initial: Initial, seed: int) -> None: ...
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return candidates, float64 (n, parameters), and the seed of each one's evaluation, uint64
-        (n,).
+        """Return candidates, float64 (n, parameters), and each one's evaluation seed, uint64 (n,).
 
-        Asked twice before `tell`, it gives the same.
+        Further calls before `tell` return the same.
         """
 
     def tell(self, fitness: np.ndarray) -> None:
@@ -51,27 +50,26 @@ class Algorithm(Protocol):
         """Return the average absolute parameter, for the stat file."""
 
     def state(self) -> dict[str, np.ndarray]:
-        """Return all that a checkpoint needs besides the hyperparameters and the seed, as arrays.
+        """Return everything that a checkpoint needs besides hyperparameters and seed, as arrays.
 
-        `tell` replaces these arrays and leaves them as they are: an earlier state can be restored.
+        `tell` replaces these arrays and never changes them, so an earlier state can be restored.
         """
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """Restore what state() returned."""
+        """Restore a state that state() returned."""
 
 
 Play = Callable[..., np.ndarray]
 """(predators, prey, pairs, seed=None) -> fitness in each meeting, float64.
 
-Predators and prey are networks, float64, shapes (p, parameters) and (q, parameters). pairs says
-which of them meet, int32 (2, meetings). In a constant-sum game the result is the predator's
+Predators and prey are networks, float64, shapes (p, parameters) and (q, parameters). pairs holds
+the rows that meet, int32 (2, meetings). In a constant-sum game the result is the predator's
 fitness, (meetings,), and the prey's fitness is 1 minus it. In other games it is the fitness of
 both, (2, meetings), on any scale.
 
-Every meeting consists of the same `episodes` episodes: those of the run's seed with numbers 0, 1,
-... If `seed` is given, the episodes have that seed, and prey j gets the episodes from j * episodes
-on: all predators meet one prey under the same conditions, and different prey under different
-conditions.
+Every meeting consists of the same `episodes` episodes: numbers 0, 1, ... of the run's seed. If
+`seed` is given, the episodes have that seed, and prey j gets the episodes from j * episodes on: all
+predators meet one prey under the same conditions, and different prey under different conditions.
 """
 
 
@@ -99,29 +97,26 @@ class Competition(Protocol):
     ) -> None: ...
 
     def advance(self, play: Play) -> None:
-        """Run a generation, or what must precede the first one (then `generation` stays 0).
+        """Run a generation, or the preparation of the first one (then `generation` stays 0).
 
         It changes nothing before its end, so an exception of `play` leaves no trace.
         """
 
     def best(self) -> tuple[np.ndarray, float]:
-        """Return the best predator and the best prey, one after the other, and the predator's
-        fitness.
-        """
+        """Return the best predator and the best prey in one array, and the predator's fitness."""
 
     def summary(self) -> dict[str, float]:
-        """Return what to report of a generation; under the names in `sides` the mean fitness of
-        each.
+        """Return the numbers to report of a generation, with the mean fitness of each of
+        `sides`.
         """
 
     def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray] | None:
-        """Return the individuals to keep in files: networks, float64 (2, n, parameters), predators,
-        then prey;
-        and the fitness of predators (rows) against prey (columns), (n, n) or (2, n, n) as `Play`
-        says. Of a single population networks (n, parameters) and fitness (n, n). None if there is
-        nobody yet.
+        """Return the individuals to keep in files, and their fitness; None if there are none yet.
 
-        Playing for this changes nothing, and its steps do not count.
+        Networks: float64 (2, n, parameters), predators, then prey. Fitness: predators (rows)
+        against prey (columns), (n, n), or (2, n, n) as `Play` says. A single population has
+        networks (n, parameters) and fitness (n, n). Playing for this changes nothing, and its steps
+        do not count.
         """
 
     def remembered(self) -> tuple | None:
@@ -135,16 +130,14 @@ class Competition(Protocol):
         """Return the average absolute parameter, for the stat file."""
 
     def state(self) -> dict[str, np.ndarray]:
-        """Return the same as Algorithm.state; arrays named "archive_..." may get longer."""
+        """Return the state as Algorithm.state does; arrays named "archive_..." may get longer."""
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """Restore what state() returned."""
+        """Restore a state that state() returned."""
 
 
 class Stateful:
-    """Saves and restores the attributes named in `evolves`, by the methods
-    `state` and `restore`.
-    """
+    """Gives an algorithm `state` and `restore` for the attributes named in `evolves`."""
 
     evolves: tuple[str, ...] = ("generation",)
     """Attributes that a generation changes and the next one needs: arrays and numbers.
@@ -155,7 +148,7 @@ class Stateful:
     """
 
     def state(self) -> dict[str, np.ndarray]:
-        """Return what `evolves` names, as arrays."""
+        """Return the attributes that `evolves` names, as arrays."""
         return {name.rpartition(".")[2]: np.asarray(self._get(name)) for name in self.evolves}
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
@@ -227,7 +220,7 @@ class Entry:
 
 
 class Registry(dict[str, Entry]):
-    """Algorithms by name; `module:name` finds a user's own strategy, which no list shows."""
+    """Algorithms by name; `module:name` also finds a user's own strategy, but lists omit it."""
 
     own: Callable[[str], Entry]
 

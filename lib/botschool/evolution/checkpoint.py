@@ -1,4 +1,4 @@
-"""Write and read checkpoints: everything a run needs to continue as if it had never stopped."""
+"""Write and read checkpoints, from which a run continues as if it had never stopped."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Resumable(Protocol):
         """Raise KeyError, ValueError, IndexError or TypeError for the state of another run."""
 
     def reproduces(self) -> bool:
-        """Return whether robots still get the fitness that is on record."""
+        """Return whether robots still get the fitness in the record."""
 
 
 def save(path: Path, experiment: Experiment, seed: int, state: dict[str, np.ndarray]) -> None:

@@ -171,7 +171,7 @@ class Coevolution(Run):
         return self.record.generation % self.experiment.algo.saveeach == 0
 
     def due(self, seconds: float) -> bool:
-        """Return whether to save, so many seconds after the last time."""
+        """Return whether to save, this many seconds after the last save."""
         return self._milestone or seconds >= max(CHECKPOINT_SECONDS, self.saving / SAVING_SHARE)
 
     def write(self, files: RunFiles, ended: bool) -> None:
@@ -200,9 +200,7 @@ class Coevolution(Run):
         return self.algorithm.sides[self.algorithm.side - 1]
 
     def numbers(self) -> str:
-        """Return what it has reached, in short: local progress if known, then the mean of each
-        side.
-        """
+        """Return its results in short: local progress if known, then each side's mean."""
         last = self.record.last
         progress = f" {last['local progress']:+.2f}" if "local progress" in last else ""
         reached = " : ".join(_shown(last[side], ".2f") for side in self.algorithm.sides)

@@ -24,12 +24,12 @@ class Measured:
     fitness: np.ndarray
     steps: int
     behaviour: np.ndarray | None = None
-    """(candidates, 2, observations): mean and standard deviation of each observation in an
-    episode, averaged over the episodes; None if nobody asks for it.
+    """(candidates, 2, observations): mean and standard deviation of each observation in an episode,
+    averaged over the episodes; None unless asked for.
     """
 
     def told(self) -> tuple[np.ndarray, ...]:
-        """Return what the algorithm is told."""
+        """Return the arguments of the algorithm's `tell`."""
         return (self.fitness,) if self.behaviour is None else (self.fitness, self.behaviour)
 
 
@@ -88,8 +88,9 @@ class Evaluator:
     def measure_both(
         self, candidates: np.ndarray, seeds: np.ndarray, genotype: np.ndarray
     ) -> tuple[Measured, Measured]:
-        """Return measure(candidates, seeds) and a post_evaluate(genotype) that `collects` nothing,
-        in one evaluation: the post-evaluation uses the lanes that the candidates leave free.
+        """Return measure(candidates, seeds) and a post_evaluate(genotype) that collects no data.
+
+        One evaluation does both: the post-evaluation uses the lanes that the candidates leave free.
         """
         own, post = self._of(seeds), self._post_episodes
         if len(seeds) not in self._behind:
@@ -117,9 +118,7 @@ class Evaluator:
         )
 
     def _of(self, seeds: np.ndarray) -> Episodes:
-        """Return Episodes.of(seeds, episodes); only the seeds are computed anew
-        in each generation.
-        """
+        """Return Episodes.of(seeds, episodes); each generation computes only the seeds anew."""
         episodes = self.policy.config.episodes
         if len(seeds) not in self._alone:
             made = Episodes.of(seeds, episodes)
@@ -193,7 +192,7 @@ class Evaluator:
         return mean(outcome.fitness)
 
     def refresh(self) -> None:
-        """End a generation: take the data that its post-evaluation collected into use."""
+        """End a generation: use the data that its post-evaluation collected from now on."""
         self._owed = self._owed_next
         if self._moments is not None:
             for steps, sums, squares in self._collected:
@@ -219,7 +218,7 @@ class Evaluator:
         )
 
     def state(self) -> dict[str, np.ndarray]:
-        """Return what a checkpoint needs."""
+        """Return the arrays that a checkpoint needs."""
         if self._moments is None:
             return {}
         return {
@@ -229,7 +228,7 @@ class Evaluator:
         }
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """Restore what state() returned."""
+        """Restore a state that state() returned."""
         if self._moments is not None:
             self._moments.state = state["moments"]
             self.normalisation = state["normalisation"]

@@ -29,17 +29,15 @@ class Events:
     """Appends generations to an event file, about POINTS of them in a whole run."""
 
     def __init__(self, folder: Path, whole: float) -> None:
-        """Start the file; whole: steps of the whole run, 0 to keep all. Old files there are
-        replaced.
-        """
+        """Start the file and remove older ones; whole: steps of the whole run, 0 to keep all."""
         self._folder = folder
         self._spacing = whole / POINTS
         self._next = 0.0
         self._file: Path | None = None
 
     def append(self, first: int, rows: np.ndarray, columns: Sequence[str] = STAT) -> None:
-        """Append generations from number `first`; rows: shape (generations,
-        columns), steps first.
+        """Append generations from number `first`; rows: shape (generations, columns), steps
+        first.
         """
         now = time.time()
         events = [] if self._file else [event(now, version="brain.Event:2")]

@@ -19,7 +19,9 @@ Bar = tuple[float, int, int, str]
 
 @contextmanager
 def reporting(seed: int, terminal: bool) -> Iterator[Callable[[Run], None]]:
-    """Return a function to call with the run after each generation, and at will during one."""
+    """Yield a function to call with the run after each generation; it may be called during one,
+    too.
+    """
     if terminal:
         with progress_bar(seed) as show, messages(True, lambda bar: show(*bar)) as report:
             yield report
@@ -35,8 +37,9 @@ def print_lines(lines: list[str]) -> None:
 
 @contextmanager
 def messages(terminal: bool, send: Callable[[Any], None]) -> Iterator[Callable[[Run], None]]:
-    """Yield a function like that of `reporting` that calls `send` every SECONDS and at the end,
-    with the state of a progress bar or with the lines since the last call.
+    """Yield a function like `reporting`'s that calls `send` every SECONDS and at the end.
+
+    It sends the state of a progress bar, or the lines since the last call.
     """
     newest: Run | None = None
     lines: list[str] = []

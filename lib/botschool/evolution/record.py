@@ -1,6 +1,4 @@
-"""Record the results of a run, and name and write its files
-(docs/specification.md, "Run files").
-"""
+"""Record the results of a run, and write its files (docs/specification.md, "Run files")."""
 
 from __future__ import annotations
 
@@ -149,7 +147,7 @@ class Record(Stateful):
         return len(self._rows)
 
     def offer(self, saved: np.ndarray, fitness: float, post_evaluated: float) -> None:
-        """Take the best genotype of a generation, in the form in which it is saved."""
+        """Take the best genotype of a generation, in the form of files."""
         if fitness > self.best_fitness:
             self.best, self.best_fitness = saved, fitness
         if post_evaluated > self.bestg_fitness:
@@ -187,11 +185,11 @@ class Record(Stateful):
         save_bytes(files.fit, f"{line}\n".encode())
 
     def state(self) -> dict[str, np.ndarray]:
-        """Return what a checkpoint needs."""
+        """Return the arrays that a checkpoint needs."""
         return super().state() | {"stat": self.rows()}
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """Restore what state() returned. Raises ValueError."""
+        """Restore a state that state() returned. Raises ValueError."""
         steps = state["stat"][:, 0]
         if not ((steps >= 0) & (steps <= state["steps"])).all() or (np.diff(steps) < 0).any():
             raise ValueError("the first column is not the steps so far")

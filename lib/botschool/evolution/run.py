@@ -70,9 +70,9 @@ class Run:
     budget: Limit
     """The end of the run by its experiment."""
     limit: Limit
-    """The end of this call: the budget, or earlier if the user says so."""
+    """The end of this call: the budget, or an earlier end that the user chose."""
     report: Callable[[Run], None]
-    """Called during a generation if the run has progress to show."""
+    """The run calls this during a generation when there is progress to show."""
 
     def __init__(
         self,
@@ -118,7 +118,7 @@ class Run:
         return max(1, round(self.experiment.algo.maxmsteps * 1e6))
 
     def due(self, seconds: float) -> bool:
-        """Return whether to save, so many seconds after the last time."""
+        """Return whether to save, this many seconds after the last save."""
         return seconds >= 60 * self.experiment.algo.saveeach
 
     def write(self, files: RunFiles, ended: bool) -> None:
@@ -244,7 +244,7 @@ class Run:
         self.report(self)
 
     def state(self) -> dict:
-        """Return all that a checkpoint holds, as arrays."""
+        """Return everything that a checkpoint holds, as arrays."""
         return {
             f"{owner}.{name}": value
             for owner in self.checkpointed
@@ -252,9 +252,7 @@ class Run:
         }
 
     def restore(self, state: dict) -> None:
-        """Restore what state() returned. Raises KeyError or ValueError for the state of another
-        run.
-        """
+        """Restore a state. Raises KeyError or ValueError for the state of another run."""
         for name, value in self.state().items():
             given = state[name]
             free = 1 if name.startswith(self.growing) else 0  # the first dimension
@@ -358,7 +356,7 @@ def evolve(
 
 @dataclass(frozen=True)
 class Options:
-    """How to run an experiment; its file says what it is."""
+    """The way to run an experiment, such as the number of workers."""
 
     workers: int = 1
     steps: int | None = None

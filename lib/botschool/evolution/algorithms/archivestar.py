@@ -35,7 +35,7 @@ class ArchiveStarConfig(ArchiveConfig):
     seldifferentiated: int = hyper(1, "opponents come from all lineages equally", choices=NO_YES)
     preferential: int = hyper(
         1,
-        "individuals drawn, whose strongest is the opponent when seldifferentiated = 0",
+        "individuals drawn; the strongest is the opponent when seldifferentiated = 0",
         low=1,
         high=10000,
     )
@@ -111,7 +111,7 @@ class ArchiveStar(HallOfFame):
         self.generation += 1
 
     def _remember(self, strengths: list[float], fitness: np.ndarray) -> None:
-        """Update the strength of those that met opponents."""
+        """Update the strength of all individuals that met opponents."""
         met = np.repeat(self.opponents, 2, axis=1)  # both candidates of a perturbation met them
         for place in np.unique(met):
             success = self.whole - mean(fitness[met == place])

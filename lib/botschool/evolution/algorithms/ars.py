@@ -30,7 +30,7 @@ class ARSConfig(RunConfig):
     samplesize: int = hyper(
         16, "directions per generation, two candidates each", low=1, high=1000000
     )
-    ntop: int = hyper(0, "directions that count, the best (0 = all)", low=0, high=1000000)
+    ntop: int = hyper(0, "number of best directions that count (0 = all)", low=0, high=1000000)
     noiseStdDev: float = hyper(0.05, "standard deviation of perturbations", above=0, high=1000)
     symseed: int = hyper(1, "both candidates of a perturbation meet the same seed", choices=NO_YES)
 
@@ -38,8 +38,8 @@ class ARSConfig(RunConfig):
 def shift(fitness: np.ndarray, samples: np.ndarray, ntop: int) -> np.ndarray:
     """Return how far the centre moves at a step size of 1, shape (parameters,).
 
-    samples: directions, shape (samplesize, parameters); fitness: that of the two candidates of
-    each, centre + s e and centre - s e, shape (2 * samplesize,).
+    samples: directions, shape (samplesize, parameters); fitness: of the two candidates of each
+    direction, centre + s e and centre - s e, shape (2 * samplesize,).
     """
     pairs = fitness.reshape(-1, 2)
     # the directions with the best candidates; the first wins ties

@@ -1,7 +1,7 @@
 """Move several centres in parallel, each by steps of OpenAI-ES without bias correction.
 
-Their positions follow from their start and the fitness values that they were told. So a cluster's
-workers compute them from these alone (docs/specification.md, "On a cluster").
+Their positions follow from the start and the fitness values that they were told. A cluster's
+workers compute the positions from these alone (docs/specification.md, "On a cluster").
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Ascent:
         self._numbers.place = start.stream
 
     def cloud(self) -> Cloud:
-        """Return what the next offspring are drawn from."""
+        """Return the cloud from which the next offspring are drawn."""
         start, stream = self.start, self._numbers.place
         return Cloud(self.centres, start.samplesize, start.deviation, True, stream)
 

@@ -4,9 +4,9 @@ populations of Nolfi and Pagliuca (2024), "Global progress in competitive co-evo
 https://doi.org/10.3389/frobt.2024.1470886.
 
 In a meeting (i, j) individual i drives the first robot and j the second, and the reward counts for
-i. Copies of some individuals improve as first robots, by steps like those of OpenAI-ES, with a few
-members of the population that differ from each other. Then they meet all members, and a copy enters
-the population only if it does well with all of them.
+i. Copies of some individuals improve as first robots, by steps as in OpenAI-ES, with a few members
+of the population that differ from each other. Then they meet all members, and a copy enters the
+population only if it does well with all of them.
 """
 
 from __future__ import annotations
@@ -55,8 +55,8 @@ class CoevoConfig(AscentConfig):
 class Coevo(Stateful):
     """advance(play): the first call lets all meet all, each later call is a generation.
 
-    Individuals keep their places. `fitness` is that of the individual in the row as first robot
-    with the one in the column; nan before the first meeting.
+    Individuals keep their places. `fitness` holds the fitness of the row's individual as first
+    robot with the column's individual; nan before the first meeting.
     """
 
     evolves = ("generation", "parameters", "m", "v", "fitness")
@@ -140,7 +140,7 @@ class Coevo(Stateful):
         self.progress = progress
 
     def _everyone(self, play: Play, individuals: np.ndarray, generation: int) -> np.ndarray:
-        """Return the fitness of all with all under a generation's conditions."""
+        """Return the fitness of all individuals with all others under a generation's conditions."""
         seed = self._numbers(generation)[1][0]
         return _first(everyone(play, individuals, individuals, seed))
 
@@ -159,7 +159,7 @@ class Coevo(Stateful):
         return (self.parameters, self.fitness) if self.met else None
 
     def remembered(self) -> tuple | None:
-        """Return the first individual with everyone."""
+        """Return the meetings of the first individual with all others."""
         if not self.met:
             return None
         count = self.config.popsize

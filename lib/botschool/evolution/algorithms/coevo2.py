@@ -4,7 +4,7 @@ in competitive co-evolution", https://doi.org/10.3389/frobt.2024.1470886; earlie
 docs/specification.md, "Algorithms".
 
 Two populations, predators and prey, evolve by turns. Copies of some individuals improve against a
-few competitors that differ from each other, by steps like those of OpenAI-ES. Then they meet all
+few competitors that differ from each other, by steps as in OpenAI-ES. Then they meet all
 competitors, and a copy enters the population only if it does well against all of them. That
 discards opportunists, which do well only against the few.
 """
@@ -49,8 +49,8 @@ SUB_GENERATIONS = 20
 def differing(fitness: np.ndarray, count: int, first: int) -> np.ndarray:
     """Choose `count` rows that differ most from each other, beginning with the row `first`.
 
-    The next row is always the one with the largest sum of absolute differences to those chosen so
-    far; the earlier row wins ties.
+    The next row is always the one with the largest sum of absolute differences to the rows chosen
+    so far; the earlier row wins ties.
     """
     chosen = [first]
     apart = np.zeros(len(fitness))  # sum of absolute differences to the chosen rows
@@ -230,7 +230,7 @@ class Coevo2(Stateful):
         return (self.parameters, self.fitness) if self.met else None
 
     def remembered(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None:
-        """Return the best predator against the prey."""
+        """Return the meetings of the best predator with all prey."""
         if not self.met:
             return None
         predators, prey = self.parameters

@@ -1,5 +1,7 @@
-"""Draw candidates around centres. The algorithm draws them, and another machine that evaluates them
-draws the same again (docs/specification.md, "On a cluster").
+"""Draw candidates around centres, so that another machine can draw the same again.
+
+The algorithm draws them, and a cluster's workers draw the same again before they evaluate them
+(docs/specification.md, "On a cluster").
 """
 
 from __future__ import annotations
@@ -30,20 +32,20 @@ def mirrored(centres: np.ndarray, samples: np.ndarray, deviation: float) -> np.n
 
 @dataclass(eq=False)
 class Cloud:
-    """Candidates around centres, described by the few numbers from which all can be drawn again."""
+    """Candidates around centres, described by a few numbers from which they can be drawn again."""
 
     centres: np.ndarray
     """float64 (count, parameters)."""
     samplesize: int
     """Directions drawn for each centre."""
     deviation: float | np.ndarray
-    """Standard deviation of the candidates, one or one for each axis."""
+    """Standard deviation of the candidates: one number, or one for each axis."""
     both: bool
     """Whether there are candidates on both sides of a centre: see `mirrored`."""
     stream: Place
     """Where in a stream the directions begin, centre by centre."""
     places: list[Place] = field(default_factory=list)
-    """The stream after 0, STRIDE, 2 STRIDE ... directions, as far as it has been followed."""
+    """Positions in the stream after 0, STRIDE, 2 STRIDE ... directions, as far as known."""
 
     def __len__(self) -> int:
         return len(self.centres) * self.samplesize * (2 if self.both else 1)
@@ -66,7 +68,7 @@ class Cloud:
         return candidates[places]
 
     def _directions(self, first: int, last: int) -> np.ndarray:
-        """Return the directions from number `first` to before `last`."""
+        """Return the directions from number `first` up to, but without, `last`."""
         size = self.centres.shape[1]
         found = np.empty((last - first, size))
         self.places = self.places or [self.stream]
@@ -96,8 +98,8 @@ class Drawn(np.ndarray):
     """
 
     recipe: tuple | None = None
-    """The candidates' Cloud; or the start of an ascent (ascent.Start) and the fitness
-    of each step.
+    """The candidates' Cloud; or the start of an ascent (ascent.Start) and the fitness of each
+    step.
     """
 
     def reshape(self, *shape, **options) -> np.ndarray:
@@ -109,7 +111,7 @@ class Drawn(np.ndarray):
 
 
 def candidates_of(centres: np.ndarray, samples: np.ndarray, deviation) -> np.ndarray:
-    """Return one candidate a direction: centre + deviation * e."""
+    """Return one candidate for each direction: centre + deviation * e."""
     return centres + deviation * samples
 
 
@@ -118,8 +120,8 @@ def draw(
 ) -> tuple[np.ndarray, Drawn]:
     """Draw directions, shape (count, samplesize, parameters), and candidates around the centres.
 
-    centres: (count, parameters). Candidates: with `both` those of `mirrored`, else one for each
-    direction, (count, samplesize, parameters).
+    centres: (count, parameters). With `both`, the candidates are as in `mirrored`; otherwise there
+    is one for each direction, (count, samplesize, parameters).
     """
     directions = np.empty((len(centres) * samplesize, centres.shape[1]))
     places = []

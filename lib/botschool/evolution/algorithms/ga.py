@@ -25,7 +25,7 @@ class GAConfig(RunConfig):
     """Section [ALGO] of GA."""
 
     popsize: int = hyper(40, "individuals of the population", low=2, high=1000000)
-    selsize: int = hyper(10, "best individuals, who become parents", low=1, high=1000000)
+    selsize: int = hyper(10, "best individuals, which become parents", low=1, high=1000000)
     mutrate: float = hyper(
         0.1, "standard deviation of mutations", low=0, high=1000, alias="mutation"
     )

@@ -36,8 +36,8 @@ class Gaussian(Stateful):
     """ask() -> candidates around the mean; tell(their fitness) of a subclass adapts the rest."""
 
     sigma: float | np.ndarray
-    """Standard deviation of the candidates: one number, or shape (parameters,), one
-    for each axis.
+    """Standard deviation of the candidates: one number, or shape (parameters,), one for each
+    axis.
     """
 
     def __init__(self, config: GaussianConfig, initial: Initial, seed: int) -> None:

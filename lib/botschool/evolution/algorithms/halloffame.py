@@ -71,7 +71,7 @@ class HallOfFame(Stateful):
 
     evolves = ("generation", "centres", "m", "v", "saved", "champions", "fitness")
     known: tuple[str, ...] = ()
-    """Attributes with the form of `archives` that hold data about each archived individual."""
+    """Attributes in the form of `archives` with data about each archived individual."""
 
     share = 0.0
     plays = 1
@@ -123,7 +123,7 @@ class HallOfFame(Stateful):
         return self.generation // 2 + 1
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return candidates, shape (popsize, 2 * samplesize, parameters), and whom they meet.
+        """Return candidates, shape (popsize, 2 * samplesize, parameters), and their opponents.
 
         Opponents are places in the other side's archive, shape (popsize, samplesize, ncompetitors):
         both candidates of a perturbation meet the same ones.
@@ -202,7 +202,7 @@ class HallOfFame(Stateful):
         return dict(zip(SIDES, self.fitness[:, 1].tolist(), strict=True))
 
     def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray]:
-        """Return `saved`, whose meetings here serve only the files."""
+        """Return `saved`; the run plays its meetings only for the files."""
         return self.saved, everyone(play, *self.saved)
 
     def remembered(self) -> None:
@@ -213,7 +213,7 @@ class HallOfFame(Stateful):
         return float(np.mean(np.abs(self.centres)))
 
     def state(self) -> dict[str, np.ndarray]:
-        """Return what evolves, and the archives, whose arrays get longer."""
+        """Return the attributes that evolve, and the archives, which get longer."""
         state = super().state()
         for place, side in enumerate(SIDES):
             state[f"archive_{side}"] = np.array(self.archives[place])

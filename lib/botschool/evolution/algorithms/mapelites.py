@@ -70,7 +70,7 @@ class MapElitesConfig(RunConfig):
         check=features, form="two of mean N and spread N, with a name in brackets if you like",
     )  # fmt: skip
     lowest: str = hyper(
-        "-1, -1", "where the axes begin; what is lower counts as that", check=limits,
+        "-1, -1", "where the axes begin; lower values count as this", check=limits,
         form="two numbers",
     )  # fmt: skip
     highest: str = hyper("1, 1", "where the axes end", check=limits, form="two numbers")

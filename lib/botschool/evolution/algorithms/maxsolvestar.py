@@ -4,8 +4,8 @@ https://doi.org/10.3389/frobt.2024.1470886, after De Jong (2005), "The MaxSolve 
 coevolution". See docs/specification.md, "Algorithms".
 
 It differs from archive in two points. The centre enters the archive after every turn. A full
-archive drops redundant members: those for which another member is at least as hard a test in every
-phase of evolution.
+archive drops redundant members: in every phase of evolution, another member is at least as hard a
+test.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class MaxSolveStarConfig(HallOfFameConfig):
     )
 
 
-@algorithm("maxsolvestar", "archive of what is hard", MaxSolveStarConfig, competitive=True)
+@algorithm("maxsolvestar", "archive of hard opponents", MaxSolveStarConfig, competitive=True)
 class MaxSolveStar(HallOfFame):
     """One centre per side. For each archived individual it records how others did against it.
 

@@ -37,8 +37,8 @@ def ranks(count: int) -> np.ndarray:
 def gradient(fitness: np.ndarray, samples: np.ndarray) -> np.ndarray:
     """Return the direction in which fitness rises, estimated from ranks; shape (parameters,).
 
-    samples: directions, shape (samplesize, parameters); fitness: that of the two candidates of
-    each, centre + s e and centre - s e, shape (2 * samplesize,).
+    samples: directions, shape (samplesize, parameters); fitness: of the two candidates of each
+    direction, centre + s e and centre - s e, shape (2 * samplesize,).
     """
     # rank the candidates: utilities from -0.5 (worst) to 0.5 (best)
     utilities = np.empty(len(fitness))

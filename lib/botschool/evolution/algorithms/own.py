@@ -69,9 +69,7 @@ class Asked:
         ).start()
 
     def ask(self) -> tuple[Any, Any]:
-        """Return the next candidates, and the seed of their evaluation. Raises what the function
-        does.
-        """
+        """Return the next candidates and their evaluation seed. Raises the function's errors."""
         candidates, seed, error = self._asked.get()
         if error is not None:
             raise error
@@ -199,7 +197,7 @@ class Own(Stateful):
         return self._average
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """Tell the strategy once more what it was told. Raises BotschoolError if it differs now."""
+        """Tell the strategy everything again. Raises BotschoolError if its answers differ."""
         told, at = np.array(state["told"], dtype=float), 0
         self._begin()
         for _ in range(int(state["generation"])):
@@ -258,7 +256,7 @@ class Own(Stateful):
         raise self._wrong(f"gives evaluate the seed {seed!r:.40}: it must be a whole number")
 
     def _called(self, function: Callable, *arguments: Any) -> Any:
-        """Return what the strategy's code returns. Raises BotschoolError for whatever it raises."""
+        """Return the result of the strategy's code. Raises BotschoolError if the code fails."""
         try:
             return function(*arguments)
         except (BotschoolError, KeyboardInterrupt):

@@ -1,4 +1,4 @@
-"""The common part of all algorithms with two sides, predators and prey."""
+"""Define the common part of all algorithms with two sides, predators and prey."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ SIDES = ("predators", "prey")
 
 
 def seen_by(side: int, fitness: np.ndarray) -> np.ndarray:
-    """Return the fitness of the individuals of one side (rows) against their competitors (columns).
+    """Return the fitness of one side's individuals (rows) against their competitors (columns).
 
-    fitness: of predators (rows) against prey (columns), whose fitness is 1 - the predators'; or
-    with a first axis of two, the predators' and the prey's own.
+    fitness: of predators (rows) against prey (columns), where the prey's fitness is 1 minus it; or
+    the fitness of both sides, with a first axis of two.
     """
     if fitness.ndim == 3:
         return fitness[PREDATORS] if side == PREDATORS else fitness[PREY].T
