@@ -385,7 +385,7 @@ def test_evolution_and_a_training_share_a_figure(tmp_path, drawn):  # noqa: F811
     )
     axes = drawn[0].axes[0]
     assert axes.get_title() == "best post-evaluated so far"
-    assert axes.get_xlabel() == "steps, those of post-evaluations included"
+    assert axes.get_xlabel() == "steps, including post-evaluations"
     assert axes.get_ylabel() == "mean return of an episode"
 
 

@@ -46,7 +46,7 @@ __all__ = [
 
 @dataclass
 class Exp:
-    """Section [EXP]: what is evolved, and by which algorithm."""
+    """Section [EXP]: the problem, and the algorithm that evolves its robots."""
 
     environment: str = hyper(
         MISSING, "the problem: a native one, any Gymnasium id, or PettingZoo's for two"

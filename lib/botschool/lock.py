@@ -67,4 +67,4 @@ def _locked_file(path: Path, what: str, first: int, count: int) -> int:
         with suppress(OSError):
             if os.path.samestat(os.fstat(file), path.stat()):
                 return file
-        os.close(file)  # its last user has removed it meanwhile
+        os.close(file)  # its last user has just removed it

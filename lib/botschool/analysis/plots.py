@@ -121,7 +121,7 @@ class _Words:
         }
         if not evolved:
             return cls(POST_EVALUATED, labels, "steps of training", RETURN, "run")
-        return cls(BEST_POST, labels, "steps, those of post-evaluations included", RETURN, "run")
+        return cls(BEST_POST, labels, "steps, including post-evaluations", RETURN, "run")
 
 
 def plot_ave(

@@ -1,9 +1,9 @@
 """Read the populations that co-evolution saves (docs/specification.md, "Run files").
 
 `S12G200.npy` holds the populations of seed 12 after 200 generations: first all predators, then all
-prey, one network per row. `S12FitG200.npy` holds the fitness of each network against
-each competitor. If one population plays both sides (`single`), the files hold this population, and
-its individuals are both predators and prey.
+prey, one network per row. `S12FitG200.npy` holds the fitness of each network against each
+competitor. If one population plays both sides (`single`), the files hold this population, and its
+individuals are both predators and prey.
 """
 
 from __future__ import annotations

@@ -7,8 +7,8 @@ shows only when each generation meets the competitors of all others. Two indices
 *global* if they do better against competitors at large.
 
 A table of fitness has the shape (..., generations, generations of competitors), with rows and
-columns in the order of time. The prey's table follows from the predators', because its fitness is 1
-- theirs, unless each side has a fitness of its own.
+columns in the order of time. The prey's table follows from the predators', because the prey's
+fitness is 1 minus the predators' fitness, unless each side has a fitness of its own.
 """
 
 from __future__ import annotations

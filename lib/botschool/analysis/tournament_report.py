@@ -205,8 +205,8 @@ CSV_COLUMNS = ("side", "generation", "competitors", "fitness", "low", "high")
 
 
 def check_files(picture: Path) -> tuple[Path, Path]:
-    """Return the files of the picture and its CSV; raises BotschoolError if they
-    cannot be written.
+    """Return the files of the picture and its CSV. Raises BotschoolError if they cannot be
+    written.
     """
     return check_output(picture, PICTURE_SUFFIXES), check_output(
         picture.with_suffix(".csv"), (".csv",)

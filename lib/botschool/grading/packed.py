@@ -74,7 +74,7 @@ def restore(names: dict[str, Any], packed: str) -> None:
 
 
 def pack_answers(text: str) -> str:
-    """Return the text in a form that nobody reads by accident."""
+    """Return the text in a packed form, so that nobody reads it by accident."""
     packed = base64.b85encode(zlib.compress(text.encode(), 9)).decode()
     return "\n".join(packed[at : at + 90] for at in range(0, len(packed), 90)) + "\n"
 

@@ -77,8 +77,8 @@ def part_of(problem: str) -> str:
 
 
 def core(problem: str) -> bytes:
-    """Return the compiled core that contains a problem. Raises BotschoolError if it
-    was not built.
+    """Return the compiled core that contains a problem. Raises BotschoolError if it was not
+    built.
     """
     place = files("botschool.page") / f"{part_of(problem)}.wasm"
     if not place.is_file():

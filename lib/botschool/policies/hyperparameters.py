@@ -1,8 +1,8 @@
-"""Declare hyperparameters, in particular those of every policy.
+"""Declare hyperparameters, in particular the ones of every policy.
 
 Each is declared once, with its default, its allowed values and a line of explanation. Reading,
-checking and listing experiment files (botschool.config) use these declarations. The hyperparameters
-of an algorithm are in its file (botschool.evolution.algorithms).
+checking and listing experiment files (botschool.config) use these declarations. Each algorithm
+declares its own hyperparameters in its file (botschool.evolution.algorithms).
 """
 
 from __future__ import annotations
@@ -27,8 +27,9 @@ def hyper(default: Any, help: str, **limits: Any) -> Any:
     Further arguments: `alias`, another name of the key; `free`, whether it may change when a run is
     resumed. Limits are `low` and `high` (both allowed), `above` (itself not allowed), `choices`, a
     dict from each allowed value to its meaning, `each`, names of which several may be given, or
-    `check`, a function that raises for an impossible text, with `form`, words for what is possible.
-    The value has the type of the default; `default=MISSING` declares a text that must be given.
+    `check`, a function that raises for an impossible text, with `form`, words for the possible
+    texts. The value has the type of the default; `default=MISSING` declares a text that must be
+    given.
     """
     return field(default=default, metadata={"help": help, **limits})
 
@@ -95,7 +96,7 @@ class _Evaluation:
 if TYPE_CHECKING:
 
     class PolicyConfig(_Evaluation):
-        """Tells a type checker nothing of the fields that come from C++."""
+        """Hides the fields that come from C++ from type checkers."""
 
         def __init__(self, **values: Any) -> None: ...
         def __getattr__(self, name: str) -> Any: ...

@@ -61,7 +61,7 @@ def _fields() -> list[tuple]:
 if TYPE_CHECKING:
 
     class NetworkSpec(_Spec):
-        """Tells a type checker nothing of the fields that come from C++."""
+        """Hides the fields that come from C++ from type checkers."""
 
         def __init__(self, inputs: int, outputs: int, **hyperparameters: Any) -> None: ...
 
@@ -69,7 +69,7 @@ else:
     NetworkSpec = make_dataclass(
         "NetworkSpec", _fields(), bases=(_Spec,), frozen=True, namespace={"__module__": __name__}
     )
-NetworkSpec.__doc__ = f"""What a policy network looks like. Raises ValueError or TypeError.
+NetworkSpec.__doc__ = f"""The layout of a policy network. Raises ValueError or TypeError.
 
 inputs: values of an observation. outputs: actuators, or the actions of a discrete problem. low,
 high: smallest and largest action, for bins. image, filters, kernels, strides: for architecture 4
@@ -115,8 +115,10 @@ class Network:
 
     @property
     def observation(self) -> np.ndarray:
-        """Return the raw observation that `step()` reads, shape (inputs,). That of a convolutional
-        network is ordered channel by channel, row by row, with values from 0 to 1.
+        """Return the raw observation that `step()` reads, shape (inputs,).
+
+        A convolutional network's observation is ordered channel by channel, row by row, with values
+        from 0 to 1.
         """
         return self._observation
 

@@ -25,7 +25,9 @@ class Image:
     """The image format of an observation (docs/specification.md, "Convolutional networks")."""
 
     shape: tuple[int, ...]
-    """(height, width), with the channels last or first; or several of them, one after another."""
+    """(height, width), with the channels last or first; or several such images, one after
+    another.
+    """
     white: float = 1.0
     """The value of a white pixel."""
 

@@ -80,11 +80,11 @@ class Problem(ABC):
     dynamics: str
     """Name of the dynamics, which selects the pictures."""
     constant_sum: bool = True
-    """For two sides: whether an episode has one return, the first side's, and the second side gets
-    1 minus it. Otherwise each has a return of its own.
+    """For two sides: whether the second side's return is 1 minus the first side's. Otherwise each
+    side has a return of its own.
     """
     common: bool = False
-    """For two sides without `constant_sum`: whether an episode has one return, which both get."""
+    """For two sides without `constant_sum`: whether both get the same return."""
     sides: tuple[str, str] = ("predator", "prey")
     """Names of the individuals of two sides."""
 
@@ -129,14 +129,12 @@ class Problem(ABC):
     ) -> Iterator[Transition]:
         """Run one episode, the same that `evaluate` runs, and yield every step.
 
-        With `render`, an environment in Python adds its pictures; those of native problems are
-        drawn from the state (botschool.render.scene).
+        With `render`, an environment in Python adds its pictures. botschool.render.scene draws
+        native problems from the state.
         """
 
     def sided(self, returns: np.ndarray) -> np.ndarray:
-        """Return the result of `evaluate`, (n,), as returns of both sides, (2, n), if they share
-        one.
-        """
+        """Return `evaluate`'s result, (n,), as returns of both sides, (2, n), if they share one."""
         return np.stack([returns, returns]) if self.common else returns
 
     def rows(self, *parts: np.ndarray) -> np.ndarray:
@@ -164,4 +162,4 @@ class Problem(ABC):
         )
 
     def close(self) -> None:
-        """End what evaluation has started (worker processes)."""
+        """End the worker processes that evaluation has started."""

@@ -33,9 +33,7 @@ FAMILIES = (
 """Ids of well-known packages: pattern, module that registers them, package, what to install."""
 
 DRAWING = (("egl", "libEGL.so.1"), ("osmesa", "libOSMesa.so"), ("osmesa", "libOSMesa.so.8"))
-"""Ways in which MuJoCo draws without a display: value of MUJOCO_GL, and the library
-that it needs.
-"""
+"""Ways for MuJoCo to draw without a display: value of MUJOCO_GL -> library that it needs."""
 
 
 def make_env(name: str, wrappers: Sequence[Wrapper] = (), **options) -> gymnasium.Env:

@@ -88,7 +88,7 @@ class PythonProblem(Problem):
                 env.close()
 
     def modules(self) -> set[str]:
-        """Return the modules that the experiment names, and those of the environment's
+        """Return the modules that the experiment names and the modules of the environment's
         classes.
         """
         named = {self.name.partition(":")[0]} if ":" in self.name else set()

@@ -139,7 +139,7 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def _unheard(number: int) -> Iterator[None]:
-    """Block this signal for processes that start meanwhile; deliver it here at the end."""
+    """Hold back this signal within the block, in new processes, too; deliver it at the end."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return

@@ -115,7 +115,7 @@ class Painter:
     def frame(self, past: Sequence[np.ndarray]) -> np.ndarray:
         """Return a frame, (height, width, 3) uint8.
 
-        past: the numbers of the steps so far, oldest first; the last are those of this frame.
+        past: the numbers of the steps so far, oldest first; the last ones belong to this frame.
         """
         large = self._still.copy()
         self._paint(large, self._moving, past)

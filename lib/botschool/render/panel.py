@@ -64,9 +64,9 @@ def neuron_groups(
 ) -> list[tuple[str, int]]:
     """Return labels and sizes of the groups in a vector of activations, without empty groups.
 
-    ninputs and noutputs are those of one robot's network if all are alike, else of each; all have
-    the same number of hidden neurons. Raises ValueError if there are fewer neurons than inputs and
-    outputs.
+    ninputs and noutputs: of one robot's network if all are alike, else of each network. All
+    networks have the same number of hidden neurons. Raises ValueError if there are fewer neurons
+    than inputs and outputs.
     """
     inputs, outputs = (np.broadcast_to(n, len(robots)).tolist() for n in (ninputs, noutputs))
     nhiddens, rest = divmod(neurons - sum(inputs) - sum(outputs), len(robots))

@@ -27,8 +27,8 @@ from botschool.render.shapes import PALETTE
 
 REPLAY_SUFFIXES = (".html",)
 MAX_FRAME_BYTES = 16_000_000
-"""Largest size of all pictures of a page; beyond it, every second picture
-is dropped, repeatedly.
+"""Largest total size of a page's pictures; beyond it, the page drops every second picture,
+repeatedly.
 """
 _FRAME_SIDE = 640
 _LEVELS = 65_535

@@ -63,10 +63,10 @@ class Scene(ABC):
     ) -> np.ndarray:
         """Return the numbers that move the shapes, float64 (count,).
 
-        `state` is the native problem's, (state_size,); `action` led to it, `observation` is what
-        the robots saw before the action, and `reward` what it earned, if they are known. Raises
-        BotschoolError if a number of the state is not finite, and ValueError if the size of the
-        state, the action or the observation is wrong.
+        state: of the native problem, (state_size,). action: the one that led to it. observation:
+        what the robots saw before the action. reward: of the action. All but the state may be
+        unknown. Raises BotschoolError if a number of the state is not finite, and ValueError if the
+        size of the state, the action or the observation is wrong.
         """
         state = np.asarray(state, dtype=np.float64)
         if state.shape != (self.state_size,):
@@ -119,13 +119,13 @@ class Scene(ABC):
         )
 
     def _follows(self, state: np.ndarray) -> bool:
-        """Return whether the state follows those drawn before, in the same episode."""
+        """Return whether the state continues the drawn episode."""
         return False
 
 
 Maker = Callable[..., Scene]
-"""Makes a scene for the problem's wheeled robots (none for most), and for its plan if
-it has one.
+"""Makes a scene for the problem's wheeled robots (none for most), and for its plan if it has
+one.
 """
 
 SCENES: dict[str, Maker] = {}

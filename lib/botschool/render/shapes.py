@@ -123,9 +123,7 @@ def arrow(length: float, width: float) -> tuple[Point, ...]:
 
 
 def bent_arrow(radius: float, width: float) -> tuple[Point, ...]:
-    """Return the corners of an arrow that goes a quarter round above
-    the origin, counter-clockwise.
-    """
+    """Return the corners of a quarter-circle arrow above the origin, counter-clockwise."""
     start, neck, tip, half = 0.8, 2.1, 2.55, width / 6
     outer, inner = arc(start, neck, radius + half), arc(neck, start, radius - half)
     head = arc(neck, neck, radius + width / 2, 1)[:1] + arc(tip, tip, radius, 1)[:1]

@@ -196,7 +196,7 @@ class Watching:
         return bool(self.neurons or self.video or self.replay or self.render == "human")
 
     def show(self, robot: PostEvaluation) -> None:
-        """Play and print the episodes; show or write them in a window, a video file or a page."""
+        """Play and print the episodes; show them in a window, or write a video file or a page."""
         film = self.video or self.replay
         window = self.render == "human" or (self.render is None and not film and has_display())
         most = VIDEO_EPISODES if self.video else REPLAY_EPISODES if self.replay else sys.maxsize
@@ -212,8 +212,8 @@ def watch(
     activations: bool,
     replay: Path | None = None,
 ) -> None:
-    """Play and print `episodes` episodes; show or write them in a window, a video file
-    or a page.
+    """Play and print `episodes` episodes; show them in a window, or write a video file or a
+    page.
     """
     title = f"botschool: {robot.problem.name}"
     if video is not None:

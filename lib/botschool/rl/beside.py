@@ -1,4 +1,4 @@
-"""An evolved robot beside a trained agent: the same environment, the same starts, one picture."""
+"""Show an evolved robot beside a trained agent: same environment, same starts, one picture."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Evolved(Player):
     """Episodes of an evolved robot in the environment of a trained agent, from the same seeds."""
 
     def __init__(self, file: Path, genotype: Path, trained: Player) -> None:
-        """file: the experiment that evolved it. Raises BotschoolError."""
+        """Load the robot; file: the experiment that evolved it. Raises BotschoolError."""
         experiment = config.load(own_file(file, "experiments"))
         evolved_on = experiment.exp.environment
         if trained.env not in _names(evolved_on):

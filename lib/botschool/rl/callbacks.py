@@ -1,4 +1,4 @@
-"""Callbacks for training: post-evaluate, save, log more indicators, stop."""
+"""Define callbacks for training: post-evaluate, save, log more indicators, stop."""
 
 from __future__ import annotations
 

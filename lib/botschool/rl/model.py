@@ -73,9 +73,9 @@ def choose(
     """Return the settings of a training: the arguments, completed from defaults.yaml and
     benchmarks.yaml.
 
-    wrappers: replace those that the files name for the environment; "none" means no wrappers.
-    engine: native (botschool.rl.native), sb3 (Stable-Baselines3), or auto (native where possible).
-    Raises BotschoolError.
+    wrappers: replace the wrappers that the files name for the environment; "none" means no
+    wrappers. engine: native (botschool.rl.native), sb3 (Stable-Baselines3), or auto (native where
+    possible). Raises BotschoolError.
     """
     algo = check_algorithm(algo)
     given, options = spellings.translated(params or {})

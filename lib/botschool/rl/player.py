@@ -1,4 +1,4 @@
-"""Episodes of a trained agent on new seeds: their numbers and pictures."""
+"""Play and film episodes of a trained agent on new seeds."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from botschool.rl.folder import RunFolder
 from botschool.terminal import readable
 
 NEW_EPISODES_SEED = 200_000
-"""Added to the seed: training and choosing the best model use no such episodes."""
+"""Added to the seed; no training and no choice of a best model uses these episodes."""
 
 BATCH = 16
 """Episodes that are played in parallel if no picture is shown."""

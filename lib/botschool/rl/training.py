@@ -1,4 +1,4 @@
-"""Train: one call turns settings into a folder with models and logs."""
+"""Train agents: one call turns settings into a folder with models and logs."""
 
 from __future__ import annotations
 

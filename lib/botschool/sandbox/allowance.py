@@ -10,15 +10,12 @@ from botschool.sandbox import usage
 
 
 class Allowance:
-    """Limit the processor time of any number of answers, and more generously the time that passes.
+    """Limit the processor time of any number of answers and, more generously, the elapsed time.
 
     Waiting for a processor that others use costs nothing. Sleeping is limited to 2 * seconds + 2,
-    and
-    all time that passes to 10 * seconds + 60. Where the system does not tell processor time, the
-    time
-    that passes counts instead. While the machine or this process is stopped, nobody asks what is
-    left:
-    such a pause counts PAUSE seconds at most.
+    and elapsed time to 10 * seconds + 60. If the system does not report processor time, elapsed
+    time counts instead. A pause in which the machine or this process is stopped counts PAUSE
+    seconds at most.
     """
 
     PAUSE = 2.0
@@ -29,7 +26,7 @@ class Allowance:
         self.processor = 0.0
         """Seconds of processor time used."""
         self.active = 0.0
-        """Seconds passed, without those spent waiting for a processor."""
+        """Seconds passed, without the time spent waiting for a processor."""
         self.passed = 0.0
         """Seconds passed."""
 
@@ -49,7 +46,7 @@ class Allowance:
 
     @contextmanager
     def charged(self, pid: int) -> Iterator[Callable[[], float]]:
-        """Charge what a process uses in the block; yield a function that returns the seconds
+        """Charge a process's use during the block; yield a function that returns the seconds
         left.
         """
         before = self.processor, self.active, self.passed

@@ -16,10 +16,9 @@ def read_inside(top: Path | int, name: str | Path, most: int) -> bytes:
 
     top: the folder's path, or a descriptor of it.
 
-    The function opens each part of `name` from the folder before it, so a folder that becomes a
-    link
-    meanwhile leads nowhere. Raises OSError for a name that leaves `top`, a link, anything but a
-    regular file, and another user's file (`is_foreign`).
+    The function opens each part of `name` from the folder before it, so a folder that suddenly
+    becomes a link leads nowhere. Raises OSError for a name that leaves `top`, a link, anything but
+    a regular file, and another user's file (`is_foreign`).
     """
     parts = Path(name).parts
     if not parts or Path(name).is_absolute() or ".." in parts:

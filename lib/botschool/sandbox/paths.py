@@ -33,9 +33,9 @@ def system_paths() -> list[Path]:
 
 
 def without(places: Iterable[Path], closed: Iterable[Path]) -> list[Path]:
-    """Return the places that exist, without the closed ones.
+    """Return the existing places, without the closed ones.
 
-    A place that contains a closed one is replaced by those of its parts that contain none.
+    A place that contains a closed one is replaced by its parts that contain none.
     """
     closed = list(closed)
     parts = {part for place in places for part in _open_parts(place, closed)}

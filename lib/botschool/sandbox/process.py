@@ -38,9 +38,9 @@ class Limits:
     """Limits of what a child may use."""
 
     seconds: float = 20
-    """Seconds of processor time; after them the system ends the child, if the caller has not."""
+    """Seconds of processor time, after which the system ends the child unless the caller has."""
     memory: int = 4 * 2**30
-    """Bytes of address space beyond those of the imports."""
+    """Bytes of address space beyond the imports' own."""
 
 
 class Child:
@@ -58,7 +58,7 @@ class Child:
         """Start the process.
 
         file: the name of the untrusted file in the scratch folder.
-        readable: what it may read.
+        readable: files and folders that it may read.
         references: {"source", "names"}: functions that replace the file's own ones.
         Raises SandboxError.
         """
@@ -135,8 +135,7 @@ class Child:
         """Return (file, line) of the untrusted code that runs now, the innermost call first.
 
         File is a name in the scratch folder. Return [] if the process does not tell. After this
-        call the
-        process can answer no other request. The answer may be a lie.
+        call the process can answer no other request. The answer may be a lie.
         """
         with self._ending:
             if self._code is not None:

@@ -1,4 +1,4 @@
-"""Copy untrusted files into a bounded folder that they work in and that is removed at the end.
+"""Copy untrusted files into a bounded working folder, and remove it at the end.
 
 No function here follows a symbolic link, or trusts a name, a mode or a depth found in the folder.
 """
@@ -92,7 +92,7 @@ class Scratch:
         try:
             for _, entry, depth in _entries(self.root, vanishing=True):
                 count += 1
-                # a file that vanishes meanwhile does not count
+                # a file that has just vanished does not count
                 with contextlib.suppress(FileNotFoundError):
                     size += entry.stat(follow_symlinks=False).st_blocks * 512
                 if count > MAX_WRITTEN_FILES:

@@ -85,8 +85,7 @@ class ForkServer:
         """Mount a file system in memory on a folder, which this server and its children see.
 
         size, files: its bytes, and its number of files and folders. Return a descriptor of it for
-        this
-        process, or None if the system forbids the mount. Removing the folder ends it. Raises
+        this process, or None if the system forbids the mount. Removing the folder ends it. Raises
         SandboxError.
         """
         with self._lock, self._asked():
@@ -147,8 +146,7 @@ def interpreter(module: str, *arguments: str) -> list[str]:
     """Return the command that runs a module's `main` in another interpreter.
 
     That interpreter finds botschool and the installed packages, and imports nothing from the
-    working
-    folder.
+    working folder.
     """
     places = [str(IMPORT_ROOT), *(path for path in sys.path if is_packages(path))]
     start = (

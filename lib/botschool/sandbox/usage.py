@@ -34,7 +34,7 @@ def threads(pid: int) -> int:
 
 
 def has_lost_its_leader(pid: int) -> bool:
-    """Return whether the first thread has ended and others run: /proc then hides what they hold."""
+    """Return whether the first thread has ended and others run: /proc then hides their files."""
     fields = _stat(pid)
     return bool(fields) and fields[0] == "Z" and int(fields[17]) > 1
 

@@ -1,4 +1,4 @@
-"""Define exercises, tasks and checks, find them, and check what is installed for them."""
+"""Define exercises, tasks and checks, find exercises, and check which packages are installed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from botschool.grading.declare.trust import check_trusted
 from botschool.paths import course_root
 
 STATE = ".botschool"
-"""A folder in the course for what the commands store."""
+"""A folder in the course in which the commands store data."""
 POINTS = 100
 """Points of every exercise."""
 ABSENT = "botschool.grading.run.absent"
@@ -107,7 +107,7 @@ class Exercise:
         self.extras = extras
         self.tasks: list[Task] = []
         self.secret = ""
-        """The secret for the seeds; "" for BOTSCHOOL_GRADING_SEED, or else DEFAULT."""
+        """The secret for the seeds; "" means BOTSCHOOL_GRADING_SEED, or else DEFAULT."""
         self.work = ""
         """A digest of the submission: under a secret, the seeds depend on it, too."""
         self.references = ""
@@ -320,7 +320,7 @@ def submission_file(number: int, submission: str | None, root: Path | None = Non
 
 
 def make_state(root: Path) -> Path:
-    """Make and return the folder of what the commands store. Raises OSError if that fails."""
+    """Make and return the folder in which the commands store data. Raises OSError if that fails."""
     folder = root / STATE
     if not folder.is_dir():
         folder.mkdir()

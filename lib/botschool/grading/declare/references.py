@@ -3,9 +3,9 @@
 A task that declares needs=("3.2",) calls functions of task 3.2. If both fail, the task is graded
 again with our 3.2 in place of the learner's: one mistake costs points once.
 
-A hostile submission gains little. In this one attempt its process holds our functions of the needed
-tasks only; `pruned` leaves out those of the graded task. The submission may call or read them to
-earn the points of this task, which is the purpose. It cannot carry them to another task: every
+A hostile submission gains little. In this one attempt its process holds only our functions of the
+needed tasks; `pruned` leaves out the graded task's functions. The submission may call or read them
+to earn the points of this task, which is the purpose. It cannot carry them to another task: every
 attempt has a confined process and folder of its own that are thrown away, and nothing that this
 attempt prints, draws or raises is shown.
 """

@@ -1,8 +1,8 @@
 """Decide which courses' graders may run: a grader runs with the user's rights, unconfined.
 
-A folder with exercises/ may be a course, or a student's submission. Trusted courses are the one
-that botschool is installed from (a checkout, or a student's copy, after `make`), the one that
-BOTSCHOOL_COURSE names, and those that the user has named with `botschool trust` or made with
+A folder with exercises/ may be a course, or a student's submission. Three kinds of courses are
+trusted: the one that botschool is installed from (a checkout, or a student's copy, after `make`),
+the one in BOTSCHOOL_COURSE, and all that the user named with `botschool trust` or made with
 `botschool release`.
 """
 

@@ -18,7 +18,7 @@ PASTED = 24
 MAX_CALL = 300
 """Characters of a call to paste."""
 DIGITS = 6
-"""Digits at least; more if two numbers differ only in later ones."""
+"""Smallest number of digits; two numbers get more if they differ only in later digits."""
 
 
 class _Short(reprlib.Repr):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 MAX_LEAVES = 20_000
-"""Arrays, numbers and texts of an answer to compare, at most."""
+"""Largest number of arrays, numbers and texts to compare in an answer."""
 TIE, TINY = 1e-6, 1e-9
 """Relative differences: TIE is rounding, single precision included; TINY is more than any rounding
 in double precision.

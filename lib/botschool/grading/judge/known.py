@@ -2,9 +2,9 @@
 
 The result never changes the points. The checks run on our solution in a confined child; its calls
 are repeated on the submission and on each known mistake. A mistake is reported if all its answers
-equal the submission's, and if at least two of them, to different calls, differ from ours. If none
-is, the same is tried with our solution, and then with right ones in other styles, and one slip in
-it (variations.py).
+equal the submission's and at least two of them, to different calls, differ from ours. If no mistake
+fits, the same is tried with our solution with one slip in it (variations.py), and then with right
+solutions in other styles with one slip.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from botschool.sandbox.protocol import unpack
 
 TOLD = "Your code answers exactly as with this known mistake:"
 VARIED = "Your code answers exactly as ours does with this slip:"
-"""The words before the sentence of a known mistake, and before that of a slip."""
+"""Words before the sentence on a known mistake, and before the sentence on a slip."""
 SECONDS = 3.0
 """Processor seconds for all slips of a task; known mistakes, which are few, have twice as many."""
 TOTAL = 3 * SECONDS
@@ -43,7 +43,7 @@ BATCH = 16
 MOST = 40
 """Mistakes of a task to try."""
 INPUTS, COUNTS = 2, 4
-"""Different calls that must point to a mistake, at least; calls that must point to a slip if all
+"""Smallest number of different calls that must point to a mistake; the second is for slips if all
 answers are small whole numbers.
 """
 Check = Callable[[Student], None]

@@ -21,7 +21,7 @@ from botschool.grading.run.student import Student
 from botschool.sandbox.protocol import pack
 
 MAX_SECONDS = 0.5
-"""Processor seconds of a check whose call is repeated, at most."""
+"""Largest processor time, in seconds, of a check whose call is repeated."""
 MAX_CASES = 50
 """Wrong answers of a task to look at."""
 INPUTS = 2
@@ -44,7 +44,7 @@ class Failure:
     answered: bool = False
     """Whether the submission gave an answer to the last call."""
     cause: str = ""
-    """What the answers look like."""
+    """A sentence on the likely cause."""
     direct: dict[str, Any] = field(default_factory=dict)
     """The call of the function; {} if a driver made it."""
 

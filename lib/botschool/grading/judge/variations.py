@@ -122,7 +122,9 @@ class _Slips:
         self._parts = Expressions(public, parameters)
 
     def all(self) -> Iterator[tuple[str, str, list[Edit]]]:
-        """Yield all slips as (sentence, place, edits): those of numbers last, as they often fit."""
+        """Yield all slips as (sentence, place, edits); slips of numbers, which often fit, come
+        last.
+        """
         places = list(self._places(self._function))
         for node, field, at, part, place in places:
             if isinstance(part, ast.expr) and not isinstance(part, ast.Constant):

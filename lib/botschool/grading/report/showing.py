@@ -107,7 +107,8 @@ def _stamps(folder: Path) -> dict[Path, int]:
 def make_page(number: int, made: list[Path], root: Path | None = None) -> Path | None:
     """Write PAGE with the pictures, films and replays of `made`; return None if there are none.
 
-    Files in folders of results/exNN, such as those of runs, are left out. Raises BotschoolError.
+    Files in folders of results/exNN, such as the folders of runs, are left out. Raises
+    BotschoolError.
     """
     root = (root or course_root()).resolve()
     title = f"Exercise {number}. {load_exercise(number, root).title}"

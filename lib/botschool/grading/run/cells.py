@@ -142,7 +142,7 @@ def _kept(body: list[ast.stmt]) -> set[int]:
 
 
 def _names(node: ast.stmt) -> tuple[set[str], set[str]]:
-    """Return the global names that a statement binds or changes, and those that it uses."""
+    """Return the global names that a statement binds or changes, and the names that it uses."""
     bound, used = set(), set()
     try:
         tables = [symtable.symtable(ast.unparse(node), "<cell>", "exec")]

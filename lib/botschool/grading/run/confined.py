@@ -51,7 +51,7 @@ SHORTAGES = tuple(
 
 @contextmanager
 def translated() -> Iterator[None]:
-    """Raise Wrong for refused files, MachineFault for what this machine cannot do."""
+    """Raise Wrong for refused files, and MachineFault if this machine lacks something."""
     try:
         yield
     except CannotRead as error:
@@ -149,10 +149,10 @@ def close_class(*folders: Path) -> None:
 
 
 def readable(file: Path) -> list[Path]:
-    """Return what a submission may read beside its copy.
+    """Return the files and folders that a submission may read besides its copy.
 
-    The course, the original folder of `file`, and what close_class has named stay closed, even
-    inside one of the system's folders.
+    The course, the original folder of `file`, and the folders that close_class has named stay
+    closed, even inside one of the system's folders.
     """
     import botschool._core
 

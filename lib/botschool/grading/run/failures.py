@@ -21,7 +21,7 @@ MAX_LINE = 100
 MAX_FILE = 2**20
 """Characters of a file whose lines may be shown."""
 MAX_CALLS = 3
-"""Calls to show on the way to where the program was."""
+"""Calls to show above the place where the program was."""
 _NO_NUMBERS = {
     "Tensor": "a tensor: .detach().numpy() or .item() gives its numbers",
     "Parameter": "a tensor: .detach().numpy() or .item() gives its numbers",
@@ -42,12 +42,12 @@ _NO_NUMBERS = {
 
 @dataclass(frozen=True)
 class Origin:
-    """The origin of a file that was made of parts of another one."""
+    """The origin of a file that was assembled from parts of another file."""
 
     place: Place | None = None
-    """Words for a line of it; without them, its name and the line's number."""
+    """Line of the file -> words for its place; None: use the file's name and the line's number."""
     lost: dict[str, str] = field(default_factory=dict)
-    """Functions in parts that are not Python -> words for the part."""
+    """Function in a part that is not Python -> words for the part."""
 
 
 _ADVICE = (

@@ -83,9 +83,7 @@ class DeclaredScene(ArenaScene):
         )
 
     def _objects(self, state: np.ndarray, reward: float) -> list[float]:
-        """Return the numbers in the order in which `_add_ground` and
-        `_add_objects` reserved them.
-        """
+        """Return the numbers in the order of `_add_ground` and `_add_objects`."""
         where = self.plan.spots(state)
         numbers = [float(reward)]
         for kind in self._places:

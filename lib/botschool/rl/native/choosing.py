@@ -47,7 +47,7 @@ def reason_against(
 
 
 def entry_of(env: str) -> dict[str, Any]:
-    """Return the settings of an environment: those of the native engine, else those of ppo."""
+    """Return the settings of an environment: the native engine's if there are any, else ppo's."""
     return defaults("native" if has_defaults("native", env) else "ppo", env)
 
 

@@ -2,8 +2,8 @@
 
 A detector is a function of a Comparison. It returns a sentence if the cause that it knows explains
 the whole difference, to rounding, and None otherwise. `diagnose` asks the detectors of places.py
-(shapes, values in other places, order), then those of numbers.py (what was computed from the right
-numbers), and returns the first sentence. A sentence names the mistake, never the right numbers.
+(shapes, values in other places, order), then the detectors of numbers.py (numbers computed from the
+right ones), and returns the first sentence. A sentence names the mistake, never the right numbers.
 To add a detector, write the function, decorate it with @detector, and give its example in
 tests/test_grading_diagnosis.py. That test also checks that no detector explains random numbers.
 """
