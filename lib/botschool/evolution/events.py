@@ -1,4 +1,4 @@
-"""Write the run's curves for TensorBoard (`tensorboard --logdir FOLDER`).
+"""Write curves for TensorBoard (`tensorboard --logdir FOLDER`) without importing it.
 
 An event file is a TFRecord file of Event messages in Protocol Buffers' wire format. This module
 writes both, because importing TensorBoard takes longer than many runs. Formats:
@@ -21,6 +21,8 @@ import numpy as np
 from botschool.evolution.record import STAT
 from botschool.output import cannot_write
 
+VERSION = "brain.Event:2"
+"""The version that begins an event file."""
 POINTS = 1000
 """Points per curve; TensorBoard shows no more."""
 
@@ -40,7 +42,7 @@ class Events:
         first.
         """
         now = time.time()
-        events = [] if self._file else [event(now, version="brain.Event:2")]
+        events = [] if self._file else [event(now, version=VERSION)]
         for generation, row in enumerate(rows.tolist(), first + 1):
             if row[0] < self._next:
                 continue

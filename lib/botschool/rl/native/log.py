@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from botschool.evolution.events import VERSION, event, record
 from botschool.output import cannot_write
-from botschool.rl.native import events
 from botschool.rl.native.ppo import PPO
 
 RECENT = 100
@@ -76,11 +76,11 @@ class Log:
     def add(self, values: dict[str, float]) -> None:
         """Append a row. Raises BotschoolError."""
         step, now = self._ppo.steps, time.time()
-        record = events.scalars(step, values, now)
+        written = record(event(now, step, list(values.items())))
         try:
             for file in self._events:
                 with open(file, "ab") as events_file:
-                    events_file.write(record)
+                    events_file.write(written)
             self._row({**values, "time/total_timesteps": step})
         except OSError as error:
             raise cannot_write(self._csv.parent, error.strerror or str(error)) from error
@@ -125,7 +125,7 @@ class Log:
         file = folder / f"events.out.tfevents.{int(now)}.botschool.0"
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            file.write_bytes(events.version(now))
+            file.write_bytes(record(event(now, version=VERSION)))
         except OSError as error:
             raise cannot_write(folder, error.strerror or str(error)) from error
         return file
