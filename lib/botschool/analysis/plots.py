@@ -124,9 +124,7 @@ class _Words:
         return cls(BEST_POST, labels, "steps, including post-evaluations", RETURN, "run")
 
 
-def plot_ave(
-    targets: Sequence[Path | str], output: Path | str | None = None, warn: Warn = warn
-) -> None:
+def plot_ave(targets: Sequence[Path | str], output: Path | str | None = None) -> None:
     """Print and draw mean, standard deviation (n - 1) and n of the best post-evaluated fitness.
 
     Each folder of runs gives one row and one bar, each run a dot. The table is printed before the

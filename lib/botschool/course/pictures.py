@@ -18,9 +18,8 @@ def draw_curves(
     mean: np.ndarray,
     deviation: np.ndarray,
     title: str = "",
-    labels: tuple[str, str] = ("generation", "fitness"),
 ) -> None:
-    """Draw a mean curve with its band of one standard deviation."""
+    """Draw a mean curve over generations with its band of one standard deviation."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(8, 5), layout="constrained")
@@ -29,7 +28,7 @@ def draw_curves(
     generations = np.arange(1, len(mean) + 1)
     axes.fill_between(generations, mean - deviation, mean + deviation, alpha=0.25, color="#0072b2")
     axes.plot(generations, mean, color="#0072b2", linewidth=2)
-    axes.set(xlabel=labels[0], ylabel=labels[1], title=title)
+    axes.set(xlabel="generation", ylabel="fitness", title=title)
     axes.grid(alpha=0.3)
     axes.spines[["top", "right"]].set_visible(False)
     figure.savefig(file, dpi=100)
@@ -175,9 +174,11 @@ def draw_bands(
     print(f"picture: {file}")
 
 
-def draw_features(
-    file: str | Path, rows: dict[str, tuple], low: float, high: float, most: int = 8
-) -> None:
+SHOWN = 8
+"""Largest number of hidden neurons that draw_features shows."""
+
+
+def draw_features(file: str | Path, rows: dict[str, tuple], low: float, high: float) -> None:
     """Draw the outputs and hidden neurons of networks over a plane of two inputs in [low, high].
 
     rows: title -> (inputs (n, 2), targets (n,), output (k, k), features (hiddens, k, k), weights
@@ -186,7 +187,7 @@ def draw_features(
     """
     from matplotlib.figure import Figure
 
-    columns = 1 + min(most, max(len(row[3]) for row in rows.values()))
+    columns = 1 + min(SHOWN, max(len(row[3]) for row in rows.values()))
     figure = Figure(figsize=(1.9 * columns + 0.6, 2.25 * len(rows) + 0.3), layout="constrained")
     panels = figure.subfigures(len(rows), 1, squeeze=False)[:, 0]
     extent = (low, high, low, high)

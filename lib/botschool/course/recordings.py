@@ -70,13 +70,13 @@ def recorded(robot: str) -> Paid:
     return Paid(trajectory, parts["v0"], parts["v5"]["reward"])
 
 
-def write_recordings(file: str | Path, seed: int = 1) -> None:
+def write_recordings(file: str | Path) -> None:
     """Simulate an episode of each robot and write all of them to a file."""
     from botschool.envs.locomotor_bodies import BODIES
 
     arrays: dict[str, Any] = {}
     for robot in BODIES:
-        one = simulated(robot, seed)
+        one = simulated(robot, seed=1)
         for key, value in one.trajectory.items():
             if isinstance(value, np.ndarray):
                 arrays[f"{robot}/trajectory/{key}"] = value

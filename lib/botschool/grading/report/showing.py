@@ -104,13 +104,13 @@ def _stamps(folder: Path) -> dict[Path, int]:
     return {path: path.stat().st_mtime_ns for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
-def make_page(number: int, made: list[Path], root: Path | None = None) -> Path | None:
+def make_page(number: int, made: list[Path]) -> Path | None:
     """Write PAGE with the pictures, films and replays of `made`; return None if there are none.
 
     Files in folders of results/exNN, such as the folders of runs, are left out. Raises
     BotschoolError.
     """
-    root = (root or course_root()).resolve()
+    root = course_root().resolve()
     title = f"Exercise {number}. {load_exercise(number, root).title}"
     folder = root / "results" / f"ex{number:02d}"
     shown = [
