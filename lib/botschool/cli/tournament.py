@@ -124,8 +124,7 @@ def post_evaluate(
 ) -> None:
     """Show a robot, random or from a file; or let the populations of a folder meet."""
     from botschool.analysis import coevolution
-    from botschool.render.pairs import PairEpisodes
-    from botschool.render.watch import PostEvaluation, read_genotype
+    from botschool.render.watch import PairEpisodes, PostEvaluation, read_genotype
 
     if genotype is None:
         watching.show(PostEvaluation(experiment, seed))

@@ -17,9 +17,8 @@ from botschool.rl.model import build, choose
 from botschool.rl.native import training as native
 from botschool.rl.parameters import parse, read_settings
 from botschool.rl.policies import WITH_IMAGES
-from botschool.rl.progress import reporting
 from botschool.rl.settings import Settings
-from botschool.terminal import readable, stoppable
+from botschool.terminal import progress_bar, readable, stoppable
 
 if TYPE_CHECKING:
     import gymnasium
@@ -184,6 +183,37 @@ def _one_thread(settings: Settings) -> Iterator[None]:
         yield
     finally:
         torch.set_num_threads(before)
+
+
+@contextmanager
+def reporting(
+    budget: int, seed: int, terminal: bool
+) -> Iterator[Callable[[int, Evaluations], None]]:
+    """Yield a function to call with the steps and the post-evaluations so far."""
+    if terminal:
+        with progress_bar(seed) as show:
+            yield lambda steps, evaluations: show(steps / budget, steps, 3, _reached(evaluations))
+        return
+    printed = 0
+
+    def line(steps: int, evaluations: Evaluations) -> None:
+        nonlocal printed
+        if len(evaluations.steps) > printed:
+            printed = len(evaluations.steps)
+            percent = min(100.0, 100 * steps / budget)
+            print(
+                f"seed {seed}  steps {steps} ({percent:.0f}%)  {_reached(evaluations)}", flush=True
+            )
+
+    yield line
+
+
+def _reached(evaluations: Evaluations) -> str:
+    sd = evaluations.returns[-1].std()
+    return (
+        f"post-evaluated {readable(evaluations.last)} \u00b1 {readable(sd)}  "
+        f"best so far {readable(evaluations.best)}"
+    )
 
 
 def train_command(
