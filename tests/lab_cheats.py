@@ -97,13 +97,13 @@ def one_choice_against_its_data(place, other):
     kinds = {field.id: field.kind for field in place.lab.fields}
     statement = next(s for s in place.lab.statements if kinds[s.field] == "choice")
     contradict(place, [statement])
-    return FULL | {"conclusion": 25 - statement.points}, f"{statement.field}: "
+    return FULL | {"conclusion": 25 - statement.points}, f"{place.lab.what(statement.field)}: "
 
 
 def conclusions_against_their_data(place, other):
     """Every one."""
     contradict(place, place.lab.statements)
-    return FULL | {"conclusion": 0}, f"{place.lab.statements[-1].field}: "
+    return FULL | {"conclusion": 0}, f"{place.lab.what(place.lab.statements[-1].field)}: "
 
 
 def contradict(place, statements):

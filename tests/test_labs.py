@@ -1,7 +1,10 @@
 """Laboratories: sheets, seeds, refusals, and the pay for standing of planar runners."""
 
+import importlib
 import json
 import os
+import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,9 +15,12 @@ from botschool.config import PolicyConfig
 from botschool.errors import BotschoolError
 from botschool.evolution.record import RunFiles
 from botschool.grading.packed import pack_module
+from botschool.labs import measuring
+from botschool.labs.check import Check
 from botschool.labs.commands import lead_to, run_command
+from botschool.labs.confined import drawn_figure, student_file
 from botschool.labs.declare import NUMBERS, PARTS, WORDS, Field, load_lab
-from botschool.labs.folder import Place, start
+from botschool.labs.folder import Place, skeletons, start
 from botschool.labs.measuring import interval, permutation_test
 from botschool.labs.report import _inline
 from botschool.labs.runs import changed, make_runs
@@ -45,6 +51,21 @@ def test_points_add_up_and_sheets_have_every_field(number, tmp_path):
     for condition in lab.conditions:
         assert len(read.row(condition.name)) == len(lab.columns)
     assert {s.field for s in lab.statements} <= {f.id for f in lab.fields}
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_sheets_teach_how_to_measure_and_end_with_an_open_question(number):
+    files = skeletons(load_lab(number))
+    sheet, script = files["sheet.md"], files["measure.py"]
+    last = sheet[sheet.rindex("\n## ") :]
+    assert last.startswith("\n## An open question") and "No points: " in last and "?" in last
+    assert "<!-- field:" not in last
+    assert "interval(" in script
+    assert "p =" in script or "permutation test" in sheet
+    assert "a point" in sheet[sheet.index("## Figure") : sheet.index("## Conclusion")]
+    enough = {4: "How many episodes does it take", 9: "Are ten runs enough"}
+    assert enough.get(number, "`power") in sheet
+    assert number in enough or "power(" in script
 
 
 @pytest.mark.parametrize("number", NUMBERS)
@@ -165,6 +186,60 @@ def test_nothing_is_read_through_links_and_pipes(tmp_path):
         make(folder / "runs" / "runs.json")
         assert stat_of(files.stat) is None
         assert changed(lab, sheet("## Prediction"), folder / "runs") == ""
+
+
+FIGURE_OF_NAMES = """
+from matplotlib.figure import Figure
+
+
+def figure(measurements):
+    picture = Figure()
+    axes = picture.subplots()
+    for name, values in measurements.items():
+        axes.plot([name] * 2, values["y"], "o")
+    axes.axvline("late")
+    return picture
+"""
+
+
+def test_a_figure_may_have_names_on_its_horizontal_axis(tmp_path):
+    (tmp_path / "figure.py").write_text(FIGURE_OF_NAMES)
+    two = {"early": {"y": np.array([1.0, 2.0])}, "late": {"y": np.array([3.0, 4.0])}}
+    with student_file(tmp_path / "figure.py") as file:
+        drawn = drawn_figure(file, two)
+    assert drawn["points"].tolist() == [[0, 1], [0, 2], [1, 3], [1, 4]]
+    assert drawn["verticals"].tolist() == [1]
+
+
+def test_all_runs_beside_measure_are_measured(tmp_path, monkeypatch):
+    place = predicted(small(3), tmp_path)
+    with pytest.raises(BotschoolError, match="CartPole 4 has no runs yet: botschool lab 3 run"):
+        measuring.load_runs(place.folder)
+    (place.folder / "measure.py").write_text("def measure(run):\n    return {'twice': 2 * run}\n")
+    monkeypatch.syspath_prepend(str(place.folder))
+    module = importlib.import_module("measure")
+    monkeypatch.delitem(sys.modules, "measure")
+    folders = []
+    monkeypatch.setattr(
+        measuring, "load_runs", lambda folder: folders.append(folder) or {"early": [1, 2]}
+    )
+    assert measuring.measure_all(module.measure)["early"]["twice"].tolist() == [2, 4]
+    assert folders == [place.folder]
+
+
+def test_what_is_empty_is_said_once(tmp_path):
+    place = Place(small(7), tmp_path / "lab07")
+    start(place, "Ada", "botschool")
+    check = Check(place)
+    check.all()
+    assert len(check.parts["conclusion"].messages) == 1
+    check.runs = {condition.name: [object()] for condition in place.lab.conditions}
+    check.lab = replace(check.lab, replications=1)
+    check.parts["measurements"].messages.clear()
+    check._table()
+    assert check.parts["measurements"].messages == [
+        "The table is empty: python measure.py prints its rows."
+    ]
 
 
 def test_the_command_starts_and_names_what_exists(tmp_path):

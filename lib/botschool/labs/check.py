@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Callable
-from contextlib import ExitStack, nullcontext
+from contextlib import ExitStack, nullcontext, suppress
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -84,7 +84,7 @@ class Check:
         self.place, self.lab, self.draw = place, place.lab, draw
         self.sheet: Sheet = place.sheet()
         self.parts = {name: Part(name, most) for name, most in PARTS.items()}
-        self.answers, self.missing = self.sheet.values(self.lab.predictions + self.lab.fields)
+        self.answers, _ = self.sheet.values(self.lab.predictions + self.lab.fields)
         self.runs: dict[str, list[SavedRun]] = {}
         self.data: dict[str, dict[str, np.ndarray]] = {}
         self.picture = b""
@@ -249,6 +249,9 @@ class Check:
         part = self.parts["measurements"]
         cells = [(c, col) for c in self.lab.conditions for col in self.lab.columns]
         cells = [(c, col) for c, col in cells if col.only(c.name)]
+        if self.whole and self._empty():
+            part.lose("The table is empty: python measure.py prints its rows.")
+            return
         right = 0
         for condition, column in cells:
             if condition.name not in self.whole:
@@ -259,7 +262,8 @@ class Check:
                 at = titles.index(column.title)
                 true = column.of(self.data[condition.name])
                 what = f"The table, {condition.name}, {column.title}"
-                given = numbers_in(row[at] if at < len(row) else "", what, len(true))
+                cell = row[at] if at < len(row) else ""
+                given = numbers_in(cell, what, len(true), "in its cell")
             except Unreadable as error:
                 part.lose(str(error))
                 continue
@@ -271,6 +275,12 @@ class Check:
                 part.lose(f"{what}: your runs give {told}.")
         part.points = round(part.points + TABLE * right / len(cells), 1)
         part.messages = _shortened(part.messages)
+
+    def _empty(self) -> bool:
+        """Return whether no cell of the sheet's table is filled in."""
+        with suppress(Unreadable):
+            return not any("".join(self.sheet.row(c.name)) for c in self.lab.conditions)
+        return False
 
     def _figure(self) -> None:
         part, figure = self.parts["figure"], self.lab.figure
@@ -304,10 +314,14 @@ class Check:
 
     def _conclusion(self) -> None:
         part = self.parts["conclusion"]
-        part.messages += [text for text in self.missing if part.max_points and self._late(text)]
+        if not any(self.runs.values()):
+            part.lose("The conclusion counts once there are runs of your own that are proven.")
+            return
+        part.messages += self.sheet.values(self.lab.fields)[1]
         for statement in self.lab.statements:
+            what = self.lab.what(statement.field)
             if not set(statement.needs) <= self.whole:
-                part.lose(f"{statement.field}: its runs are missing or not proven.")
+                part.lose(f"{what}: its runs are missing or not proven.")
                 continue
             if statement.field not in self.answers:
                 continue
@@ -315,11 +329,7 @@ class Check:
             if right(self.answers[statement.field]):
                 part.points += statement.points
             else:
-                part.lose(f"{statement.field}: {told}")
-
-    def _late(self, message: str) -> bool:
-        """Return whether a message is about a field after the prediction."""
-        return any(message.startswith(field.what) for field in self.lab.fields)
+                part.lose(f"{what}: {told}")
 
 
 def _check_points(

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from dataclasses import replace
 from pathlib import Path
+from shlex import quote
 
 from botschool.errors import BotschoolError
 from botschool.grading.run.temporary import temporary_folder
@@ -58,9 +60,17 @@ def run_command(number: str, quick: bool, workers: int) -> bool:
     if not make_runs(lab, sheet, folder, workers, replications):
         return False
     if quick:
-        print(f"A look: the runs are in {folder}, and do not count.")
+        first = quote(os.path.relpath(folder / lab.conditions[0].name))
+        print(
+            f"These runs do not count. Look at some curves: botschool plotstat {first} -o look.png"
+        )
+        print(f"Then make all runs: botschool lab {lab.number} run")
     else:
-        print(f"All runs are there. Write measure.py, then: botschool lab {lab.number} check")
+        measure = quote(os.path.relpath(place.folder / "measure.py"))
+        print("All runs are there. Now, as the sheet says:")
+        print(f"1. Write measure.py; python {measure} prints the rows of the sheet's table.")
+        print("2. Write figure.py, and answer the conclusion in sheet.md.")
+        print(f"3. See your points, at any time: botschool lab {lab.number} check")
     return True
 
 
@@ -108,6 +118,8 @@ def show(checked: Checked) -> None:
         for message in part.messages:
             print(f"    {message}")
     print(f"{'words':<14}    {WORDS} points: your instructor's")
+    if not checked.words:
+        print("    Nothing is written yet: answer the last question of the conclusion.")
     print(f"{checked.points:g} of {sum(PARTS.values())} points")
 
 

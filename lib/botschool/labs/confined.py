@@ -81,11 +81,11 @@ def _inspect(student: Any, measurements: dict[str, Any]) -> dict[str, Any]:
     for axes in figure.axes:
         labels.append([axes.get_xlabel(), axes.get_ylabel()])
         for line in axes.lines:
-            marker = line.get_marker()
+            marker, places = line.get_marker(), np.asarray(line.get_xydata(), float)
             if marker not in ("", " ", "none", "None", None):
-                points.append(np.column_stack([np.asarray(d, float) for d in line.get_data()]))
-            elif len(set(line.get_xdata())) == 1 < len(line.get_xdata()):
-                verticals.append(float(line.get_xdata()[0]))
+                points.append(places)
+            elif len(set(places[:, 0])) == 1 < len(places):
+                verticals.append(float(places[0, 0]))
         points += [np.asarray(each.get_offsets(), float) for each in axes.collections]
     picture = io.BytesIO()
     figure.savefig(picture, format="png", dpi=100)

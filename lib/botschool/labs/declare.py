@@ -180,6 +180,10 @@ class Lab:
         """Return the condition with this name."""
         return next(each for each in self.conditions if each.name == name)
 
+    def what(self, field: str) -> str:
+        """Return what messages call a field of the conclusion."""
+        return next(each.what for each in self.fields if each.id == field)
+
 
 def load_lab(number: str | int) -> Lab:
     """Return the laboratory with this number. Raises BotschoolError if there is none."""

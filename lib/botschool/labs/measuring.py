@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from inspect import getfile
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -213,15 +214,28 @@ def power(one: ArrayLike, other: ArrayLike, runs: int, seed: int = 1) -> float:
     return float((p < 0.05).mean())
 
 
-def measure_all(measure: Callable[[dict], dict], folder: str | Path = ".") -> dict:
-    """The student's measure of each of his runs: condition -> measure -> array."""
+def load_runs(folder: str | Path = ".") -> dict[str, list[dict[str, Any]]]:
+    """Return your finished runs: condition -> runs, each as `measure` gets it.
+
+    folder: the laboratory's, such as lab09. Raises BotschoolError if a condition has no runs yet.
+    """
+    from botschool.errors import BotschoolError
     from botschool.labs.folder import Place
     from botschool.labs.runs import own_runs
     from botschool.labs.saved import plain_runs
 
     place = Place.find(Path(folder))
-    found: dict[str, dict[str, np.ndarray]] = {}
-    for name, runs in own_runs(place.lab, place.sheet(), place.runs).items():
-        rows = [measure(run) for run in plain_runs(runs, place.lab.others)]
-        found[name] = {key: np.array([row[key] for row in rows]) for key in (rows or [{}])[0]}
+    found = own_runs(place.lab, place.sheet(), place.runs)
+    for name, runs in found.items():
+        if not runs:
+            raise BotschoolError(f"{name} has no runs yet: botschool lab {place.lab.number} run.")
+    return {name: plain_runs(runs, place.lab.others) for name, runs in found.items()}
+
+
+def measure_all(measure: Callable[[dict], dict]) -> dict[str, dict[str, np.ndarray]]:
+    """Measure all runs of the folder in which `measure` is: condition -> measure -> array."""
+    found = {}
+    for name, runs in load_runs(Path(getfile(measure)).parent).items():
+        rows = [measure(run) for run in runs]
+        found[name] = {key: np.array([row[key] for row in rows]) for key in rows[0]}
     return found

@@ -136,17 +136,17 @@ def _quoted(raw: str) -> str:
     return " ".join(" ".join(lines).split())
 
 
-def numbers_in(text: str, what: str, count: int) -> tuple[float, ...]:
+def numbers_in(text: str, what: str, count: int, where: str = "after answer:") -> tuple[float, ...]:
     """Return the numbers in an answer. Raises Unreadable unless there are `count`."""
     text = re.sub(r"^answer:", "", text.strip(), flags=re.IGNORECASE).strip()
     asked = "a number" if count == 1 else f"{count} numbers, as 1.5 to 2.5,"
     if not text:
-        raise Unreadable(f"{what}: empty, write {asked} after answer:.")
+        raise Unreadable(f"{what}: empty, write {asked} {where}.")
     if re.search(r"\d,\d", text):
         raise Unreadable(f"{what}: write a point instead of the comma in '{text[:30]}'.")
     found = re.findall(rf"(?<![\w.]){_NUMBER}(?![\w.]*\d)", text)
     if len(found) != count:
-        raise Unreadable(f"{what}: '{text[:30]}' cannot be read, write {asked} after answer:.")
+        raise Unreadable(f"{what}: '{text[:30]}' cannot be read, write {asked} {where}.")
     return tuple(float(each.replace("\u2212", "-")) for each in found)
 
 
