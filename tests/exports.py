@@ -44,15 +44,26 @@ def zipped(files: dict[str, bytes], top: str = "") -> bytes:
     return buffer.getvalue()
 
 
-def of_tar(files: dict[str, bytes]) -> bytes:
-    """Return a .tar.gz with these files."""
+def of_tar(files: dict[str, bytes], mode: str = "w:gz") -> bytes:
+    """Return a .tar.gz with these files, or what another mode makes."""
     buffer = io.BytesIO()
-    with tarfile.open(fileobj=buffer, mode="w:gz") as archive:
+    with tarfile.open(fileobj=buffer, mode=mode) as archive:
         for name, content in files.items():
             info = tarfile.TarInfo(name)
             info.size = len(content)
             archive.addfile(info, io.BytesIO(content))
     return buffer.getvalue()
+
+
+def page_of_jupyter(*cells: str) -> bytes:
+    """Return the web page that Jupyter makes of a notebook, with outputs."""
+    made = "".join(
+        f'<div class="cell"><div class="prompt">In [{i}]:</div><div class="highlight hl-ipython3">'
+        f"<pre><span></span>{html.escape(cell)}</pre></div>"
+        f'<div class="output"><pre>def not_code(): {i}</pre></div></div>'
+        for i, cell in enumerate(cells)
+    )
+    return f"<!DOCTYPE html><html><body><h1>Tiny</h1><p>Some text</p>{made}</body></html>".encode()
 
 
 def old_notebook(*cells: str) -> bytes:
@@ -118,6 +129,28 @@ def variations(file: str, solution: str, skeleton: str) -> dict[str, dict[str, b
         "empty beside it": {file: b"", f"{stem}_final.py": text},
         "a virtual environment": {"env/pyvenv.cfg": b"x", f"env/lib/{file}": b"x", file: text},
         "with a report": {file: text, "report/report.pdf": b"%PDF"},
+        "a copy made by Windows": {f"{stem} - Kopie.py": text, file: skeleton.encode()},
+        "a browser's suffix": {f"{file}.download": text},
+        "a backup's suffix": {f"{file}.bak": text},
+        "another system's name": {f"\u200f{file}.": text},
+        "a zip file called rar": {"work.rar": zipped({file: text})},
+        "a tar file of Windows": {"work.tbz2": of_tar({f"a/{file}": text}, "w:bz2")},
+        "a tar file without suffix": {"work": of_tar({f"a/{file}": text})},
+        "a tar file of texts": {"work.tar": of_tar({file: text}, "w")},
+        "two marks": {file: b"\xef\xbb\xbf" * 2 + text},
+        "a wrong coding line": {file: f"# coding: ascii\n# J\u00fcrgen\n{solution}".encode()},
+        "spaces of a web page": {file: solution.replace("    ", "\u00a0   ").encode()},
+        "an invisible character": {file: solution.replace("def ", "\u200bdef ", 1).encode()},
+        "a page of Jupyter": {f"{stem}.html": page_of_jupyter(solution)},
+        "a page called script": {
+            file: f"<!DOCTYPE html><h1>Tiny</h1><pre>{html.escape(solution)}</pre>".encode()
+        },
+        "a notebook that writes a file": {f"{stem}.ipynb": notebook(f"%%writefile x\n{solution}")},
+        "only what Jupyter keeps": {
+            f".ipynb_checkpoints/{stem}-checkpoint.ipynb": notebook(solution), "notes.txt": b"x"
+        },
+        "in Quarto": {f"{stem}.qmd": b"My work:\n```{python}\n" + text + b"```\n"},
+        "too deep": {"work.zip": zipped({f"{'d/' * 40}{file}": text})},
     }  # fmt: skip
 
 

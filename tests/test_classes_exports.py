@@ -2,6 +2,7 @@
 
 import gzip
 import io
+import json
 import os
 import shutil
 import tarfile
@@ -16,6 +17,7 @@ from botschool.grading.classes.choice import Wanted
 from botschool.grading.classes.export import one_person, read_export
 from botschool.grading.classes.finding import find_submissions, numbered_folders
 from botschool.grading.classes.policy import read_policy
+from botschool.grading.classes.register import Register, Settings
 from botschool.grading.classes.texts import decoded, text_of_page
 from botschool.grading.classes.unpack import Room, Unpackable, unpack
 from botschool.grading.copies.skeleton import skeleton
@@ -59,9 +61,10 @@ def find(course, tmp_path):
         shutil.rmtree(folder, ignore_errors=True)
         new_folder, wanted = numbered_folders(folder), [Wanted(3, FILE, course)]
         export = read_export(download, wanted, new_folder)
-        found = find_submissions(export.people, wanted, course, new_folder)
-        assert len({one.student for one in found}) == len(found)
-        return {one.student: one for one in found}, export
+        register = Register(find_submissions(export.people, wanted, course, new_folder), Settings())
+        named = {register.name(i): one for i, one in enumerate(register.submissions)}
+        assert len(named) == len(export.people)
+        return named, export
 
     return of
 
@@ -118,13 +121,14 @@ def test_one_folder_is_found_as_in_a_class(course, tmp_path, way):
 
 def test_what_is_not_used_is_said(find, tmp_path):
     files = {FILE: SKELETON.encode(), "tiny_final.py": SOLUTION.encode(), "notes/diary.docx": b"x",
-             "tiny_old.py": b"def double(x): return x\n", "work.rar": b"Rar!"}  # fmt: skip
+             "tiny_old.py": b"def double(x): return x\n",
+             "work.rar": b"Rar!\x1a\x07\x01"}  # fmt: skip
     found, _ = find(written(tmp_path / "class", moodle([Handed("Ada L", files)])))
     (one,) = found.values()
     said = " ".join([*one.choices[3].notes, *one.notes])
     assert is_solution(one.choices[3].file)
     for name in ("Graded: tiny_final.py", "Not used: tiny_old.py", "nothing in it was changed",
-                 "diary.docx", "work.rar is not a zip file"):  # fmt: skip
+                 "diary.docx", "work.rar is a RAR archive, so it stays packed"):  # fmt: skip
         assert name in said
 
 
@@ -331,6 +335,27 @@ CLASSES = {
     "feedback beside": {f"A_1_assignsubmission_file_/{FILE}": SOLUTION.encode(),
                         f"B_2_assignsubmission_file_/{FILE}": SOLUTION.encode(),
                         "B_2_assignfeedback_file_/feedback.html": b"x"},
+    "two downloads of Moodle": {
+        f"Group {g}.zip": zipped({f"{g}_{i}_assignsubmission_file_/{FILE}": SOLUTION.encode()})
+        for i, g in enumerate("AB", 1)},
+    "two downloads of Canvas": {
+        f"submissions ({i}).zip": zipped({f"la_{i}_90_{FILE}": SOLUTION.encode()}) for i in (1, 2)},
+    "two sections": {
+        f"section {i}/P_{i}_assignsubmission_file_/{FILE}": SOLUTION.encode() for i in (1, 2)},
+    "zip files in a folder": {"roster.csv": b"name"} | {
+        f"subs/{name}.zip": zipped({FILE: SOLUTION.encode()}) for name in ("ada", "bob")},
+    "repositories of each person": of_students("{}/ex03/" + FILE) | {
+        f"{name}/{each}/.git/HEAD": b"x" for name in ("ada", "bob") for each in ("ex03", "ex08")},
+    "zip_collect of nbgrader": of_students(
+        "downloaded/ex03/archive/{}_attempt_2026-11-20-21-14-03_" + FILE),
+    "Blackboard": {f"gradebook_Ex 3_ada_attempt_2026-11-{day}-21-14-03_{FILE}": text.encode()
+                   for day, text in (("19", SKELETON + "X = 1\n"), ("20", SOLUTION))}
+                  | {f"gradebook_Ex 3_bob_attempt_2026-11-20-21-14-03_{FILE}": SOLUTION.encode(),
+                     "gradebook_Ex 3_bob_attempt_2026-11-20-21-14-03.txt": b"Name: Bob"},
+    "a name with a dot": {f".Ada_1_assignsubmission_file_/{FILE}": SOLUTION.encode(),
+                          f"Bob_2_assignsubmission_file_/{FILE}": SOLUTION.encode()},
+    "one name": {f"Participant_{i}_assignsubmission_file_/{FILE}": SOLUTION.encode()
+                 for i in (1, 2)},
 }  # fmt: skip
 
 
@@ -340,6 +365,71 @@ def test_two_people_are_two(find, tmp_path, kind, as_zip):
     files, target = CLASSES[kind], tmp_path / "download"
     found, _ = find(saved(target, files) if as_zip else written(target, files))
     assert len(found) == 2 and all(is_solution(one.choices[3].file) for one in found.values())
+
+
+NO_PROGRAMS = {
+    "a PDF file": ({"tiny.pdf": b"%PDF-1.7"}, "Handed in: tiny.pdf (a PDF file)"),
+    "a document": ({"tiny.docx": zipped({"word/document.xml": b"x"})}, "(an Office document)"),
+    "a rich text": ({FILE: b"{\\rtf1 x}"}, "Handed in: tiny.py (a rich text file)"),
+    "a RAR archive": ({"w.zip": b"Rar!\x1a\x07\0"}, "w.zip is a RAR archive, so it stays packed"),
+    "an archive called script": ({FILE: b"7z\xbc\xaf'\x1c\0"}, "tiny.py (a 7z archive)"),
+    "a pointer": ({FILE: b"version https://git-lfs.github.com/spec/v1"}, "of Git LFS"),
+    "too large": ({FILE: b"#" * 5 * 2**20}, "tiny.py (more than 4 MB)"),
+    "a web page": ({FILE: b"<!DOCTYPE html><p>Not found"}, "tiny.py is a web page"),
+    "no function": ({FILE: b"404: Not found"}, "tiny.py defines no function of the exercise"),
+    "compiled": ({"__pycache__/tiny.cpython-311.pyc": b"x"}, "Ignored: __pycache__"),
+    "a patch": ({"tiny.patch": b"+++"}, "Handed in: tiny.patch."),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", NO_PROGRAMS)
+def test_what_is_no_program_is_named(find, tmp_path, kind):
+    files, sentence = NO_PROGRAMS[kind]
+    found, _ = find(written(tmp_path / "class", moodle([Handed("Ada L", files)])))
+    one = found["Ada L"]
+    said = " ".join([one.choices[3].problem, *one.choices[3].notes, *one.notes])
+    assert sentence in said and said.count(next(iter(files)).partition("/")[0]) <= 2
+
+
+def test_a_link_does_not_make_its_owner_vanish(find, tmp_path):
+    path = tmp_path / "x.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr(*linked(f"Ada_1_assignsubmission_file_/{FILE}", "/etc/passwd"))
+        archive.writestr(f"Bob_2_assignsubmission_file_/{FILE}", SOLUTION)
+    found, export = find(path)
+    assert set(found) == {"Ada", "Bob"} and found["Ada"].choices[3].problem
+    assert "is a link or leads elsewhere" in export.notes[0]
+
+
+@pytest.mark.parametrize("name", [FILE, "tiny (1).py"])
+def test_a_film_beside_a_program_is_left_out(find, tmp_path, name):
+    written(tmp_path / "class", {f"ada/{name}": SOLUTION.encode(), "ada/data.npy": b"9"})
+    os.truncate(written(tmp_path / "class", {"ada/a.mp4": b""}) / "ada" / "a.mp4", 60 * 2**20)
+    found, _ = find(tmp_path / "class")
+    choice = found["ada"].choices[3]
+    assert sorted(path.name for path in choice.file.parent.iterdir()) == ["data.npy", FILE]
+    assert "more than 50 MB or 2000 files: a.mp4." in choice.notes[-1]
+
+
+def test_a_notebook_with_many_pictures_is_graded(find, tmp_path):
+    content = json.loads(notebook(SOLUTION))
+    output = {"output_type": "display_data", "metadata": {}, "data": {"image/png": "A" * 2**23}}
+    content["cells"][1]["outputs"] = [output]
+    files = {"ada/tiny.ipynb": json.dumps(content).encode()}
+    found, _ = find(written(tmp_path / "class", files))
+    file = found["ada"].choices[3].file
+    assert is_solution(file) and file.stat().st_size < 10_000
+
+
+def test_a_file_under_the_name_of_another_exercise(find, course, tmp_path):
+    """Its content decides: a file of that exercise may define some functions of this one."""
+    names = ("double", "total", "more", "less", "many")
+    other = "".join(f"def {name}(x):\n    pass\n\n\n" for name in names)
+    written(course / "exercises" / "ex04_other", {"other.py": other.encode()})
+    files = {"ada/other.py": SOLUTION.encode(), "bob/other.py": other.encode()}
+    found, _ = find(written(tmp_path / "class", files))
+    assert is_solution(found["ada"].choices[3].file)
+    assert found["bob"].choices[3].problem == f"There is no {FILE}. Handed in: other.py."
 
 
 def test_versions_of_one_person_are_no_people(find, tmp_path):

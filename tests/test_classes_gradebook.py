@@ -10,8 +10,8 @@ from datetime import datetime, timedelta
 import pytest
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.export import Person
 from botschool.grading.classes.gradebook import canvas_gradebook, moodle_worksheet
+from botschool.grading.classes.people import Person
 from botschool.grading.classes.policy import LateRule, read_policy
 from botschool.grading.classes.roster import read_roster
 from botschool.grading.classes.similar import Program, similar_pairs, similarity_page

@@ -10,9 +10,9 @@ from types import MappingProxyType
 from rich.console import Console
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.choice import listed
 from botschool.grading.classes.collect import PAGES, TABLE, Class, Laboratory, grade_all
 from botschool.grading.classes.exporting import export
+from botschool.grading.classes.files import listed
 from botschool.grading.classes.policy import FILE, Policy, read_policy
 from botschool.grading.classes.register import Settings
 from botschool.grading.classes.roster import read_roster

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from botschool.grading.classes.kinds import SIGN, is_archive, kind_of
 from botschool.grading.classes.unpack import (
     ARCHIVES,
     MAX_LEVELS,
@@ -16,12 +18,13 @@ from botschool.grading.classes.unpack import (
     room_of_submission,
     unpack,
 )
+from botschool.grading.declare.checks import plain
 from botschool.sandbox.inside import read_inside
 
 MAX_ZIP = 200 * 2**20
 """Bytes of a zip file within a submission."""
-MAX_FILES, MAX_DEPTH = 20_000, 30
-"""For a person: files to look at, and levels of folders."""
+MAX_FILES, MAX_DEPTH, MAX_CHECKPOINTS = 20_000, 30, 20
+"""For a person: files to look at, levels of folders, and files of Jupyter in each."""
 JUNK = {
     "__macosx", "__pycache__", ".git", ".ipynb_checkpoints", ".venv", "venv", ".idea", ".vscode",
     ".ds_store", "thumbs.db", "desktop.ini", ".botschool", ".pytest_cache", ".ruff_cache",
@@ -32,8 +35,20 @@ JUNK = {
 
 OF_VENV = {"lib", "lib64", "bin", "scripts", "include", "share", "pyvenv.cfg"}
 """Names in every virtual environment, in lower case."""
+CHECKPOINTS = ".ipynb_checkpoints"
+"""The folder in which Jupyter keeps the last saved state of notebooks."""
 _MAY_BE_ZIP = (".py", ".txt", ".ipynb")
 """Suffixes that students give to zip files, other than .zip."""
+
+
+MAX_LISTED = 30
+"""Names in a list of files."""
+
+
+def listed(names: list[str]) -> str:
+    """Return names with commas; of a long list, only its beginning and the number of the others."""
+    shown = ", ".join(plain(name) for name in names[:MAX_LISTED])
+    return f"{shown} and {len(names) - MAX_LISTED} more" if len(names) > MAX_LISTED else shown
 
 
 def is_junk(name: str) -> bool:
@@ -82,6 +97,10 @@ class Handed:
     files: list[File] = field(default_factory=list)
     links: list[str] = field(default_factory=list)
     """Paths of links, which are never followed."""
+    ignored: list[str] = field(default_factory=list)
+    """Paths of what systems and tools left behind."""
+    checkpoints: list[File] = field(default_factory=list)
+    """Notebooks that Jupyter keeps beside the saved ones."""
     notes: list[str] = field(default_factory=list)
     """Sentences on unreadable places."""
     unread: bool = False
@@ -118,17 +137,25 @@ class Collector:
             for entry in found:
                 name = inner + entry.name
                 if is_junk(entry.name) or (is_venv and entry.name.lower() in OF_VENV):
+                    self.handed.ignored.append(shown + name)
+                    if entry.name == CHECKPOINTS:
+                        self._add_checkpoints(folder, name, shown + name)
                     continue
                 if entry.is_symlink():
                     self.handed.links.append(shown + name)
                 elif entry.is_dir(follow_symlinks=False):
                     if depth < MAX_DEPTH:
                         waiting.append((name + "/", depth + 1))
+                    else:
+                        self.handed.notes.append(f"{shown}{name} lies too deep: ignored.")
                 elif not self.add_file(folder, name, shown + name, level):
                     return
 
     def add_file(self, top: Path, place: str, shown: str, level: int = 0) -> bool:
-        """Add a file, or a zip file's content; return False if there are too many files."""
+        """Add a file, or a zip file's content; return False if there are too many files.
+
+        level: of zip files around it; -1 for one that is a whole submission.
+        """
         if len(self.handed.files) >= MAX_FILES:
             self.handed.notes.append(
                 f"There are more than {MAX_FILES} files: the others are ignored."
@@ -136,13 +163,27 @@ class Collector:
             return False
         file = File(top, place, shown)
         lower = shown.lower()
-        if lower.endswith(ARCHIVES) or _is_zip(file):
+        packed = lower.endswith((*ARCHIVES, *PACKED))
+        if not (packed or lower.endswith(_MAY_BE_ZIP) or not re.search(r"\.\w+$", file.name)):
+            self.handed.files.append(file)
+            return True
+        head = _head(file)
+        kind = kind_of(head, file.name)
+        is_text = head.isascii() and b"\0" not in head and head[:2] not in (b"", b"PK")
+        if is_archive(head, file.name) or (packed and not kind and not is_text):
             self._add_archive(file, level)
+        elif packed and kind:
+            self.handed.notes.append(f"{shown} is {kind}, so it stays packed.")
         else:
-            if lower.endswith(PACKED):
-                self.handed.notes.append(f"{shown} is not a zip file, so it stays packed.")
             self.handed.files.append(file)
         return True
+
+    def _add_checkpoints(self, top: Path, place: str, shown: str) -> None:
+        with contextlib.suppress(OSError), os.scandir(top / place) as entries:
+            for entry in sorted(entries, key=lambda entry: entry.name)[:MAX_CHECKPOINTS]:
+                if entry.is_file(follow_symlinks=False):
+                    file = File(top, f"{place}/{entry.name}", f"{shown}/{entry.name}")
+                    self.handed.checkpoints.append(file)
 
     def _add_archive(self, file: File, level: int) -> None:
         if level >= MAX_LEVELS:
@@ -152,9 +193,6 @@ class Collector:
             content = file.read(MAX_ZIP)
             if len(content) > MAX_ZIP:
                 raise Unpackable("is too large")
-            if content[:2] != b"PK" and content and content.isascii():  # a text by another name
-                self.handed.files.append(file)
-                return
             target = self._new_folder()
             for name in unpack(content, target, self._room, file.name):
                 self.handed.links.append(f"{file.shown}/{name}")
@@ -167,11 +205,9 @@ class Collector:
             self.add_folder(target, f"{file.shown}/", level + 1)
 
 
-def _is_zip(file: File) -> bool:
-    """Return whether a file of another name is a zip file."""
-    if not re.search(r"\.\w+$", file.name) or file.name.lower().endswith(_MAY_BE_ZIP):
-        try:
-            return file.read(3) == b"PK\x03\x04"
-        except OSError:
-            return False
-    return False
+def _head(file: File) -> bytes:
+    """Return the first bytes of a file; b"" if it cannot be read."""
+    try:
+        return file.read(SIGN)
+    except OSError:
+        return b""

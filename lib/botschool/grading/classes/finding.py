@@ -9,9 +9,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.choice import Choice, Wanted, listed
-from botschool.grading.classes.export import Person, one_person
-from botschool.grading.classes.files import TIMESTAMP
+from botschool.grading.classes.choice import MAX_NAMED, Choice, Wanted
+from botschool.grading.classes.export import one_person
+from botschool.grading.classes.files import TIMESTAMP, listed
+from botschool.grading.classes.people import Person
 from botschool.grading.declare.exercise import Exercise, Number
 
 
@@ -44,7 +45,7 @@ def find_submissions(
             if person.problem:
                 one.choices[each.number] = Choice(problem=person.problem)
                 continue
-            newest_first = person.platform == "canvas"
+            newest_first = person.platform in ("canvas", "attempt")
             one.choices[each.number] = each.choose(person.handed, new_folder, newest_first)
         one.notes = [*person.handed.notes, *_left(one, root)]
         found.append(one)
@@ -69,6 +70,8 @@ def _left(one: Submission, root: Path) -> list[str]:
             given += 1
         else:
             names.append(file.shown)
+    if not one.files and len(one.person.handed.files) <= MAX_NAMED:
+        names = []  # the problem of each exercise names them
     names += [f"{link} (a link)" for link in one.person.handed.links]
     return [f"Not used: {listed(names)}."] if names else []
 
@@ -76,6 +79,8 @@ def _left(one: Submission, root: Path) -> list[str]:
 def _is_given(name: str, root: Path, copies: bool) -> bool:
     """Return whether copies of the course have a file of this path."""
     if not copies and not re.match(r"ex\d\d_", name):
+        return False
+    if name.startswith("solutions/"):  # which no copy has
         return False
     return (root / name).is_file() or (root / "exercises" / name).is_file()
 

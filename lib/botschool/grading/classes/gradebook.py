@@ -10,7 +10,7 @@ from io import BytesIO
 from typing import Any
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.export import Person
+from botschool.grading.classes.people import Person
 from botschool.grading.classes.policy import tidy
 from botschool.grading.classes.roster import Roster, Student
 from botschool.grading.classes.tables import safe_cell

@@ -9,13 +9,15 @@ from typing import Any
 
 from botschool.errors import BotschoolError
 from botschool.grading.classes.choice import Choice
-from botschool.grading.classes.export import Person
 from botschool.grading.classes.finding import Submission
+from botschool.grading.classes.people import Person
 from botschool.grading.classes.policy import Policy, moodle_moment, tidy, unknown_names
 from botschool.grading.classes.roster import Roster, Student
 from botschool.grading.classes.times import told_by
 from botschool.grading.declare.exercise import Number
 
+_NUMBERS = ("participant", "user", "sid", "submission")
+"""Ids that distinguish people of one name."""
 MISSING = "Nothing was handed in."
 
 
@@ -80,14 +82,19 @@ class Register:
             self.policy.names(student, one.student)
             for one, student in zip(self.submissions, self.students, strict=True)
         ]
+        self._shown = Counter(one.student for one in submissions)
         self._told: dict[tuple[int, Number], datetime | None] = {}
         self._check_names()
         self._mark_doubles()
 
     def name(self, index: int) -> str:
         """Return a student's name, from the roster if possible."""
-        student = self.students[index]
-        return student.name if student else self.submissions[index].student
+        student, one = self.students[index], self.submissions[index]
+        if student:
+            return student.name
+        numbers = [one.person.ids[each] for each in _NUMBERS if one.person.ids.get(each)]
+        is_shared = self._shown[one.student] > 1 and numbers
+        return f"{one.student} ({numbers[0]})" if is_shared else one.student
 
     def is_missing(self, index: int) -> bool:
         """Return whether a row stands for a student who handed in nothing."""

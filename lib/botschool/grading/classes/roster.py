@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from botschool.errors import BotschoolError
-from botschool.grading.classes.export import Person
+from botschool.grading.classes.people import Person
 from botschool.grading.classes.tables import Table, read_table
 from botschool.grading.declare.checks import plain
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import codecs
+import contextlib
 import html.parser
 import json
 import re
 from typing import Any
 
+MAX_TEXT, MAX_NOTEBOOK = 4 * 2**20, 50 * 2**20
+"""Bytes of a file that may be an exercise's, and of a notebook with its pictures."""
 MARKS = (
     (codecs.BOM_UTF8, "utf-8-sig", "UTF-8 with a mark"),
     (codecs.BOM_UTF32_LE, "utf-32", "UTF-32"),
@@ -20,6 +23,9 @@ _JUPYTER = re.compile(
     r"^([ \t]*)(get_ipython\(\)|(?<![ \t])(?:%(?:matplotlib|load_ext|autoreload|pip)\b|!\w))",
     re.MULTILINE,
 )
+_INVISIBLE = re.compile("[\u200b-\u200f\u202a-\u202e\u2060\u2066-\u2069\ufeff]")
+_CODE = re.compile(r"^[^\n'\"#]*", re.MULTILINE)
+"""The beginning of a line, up to its first text or comment."""
 _BLOCKS = {"p", "div", "br", "li", "tr", "pre", "h1", "h2", "h3", "h4", "table", "ul", "ol"}
 
 
@@ -27,30 +33,33 @@ def decoded(content: bytes) -> tuple[str, str]:
     """Return the text of a Python file and the name of its encoding; "" for plain UTF-8."""
     for mark, codec, name in MARKS:
         if content.startswith(mark):
-            return content.decode(codec, "replace"), name
+            return content.decode(codec, "replace").lstrip("\ufeff"), name
     for codec, first in (("utf-16-le", 1), ("utf-16-be", 0)):
         if content[first:100:2].count(0) > 20 and len(content) % 2 == 0:
             return content.decode(codec, "replace"), "UTF-16 without a mark"
     if b"\0" in content:  # which no program may hold; they fill up a damaged file
         text, name = decoded(content.replace(b"\0", b""))
         return text, f"{name or 'UTF-8'} with zero bytes"
-    if content.isascii():
+    if content.isascii() and not _said(content):
         return content.decode("ascii"), ""
-    for line in content.split(b"\n", 2)[:2]:
-        found = COOKIE.match(line.decode("latin-1"))
-        if found:
-            try:
-                codec = codecs.lookup(found[2]).name
-                text = content.decode(codec)
-            except (LookupError, UnicodeError, ValueError):
-                break
-            if not isinstance(text, str) or codec in ("utf-8", "ascii"):
-                break
-            return text, found[2]
+    said = _said(content)
+    with contextlib.suppress(LookupError, UnicodeError, ValueError):
+        text = content.decode(codecs.lookup(said).name)
+        if isinstance(text, str):
+            plain = codecs.lookup(said).name in ("utf-8", "ascii")
+            return text, "" if plain else said
     try:
-        return content.decode("utf-8"), ""
+        return content.decode("utf-8"), f"UTF-8, although it says {said}" if said else ""
     except UnicodeDecodeError:
         return content.decode("latin-1"), "Latin-1 (it does not say so)"
+
+
+def _said(content: bytes) -> str:
+    """Return the encoding that a program's first two lines declare; "" if none."""
+    for line in content.split(b"\n", 2)[:2]:
+        if found := COOKIE.match(line.decode("latin-1")):
+            return found[2]
+    return ""
 
 
 def is_larger(value: Any, most: int) -> bool:
@@ -85,20 +94,30 @@ def is_notebook(text: str) -> bool:
 
 
 def today(notebook: str) -> str:
-    """Return a notebook in the present format; Jupyter 1 to 2 had another."""
+    """Return a notebook in the present format and with plain cells, if it is not so.
+
+    Jupyter 1 to 2 had another format. A cell that writes a file holds a program. A notebook of more
+    than MAX_TEXT characters loses its outputs and pictures.
+    """
+    if len(notebook) <= MAX_TEXT and not re.search(r'"worksheets"|%%writefile', notebook):
+        return notebook
     try:
         found = json.loads(notebook)
-        if "worksheets" not in found:
-            return notebook
-        cells = [cell for sheet in found["worksheets"] for cell in sheet["cells"]]
-        made = [
-            {"cell_type": "code", "metadata": {}, "source": cell["input"], "outputs": []}
-            for cell in cells
-            if cell["cell_type"] == "code"
-        ]
-    except (ValueError, LookupError, TypeError, RecursionError):
+        sheets = found.get("worksheets", [found])
+        cells = [_plain_cell(cell) for sheet in sheets for cell in sheet["cells"]]
+    except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
         return notebook
-    return json.dumps({"cells": made, "metadata": {}, "nbformat": 4, "nbformat_minor": 5})
+    return json.dumps({"cells": cells, "metadata": {}, "nbformat": 4, "nbformat_minor": 4})
+
+
+def _plain_cell(cell: dict[str, Any]) -> dict[str, Any]:
+    kind, text = cell["cell_type"], cell.get("source", cell.get("input", ""))
+    text = text if isinstance(text, str) else "".join(text)
+    made = {"cell_type": kind, "metadata": {}, "source": text}
+    if kind == "code":
+        made["source"] = re.sub(r"^\s*%%writefile\b.*\n?", "", text)
+        made |= {"outputs": [], "execution_count": None}
+    return made
 
 
 def code_of_notebook(text: str) -> str:
@@ -117,33 +136,64 @@ def code_of_fences(text: str) -> str:
     return "\n".join(blocks) or text
 
 
+def without_invisible(text: str) -> str:
+    """Return a script without the invisible characters that Python refuses."""
+    text = _INVISIBLE.sub("", text)
+    return _CODE.sub(lambda code: code[0].replace("\xa0", " "), text) if "\xa0" in text else text
+
+
 def without_jupyter(text: str) -> str:
     """Return a script without the lines that only a notebook understands."""
     return _JUPYTER.sub(r"\1pass  # \2", text)
 
 
 def text_of_page(page: str) -> str:
-    """Return the text typed into a web page's editor, line by line."""
+    """Return the program in a web page, line by line.
+
+    This is the highlighted code, as in the page that Jupyter makes of a notebook; else the
+    preformatted text, if it has functions; else all text, with headings as comments.
+    """
     reader = _Page()
     reader.feed(page)
     reader.close()
-    text = "".join(reader.parts).replace("\xa0", " ").replace("\u200b", "")
-    return re.sub(r"\n{3,}", "\n\n", text.replace("\r\n", "\n")).strip("\n") + "\n"
+    found = ["\n".join(reader.highlighted), "\n".join(reader.preformatted)]
+    chosen = next((text for text in found if re.search(r"^(def|class) ", text, re.MULTILINE)), "")
+    text = chosen or "".join(reader.parts)
+    text = text.replace("\r\n", "\n").replace("\xa0", " ").replace("\u200b", "")
+    return re.sub(r"\n{3,}", "\n\n", text).strip("\n") + "\n"
+
+
+_HEADINGS = {"h1", "h2", "h3", "h4"}
 
 
 class _Page(html.parser.HTMLParser):
+    """Collects the text of a page, the texts of <pre>, and those in an element `highlight`."""
+
     def __init__(self) -> None:
         super().__init__(convert_charrefs=True)
         self.parts: list[str] = []
+        self.preformatted: list[str] = []
+        self.highlighted: list[str] = []
         self._skipped = 0
-        self._preformatted = 0
+        self._depth = 0
+        self._pre: list[str] = []
+        self._divs: list[bool] = []
+        self._highlights = 0
 
     def handle_starttag(self, tag: str, attributes: list) -> None:
         if tag in ("script", "style", "head"):
             self._skipped += 1
-        self._preformatted += tag == "pre"
+        if tag == "div":
+            classes = (dict(attributes).get("class") or "").split()
+            self._divs.append("highlight" in classes)
+            self._highlights += self._divs[-1]
+        if tag == "pre":
+            self._depth += 1
+            self._pre = []
         if tag in _BLOCKS:
             self._end_line(always=tag == "br")
+        if tag in _HEADINGS:
+            self.parts.append("# ")
 
     def handle_startendtag(self, tag: str, attributes: list) -> None:
         if tag in _BLOCKS:
@@ -152,7 +202,13 @@ class _Page(html.parser.HTMLParser):
     def handle_endtag(self, tag: str) -> None:
         if tag in ("script", "style", "head"):
             self._skipped = max(0, self._skipped - 1)
-        self._preformatted = max(0, self._preformatted - (tag == "pre"))
+        if tag == "pre" and self._depth:
+            self._depth -= 1
+            text, self._pre = "".join(self._pre), []
+            self.preformatted.append(text)
+            self.highlighted += [text] * bool(self._highlights)
+        if tag == "div" and self._divs:
+            self._highlights -= self._divs.pop()
         if tag in _BLOCKS - {"br"}:
             self._end_line(always=False)
 
@@ -160,11 +216,13 @@ class _Page(html.parser.HTMLParser):
         if self._skipped:
             return
         ended = not self.parts or self.parts[-1].endswith("\n")
-        if ended and not self._preformatted:
+        if ended and not self._depth:
             data = data.lstrip("\r\n")  # the page's own line end after <br> or <p>
         if data:
             self.parts.append(data)
+            self._pre += [data] * bool(self._depth)
 
     def _end_line(self, always: bool) -> None:
+        self._pre += ["\n"] * (always and self._depth > 0)
         if always or (self.parts and not self.parts[-1].endswith("\n")):
             self.parts.append("\n")

@@ -22,9 +22,9 @@ MAX_LEVELS = 5
 """Levels of zip files within zip files."""
 MAX_PARTS, MAX_NAME = 30, 240
 """Folders in the name of a file, and bytes of each of its parts."""
-ARCHIVES = (".zip", ".tar", ".tgz", ".tar.gz", ".tar.bz2", ".tar.xz", ".py.gz", ".ipynb.gz")
+ARCHIVES = (".zip", ".tar", ".tgz", ".tbz2", ".tbz", ".txz", ".gz", ".bz2", ".xz")
 """Suffixes of archives to unpack."""
-PACKED = (".rar", ".7z", ".gz", ".bz2", ".xz")
+PACKED = (".rar", ".7z", ".zst")
 """Suffixes of archives that stay packed."""
 _COMPRESSED: tuple[tuple[bytes, Callable[[IO[bytes]], Any]], ...] = (
     (b"\x1f\x8b", gzip.open),
@@ -74,9 +74,9 @@ def unpack(archive: Path | bytes, target: Path, room: Room, name: str = "") -> l
 
     name: of the archive; a file that is only compressed gets it, without its last suffix.
 
-    Links are left out. Names that lead elsewhere lose what leads there: drives, roots and "..". Of
-    two files with one name the second gets another. Raises Unpackable, after which `target` may
-    hold a part.
+    Links are left out, but their folder is there. Names that lead elsewhere lose what leads there:
+    drives, roots and "..". Of two files with one name the second gets another.
+    Raises Unpackable, after which `target` may hold a part.
     """
     left_out: list[str] = []
     numbers: dict[Path, int] = {}
@@ -85,6 +85,7 @@ def unpack(archive: Path | bytes, target: Path, room: Room, name: str = "") -> l
             place = _inside(target, member, numbers)
             if place is None or not _write(member, place, room):
                 left_out.append(member.name)
+                _keep_folder(target, member)
     except RuntimeError:
         raise Unpackable("needs a password") from None
     except (
@@ -152,9 +153,8 @@ def _inside(target: Path, member: _Member, numbers: dict[Path, int]) -> Path | N
 
     numbers: the last number of each name that occurred twice.
     """
-    name = re.sub(r"^[A-Za-z]:", "", member.name)
-    parts = [_short(part) for part in PurePosixPath(name).parts if part not in ("/", "//", "..")]
-    if len(parts) > MAX_PARTS or not (member.is_file or member.is_folder):
+    parts = _parts(member)
+    if not (member.is_file or member.is_folder):
         return None
     if not parts:
         return target if member.is_folder else None
@@ -165,6 +165,19 @@ def _inside(target: Path, member: _Member, numbers: dict[Path, int]) -> Path | N
         number = numbers[wanted] = numbers.get(wanted, 1) + 1
         place = place.with_name(f"{wanted.stem} ({number}){place.suffix}")
     return place
+
+
+def _parts(member: _Member) -> list[str]:
+    """Return the folders and the name of a member; of too many folders, only the first ones."""
+    name = re.sub(r"^[A-Za-z]:", "", member.name)
+    parts = [_short(part) for part in PurePosixPath(name).parts if part not in ("/", "//", "..")]
+    return parts if len(parts) <= MAX_PARTS else [*parts[: MAX_PARTS - 1], parts[-1]]
+
+
+def _keep_folder(target: Path, member: _Member) -> None:
+    """Make the folder of a file that is left out, so that its owner does not vanish."""
+    with contextlib.suppress(OSError):
+        target.joinpath(*_parts(member)[:-1]).mkdir(parents=True, exist_ok=True)
 
 
 def _short(part: str) -> str:

@@ -1,0 +1,135 @@
+"""Recognise the names that learning platforms give to files and folders."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import zipfile
+from collections.abc import Iterable
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from botschool.errors import BotschoolError
+from botschool.grading.classes.files import is_junk
+from botschool.grading.classes.times import moment_of
+
+if TYPE_CHECKING:
+    from botschool.grading.classes.choice import Wanted
+
+MOODLE = re.compile(
+    r"(?P<name>.+?)_(?P<id>\d+)_assignsubmission_(?P<kind>[a-z]+)(?:_(?P<rest>.*))?", re.DOTALL
+)
+CANVAS = re.compile(
+    r"(?P<name>.+?)_(?P<late>LATE_)?(?P<id>\d+|(?<=anon_)[^\W_]{5}|(?<=anonymous_)[^\W_]{5})"
+    r"_(?P<submission>\d+)_(?P<rest>.+)",
+    re.DOTALL,
+)
+ATTEMPT = re.compile(
+    r"(?:.*_)?(?P<name>[^_]+)_attempt_(?P<time>\d{4}(?:-\d\d){5})(?:_(?P<rest>.+)|\.txt)", re.DOTALL
+)
+"""Blackboard's names of files, and those that nbgrader's zip_collect reads."""
+GRADESCOPE = re.compile(r"submission_(?P<id>\d+)")
+VERSION = re.compile(
+    r"(?i)(v|ver|version|attempt|try|old|new|backup|copy|final|draft|week|ex|exercise|task"
+    r"|submission)?[\W_]*\d*"
+)
+"""Names of folders in which one person keeps several versions, or several exercises."""
+TABLES = (".csv", ".yaml", ".yml")
+"""Suffixes of a class's tables and settings."""
+
+
+def visible(folder: Path) -> list[os.DirEntry]:
+    """Return the sorted entries of a folder that may be somebody's. Raises BotschoolError."""
+    try:
+        with os.scandir(folder) as entries:
+            found = [e for e in entries if is_of_platform(e.name) or not is_hidden(e.name)]
+    except OSError as error:
+        raise BotschoolError(f"{folder} cannot be read ({error.strerror}).") from None
+    return sorted(found, key=lambda entry: entry.name)
+
+
+def entries_of(folder: Path) -> list[os.DirEntry]:
+    """Return the entries of a folder; none if it cannot be read."""
+    with contextlib.suppress(OSError), os.scandir(folder) as entries:
+        return list(entries)
+    return []
+
+
+def is_hidden(name: str) -> bool:
+    """Return whether a name is that of a hidden file or of one that a system left behind."""
+    return name.startswith(".") or is_junk(name)
+
+
+def is_folder(entry: os.DirEntry) -> bool:
+    """Return whether an entry is a folder, and no link to one."""
+    return entry.is_dir(follow_symlinks=False)
+
+
+def is_of_platform(name: str) -> bool:
+    """Return whether a platform gives such a name to a person's file or folder."""
+    return any(each.fullmatch(name) for each in (MOODLE, CANVAS, GRADESCOPE, ATTEMPT))
+
+
+def is_class(names: Iterable[str]) -> bool:
+    """Return whether the names in a folder are those of a platform's class."""
+    shown = [name for name in names if not is_hidden(name)]
+    return any(MOODLE.fullmatch(name) or GRADESCOPE.fullmatch(name) for name in shown) or (
+        bool(shown) and all(CANVAS.fullmatch(name) or ATTEMPT.fullmatch(name) for name in shown)
+    )
+
+
+def names_in(path: Path) -> list[str]:
+    """Return the names in a zip file; none if it cannot be read."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return archive.namelist()
+    except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile):
+        return []
+
+
+def holds_exercise(path: Path, wanted: list[Wanted]) -> bool:
+    """Return whether a zip file holds an exercise."""
+    stems = [Path(one.file).stem.casefold() for one in wanted]
+    return any(stem in name.casefold() for name in names_in(path) for stem in stems)
+
+
+def zips_a_class(path: Path) -> bool:
+    """Return whether a zip file holds a platform's class, perhaps in a folder."""
+    names = [name.split("/") for name in names_in(path)]
+    tops = {parts[0] for parts in names}
+    return is_class(tops) or (len(tops) == 1 and is_class({p[1] for p in names if len(p) > 1}))
+
+
+def attempts_of(names: list[str]) -> dict[str, tuple[str, str, datetime | None]]:
+    """Return for each file of an attempt: its owner, its own name and its time.
+
+    A file of a later attempt gets the number of the attempt, as Canvas writes it.
+    """
+    found = {name: match for name in names if (match := ATTEMPT.fullmatch(name))}
+    times: dict[str, list[str]] = {}
+    for match in found.values():
+        own = times.setdefault(match["name"].casefold(), [])
+        own += [match["time"]] * (match["time"] not in own)
+    made = {}
+    for name, match in found.items():
+        number = sorted(times[match["name"].casefold()]).index(match["time"])
+        rest = Path(match["rest"] or "")
+        shown = f"{rest.stem}-{number}{rest.suffix}" if number and match["rest"] else str(rest)
+        day, clock = match["time"][:10], match["time"][11:].replace("-", ":")
+        made[name] = (match["name"], shown * bool(match["rest"]), moment_of(f"{day} {clock}"))
+    return made
+
+
+def clones_in(folder: Path) -> list[Path]:
+    """Return the repositories in a folder that is not one itself, if there are several."""
+    if (folder / ".git").exists():
+        return []
+    try:
+        with os.scandir(folder) as entries:
+            inner = sorted(Path(entry.path) for entry in entries if is_folder(entry))
+    except OSError:
+        return []
+    clones = [path for path in inner if (path / ".git").exists()]
+    return clones if len(clones) > 1 and len(clones) == len(inner) else []
