@@ -43,7 +43,7 @@ def start_command(number: str, name: str | None, course: str | None) -> None:
         print(f"left alone, because it is there: {path}")
     print(f"Laboratory {place.lab.number}. {place.lab.title}")
     print(f"Read {place.folder / 'sheet.md'} and write your prediction.")
-    print(f"Then: botschool lab {place.lab.number} run")
+    print(f"Then: botschool lab {place.lab.number} run --quick, for a first look")
 
 
 def run_command(number: str, quick: bool, workers: int) -> bool:
@@ -81,9 +81,13 @@ def check_command(number: str, as_json: bool, submission: Path | None = None) ->
     """
     if submission:
         return _check_other(number, as_json, submission)
-    checked = Check(Place.of(number)).all()
+    place = Place.of(number)
+    checked = Check(place).all()
     _say(checked, as_json)
-    return checked.points >= sum(PARTS.values())
+    everything = checked.points >= sum(PARTS.values())
+    if everything and not as_json:
+        print(f"A page to show: botschool lab {place.lab.number} report")
+    return everything
 
 
 def _check_other(number: str, as_json: bool, submission: Path) -> bool:
