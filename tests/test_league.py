@@ -109,7 +109,7 @@ def spoiled(path, **arrays):
         ({"name": 5}, "no name or experiment as text"),
         ({"name": np.array([{}], dtype=object)}, "damaged"),
         ({"experiment": "{"}, "cannot be read"),
-        ({"experiment": '{"exp": {"environment": "os:system"}, "policy": {}}'}, "nobody competes"),
+        ({"experiment": '{"exp": {"environment": "os:system"}, "policy": {}}'}, "has no discipline"),
         ({"genotype": np.zeros(3)}, "cannot play: The genotype has shape"),
         ({"genotype": np.array(["a"])}, "cannot play"),
         ({"genotype": np.zeros(600_000)}, "more than 4 MB"),

@@ -149,7 +149,7 @@ def test_what_python_cannot_declare():
         (lambda: Robot(x="far"), "x = far is not a number"),
         (lambda: Robot(x=(1, 2, 3)), "is not a number"),
         (lambda: arena.make(Plan(), models="e-puck"), "takes its robots from its plan"),
-        (lambda: problems.make("CartPole-v1", plan=Plan()), "CartPole-v1 takes no such choice"),
+        (lambda: problems.make("CartPole-v1", plan=Plan()), "CartPole-v1 takes no plan"),
     ]
     for call, words in refused_:
         refused(call, words)

@@ -336,7 +336,7 @@ def _unknown(key: str, section: str, cls: type) -> str:
     name = key.lower()
     if section == ARENA and (kind := re.fullmatch(r"(\D+?)s?(\d*)", name)) and kind[1] in KINDS:
         if kind[2]:
-            return f"{key} cannot be: an arena has {kind[1]}1 to {kind[1]}{WORDS[kind[1] + 's']}"
+            return f"there is no {key}: an arena has {kind[1]}1 to {kind[1]}{WORDS[kind[1] + 's']}"
         return f"{key} has no number: write {kind[1]}1, and so on"
     for other, config in (("EXP", Exp), ("POLICY", PolicyConfig), (ARENA, ArenaConfig)):
         if name in (f.name.lower() for f in fields(config)):

@@ -62,7 +62,7 @@ class Wrapper:
     def _find(self) -> Any:
         if not self.module and self.name in FORGETFUL:
             raise BotschoolError(
-                f"The wrapper {self.name} remembers earlier episodes, so what an episode is worth "
+                f"The wrapper {self.name} remembers earlier episodes, so the return of an episode "
                 f"would depend on them: use {FORGETFUL[self.name]} instead."
             )
         if not self.module:

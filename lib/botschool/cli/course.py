@@ -163,7 +163,7 @@ def course(
 ) -> None:
     """Make a folder with the exercises, which the installed botschool grades.
 
-    In an existing folder, the command leaves the files alone that you have edited.
+    In an existing folder, the command keeps the files that you have edited.
     """
     from botschool.grading.copies.commands import course_command
 
@@ -197,8 +197,7 @@ def release(
     Outside a repository, the command copies the installed botschool's course, as `botschool course`
     does.
 
-    In an existing copy, the command leaves files alone that somebody has edited, and exercises keep
-    the answers they have.
+    In an existing copy, the command keeps edited files and the answers of the exercises.
     """
     from botschool.grading.copies.commands import release_command
 

@@ -50,8 +50,8 @@ class Simulation:
             self._stepper.set(self.limit, self._problem.options(noise))
         except (TypeError, ValueError):
             raise BotschoolError(
-                f"An episode has at least 1 step and noise is not negative: max_steps = {limit!r} "
-                f"and noise = {noise!r} cannot be."
+                f"max_steps must be at least 1 and noise at least 0, but they are {limit!r} and "
+                f"{noise!r}."
             ) from None
         self._mode = render_mode
         self._scene: Any = None

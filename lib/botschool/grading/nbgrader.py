@@ -29,7 +29,7 @@ CONFIG = "nbgrader_config.py"
 GENERATED = ".generated.json"
 """A file in the course folder: the digest of every generated notebook, to recognise edited ones."""
 _CONFIG_TEXT = '''\
-"""How nbgrader grades this course. Made by `make nbgrader` once, then yours to change."""
+"""Configure nbgrader for this course. `make nbgrader` made this file once; you can edit it."""
 
 from pathlib import Path
 
@@ -41,10 +41,10 @@ configure(c, here, course={course})
 '''
 _HOW_TO = """\
 This is the exercise as a notebook. Write your code where `NotImplementedError` is raised; then
-save the notebook (Ctrl+S) and run the cell below the task: it says how many points the task has,
-and why some are missing. Once, in this folder, say `botschool trust .` in a terminal: it lets
-botschool run the grader beside this notebook. `botschool hint N.T` gives hints. Cells of your own
-may stand anywhere: keep what takes long out of the cells that define functions."""
+save the notebook (Ctrl+S) and run the cell below the task: it prints your points for the task,
+and why some are missing. Run `botschool trust .` once in this folder, in a terminal: this lets
+botschool run the grader beside this notebook. `botschool hint N.T` gives hints. You can add cells
+anywhere; keep slow code out of the cells that define functions."""
 
 
 def nbgrader_command(folder: Path) -> None:

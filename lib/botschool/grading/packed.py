@@ -33,7 +33,7 @@ def pack(grader: str, solution: str = "", mistakes: str = "") -> str:
     extras = re.search(r"extras=\([^)]*\)", grader)
     needs = f"# Needs {extras[0]}.\n" if extras else ""
     return (
-        '"""The grader of this exercise, packed because it computes what you are asked for."""\n\n'
+        '"""The grader of this exercise, packed because it contains the answers."""\n\n'
         f"{needs}from botschool.grading.packed import unpack\n\n"
         f"exercise = unpack(\n    __file__,\n{lines},\n)\n"
     )
@@ -62,7 +62,7 @@ def pack_module(text: str) -> str:
     """Return the text of a packed Python file that defines the same names as this one."""
     lines = "\n".join(f'    "{line}"' for line in pack_answers(text).split())
     return (
-        '"""A part of the check, packed because it computes what you are asked for."""\n\n'
+        '"""A part of the check, packed because it contains the answers."""\n\n'
         "from botschool.grading.packed import restore\n\n"
         f"restore(\n    globals(),\n{lines},\n)\n"
     )

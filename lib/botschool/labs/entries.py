@@ -130,7 +130,7 @@ def read_robot(file: str, name: str, about: str, genotype: np.ndarray) -> Entry:
     environment = ALIKE.get(environment, environment)
     if environment not in DISCIPLINES:
         raise Unusable(
-            f"is of {environment[:40]!r}, where nobody competes; there are "
+            f"is of {environment[:40]!r}, which has no discipline here; choose one of "
             f"{', '.join(DISCIPLINES)}."
         )
     for key, most in LARGEST.items():

@@ -72,7 +72,7 @@ def replayed(run: SavedRun, folder: Path, student: Student, rng: np.random.Gener
             if generation == best and not np.allclose(
                 candidates[given.argmax()], run.genotype, rtol=1e-6, atol=1e-9
             ):
-                return "strategy.py does not come to its robot"
+                return "strategy.py does not lead to its robot"
             if generation in drawn:
                 seeds = np.full(len(candidates), int(asked["seed"]), dtype=np.uint64)
                 if said := _measured_again(evaluator, candidates, seeds, given, took[generation]):

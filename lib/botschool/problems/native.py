@@ -202,8 +202,9 @@ def _cast(
     name: str, info: dict, robots: Sequence[str], plan: Plan | None
 ) -> tuple[RobotModel, ...]:
     if plan and (name != PROBLEM or robots):
-        what = f"a plan is for {PROBLEM}" if name != PROBLEM else "its plan says which robots"
-        raise BotschoolError(f"{name} takes no such choice: {what}.")
+        if name != PROBLEM:
+            raise BotschoolError(f"{name} takes no plan: only {PROBLEM} does.")
+        raise BotschoolError(f"{name} takes its robots from its plan: leave out `robots`.")
     if plan:
         return plan.models
     if "plan" in info:

@@ -64,7 +64,8 @@ class ParallelProblem(PythonProblem):
             count = "1 agent" if len(agents) == 1 else f"{len(agents)} agents"
             raise BotschoolError(
                 f"{self.name} has {count} ({shown}), but two evolve against each other: choose an "
-                "environment of two agents, or make it one with a line options = ... if it can be."
+                "environment of two agents, or set their number in a line options = ... if the "
+                "environment has such an option."
             )
         return agents
 

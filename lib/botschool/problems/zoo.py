@@ -40,8 +40,8 @@ def make_parallel(name: str, **options: Any) -> Any:
         from pettingzoo.utils.conversions import aec_to_parallel
     except ImportError:
         raise BotschoolError(
-            f"{name} is to be an environment of PettingZoo, which is not installed: install it "
-            "with `pip install 'botschool[pettingzoo]'`."
+            f"{name} needs PettingZoo, which is not installed: install it with "
+            "`pip install 'botschool[pettingzoo]'`."
         ) from None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # errors report problems in a sentence
@@ -58,8 +58,8 @@ def make_parallel(name: str, **options: Any) -> Any:
         if isinstance(env, AECEnv):
             if not env.metadata.get("is_parallelizable"):
                 raise BotschoolError(
-                    f"The agents of {name} take turns, and those that evolve act at the same time: "
-                    "choose a parallel environment."
+                    f"The agents of {name} take turns, but agents that evolve must act at the same "
+                    "time: choose a parallel environment."
                 )
             return aec_to_parallel(env)
     if isinstance(env, gymnasium.Env):

@@ -81,7 +81,7 @@ def _require_finished(file: Path, number: int) -> None:
         named = f"task {tasks[0]} is" if len(tasks) == 1 else f"tasks {', '.join(tasks)} are"
         raise BotschoolError(
             f"{named} not done yet in {file.name}. 'botschool show {number}' runs a finished "
-            f"file; 'botschool grade {number}' lists what is done."
+            f"file; 'botschool grade {number}' lists the finished tasks."
         )
 
 

@@ -53,14 +53,14 @@ class Origin:
 _ADVICE = (
     (
         r"matmul: |shapes .* not aligned|mat1 and mat2 shapes",
-        "The last axis of the left one must be as long as the first but one of the right one: "
-        "transpose one (.T), or exchange the two sides.",
+        "The last axis of the left array must be as long as the second-to-last axis of the right "
+        "one: transpose one (.T), or exchange the two sides.",
     ),
     (
         r"could not be broadcast|could not broadcast|must match the size of tensor",
         "Arrays of these shapes cannot be combined number by number: print .shape of both.",
     ),
-    (r"'NoneType'", "Something is None here: print what each part of the line is."),
+    (r"'NoneType'", "Something is None here: print each part of the line."),
     (
         r"too many values to unpack|not enough values to unpack",
         "In Gymnasium reset returns (observation, info), and step returns (observation, reward, "

@@ -204,8 +204,8 @@ def places_for_order(c: Comparison) -> str | None:
     got, wanted = (np.argsort(np.argsort(each)) for each in (c.got, c.wanted))
     if np.array_equal(got[wanted], np.arange(len(got))):
         return (
-            "An order and the places in it are mixed up: argsort tells which one comes "
-            "first, second, ..., and the argsort of that tells which place each one has."
+            "An order and the places in it are mixed up: np.argsort(x) tells which value comes "
+            "first, second, ..., and np.argsort(np.argsort(x)) tells the place of each value."
         )
     return None
 
