@@ -6,9 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from botschool.grading.declare import diagnosis
-from botschool.grading.declare.checks import Wrong
+from botschool.grading.declare.checks import Mismatch, Wrong, expect_close
 from botschool.grading.declare.diagnosis import DETECTORS, diagnose
 from botschool.grading.declare.diagnosis.comparison import Comparison
+from botschool.grading.declare.slips import slips
 from botschool.grading.run.student import Student
 from tiny_course import submit
 
@@ -64,7 +65,7 @@ CASES = {
         "returned as 'terminated'",
     ),
     "n runs": (
-        lambda r: ((w := line(r)) * 3 / 4, w, ([{"x": line(r, 9)}] * 4,)), "mixed up (n = 4)"
+        lambda r: ((w := line(r)) * 3 / 4, w, ([{"x": line(r, 9)}] * 4,)), "divided by 4 where 3"
     ),
     "other axis": (
         lambda r: ((t := table(r, 4, 4)).mean(axis=0), t.mean(axis=1), (t,)), "along the other axis"
@@ -108,10 +109,10 @@ CASES = {
     "1/n": (lambda r: ((w := line(r, 3)) / 17, w, (table(r, 17, 3),)), "1/17"),
     "n for n - 1": (lambda r: ((w := r.normal()) * 16 / 17, w, (line(r, 17),)), "see ddof"),
     "deviation": (
-        lambda r: ((x := line(r, 9)).std(), x.std(ddof=1), (x,)), "n - 1 were mixed up (n = 9)"
+        lambda r: ((x := line(r, 9)).std(), x.std(ddof=1), (x,)), "divided by 9 under"
     ),
     "deviation by n - 1": (
-        lambda r: ((x := line(r, 9)).std(ddof=1), x.std(), (x,)), "mixed up (n = 9)"
+        lambda r: ((x := line(r, 9)).std(ddof=1), x.std(), (x,)), "divided by 8 under"
     ),
     "square": (lambda r: ((w := line(r)) ** 2, w), "square of"),
     "tanh forgotten": (lambda r: (np.arctanh(w := np.tanh(line(r))), w), "before tanh"),
@@ -331,3 +332,41 @@ def test_nothing_is_refused_elsewhere(tmp_path):
         assert student.call("by_a_later_import") == [0.0, 0.0, 0]
     finally:
         student.close()
+
+
+def test_slips_come_alone_and_in_pairs():
+    found = slips(
+        lambda factor, more: 3 * factor + more,
+        factor={"": 1, "Twice as much.": 2},
+        more={"": 0, "One more.": 1, "One less.": -1},
+    )
+    assert found == {
+        "Twice as much.": 6, "One more.": 4, "One less.": 2,
+        "Twice as much. One more.": 7, "Twice as much. One less.": 5,
+    }  # fmt: skip
+    assert slips(lambda a: a, most=1, a={"": 0, "Wrong.": 1}) == {"Wrong.": 1}
+
+
+def test_mistakes_are_computed_only_for_a_wrong_answer():
+    asked = []
+
+    def mistakes():
+        asked.append(1)
+        return {"Twice as much.": 2.0}
+
+    expect_close("f(1)", 1.0, 1.0, mistakes=mistakes)
+    assert not asked
+    with pytest.raises(Mismatch) as found:
+        expect_close("f(1)", 2.0, 1.0, mistakes=mistakes)
+    assert not asked
+    assert found.value.mistakes == {"Twice as much.": 2.0}
+
+
+def test_a_wrong_number_comes_with_what_the_task_says_about_it():
+    with pytest.raises(Wrong, match=r"\n  Row 1, column 0 counts\."):
+        expect_close(
+            "f()",
+            [[0, 0], [1, 0]],
+            np.zeros((2, 2)),
+            why=lambda i, j: f"Row {i}, column {j} counts.",
+        )

@@ -12,6 +12,7 @@ from botschool.grading.declare.checks import (
     went_on,
 )
 from botschool.grading.declare.exercise import Exercise, Task
+from botschool.grading.declare.slips import slips
 from botschool.grading.run.student import Student
 
 __all__ = [
@@ -26,5 +27,6 @@ __all__ = [
     "expect_ends",
     "expect_fields",
     "show",
+    "slips",
     "went_on",
 ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,10 @@ class Wrong(Exception):
     """A check failed; the message is the sentence that the learner reads."""
 
 
+Mistakes = dict[str, Any] | Callable[[], dict[str, Any]]
+"""Sentence -> the answer that this mistake leads to, or a function that returns this."""
+
+
 class Mismatch(Wrong):
     """An answer differs from the expected one; `diagnosis` looks for a likely cause."""
 
@@ -26,10 +31,15 @@ class Mismatch(Wrong):
         sentence: str,
         got: np.ndarray,
         wanted: np.ndarray,
-        mistakes: dict[str, Any] | None = None,
+        mistakes: Mistakes | None = None,
     ) -> None:
         super().__init__(sentence)
-        self.got, self.wanted, self.mistakes = got, wanted, mistakes or {}
+        self.got, self.wanted, self._mistakes = got, wanted, mistakes or {}
+
+    @cached_property
+    def mistakes(self) -> dict[str, Any]:
+        """Return the answers of typical mistakes, by sentence."""
+        return self._mistakes() if callable(self._mistakes) else self._mistakes
 
 
 _keep: ContextVar[Callable[[Mismatch], None] | None] = ContextVar("keep", default=None)
@@ -90,14 +100,16 @@ def expect_close(
     value: Any,
     expected: Any,
     tolerance: float = 1e-9,
-    mistakes: dict[str, Any] | None = None,
+    mistakes: Mistakes | None = None,
+    why: Callable[..., str] | None = None,
 ) -> None:
     """Raise Mismatch unless the value equals the expected number or array.
 
     tolerance: relative and absolute. Fractions in single precision may differ by as much as single
     precision does (see `_allowed`).
     mistakes: a sentence that names a typical mistake ("The biases are left out.") -> the answer
-    that it leads to.
+    that it leads to; or a function that returns this, called if the value is wrong.
+    why: returns what the task says about the number at an index, for the first wrong one.
     """
     wanted = np.asarray(expected, dtype=np.float64)
     array = _array(said, value, wanted.shape)
@@ -107,7 +119,11 @@ def expect_close(
     got = expect_array(said, value, wanted.shape)
     close = np.abs(got - wanted) <= _allowed(got, wanted, tolerance)
     if not close.all():
-        _found(Mismatch(_unequal(said, got, wanted, close), got, wanted, mistakes))
+        sentence = _unequal(said, got, wanted, close)
+        if why:
+            place = np.unravel_index(int(np.argmin(close)), close.shape)
+            sentence += f"\n  {why(*map(int, place))}"
+        _found(Mismatch(sentence, got, wanted, mistakes))
 
 
 def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:

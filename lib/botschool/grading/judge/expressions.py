@@ -135,23 +135,24 @@ class Expressions:
 
     def _operands(self, part: ast.BinOp) -> Iterator[tuple[str, ast.expr]]:
         left, right = _PARTS.get(type(part.op), ("", ""))
+        whole = f" in{said}" if (said := self.quoted(part)) else ""
         if isinstance(part.op, (ast.Sub, ast.Div)):
             what = "A difference" if isinstance(part.op, ast.Sub) else "A fraction"
             yield f"{what} is the wrong way round.", ast.BinOp(part.right, part.op, part.left)
         if isinstance(part.op, ast.MatMult):
             yield "The two sides of `@` are exchanged.", ast.BinOp(part.right, part.op, part.left)
         if right and not isinstance(part.op, ast.MatMult):
-            yield f"A {right} is left out{colon(self.quoted(part.right))}.", part.left
+            yield f"A {right} is left out{colon(self.quoted(part.right))}{whole}.", part.left
             if not isinstance(part.op, (ast.Pow, ast.Mod, ast.FloorDiv)):
                 taken = part.right
                 if isinstance(part.op, ast.Sub):
                     taken = ast.UnaryOp(ast.USub(), part.right)
                 elif isinstance(part.op, ast.Div):
                     taken = ast.BinOp(ast.Constant(1), part.op, part.right)
-                yield f"A {left} is left out{colon(self.quoted(part.left))}.", taken
+                yield f"A {left} is left out{colon(self.quoted(part.left))}{whole}.", taken
         if isinstance(part.op, ast.Pow):
             yield (
-                "A power is taken with another exponent.",
+                f"An exponent is one too large{colon(self.quoted(part))}.",
                 ast.BinOp(part.left, part.op, ast.BinOp(part.right, ast.Add(), ast.Constant(1))),
             )
 
@@ -269,8 +270,11 @@ class Expressions:
                         f"A value is taken one place too {word} (off by one).",
                         ast.Subscript(part.value, _moved(at, more, None), part.ctx),
                     )
-            if not isinstance(at, ast.Slice):
-                yield "One of several values is not picked ([...]).", part.value
+            if isinstance(at, ast.Compare):
+                which = colon(self.quoted(at))
+                yield f"All values are used where a condition selects some{which}.", part.value
+            elif not isinstance(at, ast.Slice):
+                yield "A whole array or list is used where one element of it belongs.", part.value
 
     # --- expressions that keep their place, and change inside
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from botschool.grading.declare.checks import Mismatch, NotDone, Wrong, keeping
-from botschool.grading.declare.diagnosis import diagnose
+from botschool.grading.declare.diagnosis import diagnose, fitting
 from botschool.grading.declare.diagnosis.comparison import Comparison
 from botschool.grading.declare.values import show
 from botschool.grading.run.student import Student
@@ -45,6 +45,8 @@ class Failure:
     """Whether the submission gave an answer to the last call."""
     cause: str = ""
     """A sentence on the likely cause."""
+    named: bool = False
+    """Whether the check itself names this cause."""
     direct: dict[str, Any] = field(default_factory=dict)
     """The call of the function; {} if a driver made it."""
 
@@ -87,6 +89,8 @@ class Case:
     request: bytes
     pasted: str
     cause: str
+    named: list[str]
+    """The check's own sentences that explain the answer."""
     direct: dict[str, Any]
     certain: bool
     """Whether one case is enough: the check itself names the mistake, with many numbers."""
@@ -95,8 +99,8 @@ class Case:
 def look_for_causes(failures: list[Failure], student: Student) -> None:
     """Run quick checks again to their end, and add to each failure its smallest case.
 
-    Also add the cause, if a detector finds the same one for two different calls. student: the
-    submission in a new child, whose time does not count.
+    Also add the cause: a sentence of the check that explains all its wrong answers, or a sentence
+    found for two different calls. student: the submission in a new child; its time does not count.
     """
     cases = _cases([each.check for each in failures if each.quick and each.check], student)
     calls: dict[str, set[bytes]] = {}
@@ -108,8 +112,19 @@ def look_for_causes(failures: list[Failure], student: Student) -> None:
             failure.text, failure.direct = case.text, case.direct
             failure.shown = bool(case.pasted) and case.pasted in case.text
             failure.pasted = "" if failure.shown else case.pasted
-            if case.certain or len(calls[_DIGITS.sub("", case.cause)]) >= INPUTS:
-                failure.cause = case.cause
+            common = _common(own)
+            enough = any(each.certain for each in own) or len({c.request for c in own}) >= INPUTS
+            if common and enough:
+                failure.cause, failure.named = common, True
+            elif case.certain or len(calls[_DIGITS.sub("", case.cause)]) >= INPUTS:
+                failure.cause, failure.named = case.cause, case.cause in case.named
+
+
+def _common(cases: list[Case]) -> str:
+    """Return the first sentence of a check that explains all its wrong answers, or ""."""
+    said = [{_DIGITS.sub("", text) for text in case.named} for case in cases]
+    fit = (text for text in cases[0].named if all(_DIGITS.sub("", text) in each for each in said))
+    return next(fit, "")
 
 
 def _cases(checks: list[Check], student: Student) -> list[Case]:
@@ -123,7 +138,8 @@ def _cases(checks: list[Check], student: Student) -> list[Case]:
         request = pack({key: student.request[key] for key in ("name", "arguments")})
         if len(found) < MAX_CASES:
             text, pasted, direct = str(error), student.pasted, student.direct
-            found.append(Case(check, text, request, pasted, cause, direct, certain))
+            named = fitting(error.got, error.wanted, error.mistakes)
+            found.append(Case(check, text, request, pasted, cause, named, direct, certain))
 
     try:
         for check in checks:

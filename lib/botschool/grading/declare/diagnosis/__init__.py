@@ -18,9 +18,14 @@ from botschool.grading.declare.diagnosis import numbers, places
 from botschool.grading.declare.diagnosis.comparison import MAX_NUMBERS, Comparison, Detector, alike
 from botschool.grading.declare.diagnosis.places import of_shapes
 
-__all__ = ["DETECTORS", "diagnose", "of_shapes"]
+__all__ = ["DETECTORS", "diagnose", "fitting", "of_shapes"]
 
 DETECTORS: tuple[Detector, ...] = (*places.DETECTORS, *numbers.DETECTORS)
+
+
+def fitting(got: Any, wanted: Any, mistakes: dict[str, Any]) -> list[str]:
+    """Return the sentences of the mistakes that lead to an answer; mistakes: as in diagnose."""
+    return [text for text, made in mistakes.items() if alike(got, made) and not alike(wanted, made)]
 
 
 def diagnose(
@@ -41,8 +46,7 @@ def diagnose(
     found = Comparison(got, wanted, arguments, answer)
     if alike(got, wanted):
         return ""
-    for text, made in (mistakes or {}).items():
-        if alike(got, made) and not alike(wanted, made):
-            return text
+    if named := fitting(got, wanted, mistakes or {}):
+        return named[0]
     with np.errstate(all="ignore"):
         return next((text for each in DETECTORS if (text := each(found))), "")

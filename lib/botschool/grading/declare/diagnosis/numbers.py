@@ -92,9 +92,12 @@ def a_known_factor(c: Comparison) -> str | None:
     for n in sorted({2, *c.counts, *near}):
         for power in (1, 0.5, -0.5, -1):
             if c.same(c.wanted * ((n - 1) / n) ** power):
+                used, right = (n, n - 1) if power > 0 else (n - 1, n)
+                under = "" if abs(power) == 1 else " under a root"
                 return (
-                    f"It is as if n and n - 1 were mixed up (n = {n}) in a mean, a variance or a "
-                    "standard deviation: see ddof in NumPy, correction in torch."
+                    f"It is as if you divided by {used}{under} where {right} belongs (in a "
+                    f"variance or a deviation of {n} values: see ddof in NumPy, correction in "
+                    "torch)."
                 )
     return None
 
