@@ -101,22 +101,22 @@ class Experiment:
 
     @property
     def competitive(self) -> bool:
-        """Whether two populations evolve against each other."""
+        """Return whether two populations evolve against each other."""
         return ALGORITHMS[self.exp.algo].competitive
 
     @property
     def single(self) -> bool:
-        """Whether one population plays both sides."""
+        """Return whether one population plays both sides."""
         return self.competitive and len(ALGORITHMS[self.exp.algo].make.sides) == 1
 
     @property
     def plan(self) -> Plan | None:
-        """The declared arena, if there is one."""
+        """Return the declared arena, if there is one."""
         return None if self.arena is None else Plan.of(self.arena)
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """Its sections, named as in to_dict."""
+        """Return its sections, named as in to_dict."""
         return ("exp", "policy", "algo") + (("arena",) if self.arena is not None else ())
 
 

@@ -62,7 +62,7 @@ class Numbers(Generator):
 
     @property
     def place(self) -> Place:
-        """The position of the next number in the stream."""
+        """Return the position of the next number in the stream."""
         return self._source.state
 
     @place.setter

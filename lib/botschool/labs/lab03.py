@@ -15,7 +15,7 @@ SOLVED = 475.0
 
 
 def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """Reported and new fitness, evaluations until solved, and whether it is solved."""
+    """Return reported and new fitness, evaluations until solved, and whether it is solved."""
     size = run["experiment"]["algo"]["popsize"]
     reported = np.asarray(run["stat"])[:, 2]
     solved = reported >= SOLVED
@@ -41,7 +41,9 @@ PROBLEMS = {
 
 
 def condition(problem: str, size: int) -> Condition:
-    """SSS with that population; generations make the evaluations of a run equal."""
+    """Return a condition: SSS with this population; all populations make the same number of
+    evaluations.
+    """
     told: dict[str, Any] = PROBLEMS[problem]
     return Condition(
         f"{problem} {size}",
@@ -80,12 +82,12 @@ def lost(problem: str) -> Any:
 
 
 def is_cartpole(name: str) -> bool:
-    """Whether a condition is one of CartPole's."""
+    """Return whether a condition is one of CartPole's."""
     return name.startswith("CartPole")
 
 
 def of_cartpole(values: Any) -> tuple[float, ...]:
-    """The median of the evaluations until solved."""
+    """Return the median of the evaluations until solved."""
     return (float(np.median(values["evaluations"])),)
 
 

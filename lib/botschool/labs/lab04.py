@@ -13,7 +13,9 @@ from botschool.labs.measuring import permutation_test, play_again
 
 
 def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """Reported fitness, mean return in 100 new episodes, and the standard deviation of these."""
+    """Return reported fitness, and mean and standard deviation of the returns in 100 new
+    episodes.
+    """
     returns = play_again(run, seed=1, episodes=100)
     return {
         "reported": float(np.asarray(run["stat"])[-1, 2]),
@@ -42,7 +44,7 @@ LEVEL, NEAR = 0.05 / len(SIX), (0.005, 0.0125)
 
 
 def condition(problem: str, change: str) -> Condition:
-    """Ten runs with one hyperparameter changed."""
+    """Return a condition: ten runs with one hyperparameter changed."""
     told = PROBLEMS[problem]
     policy: dict[str, Any] = {
         "episodes": 2,
@@ -73,7 +75,7 @@ def condition(problem: str, change: str) -> Condition:
 
 
 def tests(data: Data, problem: str) -> dict[str, float]:
-    """The p of each change against the base."""
+    """Return the p of each change against the base."""
     base = data[f"{problem} {BASE}"]["fresh"]
     return {name: permutation_test(data[f"{problem} {name}"]["fresh"], base) for name in SIX}
 

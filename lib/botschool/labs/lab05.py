@@ -15,7 +15,7 @@ BODY = 64
 
 
 def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """Return of the brain in its own body, and the mean of its returns in the others'."""
+    """Return the brain's return in its own body, and the mean of its returns in the others'."""
     brain = np.asarray(run["genotype"])[:-BODY]
     mixed = [np.concatenate([brain, np.asarray(other)[-BODY:]]) for other in run["others"]]
     returns = [play_again(run | {"genotype": each}, seed=1, episodes=10).mean() for each in mixed]
@@ -29,7 +29,7 @@ MSTEPS = {"early": 0.2, "late": 1.0}
 
 
 def condition(stage: str) -> Condition:
-    """Walkers whose body and brain evolve together for so many million steps."""
+    """Return a condition: body and brain evolve together for this many million steps."""
     return Condition(
         stage,
         {
@@ -65,7 +65,7 @@ def loss_grows(data: Data, answers: Answers) -> Judged:
 
 
 def median(name: str) -> Any:
-    """The median of a measure."""
+    """Return the column's function: the median of a measure."""
     return lambda values: (float(np.median(values[name])),)
 
 

@@ -13,7 +13,7 @@ from botschool.labs.measuring import CYLINDER, forage, interval
 
 
 def described(episode: dict[str, np.ndarray]) -> tuple[float, float, float, float]:
-    """Steps of the search, speed and turning in it, and the side of the cylinder afterwards."""
+    """Return steps of the search, speed and turning in it, and the cylinder's side afterwards."""
     poses, near = episode["poses"], episode["rewards"] > 0
     search = int(near.argmax()) if near.any() else len(near)
     before, after = poses[:-1], poses[1:]
@@ -27,7 +27,7 @@ def described(episode: dict[str, np.ndarray]) -> tuple[float, float, float, floa
 
 
 def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """Return, the share of it that is lost without memory, and four descriptors."""
+    """Return the return, the share of it that is lost without memory, and four descriptors."""
     ordinary, forgetful = forage(run), forage(run, forget=True)
     earned = float(np.mean([each["rewards"].sum() for each in ordinary]))
     without = float(np.mean([each["rewards"].sum() for each in forgetful]))
@@ -48,7 +48,7 @@ SHARE = 0.8
 
 
 def condition(kind: str, msteps: float = 20) -> Condition:
-    """Kheperas with that network."""
+    """Return a condition: Kheperas with this network."""
     return Condition(
         kind,
         {
@@ -70,7 +70,7 @@ def condition(kind: str, msteps: float = 20) -> Condition:
 
 
 def families(table: np.ndarray, threshold: float) -> list[set[int]]:
-    """Robots grouped by the mean distance of their standardised descriptors (exercise 6)."""
+    """Group robots by the mean distance of their standardised descriptors (exercise 6)."""
     spread = table.std(axis=0)
     rows = (table - table.mean(axis=0)) / np.where(spread < 1e-12, np.inf, spread)
     apart = np.linalg.norm(rows[:, None] - rows[None], axis=2)
@@ -86,7 +86,7 @@ def families(table: np.ndarray, threshold: float) -> list[set[int]]:
 
 
 def grouped(data: Data) -> list[list[set[int]]]:
-    """The families of all robots, at the threshold and a little below and above."""
+    """Return the families of all robots at the threshold, a little below it and above it."""
     columns = [np.concatenate([data[kind][name] for kind in KINDS]) for name in DESCRIPTORS]
     table = np.stack(columns, axis=1)
     return [families(table, THRESHOLD * factor) for factor in (0.98, 1, 1.02)]

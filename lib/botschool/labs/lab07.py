@@ -15,12 +15,12 @@ LAST, UPRIGHT = 50, 0.3
 
 
 def upright(seen: dict[str, np.ndarray]) -> float:
-    """The share of episodes that end upright."""
+    """Return the share of episodes that end upright."""
     return float((np.abs(seen["angles"][:, -LAST:]) < UPRIGHT).all(axis=1).mean())
 
 
 def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """Return and share of upright ends, under the gravity of evolution and under a greater one."""
+    """Return the return and the share of upright ends, under the old and the greater gravity."""
     usual, heavy = swing(run, gravity=10.0), swing(run, gravity=12.0)
     return {
         "return": float(usual["rewards"].sum(axis=1).mean()),
@@ -35,7 +35,7 @@ STEPS = ("early to middle", "middle to late")
 
 
 def condition(stage: str) -> Condition:
-    """Pendulums that have evolved for so many million steps."""
+    """Return a condition: pendulums that have evolved for this many million steps."""
     return Condition(
         stage,
         {
@@ -86,7 +86,7 @@ def survivors(data: Data, answers: Answers) -> Judged:
 
 
 def median(name: str) -> Any:
-    """The median of a measure."""
+    """Return the column's function: the median of a measure."""
     return lambda values: (float(np.median(values[name])),)
 
 

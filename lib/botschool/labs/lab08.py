@@ -15,7 +15,7 @@ SEVERE = 0.3
 
 
 def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """The largest fall of the curve, whether it is severe, and the fitness in new episodes."""
+    """Return the curve's largest fall, whether it is severe, and the fitness in new episodes."""
     average = np.asarray(run["stat"])[:, 4]
     width = min(WIDTH, len(average))
     curve = np.convolve(average, np.full(width, 1 / width), mode="valid")
@@ -46,7 +46,9 @@ PROBLEMS: dict[str, dict[str, Any]] = {
 
 
 def condition(problem: str, step: float, own: bool = False) -> Condition:
-    """Runs with that step size: by the student's own strategy, or by the tool's OpenAI-ES."""
+    """Return a condition: runs with this step size, of the student's own strategy or the tool's
+    OpenAI-ES.
+    """
     told = PROBLEMS[problem]
     algo: dict[str, Any] = {"maxmsteps": told["msteps"]}
     if own:

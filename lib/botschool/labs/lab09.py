@@ -12,7 +12,7 @@ from botschool.labs.measuring import interval, record
 
 
 def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """Metres ahead, share of steps with the foot on the ground, and whether it is a statue."""
+    """Return metres ahead, share of steps with a foot on the ground, and whether it is a statue."""
     seen = record(run, seed=1)
     metres = float(seen["distance"][0] - seen["distance"][-1])
     rule = answers.get("rule", 5.0)
@@ -25,9 +25,9 @@ def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
 
 BONUSES = (0.0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.2)
 NEVER = 0.3
-"""The tipping point where no bonus makes statues of more than half."""
+"""The tipping point if no bonus makes more than half of the hoppers statues."""
 NEARLY = 0.02
-"""How well the tipping point is to be known."""
+"""Largest uncertainty of the tipping point that counts as known."""
 FIRST, LAST = "bonus 0", "bonus 0.2"
 POLICY = {
     "episodes": 1,
@@ -44,7 +44,9 @@ ALGO = {"stepsize": 0.03, "noiseStdDev": 0.05, "samplesize": 20, "wdecay": 1}
 
 
 def condition(bonus: float, own: bool = False) -> Condition:
-    """Hoppers with that bonus: by the student's own strategy, or by the tool's OpenAI-ES."""
+    """Return a condition: hoppers with this bonus, of the student's own strategy or the tool's
+    OpenAI-ES.
+    """
     algo: dict[str, Any] = {"maxmsteps": 4}
     if own:
         algo["options"] = ", ".join(f"{key}={value:g}" for key, value in ALGO.items())
@@ -66,7 +68,10 @@ def condition(bonus: float, own: bool = False) -> Condition:
 
 
 def separate(measured: list[dict[str, float]]) -> str:
-    """The first unseen robot was paid for metres alone, the second for standing alone."""
+    """Return what is wrong if the student's rule does not separate two robots; "" if it does.
+
+    The first unseen robot was rewarded for metres alone, the second for standing alone.
+    """
     hopper, statue = measured
     if hopper["metres"] > 8 and statue["metres"] < 3 and hopper["statue"] == statue["statue"]:
         return (
@@ -77,14 +82,14 @@ def separate(measured: list[dict[str, float]]) -> str:
 
 
 def tipping_point(shares: np.ndarray) -> np.ndarray:
-    """The least bonus from which on more than half are statues; shares: (..., bonuses)."""
+    """Return the smallest bonus from which on most are statues; shares: (..., bonuses)."""
     more = np.flip(np.logical_and.accumulate(np.flip(shares > 0.5, -1), axis=-1), -1)
     first = more.argmax(axis=-1)
     return np.where(more.any(axis=-1), np.array(BONUSES)[first], NEVER)
 
 
 def tipping_interval(data: Data) -> tuple[float, float]:
-    """Of the tipping point, by resampling the runs of each bonus."""
+    """Return the interval of the tipping point, by resampling the runs of each bonus."""
     rng = np.random.default_rng(1)
     shares = []
     for bonus in BONUSES:
@@ -107,7 +112,7 @@ def against_prediction(data: Data, answers: Answers) -> Judged:
 
 
 def shown(data: Data) -> float:
-    """The tipping point that the runs show."""
+    """Return the tipping point that the runs show."""
     shares = np.array([data[f"bonus {bonus:g}"]["statue"].mean() for bonus in BONUSES])
     return float(tipping_point(shares))
 
@@ -129,7 +134,7 @@ def enough(data: Data, answers: Answers) -> Judged:
 
 
 def median(values: Any) -> tuple[float, ...]:
-    """The median of the metres."""
+    """Return the median of the metres."""
     return (float(np.median(values["metres"])),)
 
 

@@ -14,7 +14,7 @@ SOLVED = 195.0
 
 
 def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """Episodes until an iteration is solved on average, and whether one is."""
+    """Return the episodes until an iteration is solved on average, and whether one is."""
     stat = np.asarray(run["stat"])
     solved = stat[:, 3] >= SOLVED
     at = solved.argmax() if solved.any() else -1
@@ -30,7 +30,7 @@ LEARNERS: dict[str, list[Any]] = {
 
 
 def condition(name: str, learner: list[Any] | None) -> Condition:
-    """Trainings on CartPole with at most 200 steps; None: unseen ones, by a plain gradient."""
+    """Return a condition: CartPole with at most 200 steps; learner None: a plain gradient."""
     experiment: dict[str, Any] = {
         "exp": {"environment": "CartPole-v0", "algo": "PPO"},
         "policy": {"pepisodes": 20},
@@ -61,7 +61,7 @@ def solved(data: Data, answers: Answers) -> Judged:
 
 
 def median(values: Any) -> tuple[float, ...]:
-    """The median of the episodes."""
+    """Return the median of the episodes."""
     return (float(np.median(values["episodes"])),)
 
 

@@ -15,7 +15,7 @@ GOALS = {"dense": -200.0, "sparse": 90.0, "long": 1000.0}
 
 
 def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """Steps until the goal, whether it is reached, and the return in new episodes."""
+    """Return the steps until the goal, whether it is reached, and the return in new episodes."""
     stat = np.asarray(run["stat"])
     reached = stat[:, 2] >= GOALS[run["condition"].split()[0]]
     return {
@@ -49,7 +49,7 @@ METHODS = ("evolution", "gradient")
 
 
 def evolution(problem: str) -> Condition:
-    """OpenAI-ES with a small network."""
+    """Return a condition: OpenAI-ES with a small network."""
     told = PROBLEMS[problem]
     return Condition(
         f"{problem} evolution",
@@ -74,7 +74,7 @@ def evolution(problem: str) -> Condition:
 
 
 def gradient(problem: str) -> Condition:
-    """PPO with two layers of 64 neurons."""
+    """Return a condition: PPO with two layers of 64 neurons."""
     told = PROBLEMS[problem]
     name = told["environment"]
     settings = PPO[problem] | {"learning_rate": RATES[problem], "normalize": True}
@@ -96,7 +96,7 @@ def gradient(problem: str) -> Condition:
 
 
 def verdicts(one: np.ndarray, other: np.ndarray) -> set[str]:
-    """What may be said of who needs less: evolution's numbers, then the gradient's."""
+    """Return the right answers on which method needs less; one: evolution's numbers."""
     p = permutation_test(one, other)
     winner = METHODS[int(one.mean() > other.mean())]
     if NEAR[0] < p < NEAR[1]:
@@ -105,10 +105,10 @@ def verdicts(one: np.ndarray, other: np.ndarray) -> set[str]:
 
 
 def speeds(answers: Answers) -> tuple[dict[str, float], list[str]] | None:
-    """The seconds for a million steps by condition, and what is wrong with those of the sheet.
+    """Return the seconds for a million steps by condition, and sentences on implausible ones.
 
-    Only the student can measure his machine. A number beyond ten times of the checker's own, or
-    below a tenth of it, is replaced by that. None if some are missing.
+    Only students can measure their own machines. A number above ten times the checker's own, or
+    below a tenth of it, is replaced by the checker's. None if some are missing.
     """
     used, wrong = {}, []
     for name in ALL:
@@ -129,7 +129,7 @@ def _here(name: str) -> float:
 
 
 def changes(data: Data, answers: Answers) -> Judged:
-    """Judge on how many problems the seconds say something else than the steps."""
+    """Judge on how many problems the seconds give another answer than the steps."""
     told = speeds(answers)
     if told is None:
         return lambda answer: False, "write all six seconds first."
@@ -148,7 +148,7 @@ def changes(data: Data, answers: Answers) -> Judged:
 
 
 def timed(data: Data, answers: Answers) -> Judged:
-    """Judge whether the seconds can be those of a machine."""
+    """Judge whether the seconds are plausible for a machine."""
     told = speeds(answers)
     if told is None:
         return lambda answer: False, "write all six seconds first."
@@ -157,12 +157,12 @@ def timed(data: Data, answers: Answers) -> Judged:
 
 
 def needs(problem: str) -> tuple[str, ...]:
-    """The two conditions of a problem."""
+    """Return the two conditions of a problem."""
     return tuple(f"{problem} {method}" for method in METHODS)
 
 
 def fewer(problem: str) -> Statement:
-    """Which method needs fewer steps there."""
+    """Return the statement on which method needs fewer steps."""
     evolved, trained = needs(problem)
     return Statement(
         problem, 4, (evolved, trained), larger("steps", trained, evolved, METHODS)

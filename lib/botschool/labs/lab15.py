@@ -13,13 +13,13 @@ from botschool.labs.measuring import chases, interval
 
 
 def historical(matrix: np.ndarray) -> float:
-    """What each generation gains on its predecessor against older prey, summed up."""
+    """Return the sum of each generation's gains on the one before it, against older prey."""
     gains = np.diff(matrix, axis=0)
     return float(sum(row[:g].mean() for g, row in enumerate(gains, 1)))
 
 
 def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """Historical progress with and without generation 0, and global progress, of predators."""
+    """Return historical progress with and without generation 0, and global progress."""
     matrix = chases(run, best=5).mean(axis=(1, 3))
     return {
         "historical": historical(matrix),
@@ -32,7 +32,9 @@ WHO = ("random", "best")
 
 
 def condition(who: str) -> Condition:
-    """Predators and prey with small networks, chasing for 40 seconds at most."""
+    """Return a condition: predators and prey with small networks, chasing for 40 seconds at
+    most.
+    """
     return Condition(
         who,
         {
@@ -86,7 +88,7 @@ def first_part(data: Data, answers: Answers) -> Judged:
 
 
 def mean_of(measure: str) -> Column:
-    """A column of means."""
+    """Return a column of means."""
     return Column(
         f"mean {measure}",
         lambda values: (float(values[measure].mean()),),
@@ -95,7 +97,7 @@ def mean_of(measure: str) -> Column:
 
 
 def interval_of(values: Mapping[str, np.ndarray]) -> tuple[float, float]:
-    """Of the mean historical progress."""
+    """Return the interval of the mean historical progress."""
     return interval(values["historical"], np.mean)
 
 

@@ -1,4 +1,4 @@
-"""What measure.py and figure.py may use: robots played again, intervals, a permutation test."""
+"""Offer measure.py and figure.py tools: play robots again, intervals, a permutation test."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from numpy.typing import ArrayLike
 
 RESAMPLES = 10_000
 CYLINDER = (200, 150)
-"""Where it stands in `forage`: x and y in mm."""
+"""Position of the cylinder in `forage`: x and y in mm."""
 
 
 def record(run: dict[str, Any], seed: int = 1) -> dict[str, Any]:
     """Play an episode of a planar runner's best robot and record it.
 
-    "duration" is the length of a step in seconds; "distance", shape (T + 1,), the metres that are
-    left to a target far ahead, at the start and after each step; "height" and "pitch", shape (T,);
-    "feet", shape (T, feet), is 1 where a foot is on the ground.
+    "duration" is the length of a step in seconds. "distance", shape (T + 1,), is the distance in
+    metres to a target far ahead, at the start and after each step. "height" and "pitch" have shape
+    (T,). "feet", shape (T, feet), is 1 where a foot is on the ground.
     """
     from botschool.config import from_dict
     from botschool.course.locomotion import Runner
@@ -32,7 +32,7 @@ def record(run: dict[str, Any], seed: int = 1) -> dict[str, Any]:
 
 
 def play_again(run: dict[str, Any], seed: int = 1, episodes: int = 100) -> np.ndarray:
-    """The returns of a run's best robot in new episodes; shape (episodes,)."""
+    """Return the returns of a run's best robot in new episodes, shape (episodes,)."""
     if "ppo" in run["experiment"]:
         from botschool.labs.training import filled, play
 
@@ -51,11 +51,11 @@ def play_again(run: dict[str, Any], seed: int = 1, episodes: int = 100) -> np.nd
 
 
 def forage(run: dict[str, Any], forget: bool = False) -> list[dict[str, np.ndarray]]:
-    """Let a run's best Khepera look for the cylinder from 12 places, and record each episode.
+    """Let a run's best Khepera search for the cylinder from 12 places, and record each episode.
 
     "poses", shape (T + 1, 3): x and y in mm and the heading in rad, at the start and after each
-    step; "rewards", shape (T,), 1 near the cylinder. The cylinder stands at CYLINDER. forget: the
-    network's memory is emptied before each step.
+    step. "rewards", shape (T,): 1 near the cylinder. The cylinder stands at CYLINDER. forget: empty
+    the network's memory before each step.
     """
     from botschool import arena as arenas
     from botschool import problems
@@ -85,10 +85,10 @@ def forage(run: dict[str, Any], forget: bool = False) -> list[dict[str, np.ndarr
 
 
 def swing(run: dict[str, Any], gravity: float = 10.0, episodes: int = 10) -> dict[str, np.ndarray]:
-    """Let a run's best pendulum swing under that gravity (m/s2; it evolved under 10).
+    """Let a run's best pendulum swing under this gravity in m/s2 (it evolved under 10).
 
-    "angles", shape (episodes, 201): rad from upright, -pi to pi, at the start and after each step;
-    "velocities", likewise, in rad/s; "rewards", shape (episodes, 200).
+    "angles", shape (episodes, 201): rad from upright, -pi to pi, at the start and after each step.
+    "velocities", shape (episodes, 201): rad/s at the same times. "rewards": shape (episodes, 200).
     """
     import gymnasium
 
@@ -120,7 +120,7 @@ def swing(run: dict[str, Any], gravity: float = 10.0, episodes: int = 10) -> dic
 def chases(run: dict[str, Any], best: int = 5) -> np.ndarray:
     """Let the best predators and prey of all saved generations of a run meet.
 
-    Returns the predators' fitness, shape (G, n, G, n): entry [g, i, h, j] is that of predator i of
+    Return the predators' fitness, shape (G, n, G, n): entry [g, i, h, j] belongs to predator i of
     the g-th saved generation against prey j of the h-th one. best: n.
     """
     from botschool import problems
@@ -149,7 +149,7 @@ def chases(run: dict[str, Any], best: int = 5) -> np.ndarray:
 
 
 def seconds_per_million(number: int, condition: str) -> float:
-    """The processor time that a million steps of a laboratory's condition take on this machine."""
+    """Return this machine's processor seconds for a million steps of a laboratory's condition."""
     from time import process_time
 
     from botschool.labs.declare import load_lab
@@ -163,9 +163,9 @@ def seconds_per_million(number: int, condition: str) -> float:
 def interval(
     values: ArrayLike, statistic: Callable[..., Any] = np.median, seed: int = 1
 ) -> tuple[float, float]:
-    """Return a 95 % bootstrap interval: the statistic of resampled values lies there in 95 of 100.
+    """Return a 95 % bootstrap interval of a statistic: 95 of 100 resamples lie in it.
 
-    statistic takes an array and the keyword axis, as np.median and np.mean do.
+    statistic: a function of an array and the keyword axis, such as np.median or np.mean.
     """
     array = np.asarray(values, dtype=float)
     rng = np.random.default_rng(seed)
@@ -175,7 +175,7 @@ def interval(
 
 
 def permutation_test(one: ArrayLike, other: ArrayLike, seed: int = 1) -> float:
-    """Return how likely so large a difference of means is if the groups are mixed at random."""
+    """Return the p of a difference of means: how often random groups differ at least as much."""
     first, second = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
     both = np.concatenate([first, second])
     seen = abs(first.mean() - second.mean())
@@ -186,7 +186,7 @@ def permutation_test(one: ArrayLike, other: ArrayLike, seed: int = 1) -> float:
 
 
 def paired_test(one: ArrayLike, other: ArrayLike, seed: int = 1) -> float:
-    """Return how likely so large a mean difference of pairs is if signs are drawn at random."""
+    """Return the p of a mean difference of pairs: how often random signs give at least as much."""
     differences = np.asarray(one, dtype=float) - np.asarray(other, dtype=float)
     rng = np.random.default_rng(seed)
     signs = rng.choice([-1.0, 1.0], size=(RESAMPLES, len(differences)))
@@ -195,9 +195,9 @@ def paired_test(one: ArrayLike, other: ArrayLike, seed: int = 1) -> float:
 
 
 def power(one: ArrayLike, other: ArrayLike, runs: int, seed: int = 1) -> float:
-    """Return how often the permutation test would find the difference with so many runs a group.
+    """Return the share of cases in which the permutation test finds the difference with p < 0.05.
 
-    It draws `runs` of each group with repetition, 400 times: the share of cases with p < 0.05.
+    Each of 400 cases draws `runs` values of each group with repetition.
     """
     rng = np.random.default_rng(seed)
     groups = [

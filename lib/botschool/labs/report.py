@@ -1,4 +1,4 @@
-"""A laboratory's report: one page with the sheet, the figure, replays and the points."""
+"""Write a laboratory's report: one page with the sheet, the figure, replays and the points."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def _points(checked: Checked) -> str:
 
 
 def _replay(lab: Lab, checked: Checked, name: str, folder: Path) -> str:
-    """The best proven robot of a condition, as a frame that holds a whole page."""
+    """Return a frame with the page that replays the best proven robot of a condition."""
     from botschool.render.replay import write_replay
     from botschool.render.scenes import scene_of, with_frames
 
@@ -89,7 +89,7 @@ def _replay(lab: Lab, checked: Checked, name: str, folder: Path) -> str:
 
 
 def _markdown(text: str) -> str:
-    """The kinds of Markdown that sheets have, as HTML."""
+    """Return the Markdown of a sheet as HTML."""
     blocks = re.split(r"\n\s*\n", text.strip("\n"))
     return "".join(_block(block) for block in blocks if block.strip())
 
@@ -117,7 +117,7 @@ def _block(block: str) -> str:
 
 
 def _inline(text: str) -> str:
-    """Code as it is; emphasis, answers and boxes elsewhere."""
+    """Return a line with its code unchanged, and with emphasis, answers and boxes elsewhere."""
     pieces = re.split(r"`([^`]+)`", text)
     pieces[1::2] = [f"<code>{escape(code)}</code>" for code in pieces[1::2]]
     pieces[::2] = [_answers(escape(piece)) for piece in pieces[::2]]
