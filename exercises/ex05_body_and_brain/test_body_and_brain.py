@@ -9,6 +9,7 @@ ones of data/genotypes and variations of them that nobody knows before.
 import secrets
 import tempfile
 from functools import lru_cache
+from itertools import permutations
 from pathlib import Path
 
 import numpy as np
@@ -36,28 +37,49 @@ def rng_of(index: int) -> np.random.Generator:
 
 
 def bodies(index: int, count: int = 4, spread: float = 0.6) -> np.ndarray:
-    """Parameters of bodies, the last of them with some beyond all limits."""
-    parameters = spread * rng_of(index).normal(size=(count, BODY))
+    """Parameters of bodies: of the first few are not 0, of the last some are beyond all limits."""
+    rng = rng_of(index)
+    parameters = spread * rng.normal(size=(count, BODY))
     parameters[-1] *= 5
+    one, two, joint, angle, density = rng.integers(1, 10, 5)
+    places = [2 * one, 2 * two + 1, 42, 42 + angle, 53 + density]
+    parameters[0] = 0
+    parameters[0, places] = rng.uniform(0.3, 0.8, 5).round(1) * rng.choice([-1, 1], 5)
+    parameters[0, [22 + 2 * joint, 23 + 2 * joint]] = rng.permutation([0.2, 0.7])
     return parameters
 
 
+def said_of(name: str, parameters: np.ndarray) -> str:
+    """The call, with the parameters if few of them are not 0."""
+    some = np.flatnonzero(parameters)
+    if len(some) > 10:
+        return f"{name}(64 parameters of a body)"
+    return f"{name}(zeros, but {', '.join(f'p[{i}] = {parameters[i]:g}' for i in some)})"
+
+
 def answers(module, name, questions):
-    """The student's answer to each of many questions, and how many of them it has changed."""
-    before = questions.copy()
-    found = [getattr(module, name)(question) for question in questions]
-    return [found, int((before != questions).any(axis=1).sum())]
+    """The student's answer to each of many questions, and the questions after that."""
+    return [[getattr(module, name)(question) for question in questions], questions]
 
 
 def asked(student: Student, name: str, questions: np.ndarray) -> list:
-    said = f"{name}(parameters of a body)"
-    given, changed = student.run(answers, name, questions, said=said, call=(name, questions[0]))
-    expect(isinstance(given, list) and len(given) == len(questions), f"{said} gave no answers.")
+    """The student's answers, of which the one to the first question is asked for alone."""
+    said, found = f"{name}(parameters of a body)", []
+    for part in (questions[:1], questions[1:]):
+        call = (name, part[0]) if found else None
+        given, after = student.run(answers, name, part, said=said, call=call)
+        expect(isinstance(given, list) and len(given) == len(part), f"{said} gave no answers.")
+        expect(
+            np.array_equal(after, part),
+            f"{said} changed the parameters that it was given: work on a copy.",
+        )
+        found += given
     expect(
-        changed == 0,
-        f"{said} changed the parameters that it was given: work on a copy.",
+        len(set(map(repr, found))) > 1,
+        f"{said} gave the same answer for {len(found)} different bodies: does it look at the "
+        "parameters, or does it keep its first answer?",
     )
-    return given
+    return found
 
 
 # ------------------------------------------------------------------- the grader's own decoding
@@ -102,31 +124,122 @@ def cut(p: np.ndarray) -> np.ndarray:
     return p.clip(-1, 1)
 
 
-TANH = "The parameters are cut off at -1 and 1, but sizes use tanh."
-TURNS = "Lengths and thicknesses take turns among the parameters."
+def of_sizes(first: int, nominal: float) -> dict:
+    """Mistakes with lengths (first: 0) or thicknesses (1)."""
+    own, other = slice(first, 22, 2), slice(1 - first, 22, 2)
+    block = slice(11 * first, 11 * first + 11)
+    return {
+        "The parameters are cut off at -1 and 1, but sizes use tanh.":
+        lambda p: nominal * (1 + 0.9 * cut(p[own])),
+        "Lengths and thicknesses take turns among the parameters.":
+        lambda p: scaled(p[block], nominal),
+        "Lengths and thicknesses are exchanged: of each two parameters the length comes first.":
+        lambda p: scaled(p[other], nominal),
+        "0.9 is a factor of tanh p, not of p: it stands before the tanh.":
+        lambda p: nominal * (1 + np.tanh(0.9 * p[own])),
+        "The factor 0.9 is left out.": lambda p: nominal * (1 + np.tanh(p[own])),
+        "The 1 that is added to 0.9 tanh p is left out.": lambda p: nominal * 0.9 * np.tanh(p[own]),
+        f"{nominal} is a factor of the whole bracket, also of 0.9 tanh p.":
+        lambda p: nominal + 0.9 * np.tanh(p[own]),
+        "tanh is left out: the parameters themselves are used.":
+        lambda p: nominal * (1 + 0.9 * p[own]),
+        "tanh stands around the whole bracket, but belongs to p alone.":
+        lambda p: nominal * np.tanh(1 + 0.9 * p[own]),
+    }  # fmt: skip
+
+
+def of_angles(own: slice, scale: float) -> dict:
+    """Mistakes with angles, before the smaller one of two is sought."""
+    return {
+        "The parameters of angles are to be cut off at -1 and 1.": lambda p: scale * p[own],
+        "The parameters of angles are cut off, not put through tanh.":
+        lambda p: scale * np.tanh(p[own]),
+        "The angles are cut off at -1 and 1 after they are scaled: cut off the parameters.":
+        lambda p: cut(scale * p[own]),
+        "The parameters are cut off at 0 and 1 instead of -1 and 1.":
+        lambda p: scale * p[own].clip(0, 1),
+    }  # fmt: skip
+
+
+def of_limits(end, name: str) -> dict:
+    """Mistakes with lower limits (end: np.minimum) or upper ones (np.maximum)."""
+
+    def ends(limits) -> np.ndarray:
+        return end(limits[0::2], limits[1::2])
+
+    one, other = slice(22, 42, 2), slice(23, 42, 2)
+    mistakes = of_angles(slice(22, 42), np.pi / 2).items()
+    sign = -1 if name == "lower" else 1
+    half = np.pi / 2
+    return {
+        **{text: lambda p, made=made: ends(made(p)) for text, made in mistakes},
+        f"The {name} limit is the {'smaller' if sign < 0 else 'larger'} one of the two.":
+        lambda p: half * cut(p[one if sign < 0 else other]),
+        "A limit is taken without its sign: both can lie on one side of the default angle.":
+        lambda p: half * sign * np.abs(cut(p[one if sign < 0 else other])),
+        "The two limits of a joint stand side by side among the parameters.":
+        lambda p: half * cut(end(p[22:32], p[32:42])),
+        "The default angle is added: limits count from the default angle.":
+        lambda p: half * cut(end(p[one], p[other])) + angles(p)[1:],
+        "The limits are scaled by 3 pi / 4, as the default angles are.":
+        lambda p: 1.5 * half * cut(end(p[one], p[other])),
+    }  # fmt: skip
+
+
 MISTAKES = {
-    "lengths": {TANH: lambda p: 0.8 + 0.72 * cut(p[0:22:2]), TURNS: lambda p: scaled(p[:11], 0.8)},
-    "thicknesses": {
-        TANH: lambda p: 0.2 + 0.18 * cut(p[1:22:2]), TURNS: lambda p: scaled(p[11:22], 0.2)
-    },
+    "lengths": of_sizes(0, 0.8),
+    "thicknesses": of_sizes(1, 0.2),
     "masses": {
         "The density is 5 and varies by 0.8, not by 80 % or 90 % of it.":
         lambda p: lengths(p) * thicknesses(p) * (5 + 4 * np.tanh(p[53:64])),
         "The density varies by 0.8, not like the sizes.":
         lambda p: lengths(p) * thicknesses(p) * scaled(p[53:64], 5),
+        "The parameters of the densities are cut off, but must go through tanh.":
+        lambda p: lengths(p) * thicknesses(p) * (5 + 0.8 * cut(p[53:64])),
         "The density is left out.": lambda p: lengths(p) * thicknesses(p),
+        "These are the densities: length and thickness are left out.":
+        lambda p: 5 + 0.8 * np.tanh(p[53:64]),
+        "The densities begin at place 53.":
+        lambda p: lengths(p) * thicknesses(p) * (5 + 0.8 * np.tanh(p[52:63])),
     },
     "angles": {
-        "The parameters of angles are to be cut off at -1 and 1.":
-        lambda p: np.radians(135) * p[42:53],
-        "The parameters of angles are cut off, not put through tanh.":
-        lambda p: np.radians(135) * np.tanh(p[42:53]),
+        **of_angles(slice(42, 53), 0.75 * np.pi),
+        "The default angles are scaled by pi / 2, as the limits are.":
+        lambda p: np.pi / 2 * cut(p[42:53]),
     },
-    "lower": {
-        "The lower limit is the smaller one of the two.": lambda p: cut(p[22:42:2]) * np.pi / 2
+    "lower": of_limits(np.minimum, "lower"),
+    "upper": of_limits(np.maximum, "upper"),
+    "length": {
+        "This is the mean of the lengths, not their sum.": lambda p: lengths(p).mean(),
+        "The torso is left out.": lambda p: lengths(p)[1:].sum(),
+        "The last segment is left out.": lambda p: lengths(p)[:-1].sum(),
     },
-    "upper": {
-        "The upper limit is the larger one of the two.": lambda p: cut(p[23:42:2]) * np.pi / 2
+    "mass": {
+        "This is the mean of the masses, not their sum.": lambda p: masses(p).mean(),
+        "The torso is left out.": lambda p: masses(p)[1:].sum(),
+        "The last segment is left out.": lambda p: masses(p)[:-1].sum(),
+    },
+    **{
+        name: {
+            "Only the largest coordinate is taken: subtract the smallest.":
+            lambda p, axis=axis: corners(p)[:, :, axis].max(),
+            "The thickness is left out: it counts where the corners are, not the middle line.":
+            lambda p, axis=axis: np.ptp(corners(p, wide=0)[:, :, axis]),
+            "This is the way from the first place to the last: the corners in between count, too.":
+            lambda p, axis=axis: abs(corners(p, wide=0)[-1, 1, axis]),
+            "Width and height are exchanged.":
+            lambda p, axis=axis: np.ptp(corners(p)[:, :, 1 - axis]),
+        }
+        for axis, name in enumerate(("width", "height"))
+    },
+    "freedom": {
+        "This is the sum over the joints, not the mean.":
+        lambda p: np.sum(limits(p)[1] - limits(p)[0]),
+        "The sum is divided by the 11 segments, but there are 10 joints.":
+        lambda p: np.sum(limits(p)[1] - limits(p)[0]) / 11,
+        "The largest limit and the smallest one belong to different joints: take the difference "
+        "of each joint first.": lambda p: limits(p)[1].max() - limits(p)[0].min(),
+        "Only the upper limits count here: subtract the lower ones.": lambda p: limits(p)[1].mean(),
     },
 }  # fmt: skip
 """What mistakes make of an answer's parts: sentences -> functions of the parameters."""
@@ -136,10 +249,11 @@ def expect_decoded(student: Student, name: str, index: int, wanted: dict) -> Non
     """wanted: key -> the grader's function of the parameters."""
     questions = bodies(index)
     for p, answer in zip(questions, asked(student, name, questions), strict=True):
-        values = expect_fields(student.said, answer, *wanted)
+        said = said_of(name, p)
+        values = expect_fields(said, answer, *wanted)
         for (key, own), value in zip(wanted.items(), values, strict=True):
             mistakes = {text: made(p) for text, made in MISTAKES.get(key, {}).items()}
-            expect_close(f"{student.said}: {key}", value, own(p), TOLERANCE, mistakes=mistakes)
+            expect_close(f"{said}: {key}", value, own(p), TOLERANCE, mistakes=mistakes)
 
 
 # ------------------------------------------------------------------- 5.1
@@ -180,14 +294,28 @@ def limits_of_joints(student: Student):
 shape = exercise.task("5.3", "The shape at rest", needs=("5.1", "5.2"), refused=TOOL)
 
 
+CORNERS = ("beginning right", "end right", "end left", "beginning left")
+
+
 def expect_outline(student: Student, questions: np.ndarray) -> None:
     for p, answer in zip(questions, asked(student, "outline", questions), strict=True):
+        own = corners(p)
         mistakes = {
             "A segment reaches half of its thickness to each side.": corners(p, wide=2),
+            "The thickness is left out: these are places on the middle line.": corners(p, wide=0),
             "An angle is that to the segment before, not that to the ground.": corners(p, turns=0),
-        }
-        answer = expect_array(student.said, answer, (11, 4, 2))
-        expect_close(student.said, answer, corners(p), TOLERANCE, mistakes=mistakes)
+            "The torso leans by its own default angle: it is left out.": corners(
+                np.where(np.arange(BODY) == 42, 0, p)
+            ),
+            **{
+                "The corners of a segment come in another order: "
+                f"{', '.join(CORNERS[k] for k in order)}.": own[:, order]
+                for order in permutations(range(4)) if order != (0, 1, 2, 3)
+            },
+        }  # fmt: skip
+        said = said_of("outline", p)
+        answer = expect_array(said, answer, (11, 4, 2))
+        expect_close(said, answer, own, TOLERANCE, mistakes=mistakes)
 
 
 @shape.check(5)
@@ -310,9 +438,10 @@ def telling_seeds(text: str, index: int) -> list[int]:
 class Trial:
     """The student's runs of a very small experiment, and the grader's own."""
 
-    def __init__(self, student: Student, index: int, steps: int | None) -> None:
-        text = experiment_text(index)
+    def __init__(self, student: Student, index: int, steps: int | None, zero: bool = False) -> None:
+        text = self.text = experiment_text(index)
         seeds = telling_seeds(text, index)
+        seeds = [seeds[0], 0] if zero else seeds
         self.said = f"evolve_walkers('trial.ini', {seeds}, 'some/runs', {steps})"
         self.walkers, saved, after = student.run(
             try_runs, text, seeds, "some/runs", steps, said=self.said
@@ -320,14 +449,43 @@ class Trial:
         expect(after == seeds, f"{self.said} changed the list of seeds: it is {after} now.")
         self.saved = [saved.get(str(seed)) for seed in seeds]
         self.wanted = np.array([own_run(text, seed, steps)[0] for seed in seeds])
-        self.seeds = seeds
+        self.seeds, self.steps = seeds, steps
+
+    def compare(self) -> None:
+        """Expect the walkers that the grader finds."""
+        right = self.walkers is not None and np.array_equal(self.walkers, self.wanted)
+        expect_close(self.said, self.walkers, self.wanted, mistakes={} if right else self.made())
+
+    def made(self) -> dict[str, np.ndarray]:
+        """What mistakes make of the walkers."""
+
+        def runs(seeds: list[int], steps: int | None, kind: int = 0) -> np.ndarray:
+            return np.array([own_run(self.text, seed, steps)[kind] for seed in seeds])
+
+        seeds, steps = self.seeds, self.steps
+        return {
+            "These genotypes have the best fitness, not the best post-evaluated fitness.": runs(
+                seeds, steps, 1
+            ),
+            "The walkers are in another order than the seeds.": self.wanted[::-1],
+            "The runs do not end after the steps that are asked for.": runs(seeds, None),
+            "The seeds that are given are not used: these runs have the seeds 0 and 1.": runs(
+                [0, 1], steps
+            ),
+            "The seeds that are given are not used: these runs have the seeds 1 and 2.": runs(
+                [1, 2], steps
+            ),
+            "The seed 0 is a seed like any other: another one is used in its place.": runs(
+                [seed or 1 for seed in seeds], steps
+            ),
+            "Each run begins with the seed of the first one.": runs([seeds[0]] * 2, steps),
+        }
 
 
 @running.check(6)
 def best_walker_of_each_run(student: Student):
     for index in (20, 21):
-        trial = Trial(student, index, None)
-        expect_close(trial.said, trial.walkers, trial.wanted)
+        Trial(student, index, None).compare()
 
 
 @running.check(3)
@@ -340,8 +498,7 @@ def leaves_the_files(student: Student):
 
 @running.check(3)
 def stops_after_the_steps(student: Student):
-    trial = Trial(student, 20, 100)
-    expect_close(trial.said, trial.walkers, trial.wanted)
+    Trial(student, 20, 100, zero=True).compare()
 
 
 # ------------------------------------------------------------------- 5.6
@@ -448,6 +605,7 @@ def expect_matrix(
         "Only the first episode counts, not the mean.": returns[:, :, 0],
         "Only the last episode counts, not the mean.": returns[:, :, -1],
         "The best episode is taken, not the mean.": returns.max(axis=2),
+        "The median of the episodes is taken, not the mean.": np.median(returns, axis=2),
         "The episodes are added up, not averaged.": returns.sum(axis=2),
         "A row holds one number again and again: each brain stays in its own body.": own.T,
         "A column holds one number again and again: each body keeps its own brain.": own,
@@ -461,14 +619,14 @@ def expect_matrix(
 
 @crossing.check(6)
 def pre_evolved_walkers(student: Student):
-    expect_matrix(student, walking(50, 150), walkers_of(40), secrets.randbelow(2**31), 1)
+    expect_matrix(student, walking(50, 100), walkers_of(40), secrets.randbelow(2**31), 1)
 
 
 @crossing.check(3)
 def another_experiment(student: Student):
-    walkers = rng_of(41).normal(size=(2, 46 * 5 + 10 + BODY + 2 * OBSERVATIONS))
+    walkers = rng_of(41).normal(size=(4, 46 * 5 + 10 + BODY + 2 * OBSERVATIONS))
     walkers[:, -OBSERVATIONS:] = 1
-    expect_matrix(student, walking(5, 40), walkers, 0, 3)
+    expect_matrix(student, walking(5, 30), walkers, 0, 3)
 
 
 # ------------------------------------------------------------------- 5.8
@@ -476,9 +634,60 @@ losing = exercise.task("5.8", "What is lost")
 
 
 def made_up_matrices(index: int) -> list[np.ndarray]:
+    """Matrices, the first two of them with whole numbers."""
     rng = rng_of(index)
-    sizes = (2, 3, 5, 8)
-    return [30 * rng.normal(size=(n, n)) + 25 * np.eye(n) * rng.random() for n in sizes]
+    sizes = (3, 4, 2, 5, 8)
+    made = [30 * rng.normal(size=(n, n)) + 25 * np.eye(n) * rng.random() for n in sizes]
+    return [*(matrix.round() for matrix in made[:2]), *made[2:]]
+
+
+def wrong_losses(matrix: np.ndarray, key: str) -> dict:
+    """What mistakes make of a part of the answer."""
+    n, own, others = len(matrix), np.diagonal(matrix), matrix[~np.eye(len(matrix), dtype=bool)]
+    if key == "own":
+        return {
+            "This is the other diagonal.": np.diagonal(matrix[:, ::-1]).mean(),
+            "The diagonal is added up, not averaged.": own.sum(),
+            "This is the mean of the whole matrix.": matrix.mean(),
+        }
+    if key == "foreign":
+        return {
+            "The diagonal is counted among the foreign places.": matrix.mean(),
+            "The foreign returns are divided by the number of all places: there are n (n - 1) "
+            "foreign ones.": others.sum() / n**2,
+            "The foreign returns are divided by n: there are n (n - 1) foreign places.":
+            others.sum() / n,
+            "The foreign returns are divided by n - 1: there are n (n - 1) foreign places.":
+            others.sum() / (n - 1),
+            "Only the places above the diagonal are counted.": matrix[np.triu_indices(n, 1)].mean(),
+            "Only the places below the diagonal are counted.":
+            matrix[np.tril_indices(n, -1)].mean(),
+        }  # fmt: skip
+    table = matrix.T if key == "bodies" else matrix
+    rest = table[~np.eye(n, dtype=bool)].reshape(n, n - 1)
+    if key == "at home":
+        return {
+            "This is the share of the brains, not their number.": np.mean(own > rest.max(axis=1)),
+            "Brains are rows: this counts columns.":
+            np.sum([own[i] > max(np.delete(matrix[:, i], i)) for i in range(n)]),
+            "A brain must beat each other place of its row, not their mean.":
+            np.sum(own > rest.mean(axis=1)),
+            "A brain must beat all other places of its row, not just one.":
+            np.sum(own > rest.min(axis=1)),
+        }  # fmt: skip
+    return {
+        "The own place is counted among the others.": own - table.mean(axis=1),
+        "The others are added up and divided by n: there are n - 1 others.":
+        own - rest.sum(axis=1) / n,
+        "The others are added up, not averaged.": own - rest.sum(axis=1),
+        "The mean of all foreign places is subtracted, not that of the row or column.":
+        own - others.mean(),
+        "The best of the others is subtracted, not their mean.": own - rest.max(axis=1),
+        "The loss is divided by the own return.": 1 - rest.mean(axis=1) / own,
+        "This is the mean of the others: subtract it from the own return.": rest.mean(axis=1),
+        "Rows are brains and columns bodies: the two are exchanged.":
+        own - (table.sum(axis=0) - own) / (n - 1),
+    }  # fmt: skip
 
 
 def expect_loss(student: Student, index: int, *keys: str) -> None:
@@ -486,7 +695,8 @@ def expect_loss(student: Student, index: int, *keys: str) -> None:
         answer = student.call("loss", matrix)
         values = expect_fields(student.said, answer, *keys)
         for key, value in zip(keys, values, strict=True):
-            expect_close(f"{student.said}: {key}", value, own_loss(matrix, key), TOLERANCE)
+            wrong = wrong_losses(matrix, key)
+            expect_close(f"{student.said}: {key}", value, own_loss(matrix, key), TOLERANCE, wrong)
 
 
 def own_loss(matrix: np.ndarray, key: str):

@@ -512,3 +512,214 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 # -         "bodies": own - (matrix.sum(axis=0) - own) / (n - 1),
 # +         "brains": 1 - (matrix.sum(axis=1) - own) / (n - 1) / own,
 # +         "bodies": 1 - (matrix.sum(axis=0) - own) / (n - 1) / own,
+
+# %% factor_inside_tanh loses 5.1
+# The factor 0.9 stands inside tanh, where it belongs before it.
+# says: this
+# -     scales = 1 + 0.9 * np.tanh(parameters[:22].reshape(SEGMENTS, 2))
+# +     scales = 1 + np.tanh(0.9 * parameters[:22].reshape(SEGMENTS, 2))
+
+
+# %% first_body_kept loses 5.1
+# Keeps the answer for the first body and gives it for all others.
+# says: the same answer for 4 different bodies
+_sizes, _kept = sizes, {}
+
+
+def sizes(parameters):
+    if not _kept:
+        _kept.update(_sizes(parameters))
+    return _kept
+
+
+# %% limits_cut_off_after_scaling loses 5.2
+# Cuts the limits off at -1 and 1 after scaling them, not before.
+# says: this
+# -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
+# +     limits = np.clip(np.pi / 2 * parameters[22:42], -1, 1).reshape(JOINTS, 2)
+
+
+# %% limits_to_both_sides loses 5.2
+# Takes the amount of one limit downwards and that of the other upwards; both can be on one side.
+# says: this
+# -         "lower": limits.min(axis=1),
+# -         "upper": limits.max(axis=1),
+# +         "lower": -np.abs(limits[:, 0]),
+# +         "upper": np.abs(limits[:, 1]),
+
+
+# %% limits_sorted_in_place loses 5.2
+# Sorts the two limits of each joint in the parameters themselves.
+# says: changed the parameters
+# -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
+# +     parameters[22:42].reshape(JOINTS, 2).sort(axis=1)
+# +     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
+
+
+# %% angles_in_degrees loses 5.2
+# The angles are in degrees, but radians are asked for.
+# says: this
+# -     limits = np.pi / 2 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
+# -     return {
+# -         "angles": 3 * np.pi / 4 * np.clip(parameters[42:53], -1, 1),
+# +     limits = 90 * np.clip(parameters[22:42], -1, 1).reshape(JOINTS, 2)
+# +     return {
+# +         "angles": 135 * np.clip(parameters[42:53], -1, 1),
+
+
+# %% corners_row_by_row loses 5.3
+# The corners come as beginning right, beginning left, end left, end right.
+# says: beginning right, beginning left, end left, end right
+# -     return np.stack([beginnings - side, ends - side, ends + side, beginnings + side], axis=1)
+# +     return np.stack([beginnings - side, beginnings + side, ends + side, ends - side], axis=1)
+
+
+# %% begins_with_the_one_before loses 5.3
+# Lets each segment begin where the one before it begins, not where that ends.
+# says: this
+# -     beginnings = np.vstack([[0.0, 0.0], ends[:-1]])
+# +     beginnings = np.vstack([[0.0, 0.0], [0.0, 0.0], ends[:-2]])
+
+
+# %% headings_cut_off loses 5.3
+# Cuts the headings off at -pi and pi, but they are sums and may go beyond.
+# says: this
+# -     headings = np.cumsum(joints(parameters)["angles"])
+# +     headings = np.clip(np.cumsum(joints(parameters)["angles"]), -np.pi, np.pi)
+
+
+# %% all_as_thick_as_the_torso loses 5.3
+# Draws all segments as thick as the torso.
+# says: this
+# -     side = size["thicknesses"][:, None] / 2 * across
+# +     side = size["thicknesses"][0] / 2 * across
+
+
+# %% width_of_the_two_ends loses 5.4
+# Takes the way from the first place to the last one for width and height.
+# says: this
+# -     width, height = np.ptp(outline(parameters), axis=(0, 1))
+# +     width, height = np.abs(outline(parameters)[-1, 1:3].mean(axis=0))
+
+
+# %% freedom_of_the_extremes loses 5.4
+# Subtracts the lowest of all limits from the highest, though they belong to different joints.
+# says: this
+# -         "freedom": float(np.mean(angles["upper"] - angles["lower"])),
+# +         "freedom": float(np.max(angles["upper"]) - np.min(angles["lower"])),
+
+
+# %% length_without_torso loses 5.4
+# Leaves the torso out of the length.
+# says: this
+# -         "length": float(size["lengths"].sum()),
+# +         "length": float(size["lengths"][1:].sum()),
+
+
+# %% one_run_for_all loses 5.5
+# Runs the first seed only and returns its walker for all seeds.
+# says: All rows equal the first one|seed of the first
+# -     for seed in seeds:
+# -         run = Run(experiment, seed)
+# +     for _ in seeds:
+# +         run = Run(experiment, seeds[0])
+
+
+# %% places_for_seeds loses 5.5
+# Takes the places 0 and 1 of the seeds for the seeds.
+# says: have the seeds 0 and 1
+# -     for seed in seeds:
+# +     for seed in range(len(seeds)):
+
+
+# %% zero_is_no_seed loses 5.5
+# Takes the seed 1 where the seed 0 is asked for.
+# says: seed like any other
+# -         run = Run(experiment, seed)
+# +         run = Run(experiment, seed or 1)
+
+
+# %% folder_above_missing loses 5.5
+# Makes the folder, but not the one above it.
+# says: mkdir\(exist_ok=True\)
+# -     Path(folder).mkdir(parents=True, exist_ok=True)
+# -     experiment = config.load(experiment_file)
+# +     Path(folder).mkdir(exist_ok=True)
+# +     experiment = config.load(experiment_file)
+
+
+# %% a_folder_for_each_seed loses 5.5
+# Leaves the files of each run in a folder of its own inside the folder.
+# says: left no file
+# -         evolve(run, Path(folder), steps)
+# +         own = Path(folder) / str(seed)
+# +         own.mkdir(exist_ok=True)
+# +         evolve(run, own, steps)
+
+
+# %% best_walker_first loses 5.5
+# Orders the walkers by fitness, the best one first.
+# says: in another order than the seeds
+# -         walkers.append(run.record.bestg)
+# -     return np.array(walkers)
+# +         walkers.append((-run.record.bestg_fitness, seed, run.record.bestg))
+# +     return np.array([walker for _, _, walker in sorted(walkers)])
+
+
+# %% three_walkers_at_most loses 5.7
+# Makes a table of three rows and columns, however many walkers there are.
+# says: 3, 3
+# -                 for body in walkers
+# -             ]
+# -             for brain in walkers
+# +                 for body in walkers[:3]
+# +             ]
+# +             for brain in walkers[:3]
+
+
+# %% bodies_overwritten_one_by_one loses 5.7
+# Overwrites the bodies in a copy of the table, so later rows take up wrong bodies.
+# says: this
+def cross_evaluate(experiment_file, walkers, seed, episodes):
+    walkers, n = walkers.copy(), len(walkers)
+    matrix = np.zeros((n, n))
+    part = slice(-2 * OBSERVATIONS - BODY, -2 * OBSERVATIONS)
+    for i, j in np.ndindex(n, n):
+        walkers[i, part] = walkers[j, part]
+        matrix[i, j] = SavedRobot(experiment_file, walkers[i]).evaluate(seed, episodes).mean()
+    return matrix
+
+
+# %% five_episodes_always loses 5.7
+# Lasts five episodes, however many are asked for.
+# says: this
+# -                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
+# +                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, 5).mean()
+
+
+# %% own_body_among_the_brains_others loses 5.8
+# Counts the own body in the mean of each brain's others.
+# says: own place is counted
+# -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
+# +         "brains": own - matrix.mean(axis=1),
+
+
+# %% the_other_diagonal loses 5.8
+# Takes the diagonal from the lower left to the upper right.
+# says: the other diagonal
+# -     own = np.diagonal(matrix)
+# +     own = np.diagonal(matrix[:, ::-1])
+
+
+# %% share_at_home loses 5.8
+# Returns the share of the brains that are at home, not their number.
+# says: share of the brains
+# -         "at home": int(np.sum(own > others.max(axis=1))),
+# +         "at home": float(np.mean(own > others.max(axis=1))),
+
+
+# %% loss_of_brains_as_a_share loses 5.8
+# Divides the loss of the brains by their own return.
+# says: divided by the own return
+# -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
+# +         "brains": 1 - (matrix.sum(axis=1) - own) / (n - 1) / own,

@@ -455,3 +455,304 @@ def forget(step, before, after):
 # -     return np.array([think(brain, observation, memory)[0] for memory in memories])
 # +     mean_memory = np.mean(memories, axis=0)
 # +     return np.array([think(brain, observation, mean_memory)[0] for memory in memories])
+
+# %% one_after_the_logistic loses 6.1
+# The 1 is added after the logistic function of the forget gate, not inside it.
+# says: this
+# -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
+# +     cells = memory[0] * (logistic(forget) + 1) + np.tanh(candidate) * logistic(enter)
+
+
+# %% one_for_the_input_gate loses 6.1
+# The 1 is added for the input gate, not for the forget gate.
+# says: this
+# -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
+# +     cells = memory[0] * logistic(forget) + np.tanh(candidate) * logistic(enter + 1)
+
+
+# %% action_of_the_step_before loses 6.1
+# The action is read from the outputs of the step before.
+# says: this
+# -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
+# +     action = np.tanh(brain["readout"] @ memory[1] + brain["bias"])
+
+
+# %% gates_and_units_mixed_up loses 6.1
+# Takes each four rows in turn for the four gates of a unit, but a gate has its ten rows together.
+# says: this
+# -     forget, enter, leave, candidate = brain["gates"] @ z
+# +     forget, enter, leave, candidate = (brain["gates"].reshape(40, 18) @ z).reshape(10, 4).T
+
+
+# %% own_memory_for_all loses 6.1
+# Goes on with a memory that it keeps itself, whatever memory is given.
+# says: something kept from call to call
+_think, _own = think, []
+
+
+def think(brain, observation, memory):
+    answer = _think(brain, observation, _own[-1] if _own else memory)
+    _own.append(answer[1])
+    return answer
+
+
+# %% end_missing loses 6.2
+# The pose after the last step is not recorded.
+# says: this
+# -     return {"poses": np.array(poses), **{name: np.array(column) for name, column in columns}}
+# +     return {"poses": np.array(poses[:-1]), **{name: np.array(column) for name, column in columns}}
+
+
+# %% drives_on_after_a_collision loses 6.2
+# A collision does not end the episode: it always has maxsteps steps.
+# says: this
+# -     while not arena.done:
+# +     for _ in range(maxsteps):
+
+
+# %% one_step_too_few loses 6.2
+# The episode ends one step before maxsteps.
+# says: this
+# -     while not arena.done:
+# +     while not arena.done and len(steps) < maxsteps - 1:
+
+
+# %% heading_where_it_was loses 6.2
+# Puts the robot at x and y of the start, but leaves its heading.
+# says: this
+# -     arena.robots[0] = start
+# +     arena.robots[0, :2] = start[:2]
+
+
+# %% memory_of_the_last_episode loses 6.2
+# Goes on with the memory of the episode before instead of 0.
+# says: kept from call to call
+# -     memory = np.zeros((2, UNITS))
+# -     poses, steps = [arena.robots[0].copy()], []
+# +     memory = _LAST[-1]
+# +     poses, steps = [arena.robots[0].copy()], []
+# -         memory = remember(len(steps) - 1, memory, after)
+# +         memory = remember(len(steps) - 1, memory, after)
+# +         _LAST.append(memory)
+_LAST = [np.zeros((2, UNITS))]
+
+
+# %% return_so_far loses 6.2
+# Records the return so far, not the reward of each step.
+# says: this
+# -     return {"poses": np.array(poses), **{name: np.array(column) for name, column in columns}}
+# +     recording = {name: np.array(column) for name, column in columns}
+# +     recording["rewards"] = np.cumsum(recording["rewards"])
+# +     return {"poses": np.array(poses), **recording}
+
+
+# %% sees_after_the_step loses 6.2
+# Records what the arena senses after each step, not what the network was given.
+# says: this
+# -         steps.append((observation, memory, action, arena.step()))
+# +         reward = arena.step()
+# +         steps.append((arena.observation.copy(), memory, action, reward))
+
+
+# %% y_before_x loses 6.3
+# y changes faster than x.
+# says: this
+# -     return np.array([(x, y, angle) for y in ys for x in xs for angle in angles])
+# +     return np.array([(x, y, angle) for x in xs for y in ys for angle in angles])
+
+
+# %% headings_in_degrees loses 6.3
+# The headings are in degrees.
+# says: this
+# -     angles = np.arange(headings) * 2 * np.pi / headings
+# +     angles = np.arange(headings) * 360 / headings
+
+
+# %% whole_millimetres loses 6.3
+# Cuts the fractions of x and y off.
+# says: x is
+# -     ys, xs = np.linspace(270, 350, places), np.linspace(150, 250, places)
+# +     ys, xs = (np.linspace(a, b, places).astype(int) for a, b in ((270, 350), (150, 250)))
+
+
+# %% from_minus_pi loses 6.3
+# The headings begin at minus pi, not at 0.
+# says: this
+# -     angles = np.arange(headings) * 2 * np.pi / headings
+# +     angles = np.arange(headings) * 2 * np.pi / headings - np.pi
+
+
+# %% search_is_all_without_reward loses 6.4
+# Counts all steps without a reward as search, also those after the robot has found the cylinder.
+# says: this
+# -         "search": search,
+# +         "search": int((~near).sum()),
+
+
+# %% means_of_all_without_reward loses 6.4
+# Speed and turning are means over all steps without a reward, not over the search.
+# says: this
+# -         "speed": mean(forward[:search]),
+# -         "turning": mean(turned[:search]),
+# +         "speed": mean(forward[~near]),
+# +         "turning": mean(turned[~near]),
+
+
+# %% turning_without_sign loses 6.4
+# The turning has lost its sign: left and right no longer cancel out.
+# says: this
+# -         "turning": mean(turned[:search]),
+# +         "turning": mean(np.abs(turned[:search])),
+
+
+# %% turning_from_zero_on loses 6.4
+# The turning lies between 0 and 2 pi: a turn to the right becomes a long one to the left.
+# says: this
+# -     turned = (after[:, 2] - before[:, 2] + np.pi) % (2 * np.pi) - np.pi
+# +     turned = (after[:, 2] - before[:, 2]) % (2 * np.pi)
+
+
+# %% turning_in_degrees loses 6.4
+# The turning is in degrees.
+# says: this
+# -         "turning": mean(turned[:search]),
+# +         "turning": mean(np.degrees(turned[:search])),
+
+
+# %% two_walls_only loses 6.4
+# Looks only at the left and the lower wall.
+# says: this
+# -     to_wall = np.minimum(before[:, :2], 400 - before[:, :2]).min(axis=1)
+# +     to_wall = before[:, :2].min(axis=1)
+
+
+# %% corners_only loses 6.4
+# Counts a step as near a wall only if two walls are near.
+# says: this
+# -     to_wall = np.minimum(before[:, :2], 400 - before[:, :2]).min(axis=1)
+# +     to_wall = np.minimum(before[:, :2], 400 - before[:, :2]).max(axis=1)
+
+
+# %% steps_at_the_wall loses 6.4
+# Counts the steps near a wall: their share is asked for.
+# says: this
+# -         "wall": mean(to_wall[:search] < 72.5),
+# +         "wall": float(np.sum(to_wall[:search] < 72.5)),
+
+
+# %% walls_after_the_step loses 6.4
+# Looks for walls at the end of each step, not at its beginning.
+# says: this
+# -     to_wall = np.minimum(before[:, :2], 400 - before[:, :2]).min(axis=1)
+# +     to_wall = np.minimum(after[:, :2], 400 - after[:, :2]).min(axis=1)
+
+
+# %% pace_of_all_after_the_search loses 6.4
+# The pace is a mean over all steps after the search, also those without a reward.
+# says: this
+# -         "pace": mean(np.hypot(*moved[near].T)),
+# +         "pace": mean(np.hypot(*moved[search:].T)),
+
+
+# %% sine_of_the_mean loses 6.4
+# The side is the sine of the mean angle, not the mean of the sines.
+# says: this
+# -         "side": mean(np.sin(bearing[near])),
+# +         "side": float(np.sin(mean(bearing[near]))),
+
+
+# %% one_scale_for_all_columns loses 6.5
+# Takes mean and deviation of the whole table, not of each column.
+# says: this
+def standardise(table):
+    return (table - table.mean()) / table.std()
+
+
+# %% distance_of_the_means loses 6.5
+# The distance of two families is that of their means, not the mean distance of their robots.
+# says: this
+# -         apart = [distance[np.ix_(groups[i], groups[j])].mean() for i, j in pairs]
+# +         centres = [rows[group].mean(axis=0) for group in groups]
+# +         apart = [np.linalg.norm(centres[i] - centres[j]) for i, j in pairs]
+
+
+# %% joins_the_first_that_is_near loses 6.5
+# Goes through the robots once: each joins the first family that is near, not the nearest ones.
+# says: this
+def families(table, threshold):
+    rows, groups = standardise(table), []
+    for robot, row in enumerate(rows):
+        for group in groups:
+            if np.linalg.norm(rows[group] - row, axis=1).mean() < threshold:
+                group.append(robot)
+                break
+        else:
+            groups.append([robot])
+    return [next(k for k, group in enumerate(groups) if i in group) for i in range(len(rows))]
+
+
+# %% largest_family_first loses 6.5
+# The largest family has number 0, not that of the first robot.
+# says: this
+# -     groups.sort(key=min)
+# +     groups.sort(key=lambda group: (-len(group), min(group)))
+
+
+# %% families_weigh_alike loses 6.5
+# When two families merge, their distances are averaged whatever their sizes.
+# says: this
+def families(table, threshold):
+    rows = standardise(table)
+    apart = np.linalg.norm(rows[:, None] - rows[None], axis=2)
+    np.fill_diagonal(apart, np.inf)
+    groups = [[robot] for robot in range(len(rows))]
+    while len(groups) > 1 and apart.min() < threshold:
+        i, j = sorted(np.unravel_index(apart.argmin(), apart.shape))
+        apart[i] = apart[:, i] = (apart[i] + apart[j]) / 2
+        apart[i, i] = np.inf
+        apart = np.delete(np.delete(apart, j, 0), j, 1)
+        groups[i] += groups.pop(j)
+    groups.sort(key=min)
+    return [next(k for k, group in enumerate(groups) if i in group) for i in range(len(rows))]
+
+
+# %% freezes_a_step_early loses 6.6
+# Freezes the memory one step too early.
+# says: this
+# -     return lambda step, before, after: after if step < since else before
+# +     return lambda step, before, after: after if step < since - 1 else before
+
+
+# %% seeds_run_on loses 6.6
+# Goes on counting seeds from one kind of memory to the next, but all three have the same seeds.
+# says: this
+# -             episode(brain, start, cylinder, seed + i, remember, maxsteps)
+# +             episode(brain, start, cylinder, seed + i + len(starts) * len(returns), remember, maxsteps)
+
+
+# %% reward_of_a_step loses 6.6
+# Takes the mean reward of a step, not the return of an episode.
+# says: this
+# -         returns[name] = float(np.mean([each["rewards"].sum() for each in episodes]))
+# +         returns[name] = float(np.mean([each["rewards"].mean() for each in episodes]))
+
+
+# %% sight_left_out loses 6.7
+# Shows the network no observation, only the memories.
+# says: this
+# -     return np.array([think(brain, observation, memory)[0] for memory in memories])
+# +     return np.array([think(brain, 0 * observation, memory)[0] for memory in memories])
+
+
+# %% maxsteps_not_handed_on loses 6.6
+# Does not hand maxsteps on: the episodes last up to 500 steps.
+# says: this
+# -             episode(brain, start, cylinder, seed + i, remember, maxsteps)
+# +             episode(brain, start, cylinder, seed + i, remember)
+
+
+# %% frozen_from_step_100 loses 6.6
+# Freezes the memory from step 100 on, whatever `since` is.
+# says: this
+# -     ways = {"keep": keep, "forget": forget, "freeze": freeze(since)}
+# +     ways = {"keep": keep, "forget": forget, "freeze": freeze(100)}
