@@ -492,6 +492,7 @@ picture = exercise.task("7.7", "The picture", seconds=45)
 LARGEST = 6000
 VISIBLE = 0.01
 """From 0 to 1: a field may be drawn in a very light grey."""
+TITLES = ("early", "middle", "late")
 CENTRE = np.array([[0.0, 0.0, 0.3, 0.8]])
 STATES = ((-2.5, -6.0), (-1.0, -2.0), (2.0, 5.0))
 
@@ -507,14 +508,13 @@ def drawn(module, file, titles, fields, paths):
     module.draw_portraits(file, titles, fields, paths)
 
 
-def pixels_of(student: Student, fields: list, paths: list) -> np.ndarray:
+def pixels_of(student: Student, fields: list, paths: list, titles=TITLES) -> np.ndarray:
     """Draws and reads the picture: its pixels as numbers from 0 to 1, (height, width, 3)."""
     from matplotlib.image import imread
 
     n = len(fields)
     said = f"draw_portraits('portraits.png', ...), {n} panel{'s' if n > 1 else ''}"
-    titles = ["early", "middle", "late"][:n]
-    student.run(drawn, "portraits.png", titles, fields, paths, said=said)
+    student.run(drawn, "portraits.png", list(titles[:n]), fields, paths, said=said)
     file = student.scratch("portraits.png")
     head = file.read_bytes()[:24]
     width, height = (int.from_bytes(head[at : at + 4], "big") for at in (16, 20))
@@ -599,8 +599,26 @@ def one_panel_for_each(student: Student):
             "and the right third of the picture, but are "
             f"{', '.join(f'{100 * x:.0f} %' for x in found)} from the left.",
         )
+    titles_stand_above(student)
     path_lies_above(student)
     axes_end_exactly(student)
+
+
+def titles_stand_above(student: Student) -> None:
+    """Another titles[k] changes the picture in its k-th third alone."""
+    three = [CENTRE] * 3
+    plain = pixels_of(student, three, three)
+    for k, title in enumerate(TITLES):
+        titles = [*TITLES[:k], title.upper(), *TITLES[k + 1 :]]
+        other = pixels_of(student, three, three, titles)
+        height, width = np.min([plain.shape[:2], other.shape[:2]], axis=0)
+        changed = np.abs(other[:height, :width] - plain[:height, :width]).max(axis=(0, 2))
+        columns = np.flatnonzero(changed > VISIBLE)
+        expect(
+            len(columns) > 0 and bool(k / 3 < np.median(columns) / width < (k + 1) / 3),
+            f"{student.said}: titles = {titles} gives the same picture in panel {k} as "
+            f"{list(TITLES)}: write titles[i] above panel i.",
+        )
 
 
 def path_lies_above(student: Student) -> None:

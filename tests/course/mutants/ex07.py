@@ -421,3 +421,17 @@ def three_stages(seed):
 # says: exactly -pi
 # -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 # +         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-3.5, 3.5), ylim=(-9, 9))
+
+
+# %% titles_forgotten loses 7.7
+# The titles are never written.
+# says: above panel
+# -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
+# +         axes.set(xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
+
+
+# %% first_title_everywhere loses 7.7
+# Each panel has the first title.
+# says: above panel
+# -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
+# +         axes.set(title=titles[0], xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
