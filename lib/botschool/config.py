@@ -241,9 +241,7 @@ def _build(cls: type, section: str, entries: dict[str, Entry], path: str | PathL
 
 
 def _value(f: Field, entry: Entry) -> Any:
-    """Return the entry's value, in the type and the limits that `f` declares; ValueError
-    otherwise.
-    """
+    """Return the entry's value in the type and limits of `f`. Raises ValueError."""
     raw, limits = entry.value, f.metadata
     said = f"{entry.key} = {shown(raw)}"
     if raw == "" and f.default == "":
@@ -297,9 +295,7 @@ def _text(f: Field, raw: Any, said: str) -> str:
 
 
 def _number(raw: Any) -> float | int | None:
-    """Return the number that a text or a value is, including nan and infinities; None for other
-    values.
-    """
+    """Return the number that a text or a value is, even nan or infinite; None for other values."""
     if isinstance(raw, str):
         pattern = r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?|[+-]?(nan|inf|infinity)"
         return float(raw) if re.fullmatch(pattern, raw, re.ASCII | re.IGNORECASE) else None

@@ -33,8 +33,7 @@ class Entry(NamedTuple):
 def read_sections(
     path: str | PathLike[str], names: tuple[str, ...], aliases: dict[str, str]
 ) -> dict[str, dict[str, Entry]]:
-    """Return the entries of every section of the file, under the section's name and the lower-case
-    key.
+    """Return section name -> lower-case key -> entry, for every section of the file.
 
     `names` are the allowed sections; `aliases` gives the key that a second name stands for. Raises
     BotschoolError for a file that cannot be read and for a line that is no part of an .ini file.
@@ -125,9 +124,7 @@ def _twice(key: str, first: Entry) -> str:
 
 
 def _read(path: str | PathLike[str]) -> str:
-    """Return the text of the file. Latin-1 is accepted, too: comments may hold it, keys and values
-    not.
-    """
+    """Return the file's text. Latin-1 is accepted, too, because comments may use it."""
     try:
         with open(path, "rb") as file:
             data = file.read(LONGEST_FILE + 1)

@@ -105,9 +105,7 @@ class Bars:
     """Progress bars of several seeds, one for each seed that runs."""
 
     def __init__(self, progress) -> None:
-        """Start without bars; progress: rich.progress.Progress with the columns of
-        `progress_bars`.
-        """
+        """Start without bars; progress: a rich Progress with the columns of `progress_bars`."""
         self._progress = progress
         self._tasks = {}
 

@@ -99,9 +99,7 @@ def parse(text: str) -> tuple[Wrapper, ...]:
 
 
 def keywords(text: str) -> dict[str, Any]:
-    """Return the options of an environment, as `num_good=1, speeds=(2, 3)`. Raises
-    BotschoolError.
-    """
+    """Return an environment's options from `num_good=1, speeds=(2, 3)`. Raises BotschoolError."""
     try:
         call: Any = ast.parse(f"f({text})", mode="eval").body
         found = {each.arg: ast.literal_eval(each.value) for each in call.keywords}

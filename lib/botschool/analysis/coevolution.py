@@ -199,9 +199,7 @@ def tournament(
 
 
 def only_seed(folder: Path) -> int:
-    """Return the seed of the folder's populations; raises BotschoolError if there is not just
-    one.
-    """
+    """Return the only seed of the folder's populations. Raises BotschoolError without just one."""
     seeds = list(seeds_of(folder))
     if len(seeds) != 1:
         there = f"several seeds ({', '.join(map(str, seeds))})" if seeds else "no populations"
@@ -210,9 +208,7 @@ def only_seed(folder: Path) -> int:
 
 
 def generations_in(text: str | None, every: int | None) -> list[int] | None:
-    """Return the generations in a text such as 0,100,200, sorted; None for None. Raises
-    BotschoolError.
-    """
+    """Return the generations in a text like 0,100,200, sorted, or None. Raises BotschoolError."""
     if text is None:
         return None
     if every is not None:
@@ -226,8 +222,7 @@ def generations_in(text: str | None, every: int | None) -> list[int] | None:
 
 
 def thinned(populations: Populations, every: int | None) -> list[int]:
-    """Return the saved generations that `every` divides; without it, GENERATIONS at most, spaced
-    evenly.
+    """Return the saved generations that `every` divides; without it, GENERATIONS evenly spaced.
 
     Raises BotschoolError if fewer than two are left.
     """
@@ -261,8 +256,7 @@ def _tournament(contest: Contest, chosen: list[Population]) -> tuple[Table, Tabl
 
 
 def earlier(populations: Populations, generation: int, every: int) -> list[int]:
-    """Return generations g, g - i, g - 2 i, ... sorted; the nearest saved one replaces a missing
-    one.
+    """Return generations g, g - i, g - 2 i, ... sorted, the nearest saved one for each.
 
     Prints a warning about missing ones.
     """
@@ -293,9 +287,7 @@ def nearest(populations: Populations, wanted: list[int]) -> list[int]:
 def select(
     populations: Populations, generations: list[int], best: int | None = None
 ) -> list[Population]:
-    """Return the best individuals of these generations: as many of each, BEST of them if
-    there are.
-    """
+    """Return the best individuals of these generations, at most BEST, equally many of each."""
     loaded = [populations.load(generation) for generation in generations]
     return equal_parts(loaded, best)
 

@@ -105,8 +105,7 @@ def counted(generations: list[int]) -> str:
 
 
 def read_population(path: Path, policy: Policy, name: str, single: bool = False) -> Population:
-    """Return the populations in a file, sorted by the mean of the Fit file beside it if there is
-    one.
+    """Return the populations in a file, sorted by mean fitness if a Fit file lies beside it.
 
     Raises BotschoolError if a file is damaged or its networks are not the policy's.
     """
@@ -131,9 +130,7 @@ def read_population(path: Path, policy: Policy, name: str, single: bool = False)
 
 
 def _order(path: Path, count: int, sides: int) -> np.ndarray:
-    """Return the rows of each side, one side after the other, the best first; ties keep their
-    order.
-    """
+    """Return the rows of one side after the other, the best first; ties keep their order."""
     beside = path.with_name(re.sub(r"(S\d+)(G\d+\.npy)", r"\1Fit\2", path.name))
     if beside == path or not beside.exists():
         return np.arange(count)

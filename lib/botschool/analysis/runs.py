@@ -42,8 +42,7 @@ class Run:
     """Contents of the .fit file; empty without one."""
 
     def best_post_evaluated(self) -> float:
-        """Return the best post-evaluated fitness: the .fit file's `bestgfit`, else the stat file's
-        last.
+        """Return the best post-evaluated fitness, from the .fit file or else the stat file.
 
         Raises BotschoolError if neither file holds it.
         """

@@ -233,8 +233,7 @@ def progress(table: Table) -> dict[str, Estimate]:
 
 
 def verdict(table: Table, names: Sequence[str]) -> str:
-    """Return a sentence on whether later generations beat ancient competitors more than earlier
-    ones.
+    """Return a sentence on whether later generations do better against ancient competitors.
 
     The answer is yes or no only if 0 is outside the interval of the historical progress. names: the
     names of the generations.

@@ -42,9 +42,7 @@ def print_roles(roles: str) -> None:
 
 
 def print_pairs(fitness: np.ndarray, tables: tuple[Table, Table], name: str) -> None:
-    """Print each predator of a generation against each prey: fitness (n, n), or of both sides (2,
-    n, n).
-    """
+    """Print each predator of a generation against each prey: fitness (n, n) or (2, n, n)."""
     if fitness.shape[-1] <= MAX_COLUMNS:
         if fitness.ndim == 2:
             _print_pairs(fitness, f"{name}: fitness of predators (rows) against prey (columns)")
@@ -78,9 +76,7 @@ def print_row(predators: Table, prey: Table, name: str, names: Sequence[str]) ->
 
 
 def print_cross(tables: tuple[Table, Table], names: Sequence[str]) -> None:
-    """Print a cross test: each run's predators and prey against both runs', and which are
-    better.
-    """
+    """Print a cross test of two runs: their predators and prey against both runs', and who wins."""
     predators, prey = tables
     letters = ("A", "B")
     for letter, name in zip(letters, names, strict=True):
@@ -205,9 +201,7 @@ CSV_COLUMNS = ("side", "generation", "competitors", "fitness", "low", "high")
 
 
 def check_files(picture: Path) -> tuple[Path, Path]:
-    """Return the files of the picture and its CSV. Raises BotschoolError if they cannot be
-    written.
-    """
+    """Return the files of picture and CSV. Raises BotschoolError if they cannot be written."""
     return check_output(picture, PICTURE_SUFFIXES), check_output(
         picture.with_suffix(".csv"), (".csv",)
     )

@@ -28,8 +28,7 @@ def has_trainings(folder: Path) -> bool:
 def read_trainings(
     folder: Path, count_evaluations: bool, warn: Warn
 ) -> dict[Path, dict[int, np.ndarray]]:
-    """Return the curves of all trainings in a folder or below: group -> number of the run -> (n,
-    6).
+    """Return the curves of all trainings below a folder: group -> number of the run -> (n, 6).
 
     A group is a path that exists only as a name, `FOLDER/ppo Acrobot-v1`, with the values changed
     by --params. Columns as in `read_curve`. A damaged training is left out after a call of `warn`;

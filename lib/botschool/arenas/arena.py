@@ -108,9 +108,7 @@ class Arena:
 
     @property
     def robots(self) -> np.ndarray:
-        """Return the poses, float64, shape (robots, 3): rows x, y, heading. Write here to move a
-        robot.
-        """
+        """Return the poses, float64, (robots, 3): x, y, heading. Write here to move a robot."""
         return self._robots
 
     @robots.setter
@@ -152,8 +150,7 @@ class Arena:
 
     @property
     def state(self) -> np.ndarray:
-        """Return the state that scenes draw: x, y, heading of each robot, x, y of each cylinder,
-        steps.
+        """Return the state that scenes draw: x, y, heading of robots, x, y of cylinders, steps.
 
         In "staybehind" it also holds, before the steps, which robot is blocked.
         docs/specification.md, "Declared arenas", describes the state of a declared arena.
@@ -219,9 +216,7 @@ class Arena:
         self.steps = int(state[-1])
 
     def _place(self) -> None:
-        """Put robots and objects where the arrays say. Raises BotschoolError if that is
-        impossible.
-        """
+        """Put robots and objects where the arrays say. Raises BotschoolError if they do not fit."""
         _finite("robots", self._robots)
         _finite("lights", self._lights)
         _finite("zones", self._zones)

@@ -79,9 +79,7 @@ def _options(
 
 
 def run() -> NoReturn:
-    """Run the command and exit; print an error that the user can mend as one sentence, with exit
-    code 2.
-    """
+    """Run the command and exit; an error that users can mend is one sentence and exit code 2."""
     code, stopped = 130, False
 
     def stop(number: int, frame: object) -> None:
@@ -147,9 +145,7 @@ def _refuse(sentence: str) -> int:
 
 
 def _silence(code: int) -> int:
-    """Discard what the interpreter would still print to a broken standard output; return the
-    code.
-    """
+    """Discard what Python would still print to a broken standard output; return the code."""
     with suppress(OSError):
         sys.stdout.flush()
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -78,9 +78,7 @@ def _loopback(number: str) -> bool:
 
 
 def _of_file(path: Path) -> str:
-    """Return the address in a scheduler's file, which `dask scheduler --scheduler-file FILE`
-    writes.
-    """
+    """Return the address in a file that `dask scheduler --scheduler-file FILE` writes."""
     try:
         address = json.loads(path.read_text())["address"]
     except FileNotFoundError:

@@ -34,9 +34,7 @@ class Batch:
         maxsteps: int,
         single: bool = False,
     ) -> None:
-        """Start a batch; parts: genotypes, one array after another; single: single precision
-        suffices.
-        """
+        """Start a batch; parts: arrays of genotypes; single: single precision suffices."""
         met = episodes.candidate.ndim == 2
         self.parts = [_Part(part, met, single) for part in parts]
         self.episodes = episodes
@@ -141,9 +139,7 @@ class _Part:
     """Genotypes of a batch, with the way they are sent."""
 
     def __init__(self, genotypes: np.ndarray, met: bool, single: bool) -> None:
-        """Prepare genotypes; met: each meets many opponents; single: only single precision
-        counts.
-        """
+        """Prepare genotypes; met: each meets many others; single: single precision suffices."""
         self._genotypes = genotypes
         self._met, self._type = met, np.float32 if single else np.float64
         self._recipe = genotypes.recipe if isinstance(genotypes, Drawn) else None

@@ -187,9 +187,7 @@ class Crew:
         )
 
     def _give(self, batch: Batch) -> None:
-        """Give chunks to all workers that have room, beginning with the workers that have
-        fewest.
-        """
+        """Give chunks to all workers that have room, first to the workers with the fewest."""
         if not batch.waiting:
             return
         now, ready = time.monotonic(), self.ready

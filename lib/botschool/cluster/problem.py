@@ -88,9 +88,7 @@ class Distributed(Problem):
         workers: int = 1,
         stopping: Callable[[], bool] = lambda: False,
     ) -> Outcome:
-        """See Problem.evaluate; genotypes may also be a result of `rows`. `workers` has no
-        effect.
-        """
+        """See Problem.evaluate; genotypes may come from `rows`, and `workers` has no effect."""
         parts = list(genotypes) if isinstance(genotypes, tuple) else [genotypes]
         if self._short(len(episodes)):
             return self._here(policy, parts, normalisation, episodes, maxsteps, stopping)

@@ -53,9 +53,7 @@ def evaluate(message: bytes) -> bytes:
 
 
 def _answer(message: bytes, function: Callable[[dict], dict]) -> bytes:
-    """Return the function's result as an answer, or its error: our sentence, or the error's
-    text.
-    """
+    """Return the function's result, our sentence or another error's text as an answer."""
     try:
         with _one_at_a_time:
             request = wire.unpack(message)
@@ -136,9 +134,7 @@ def _rows(part: dict) -> np.ndarray:
 
 
 def _cloud(name: bytes, told: tuple[bytes, ...]) -> Cloud:
-    """Return the cloud of a recipe: a table, or the cloud of an ascent after these fitness
-    values.
-    """
+    """Return a recipe's cloud: a table, or an ascent's cloud after these fitness values."""
     if isinstance(_tables[name], Cloud):
         return _tables[name]
     known, ascent, cloud = _ascents.get(name, (None, None, None))

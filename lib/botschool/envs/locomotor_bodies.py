@@ -98,9 +98,7 @@ class LocomotorBody:
     evolved_noise: float = 0.1
     """Version 5 starts with joints at most this far (radians) from their rest position."""
     start_height: float | None = None
-    """Height in metres at which the observed height is 0; None: the height at the episode's
-    start.
-    """
+    """Height in metres that is observed as 0; None: the height at the episode's start."""
     gains: type = np.float64
     """Precision of the torques."""
 

@@ -68,9 +68,7 @@ class Locomotor(gymnasium.Env):
     }
 
     def __init__(self, body: str, version: int = 0, render_mode: str | None = None) -> None:
-        """Make the environment. Raises BotschoolError if PyBullet or its models are missing or
-        damaged.
-        """
+        """Make the environment. Raises BotschoolError without PyBullet or its models."""
         self.body = BODIES[body]
         self.version = version
         self.render_mode = render_mode
@@ -179,9 +177,7 @@ class Locomotor(gymnasium.Env):
         self._bullet.performCollisionDetection(**world)
 
     def step(self, action: np.ndarray):
-        """Simulate one step. Raises BotschoolError if the action holds a number that is not
-        finite.
-        """
+        """Simulate one step. Raises BotschoolError if a number in the action is not finite."""
         action = np.asarray(action)
         torques = (self._gains * action.clip(*self._full)).tolist()
         if not math.isfinite(sum(torques)):
@@ -275,8 +271,7 @@ class Locomotor(gymnasium.Env):
         }
 
     def measured(self) -> dict[str, Any]:
-        """Return measurements after the last step: metres to the target, height (m), pitch, heading
-        (rad).
+        """Return measurements after the last step: metres to the target; height (m), angles (rad).
 
         "positions" and "speeds" are the joints', as observed but without limits. "touching" is 1.0
         if a part of a HalfCheetah other than its feet was on the floor after the step before the
@@ -293,9 +288,7 @@ class Locomotor(gymnasium.Env):
         }
 
     def render(self) -> np.ndarray | None:
-        """Return a picture with render_mode 'rgb_array', (300, 400, 3) uint8, new at every second
-        step.
-        """
+        """Return a picture, (300, 400, 3) uint8, new at every second step, with 'rgb_array'."""
         if self.render_mode != "rgb_array":
             return None
         if self._picture is None or self._steps >= self._drawn + STEPS_OF_PICTURE:

@@ -33,9 +33,7 @@ class Morphology:
     limits: np.ndarray
     """Radians around the default angle, shape (10, 2): lower and upper limit of each joint."""
     angles: np.ndarray
-    """Radians, shape (11,): default angle of the torso, and of each segment relative to the
-    previous one.
-    """
+    """Radians, shape (11,): angle of the torso, then of each segment relative to the one before."""
     densities: np.ndarray
     """kg / m^2, shape (11,)."""
 

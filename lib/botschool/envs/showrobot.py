@@ -1,6 +1,4 @@
-"""Show a robot without a policy: move its joints by sliders, in a film, or on a sheet of
-pictures.
-"""
+"""Show a robot without a policy: move its joints by sliders, in a film or on a sheet."""
 
 from __future__ import annotations
 
@@ -46,9 +44,7 @@ PYBULLETS = {
     "vision60": "quadruped/vision60.urdf",
     "xarm": "xarm/xarm6_robot.urdf",
 }
-"""Robots among PyBullet's own models, by their common names; its other models have the names of
-their files.
-"""
+"""Common names of PyBullet's models; its other models go by their files' names."""
 
 
 @dataclass
@@ -274,9 +270,7 @@ def _sweeps(model: Model) -> Iterator[np.ndarray]:
 
 
 def _window(model: Model) -> None:
-    """Show PyBullet's window, with a slider for each joint and one for gravity, until it is
-    closed.
-    """
+    """Show PyBullet's window with sliders for joints and gravity, until it is closed."""
     gui, world = model.bullet, {"physicsClientId": model.client}
     gui.configureDebugVisualizer(gui.COV_ENABLE_GUI, 1, **world)
     floor = bullet.load_floor(model.client, bullet.data_folder() / "plane_stadium.sdf")

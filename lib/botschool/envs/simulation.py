@@ -60,9 +60,7 @@ class Simulation:
 
     @property
     def bounds(self) -> np.ndarray:
-        """Return the smallest and largest values of a robot's observation, shape (2,
-        observations).
-        """
+        """Return the limits of a robot's observation: smallest, then largest, (2, observations)."""
         return self._stepper.bounds
 
     @property

@@ -106,9 +106,7 @@ class Competition(Protocol):
         """Return the best predator and the best prey in one array, and the predator's fitness."""
 
     def summary(self) -> dict[str, float]:
-        """Return the numbers to report of a generation, with the mean fitness of each of
-        `sides`.
-        """
+        """Return the numbers to report of a generation; `sides` name the mean fitness of each."""
 
     def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray] | None:
         """Return the individuals to keep in files, and their fitness; None if there are none yet.
@@ -209,9 +207,7 @@ class Entry:
         return getattr(self.make, "behaves", False)
 
     def conflicts(self, config: Any) -> Iterator[tuple[tuple[str, ...], str]]:
-        """Yield hyperparameters that cannot go together: their names and a sentence with the
-        remedy.
-        """
+        """Yield hyperparameters that exclude each other: names and a sentence with the remedy."""
         yield from getattr(self.make, "conflicts", lambda config: ())(config)
 
     def check(self, config: Any, policy: Any) -> None:

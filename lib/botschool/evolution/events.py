@@ -38,9 +38,7 @@ class Events:
         self._file: Path | None = None
 
     def append(self, first: int, rows: np.ndarray, columns: Sequence[str] = STAT) -> None:
-        """Append generations from number `first`; rows: shape (generations, columns), steps
-        first.
-        """
+        """Append generations from number `first`; rows: (generations, columns), steps first."""
         now = time.time()
         events = [] if self._file else [event(now, version=VERSION)]
         for generation, row in enumerate(rows.tolist(), first + 1):

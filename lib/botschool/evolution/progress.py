@@ -19,9 +19,7 @@ Bar = tuple[float, int, int, str]
 
 @contextmanager
 def reporting(seed: int, terminal: bool) -> Iterator[Callable[[Run], None]]:
-    """Yield a function to call with the run after each generation; it may be called during one,
-    too.
-    """
+    """Yield a function to call with the run after each generation, and at will during one."""
     if terminal:
         with progress_bar(seed) as show, messages(True, lambda bar: show(*bar)) as report:
             yield report

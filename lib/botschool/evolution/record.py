@@ -63,9 +63,7 @@ class RunFiles:
         return self.folder / f"tensorboardS{self.seed}"
 
     def kept(self, generation: int | str) -> Path:
-        """Return the file of --keep-every: the best post-evaluated genotype so far; "*" matches
-        all.
-        """
+        """Return the file of --keep-every with the best robot so far; "*" matches all of them."""
         return self.folder / f"bestgS{self.seed}G{generation}.npy"
 
     def populations(self, generation: int | str) -> Path:

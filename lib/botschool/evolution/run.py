@@ -214,8 +214,7 @@ class Run:
         )
 
     def settle(self) -> None:
-        """Post-evaluate the newest generation if that has waited; after that the record is
-        complete.
+        """Post-evaluate the newest generation if that has waited, which completes the record.
 
         If it fails, the generation is dropped.
         """
@@ -234,9 +233,7 @@ class Run:
         return generation.saved[: self.policy.genotype_size]
 
     def _close(self, post: Measured) -> None:
-        """Enter the open generation into the record; post: the post-evaluation of its best
-        candidate.
-        """
+        """Enter the open generation into the record; post: its best candidate's post-evaluation."""
         done, self._open = self._open, None
         self.record.steps += done.steps + post.steps
         self.record.offer(done.saved, done.best, mean(post.fitness))

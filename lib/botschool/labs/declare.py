@@ -112,9 +112,7 @@ class Statement:
     needs: tuple[str, ...]
     """Names of the conditions whose runs it needs."""
     judge: Callable[[Data, Answers], tuple[Callable[[Any], bool], str]]
-    """Data and answers -> a function that tells whether an answer is right, and a sentence on the
-    data.
-    """
+    """Data, answers -> a function that tells whether an answer is right; a sentence on the data."""
 
 
 @dataclass(frozen=True)
@@ -156,9 +154,7 @@ class Lab:
     shown: tuple[str, ...]
     """Conditions whose best robot the report replays; only conditions that evolve."""
     best: Callable[[Mapping[str, np.ndarray]], np.ndarray]
-    """Measurements of a condition -> a number for each run; the report replays the run with the
-    highest.
-    """
+    """Measurements of a condition -> a number for each run; the report replays the best run."""
     separate: Callable[[list[dict[str, float]]], str] = lambda measured: ""
     """Returns what is wrong with the measures of all unseen runs together; "" if nothing."""
     replications: int = 10

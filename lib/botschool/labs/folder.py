@@ -14,9 +14,7 @@ from botschool.labs.sheet import Sheet
 from botschool.paths import course_root
 
 FILE = re.compile(r"^<!-- file: (\S+) -->\n", re.MULTILINE)
-"""Line of labNN.md that begins a file of the student's folder; the sheet stands before the first
-one.
-"""
+"""Line of labNN.md that begins a file of the student's folder; the sheet stands above."""
 NAME = Path(".botschool") / "name"
 
 

@@ -54,9 +54,7 @@ def larger_of_pairs(
 
 
 def decided(a: np.ndarray, b: np.ndarray, p: float, labels: tuple[str, str], test: str) -> Judged:
-    """Return which label is right for this p, and a sentence; near LEVEL, CANNOT_TELL is right,
-    too.
-    """
+    """Return which label is right for this p, and a sentence; near LEVEL, two are right."""
     winner = labels[0] if a.mean() > b.mean() else labels[1]
     right = {winner} if p < LEVEL else {CANNOT_TELL}
     if NEAR[0] < p < NEAR[1]:

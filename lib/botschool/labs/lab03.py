@@ -41,9 +41,7 @@ PROBLEMS = {
 
 
 def condition(problem: str, size: int) -> Condition:
-    """Return a condition: SSS with this population; all populations make the same number of
-    evaluations.
-    """
+    """Return a condition: SSS with this population, and equally many evaluations for all."""
     told: dict[str, Any] = PROBLEMS[problem]
     return Condition(
         f"{problem} {size}",

@@ -13,9 +13,7 @@ from botschool.labs.measuring import permutation_test, play_again
 
 
 def reference(run: dict[str, Any], answers: Answers) -> dict[str, float]:
-    """Return reported fitness, and mean and standard deviation of the returns in 100 new
-    episodes.
-    """
+    """Return reported fitness; mean and standard deviation of returns in 100 new episodes."""
     returns = play_again(run, seed=1, episodes=100)
     return {
         "reported": float(np.asarray(run["stat"])[-1, 2]),

@@ -46,9 +46,7 @@ PROBLEMS: dict[str, dict[str, Any]] = {
 
 
 def condition(problem: str, step: float, own: bool = False) -> Condition:
-    """Return a condition: runs with this step size, of the student's own strategy or the tool's
-    OpenAI-ES.
-    """
+    """Return a condition: this step size, with the student's own strategy or OpenAI-ES."""
     told = PROBLEMS[problem]
     algo: dict[str, Any] = {"maxmsteps": told["msteps"]}
     if own:

@@ -44,9 +44,7 @@ ALGO = {"stepsize": 0.03, "noiseStdDev": 0.05, "samplesize": 20, "wdecay": 1}
 
 
 def condition(bonus: float, own: bool = False) -> Condition:
-    """Return a condition: hoppers with this bonus, of the student's own strategy or the tool's
-    OpenAI-ES.
-    """
+    """Return a condition: hoppers with this bonus, by the student's strategy or OpenAI-ES."""
     algo: dict[str, Any] = {"maxmsteps": 4}
     if own:
         algo["options"] = ", ".join(f"{key}={value:g}" for key, value in ALGO.items())

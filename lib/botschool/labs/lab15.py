@@ -32,9 +32,7 @@ WHO = ("random", "best")
 
 
 def condition(who: str) -> Condition:
-    """Return a condition: predators and prey with small networks, chasing for 40 seconds at
-    most.
-    """
+    """Return a condition: predators and prey with small networks, at most 40 seconds a chase."""
     return Condition(
         who,
         {

@@ -77,9 +77,7 @@ def part_of(problem: str) -> str:
 
 
 def core(problem: str) -> bytes:
-    """Return the compiled core that contains a problem. Raises BotschoolError if it was not
-    built.
-    """
+    """Return the compiled core of a problem. Raises BotschoolError if it was not built."""
     place = files("botschool.page") / f"{part_of(problem)}.wasm"
     if not place.is_file():
         raise BotschoolError(

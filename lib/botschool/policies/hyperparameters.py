@@ -112,9 +112,7 @@ else:
 
 
 def conflicts(p: PolicyConfig) -> Iterator[tuple[tuple[str, ...], str]]:
-    """Yield hyperparameters of the policy that exclude each other: their names and a sentence with
-    the remedy.
-    """
+    """Yield the policy's hyperparameters that exclude each other: names and a sentence."""
     if p.nhiddens2 and p.nlayers != 2:
         yield (
             ("nhiddens2",),

@@ -25,9 +25,7 @@ class Image:
     """The image format of an observation (docs/specification.md, "Convolutional networks")."""
 
     shape: tuple[int, ...]
-    """(height, width), with the channels last or first; or several such images, one after
-    another.
-    """
+    """(height, width), with the channels last or first; or several such images in a row."""
     white: float = 1.0
     """The value of a white pixel."""
 

@@ -29,9 +29,7 @@ class ParallelProblem(PythonProblem):
     constant_sum = False
 
     def __init__(self, name: str, wrapped: str = "", options: str = "") -> None:
-        """Make the environment; options: keywords of its constructor, as in an experiment file.
-        Raises BotschoolError.
-        """
+        """Make the environment; options: as in an experiment file. Raises BotschoolError."""
         if wrapped:
             raise BotschoolError(
                 f"{name} is an environment of PettingZoo, which Gymnasium's wrappers do not fit: "

@@ -88,9 +88,7 @@ class PythonProblem(Problem):
                 env.close()
 
     def modules(self) -> set[str]:
-        """Return the modules that the experiment names and the modules of the environment's
-        classes.
-        """
+        """Return the modules that the experiment names, and the environment's own modules."""
         named = {self.name.partition(":")[0]} if ":" in self.name else set()
         named |= {w.module for w in wrappers.parse(self.made.get("wrappers", "")) if w.module}
         env = self._env

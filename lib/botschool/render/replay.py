@@ -27,9 +27,7 @@ from botschool.render.shapes import PALETTE
 
 REPLAY_SUFFIXES = (".html",)
 MAX_FRAME_BYTES = 16_000_000
-"""Largest total size of a page's pictures; beyond it, the page drops every second picture,
-repeatedly.
-"""
+"""Largest total size of a page's pictures; above it, every second one goes, repeatedly."""
 _FRAME_SIDE = 640
 _LEVELS = 65_535
 

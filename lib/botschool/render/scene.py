@@ -97,8 +97,7 @@ class Scene(ABC):
         observation: np.ndarray | None = None,
         reward: float = 0.0,
     ) -> np.ndarray:
-        """Return the frame of a step, (height, width, 3) uint8; arguments and errors as in
-        `numbers`.
+        """Return the frame of a step, (height, width, 3) uint8; arguments as in `numbers`.
 
         Trails show what was drawn before in the same episode.
         """
@@ -124,9 +123,7 @@ class Scene(ABC):
 
 
 Maker = Callable[..., Scene]
-"""Makes a scene for the problem's wheeled robots (none for most), and for its plan if it has
-one.
-"""
+"""Makes a scene for the problem's wheeled robots (often none) and its plan, if any."""
 
 SCENES: dict[str, Maker] = {}
 """By the problem's name in C++; importing botschool.render.scenes fills it."""

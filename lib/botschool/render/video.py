@@ -28,9 +28,7 @@ _ENCODERS = {
 
 VIDEO_SUFFIXES = tuple(_ENCODERS)
 MAX_GIF_FPS = 50.0
-"""Highest frame rate of a GIF: it counts time in hundredths of a second, and viewers slow down
-faster ones.
-"""
+"""Highest frame rate of a GIF, which counts hundredths of a second; viewers slow faster ones."""
 
 
 def write_video(path: Path | str, frames: Iterable[np.ndarray], fps: float) -> None:

@@ -125,9 +125,7 @@ class PostEvaluation:
 
     @property
     def neurons(self) -> tuple[int, int]:
-        """Return inputs (or features of images) and outputs of one robot's network, or of each
-        robot's.
-        """
+        """Return inputs (or features of images) and outputs of one or each robot's network."""
         return self.policy.neurons
 
     def _robots(self, scene) -> tuple[str, ...]:
@@ -157,9 +155,7 @@ class PostEvaluation:
         )
 
     def print_summary(self) -> None:
-        """Print mean and standard deviation over the episodes played, of each side with its own
-        fitness.
-        """
+        """Print mean and standard deviation, of each side if it has a fitness of its own."""
         names = [f"{side}: " for side in self.problem.sides] if self.others else [""]
         for name, fitness in zip(names, (self.fitness, self.others), strict=False):
             if fitness:
@@ -234,7 +230,7 @@ class Watching:
         return bool(self.neurons or self.video or self.replay or self.render == "human")
 
     def show(self, robot: PostEvaluation) -> None:
-        """Play and print the episodes; show them in a window, or write a video file or a page."""
+        """Play and print the episodes, in a window or into a video file or a page."""
         film = self.video or self.replay
         window = self.render == "human" or (self.render is None and not film and has_display())
         most = VIDEO_EPISODES if self.video else REPLAY_EPISODES if self.replay else sys.maxsize
@@ -250,9 +246,7 @@ def watch(
     activations: bool,
     replay: Path | None = None,
 ) -> None:
-    """Play and print `episodes` episodes; show them in a window, or write a video file or a
-    page.
-    """
+    """Play and print `episodes` episodes, in a window or into a video file or a page."""
     title = f"botschool: {robot.problem.name}"
     if video is not None:
         from botschool.render.video import write_video

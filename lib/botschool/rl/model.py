@@ -70,8 +70,7 @@ def choose(
     vec_env: str = "dummy",
     engine: str = "auto",
 ) -> Settings:
-    """Return the settings of a training: the arguments, completed from defaults.yaml and
-    benchmarks.yaml.
+    """Return the settings of a training; defaults.yaml and benchmarks.yaml complete them.
 
     wrappers: replace the wrappers that the files name for the environment; "none" means no
     wrappers. engine: native (botschool.rl.native), sb3 (Stable-Baselines3), or auto (native where

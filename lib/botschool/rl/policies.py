@@ -94,8 +94,7 @@ def has_memory(policy: str) -> bool:
 def policy_of(
     model_class: type[BaseAlgorithm], policy: str, env: gymnasium.Env | VecEnv
 ) -> type[BasePolicy] | None:
-    """Return the class of a policy for this algorithm and these observations, None if there is
-    none.
+    """Return the class of a policy for this algorithm and these observations, or None.
 
     Raises BotschoolError if the user's own class does not fit the algorithm.
     """

@@ -17,8 +17,7 @@ KEPT = ("observations", "actions", "rewards", "values", "log_probs", "episode_st
 
 
 class Rollout:
-    """A rollout collected by Stable-Baselines3's PPO, with the values that its code derives from
-    it.
+    """A rollout of Stable-Baselines3's PPO, with the values that its code derives.
 
     Arrays have the shape (steps, envs), with one more axis for `observations` and `actions`.
     `last_values` (the values of the observations after the last step) and `dones` (1.0 if the last
@@ -51,9 +50,7 @@ class Rollout:
         self.advantages, self.returns = buffer.advantages.copy(), buffer.returns.copy()
 
     def train(self, epochs: int) -> None:
-        """Train the model on the rollout, so that its policy differs from the one that collected
-        it.
-        """
+        """Train the model on the rollout, so that its policy is no longer the one that acted."""
         self._model.n_epochs = epochs
         self._model.train()
 

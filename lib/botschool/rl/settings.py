@@ -117,9 +117,7 @@ def _is_right(name: str, value: object) -> bool:
 
 
 class _PlainLoader(yaml.SafeLoader):
-    """A YAML loader without aliases: `save` writes none, and a few lines of them make billions of
-    values.
-    """
+    """A YAML loader without aliases, a few lines of which make billions of values."""
 
     def compose_node(self, parent: object, index: object) -> yaml.Node:
         if self.check_event(yaml.AliasEvent):

@@ -105,9 +105,7 @@ def tune(
     say: Callable[[str], None] = lambda line: None,
     stopping: Callable[[], bool] = lambda: False,
 ) -> bool:
-    """Run trials until the plan's number is reached; return False if stopped. Raises
-    BotschoolError.
-    """
+    """Run trials up to the plan's number; return False if stopped. Raises BotschoolError."""
     require("optuna")
     import optuna
 

@@ -46,9 +46,7 @@ class Allowance:
 
     @contextmanager
     def charged(self, pid: int) -> Iterator[Callable[[], float]]:
-        """Charge a process's use during the block; yield a function that returns the seconds
-        left.
-        """
+        """Charge a process's use in the block; yield a function that returns the seconds left."""
         before = self.processor, self.active, self.passed
         asked, elapsed = time.monotonic(), 0.0
         processor, delayed = usage.processor_seconds(pid), usage.delayed_seconds(pid)

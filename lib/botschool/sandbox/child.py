@@ -34,8 +34,7 @@ def load(path: Path) -> Any:
 
 
 def run(module: Any, request: dict[str, Any]) -> Any:
-    """Call a function of the untrusted module, or a driver function with that module; return its
-    result.
+    """Call a function of the untrusted module, or a driver with it; return the result.
 
     request: {"name", "arguments", "options"}, or {"driver": source, "name", "arguments"}.
     """
@@ -50,9 +49,7 @@ def run(module: Any, request: dict[str, Any]) -> Any:
 
 
 def run_twice(module: Any, message: bytes) -> dict[str, Any]:
-    """Return the answers to two equal copies of a request, and the first copy's arguments
-    afterwards.
-    """
+    """Return the answers to two copies of a request, and the first copy's final arguments."""
     first, second = protocol.unpack(message), protocol.unpack(message)
     answers = [run(module, first)]
     return {"answers": [*answers, run(module, second)], "arguments": first["arguments"]}

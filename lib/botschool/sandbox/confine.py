@@ -30,9 +30,7 @@ _CAP_DAC_READ_SEARCH = 2
 
 
 def limit(seconds: float, memory: int, file_size: int) -> None:
-    """Limit processor seconds, bytes of address space beyond the present ones, and bytes of a
-    file.
-    """
+    """Limit processor seconds, additional bytes of address space, and bytes of a file."""
     with contextlib.suppress(OSError):  # if memory runs out, Linux kills this process first
         Path("/proc/self/oom_score_adj").write_text("1000")
     cpu = int(seconds) + 2  # the caller watches the time; this limit holds if the caller has ended

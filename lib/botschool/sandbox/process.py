@@ -175,9 +175,7 @@ class Child:
         return "it called exit, so nothing came back"
 
     def was_killed(self) -> bool:
-        """Return whether the process was killed by the system, a user or itself, not by this
-        object.
-        """
+        """Return whether the system, a user or the process itself killed it, not this object."""
         return self._wait(1) == -signal.SIGKILL and not self._reason and not self._closed.is_set()
 
     def memory_ran_out(self) -> bool:

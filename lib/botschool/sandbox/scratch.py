@@ -213,9 +213,7 @@ def _entries(
 
 
 def _content(top: Path | int, name: str | Path, most: int) -> bytes:
-    """Return the bytes of a regular file below a folder. Raises OSError for a link or a large
-    file.
-    """
+    """Return a regular file's bytes below a folder. Raises OSError for links, large files."""
     content = read_inside(top, name, most)
     if len(content) > most:
         raise OSError(f"{name} is too large")

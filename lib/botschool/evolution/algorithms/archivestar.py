@@ -57,9 +57,7 @@ class ArchiveStar(HallOfFame):
     def __init__(
         self, config: ArchiveStarConfig, initial: Initial, seed: int, constant_sum: bool = True
     ) -> None:
-        """Start as HallOfFame does; assign the random individuals of an archive to the lineages in
-        turn.
-        """
+        """Start as HallOfFame does; the first archived individuals get the lineages in turn."""
         super().__init__(config, initial, seed, constant_sum)
         first = [i % config.popsize for i in range(config.ncompetitors)]
         self.lineages = (first.copy(), first.copy())
@@ -68,9 +66,7 @@ class ArchiveStar(HallOfFame):
         self.strengths = ([self.unknown] * len(first), [self.unknown] * len(first))
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the same as HallOfFame.ask; each pair of candidates of each centre draws its
-        opponents.
-        """
+        """Return the same as HallOfFame.ask; every pair of candidates draws its opponents."""
         numbers = generator(self.seed, self.generation)
         candidates = self._samples(numbers)
         draw = self._of_each_lineage if self.config.seldifferentiated else self._strongest
@@ -90,8 +86,7 @@ class ArchiveStar(HallOfFame):
         return np.stack([slot[drawn[..., c]] for c, slot in enumerate(slots)], axis=-1)
 
     def _strongest(self, numbers: Numbers) -> np.ndarray:
-        """Return the opponents: each is the strongest of `preferential` drawn ones; the first wins
-        ties."""
+        """Return the opponents: the strongest of `preferential` drawn ones; the first wins ties."""
         strengths = np.array(self.strengths[1 - self.side])
         known = ~np.isnan(strengths)
         strengths[~known] = mean(strengths[known]) if known.any() else 0

@@ -48,9 +48,7 @@ class Ascent:
         return Cloud(self.centres, start.samplesize, start.deviation, True, stream)
 
     def offspring(self) -> Drawn:
-        """Return candidates on both sides of each centre, float64 (count * 2 * samplesize,
-        parameters).
-        """
+        """Return candidates around each centre, float64 (count * 2 * samplesize, parameters)."""
         start = self.start
         self._samples, candidates = draw(
             self._numbers, self.centres, start.samplesize, start.deviation

@@ -96,9 +96,7 @@ class Coevo(Stateful):
         return not np.isnan(self.fitness.flat[0])
 
     def _numbers(self, generation: int) -> tuple[Numbers, list[int]]:
-        """Return a generation's generator, and its seeds: of meetings with all, of each
-        sub-generation.
-        """
+        """Return a generation's generator, and seeds: of meetings with all, of sub-generations."""
         numbers = generator(self.seed, generation)
         return numbers, numbers.integers(2**62, size=1 + SUB_GENERATIONS).tolist()
 

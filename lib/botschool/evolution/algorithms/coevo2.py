@@ -134,9 +134,7 @@ class Coevo2(Stateful):
     def __init__(
         self, config: Coevo2Config, initial: Initial, seed: int, constant_sum: bool = True
     ) -> None:
-        """Start both populations; initial(index) returns two random networks, a predator and a
-        prey.
-        """
+        """Start both populations; initial(index) returns a random predator and a random prey."""
         self.config = config
         self.seed = seed
         self.generation = 0
@@ -215,9 +213,7 @@ class Coevo2(Stateful):
                 array[side] = array[side, order]
 
     def best(self) -> tuple[np.ndarray, float]:
-        """Return the first of both populations, and the predator's mean fitness against all
-        prey.
-        """
+        """Return the first of both populations, and the predator's mean fitness against all."""
         return np.concatenate(self.parameters[:, 0]), mean(seen_by(PREDATORS, self.fitness)[0])
 
     def summary(self) -> dict[str, float]:

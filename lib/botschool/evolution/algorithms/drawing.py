@@ -91,8 +91,7 @@ class Cloud:
 
 
 class Drawn(np.ndarray):
-    """Candidates that can be drawn again from their recipe. Slices and results of computation
-    cannot.
+    """Candidates with a recipe for drawing them again; slices and results have none.
 
     A cluster reads only `recipe` from what an algorithm evaluates.
     """

@@ -56,8 +56,7 @@ class GA(Stateful):
             )
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the population, shape (popsize, parameters), and the seed of each one's
-        evaluation.
+        """Return the population, shape (popsize, parameters), and each one's evaluation seed.
 
         All individuals of a generation meet the same conditions.
         """

@@ -36,9 +36,7 @@ class Gaussian(Stateful):
     """ask() -> candidates around the mean; tell(their fitness) of a subclass adapts the rest."""
 
     sigma: float | np.ndarray
-    """Standard deviation of the candidates: one number, or shape (parameters,), one for each
-    axis.
-    """
+    """Standard deviation of the candidates: one number, or one for each axis, (parameters,)."""
 
     def __init__(self, config: GaussianConfig, initial: Initial, seed: int) -> None:
         """Start the mean at initial(0), a random genotype."""

@@ -108,9 +108,7 @@ class HallOfFame(Stateful):
         self.champions = networks[:, 0].copy()
         """The best sample of the newest turn of each side."""
         self.fitness = np.full((2, 2), np.nan)
-        """Fitness of predators, then prey, in their newest turn: of the best sample, and the
-        average.
-        """
+        """Fitness of both sides in their newest turns: of the best sample, and the average."""
 
     @property
     def side(self) -> int:
@@ -139,9 +137,7 @@ class HallOfFame(Stateful):
         raise NotImplementedError
 
     def advance(self, play: Play) -> None:
-        """Run a generation. It changes nothing before its end: an exception of `play` leaves no
-        trace.
-        """
+        """Run a generation; it changes nothing before its end, so an exception leaves no trace."""
         candidates, opponents = self.ask()
         places, rivals = np.unique(opponents, return_inverse=True)
         # both candidates of a perturbation meet an opponent in a row, so that its weights are read
@@ -196,9 +192,7 @@ class HallOfFame(Stateful):
         return np.concatenate(self.champions), float(self.fitness[PREDATORS, 0])
 
     def summary(self) -> dict[str, float]:
-        """Return the mean fitness of either side in its newest turn, against opponents from the
-        archive.
-        """
+        """Return each side's mean fitness in its newest turn, against archived opponents."""
         return dict(zip(SIDES, self.fitness[:, 1].tolist(), strict=True))
 
     def individuals(self, play: Play) -> tuple[np.ndarray, np.ndarray]:

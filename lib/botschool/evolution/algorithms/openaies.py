@@ -112,8 +112,7 @@ class AroundCentre(Stateful):
         self.centre = initial(0)
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return candidates, shape (2 * samplesize, parameters), and the seed of each one's
-        evaluation.
+        """Return candidates, shape (2 * samplesize, parameters), and each one's evaluation seed.
 
         Candidates 2 b and 2 b + 1 are centre + noiseStdDev * e_b and centre - noiseStdDev * e_b.
         """

@@ -51,8 +51,7 @@ class PGPE(Stateful):
         self.sigma = np.full(len(self.mean), config.sigma)
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return candidates, shape (2 * samplesize, parameters), and the seed of each one's
-        evaluation.
+        """Return candidates, shape (2 * samplesize, parameters), and each one's evaluation seed.
 
         Candidates 2 b and 2 b + 1 are mean + sigma z_b and mean - sigma z_b. All of a generation
         meet the same conditions.

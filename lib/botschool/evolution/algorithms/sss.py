@@ -51,8 +51,7 @@ class SSS(Stateful):
             )
 
     def ask(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the population, shape (popsize, parameters), and the seed of each one's
-        evaluation.
+        """Return the population, shape (popsize, parameters), and each one's evaluation seed.
 
         All individuals of a generation meet the same conditions, so the better one wins, not the
         luckier one.

@@ -29,9 +29,7 @@ from itertools import groupby
 from pathlib import Path
 
 CASES = ("tests/course/mutants", "tests/course/alternatives")
-"""A course's folders of wrong solutions, and of right ones in other styles; the students' copy has
-them packed.
-"""
+"""Folders of wrong solutions, and of right ones in other styles; packed for students."""
 THIS = "this"
 """The word with which a case `says` its second line."""
 _TITLE = re.compile(r"(\w+)(?: loses (\d+\.\d+(?:, \d+\.\d+)*))?")

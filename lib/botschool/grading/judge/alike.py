@@ -10,13 +10,9 @@ import numpy as np
 MAX_LEAVES = 20_000
 """Largest number of arrays, numbers and texts to compare in an answer."""
 TIE, TINY = 1e-6, 1e-9
-"""Relative differences: TIE is rounding, single precision included; TINY is more than any rounding
-in double precision.
-"""
+"""Relative differences: TIE covers rounding in single precision, TINY in double precision."""
 SHARE = 1e-3
-"""Two answers are the same only if their difference is below this share of their difference from
-ours.
-"""
+"""Equal answers differ by less than this share of their difference from ours."""
 
 
 def distance(one: Any, other: Any) -> float:

@@ -122,9 +122,7 @@ class _Slips:
         self._parts = Expressions(public, parameters)
 
     def all(self) -> Iterator[tuple[str, str, list[Edit]]]:
-        """Yield all slips as (sentence, place, edits); slips of numbers, which often fit, come
-        last.
-        """
+        """Yield all slips as (sentence, place, edits); slips of numbers come last: many fit."""
         places = list(self._places(self._function))
         for node, field, at, part, place in places:
             if isinstance(part, ast.expr) and not isinstance(part, ast.Constant):

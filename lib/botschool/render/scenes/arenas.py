@@ -1,6 +1,4 @@
-"""Draw arenas with wheeled robots (lengths in mm, y upwards):
-ErDiscrim, ErPredprey, ErStaybehind.
-"""
+"""Draw ErDiscrim, ErPredprey and ErStaybehind: wheeled robots; lengths in mm, y upwards."""
 
 from __future__ import annotations
 

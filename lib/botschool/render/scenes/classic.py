@@ -1,6 +1,4 @@
-"""Draw classic control: CartPole, envSwingupCustom, ErDpole, Pendulum, Acrobot,
-MountainCarContinuous.
-"""
+"""Draw classic control: cart-poles, Pendulum, Acrobot and MountainCarContinuous."""
 
 from __future__ import annotations
 

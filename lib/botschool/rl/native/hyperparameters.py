@@ -64,9 +64,7 @@ class Hyperparameters:
 
     @classmethod
     def of(cls, chosen: dict[str, Any]) -> Hyperparameters:
-        """Return the hyperparameters with these values. Raises BotschoolError that suggests the
-        nearest name.
-        """
+        """Return checked hyperparameters. Raises BotschoolError that suggests the nearest name."""
         known = [each.name for each in fields(cls)]
         for name in chosen:
             if name not in known:
@@ -115,9 +113,7 @@ NUMBERS = (*SCHEDULED, "gamma", "gae_lambda", "ent_coef", "vf_coef", "max_grad_n
 
 
 def at(value: float | str | None, progress: float) -> float:
-    """Return a hyperparameter's value after the share `progress` (0 to 1) of the training; None is
-    0.
-    """
+    """Return a hyperparameter's value (None is 0) at a share `progress` of the training."""
     falling = linear(value)
     return float(value or 0.0) if falling is None else falling * (1.0 - progress)
 

@@ -39,9 +39,7 @@ class Log:
         self.lengths: deque[int] = deque(maxlen=RECENT)
 
     def indicators(self, found: dict[str, float]) -> dict[str, float]:
-        """Return the indicators of update() and of the collected rollout, by Stable-Baselines3's
-        names.
-        """
+        """Return the indicators of update() and the rollout, by Stable-Baselines3's names."""
         ppo = self._ppo
         _, returns, lengths = ppo.episodes
         self.returns.extend(returns.tolist())

@@ -128,8 +128,7 @@ class PPO:
 
     @property
     def weights(self) -> dict[str, np.ndarray]:
-        """Return views of the parameters by name: actor.0.weight (outputs, inputs), actor.0.bias,
-        ...
+        """Return views of the parameters: actor.0.weight (outputs, inputs), actor.0.bias, ...
 
         The names begin with actor, critic or shared (if layers are shared); a Gaussian adds
         log_std.
@@ -159,9 +158,7 @@ class PPO:
         return self.rollout
 
     def minibatch(self, rows: Sequence[int] | np.ndarray | None = None) -> Minibatch:
-        """Return samples of the rollout; row t * n_envs + e is step t of environment e. None: all
-        rows.
-        """
+        """Return samples; row t * n_envs + e is step t of environment e. None: all rows."""
         chosen = slice(None) if rows is None else np.asarray(rows)
         columns = self.core.rollout
         names = ("observations", "actions", "log_probs", "values", "advantages", "returns")
@@ -241,9 +238,7 @@ class PPO:
         return np.ascontiguousarray(np.clip(scaled, np.float32(-10), np.float32(10)))
 
     def forward(self, observations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the policy's outputs (n, outputs) and the critic's predictions (n,) for raw
-        observations.
-        """
+        """Return policy outputs (n, outputs) and critic predictions (n,) for raw observations."""
         return self.core.forward(self.normalised(observations))
 
     def act(self, observations: np.ndarray) -> np.ndarray:
@@ -255,9 +250,7 @@ class PPO:
         return np.clip(outputs, info["low"], info["high"]).astype(np.float32)
 
     def play(self, seeds: Sequence[int] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Play one new episode for each seed without exploration; return returns (float64) and
-        lengths, (n,).
-        """
+        """Play a new episode for each seed without exploration; return returns and lengths (n,)."""
         chosen = np.array(seeds, dtype=np.uint64)
         return self.core.play(chosen, np.zeros(len(chosen), dtype=np.uint32))
 
@@ -266,9 +259,7 @@ class PPO:
         return self.core.state()
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
-        """Continue from a state, as if never interrupted. Raises ValueError if the state does not
-        fit.
-        """
+        """Continue from a state as if never interrupted. Raises ValueError if it does not fit."""
         try:
             self.core.restore({name: np.ascontiguousarray(each) for name, each in state.items()})
         except (KeyError, RuntimeError, TypeError) as error:

@@ -44,9 +44,7 @@ def weights(ppo: PPO) -> dict[str, np.ndarray]:
 
 
 def fill(ppo: PPO, arrays: dict[str, np.ndarray]) -> None:
-    """Load weights by Stable-Baselines3's names. Raises ValueError if they belong to another
-    network.
-    """
+    """Load weights by Stable-Baselines3's names. Raises ValueError for another network's."""
     wanted = weights(ppo)
     if not wanted.keys() <= arrays.keys():
         raise ValueError("these are weights of another policy")
