@@ -16,7 +16,9 @@ import pytest
 
 import building
 from botschool.errors import BotschoolError
+from botschool.grading.copies.release import release
 from botschool.grading.copies.skeleton import find_leaks
+from botschool.grading.declare.secret import VARIABLE
 from botschool.grading.nbgrader import make_course
 from botschool.grading.notebook import grade_cell
 from botschool.grading.run.cells import Unreadable, definitions, plain_python, scripts, whole
@@ -276,6 +278,55 @@ def test_a_hostile_notebook_gets_the_points_of_its_other_tasks(course, script_po
     assert sum(expected.values()) > 0
     assert course.points("mallory", 3) == expected
     assert set(course.points("oscar", 3).values()) == {0.0}
+
+
+RECORDED = """def rank(fitness):
+    recorded = {table!r}
+    return np.array(recorded.get(fitness.tobytes().hex(), [0]))
+"""
+
+
+def recorded_ranks() -> str:
+    """A cell with the answers of task 3.2 to all questions that a student at home is asked."""
+    table, names = {}, {"__name__": "solution"}
+    exec(compile(building.source(3).solution, "solution", "exec"), names)
+
+    class Recorder:
+        said = ""
+
+        def call(self, name, fitness):
+            answer = names[name](fitness)
+            table[fitness.tobytes().hex()] = answer.tolist()
+            return answer
+
+    for _, _, check in building.exercise(3).find("3.2").checks:
+        check(Recorder())
+    return RECORDED.format(table=table)
+
+
+@pytest.mark.course
+def test_recorded_answers_get_points_at_home_and_none_by_autograde(tmp_path, monkeypatch):
+    """Autograde draws its seeds from the course's secret, however nbgrader runs the test cells."""
+    monkeypatch.delenv(VARIABLE, raising=False)
+    course = Course(tmp_path / "course", 3)
+    course.nbgrader("generate_assignment", "ex03")
+    nb = course.solved(3, lambda task: task == "3.1")
+    for cell in nb["cells"]:
+        if cell["id"] == "task-3-2":
+            cell["source"] = recorded_ranks()
+    path = course.submit("mallory", 3, nb)
+    home = tmp_path / "home"  # where there are no solutions
+    release(building.ROOT, home)
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(home))
+    monkeypatch.chdir(path.parent)
+    assert grade_cell("3.2") == 10
+    monkeypatch.setenv("NBGRADER_EXECUTION", "autograde")
+    assert grade_cell("3.2") == 0
+    monkeypatch.delenv("BOTSCHOOL_COURSE")
+    monkeypatch.delenv("NBGRADER_EXECUTION")
+    course.nbgrader("autograde", "ex03")
+    points = course.points("mallory", 3)
+    assert points["3.1"] == 15 and points["3.2"] == 0
 
 
 def handed_in(folder: Path, number: int) -> Course:

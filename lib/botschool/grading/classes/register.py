@@ -63,6 +63,7 @@ class Register:
             self.roster.match(one.person) if self.roster else None for one in submissions
         ]
         self._handed_in = len(submissions)
+        self._shown = Counter(one.student for one in submissions)
         self.unknown = [
             one.student
             for one, student in zip(submissions, self.students, strict=True)
@@ -79,10 +80,11 @@ class Register:
             self.submissions.append(Submission(person, choices))
             self.students.append(student)
         self._names = [
-            self.policy.names(student, one.student)
-            for one, student in zip(self.submissions, self.students, strict=True)
+            self.policy.names(student, one.student if student else self.name(index))
+            for index, (one, student) in enumerate(
+                zip(self.submissions, self.students, strict=True)
+            )
         ]
-        self._shown = Counter(one.student for one in submissions)
         self._told: dict[tuple[int, Number], datetime | None] = {}
         self._check_names()
         self._mark_doubles()
