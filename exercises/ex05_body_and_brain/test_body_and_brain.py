@@ -8,6 +8,7 @@ ones of data/genotypes and variations of them that nobody knows before.
 
 import secrets
 import tempfile
+from collections.abc import Iterator
 from functools import lru_cache
 from itertools import permutations
 from pathlib import Path
@@ -62,8 +63,8 @@ def answers(module, name, questions):
     return [[getattr(module, name)(question) for question in questions], questions]
 
 
-def asked(student: Student, name: str, questions: np.ndarray) -> list:
-    """The student's answers, of which the one to the first question is asked for alone."""
+def asked(student: Student, name: str, questions: np.ndarray) -> Iterator:
+    """Yield the student's answers; the first question is asked alone, then all others."""
     said, found = f"{name}(parameters of a body)", []
     for part in (questions[:1], questions[1:]):
         call = (name, part[0]) if found else None
@@ -74,12 +75,12 @@ def asked(student: Student, name: str, questions: np.ndarray) -> list:
             f"{said} changed the parameters that it was given: work on a copy.",
         )
         found += given
-    expect(
-        len(set(map(repr, found))) > 1,
-        f"{said} gave the same answer for {len(found)} different bodies: does it look at the "
-        "parameters, or does it keep its first answer?",
-    )
-    return found
+        expect(
+            len(found) == 1 or len(set(map(repr, found))) > 1,
+            f"{said} gave the same answer for {len(found)} different bodies: does it look at the "
+            "parameters, or does it keep its first answer?",
+        )
+        yield from given
 
 
 # ------------------------------------------------------------------- the grader's own decoding
@@ -335,6 +336,7 @@ def straight_bodies_that_lean(student: Student):
 @shape.check(9)
 def bent_bodies(student: Student):
     expect_outline(student, bodies(8))
+    expect_outline(student, bodies(12, spread=1.5))
 
 
 # ------------------------------------------------------------------- 5.4
