@@ -82,7 +82,7 @@ class Crew:
                     self._look(batch)
                     looked = now
                 self._give(batch)
-                self._hear(batch)
+                self._hear()
         except BaseException:
             self.forget()
             raise
@@ -239,7 +239,7 @@ class Crew:
             task.copies += 1
             copy.copies = task.copies
 
-    def _hear(self, batch: Batch) -> None:
+    def _hear(self) -> None:
         """Take the answers that arrive within a moment."""
         heard = self._connection.answer(TICK)
         while heard:

@@ -14,12 +14,12 @@ class Core {
     return core;
   }
 
-  // What is in the core's memory: a view of it, good until the core takes more memory.
+  // Returns a view of the core's memory, valid until the core takes more memory.
   view(Type, place, count) {
     return new Type(this.c.memory.buffer, place, count);
   }
 
-  // Calls action with the places of copies of these arrays (0 for null).
+  // Calls action with the addresses of copies of these arrays (0 for null).
   lend(arrays, action) {
     const places = arrays.map((array) => {
       if (!array) return 0;
@@ -35,8 +35,8 @@ class Core {
     }
   }
 
-  // A problem with a network; spec: the values of the network's hyperparameters, in order. Or with an
-  // agent of policy gradients.
+  // Returns a problem with a network, or with an agent of policy gradients; spec: the values of the
+  // network's hyperparameters, in order.
   task(problem, spec, agent = false) {
     const name = new TextEncoder().encode(`${problem}\0`);
     const make = agent ? this.c.agent : this.c.task;
@@ -45,7 +45,7 @@ class Core {
     return task;
   }
 
-  // The parameters of random networks, one after another, with which a seed begins.
+  // Returns the parameters of a seed's first random networks, one after another.
   initial(task, seed, networks, parameters) {
     const all = new Float64Array(networks * parameters);
     return this.lend([all], (place) => {
@@ -54,7 +54,7 @@ class Core {
     });
   }
 
-  // 1 for each parameter of a network that a neuron has, 0 for others.
+  // Returns 1 for each parameter of a network that belongs to a neuron, 0 for the others.
   mark(task, neuron, parameters) {
     const mask = new Float64Array(parameters);
     return this.lend([mask], (place) => {
@@ -63,7 +63,7 @@ class Core {
     });
   }
 
-  // The return of each episode; jobs: {candidate: a row for each robot, seeds, episodes}.
+  // Returns each episode's return; jobs: {candidate: a row for each robot, seeds, episodes}.
   evaluate(task, genotypes, size, normalisation, jobs, heterogeneous, limit) {
     const count = jobs.seeds.length;
     const given = [
@@ -106,11 +106,11 @@ class Run {
     return this.core.view(Float64Array, c.run_values(this.place, which), c.run_count(this.place, which)).slice();
   }
 
-  // Six numbers a generation, as in the stat file.
+  // Returns six numbers for each generation, as in the stat file.
   get rows() { return this.values(0); }
   get best() { return this.values(1); }
   get bestg() { return this.values(2); }
-  // Of two sides: both populations, and their fitness.
+  // With two sides: returns both populations and their fitness.
   get individuals() { return this.values(3); }
   get meetings() { return this.values(4); }
   get generation() { return this.core.c.run_count(this.place, 0) / 6; }
@@ -123,7 +123,7 @@ class Bench {
     [this.core, this.place] = [core, place];
   }
 
-  // Arrays in the core's memory: what is written there counts.
+  // Returns an array in the core's memory; writing into it changes the robot.
   values(which) {
     const { c } = this.core;
     return this.core.view(Float64Array, c.bench_values(this.place, which), c.bench_count(this.place, which));
@@ -140,7 +140,7 @@ class Bench {
   start(seed, episode) { this.core.c.bench_start(this.place, seed, episode); }
   step() { return this.core.c.bench_step(this.place) !== 0; }
   freeze(frozen) { this.core.c.bench_freeze(this.place, frozen ? 1 : 0); }
-  // Takes a changed `state` into the simulation.
+  // Puts a changed `state` into the simulation.
   move() { this.core.c.bench_move(this.place); }
 }
 

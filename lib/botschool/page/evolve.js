@@ -66,7 +66,7 @@ function finish() {
   byId("evolve").textContent = byId("how").textContent;
 }
 
-// Whether the robot on the stage has the network that evolves.
+// Returns whether the robot in the picture has the network that evolves.
 const sameNetwork = (chosen) => chosen.spec.every((value, i) => value === experiment.spec[i]);
 
 function offer(chosen) {
@@ -150,7 +150,7 @@ function buildFields() {
   }
 }
 
-// The experiment with the fields' values; null, and a sentence, if one cannot be.
+// Returns the experiment with the fields' values; null, with a sentence, if a value is impossible.
 function readFields() {
   const chosen = structuredClone(experiment);
   for (const field of data.fields) {

@@ -1,6 +1,6 @@
 // The run files of botschool, byte by byte as the command writes them.
 
-// An array as numpy's .npy file: of float64, or of float32.
+// Returns an array as numpy's .npy file, of float64 or float32.
 function npy(values, shape = [values.length]) {
   const size = values instanceof Float32Array ? 4 : 8;
   const sides = shape.length === 1 ? `${shape[0]},` : shape.join(", ");
@@ -15,7 +15,7 @@ function npy(values, shape = [values.length]) {
   return file;
 }
 
-// The reverse, for files of float64 and float32, row by row.
+// Reads such a file of float64 or float32, row by row.
 function fromNpy(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const letters = (first, count) => String.fromCharCode(...bytes.subarray(first, first + count));
@@ -31,7 +31,7 @@ function fromNpy(bytes) {
     size === 8 ? view.getFloat64(start + 8 * i, true) : view.getFloat32(start + 4 * i, true));
 }
 
-// A number as Python prints a float.
+// Returns a number as Python prints a float.
 function python(value) {
   if (Number.isInteger(value) && Math.abs(value) < 1e16) return value.toFixed(1);
   const size = Math.abs(value);
@@ -40,7 +40,7 @@ function python(value) {
   return `${digits}e${power[0]}${power.slice(1).padStart(2, "0")}`;
 }
 
-// Name -> contents of the files of a run. kept: of two sides, [generation, individuals, meetings].
+// Returns name -> contents of a run's files. kept: with two sides, [generation, individuals, meetings].
 function runFiles(seed, { rows, best, bestg, generation, kept = [] }) {
   const [steps, reached, bestgfit] = rows.slice(-6);
   const fit = `seed ${seed} gen ${generation} steps ${steps} bestfit ${python(reached)} bestgfit ${python(bestgfit)}\n`;
@@ -56,7 +56,7 @@ function runFiles(seed, { rows, best, bestg, generation, kept = [] }) {
   return files;
 }
 
-// The model files of a training, byte by byte as numpy's savez writes them.
+// Returns the model files of a training, byte by byte as numpy's savez writes them.
 function modelFiles({ best, bestg }) {
   return { "best_model.npz": npz(modelArrays(bestg)), "last_model.npz": npz(modelArrays(best)) };
 }
@@ -85,7 +85,7 @@ function crc32(bytes) {
   return ~crc >>> 0;
 }
 
-// A ZIP file of arrays, not compressed.
+// Returns a ZIP file of arrays, not compressed.
 function npz(arrays) {
   const parts = [];
   const directory = [];

@@ -1,4 +1,4 @@
-// What can be touched in a picture, by the scene's kind: `grips`, places to drag, and `push`.
+// Defines what you can touch in a picture, by the scene's kind: `grips`, places to drag, and `push`.
 // A grip is {at(scene, state): place in the world, reach, move(scene, state, x, y)}.
 
 const cartGrip = {
@@ -7,7 +7,7 @@ const cartGrip = {
   move: (_, state, x) => { state[0] = between(x, -2.3, 2.3); },
 };
 
-// Something in an arena whose x and y are state[first] and state[first + 1].
+// Returns the grip of an object in an arena, whose x and y are state[first] and state[first + 1].
 const arenaGrip = (first) => ({
   reach: 40,
   at: (_, state) => [state[first], state[first + 1]],

@@ -1,4 +1,4 @@
-// The page: a robot that is played step by step, and taken apart; and a run that evolves beside it.
+// Runs the page: plays a robot step by step, takes it apart, and shows the run that evolves beside it.
 // replay_draw.js draws what `shown` holds at `time`.
 
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -42,7 +42,7 @@ function draw() {
   if (shown) drawPicture();
 }
 
-// A place of the canvas -> a place in the world.
+// Converts a place on the canvas to a place in the world.
 function worldAt(event) {
   const { clientWidth: width, clientHeight: height } = byId("scene");
   let [left, bottom, right, top] = data.scene.view;
@@ -80,7 +80,7 @@ function load(chosen) {
   applyCuts();
 }
 
-// Writes the genotype without what is cut.
+// Writes the genotype without the neurons that are cut.
 function applyCuts() {
   const { genotype } = bench;
   genotype.set(robot.genotype.subarray(0, genotype.length));
@@ -242,10 +242,10 @@ function buildHands() {
   for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => { held = null; });
 }
 
-// Of what can be dragged, what the keyboard moves.
+// The grip that the keyboard moves.
 let taken = 0;
 
-// Moves it by a fiftieth of the picture's width.
+// Moves the grip by a fiftieth of the picture's width.
 function shift(key) {
   const grips = HANDS[data.scene.kind].grips(data.scene);
   if (!grips.length) return;

@@ -1,5 +1,5 @@
-// What moves the shapes of a picture: the twins of botschool/render/scenes, by the kind that page.py
-// names. Each takes (scene, state, action, observation, reward) and gives the numbers of a step.
+// Moves the shapes of a picture: the twins of botschool/render/scenes, by the kinds in page/twins.py.
+// Each takes (scene, state, action, observation, reward) and gives the numbers of a step.
 
 const between = (value, low, high) => Math.min(Math.max(value, low), high);
 
@@ -79,7 +79,7 @@ const NUMBERS = {
   },
 };
 
-// The numbers of a step.
+// Returns the numbers of a step.
 function numbersOf(scene, state, action, observation, reward = 0) {
   return NUMBERS[scene.kind](scene, state, action, observation, reward);
 }

@@ -1,5 +1,5 @@
-// Two sides: how the pair does against others, a row of a tournament for each side. A click lets two of
-// them meet in the picture.
+// Shows how a pair does against others: a row of a tournament for each side. A click lets two robots
+// meet in the picture.
 
 const MOST_RIVALS = 12;
 let rivals = []; // {name, short, genotype: predator and prey}
@@ -12,7 +12,7 @@ function clearRivals() {
   rivals = [];
 }
 
-// The random robots that the seed's evolution begins with.
+// Returns the random robots with which the seed's evolution begins.
 function randomRivals() {
   const { length } = bench.genotype;
   const all = core.initial(task, +byId("seed").value, 2 * 10, length / 2);
@@ -21,7 +21,7 @@ function randomRivals() {
   })));
 }
 
-// Populations as the command saves them: all predators, then all prey.
+// Loads populations in the form of the run files: all predators, then all prey.
 function loadPopulations(name, values) {
   const size = bench.genotype.length / 2;
   const count = values.length / size / 2;
@@ -41,7 +41,7 @@ function setRivals(chosen) {
   meetLater();
 }
 
-// The best of both of a generation; of many generations, some remain.
+// Adds a generation's best predator and prey; if there are many generations, every second one goes.
 function addRival(generation, genotype) {
   if (!data.sides || rivals.at(-1)?.generation === generation) return;
   rivals.push({ generation, name: `generation ${generation}`, short: `${generation}`, genotype });
@@ -49,7 +49,7 @@ function addRival(generation, genotype) {
   meetLater();
 }
 
-// A new pair on the stage, unless it is a guest's visit.
+// Compares a new pair in the picture, unless it only visits.
 function compete(chosen) {
   if (chosen.visit) return;
   ours = chosen;
@@ -63,7 +63,7 @@ function meetLater() {
   }, 300);
 }
 
-// What our predator gets against each rival's prey, and our prey against each rival's predator.
+// Returns our predator's fitness against each rival's prey, and our prey's against each predator.
 function meetings() {
   const size = ours.genotype.length / 2;
   const everyone = new Float64Array((rivals.length + 1) * 2 * size);

@@ -48,7 +48,7 @@ def write_training_page(
 ) -> None:
     """Write the page of a training of a native problem with one robot.
 
-    env: its Gymnasium id; the settings are those of `botschool rl train --algo ppo --env ENV`.
+    env: its Gymnasium id. The settings come from `botschool rl train --algo ppo --env ENV`.
     model: a best_model.npz or last_model.npz that it begins with. Raises BotschoolError.
     """
     path = check_output(path, (".html",))

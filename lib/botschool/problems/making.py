@@ -49,7 +49,7 @@ def make_env(name: str, wrappers: Sequence[Wrapper] = (), **options) -> gymnasiu
 
 
 def skipping(name: str, wrappers: Sequence[Wrapper]) -> dict[str, int]:
-    """Return options of an Atari game in these wrappers: AtariPreprocessing itself skips frames."""
+    """Return an Atari game's options for these wrappers; AtariPreprocessing skips frames itself."""
     preprocessed = any(wrapper.name == "AtariPreprocessing" for wrapper in wrappers)
     return {"frameskip": 1} if preprocessed and re.fullmatch(FAMILIES[0][0], name) else {}
 
