@@ -123,7 +123,7 @@ def _changed(case: Case, solution: str) -> str:
 def _likely_first(
     ours: Student, cases: list[Case], solution: str, calls: list[Call]
 ) -> list[tuple[str, str]]:
-    """Return sentences and texts of mistakes; first come those that fit one wrong answer alone."""
+    """Return sentences and texts of mistakes; mistakes that fit one wrong answer come first."""
     made = [(case.what, _changed(case, solution)) for case in cases]
     texts = [text for _, text in made if text]
     near = _near(ours, texts, _telling(calls), CASE_SECONDS, "known mistakes")

@@ -1,4 +1,4 @@
-"""Vary our solution as learners go wrong: one slip at a time, with a sentence that names it.
+"""Vary our solution by typical slips, one at a time, with a sentence that names each slip.
 
 A slip is another operator, function, index or argument, a part left out, or a step in another
 place. `variations` yields the functions of a task with one slip each; known.py compares their
