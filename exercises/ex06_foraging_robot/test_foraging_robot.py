@@ -134,6 +134,9 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         "The rows of the new memory are exchanged: the cells come first.": (
             right[0], np.array([outputs, cells])
         ),
+        "The action is cut off at -1 and 1 instead of put through tanh.": (
+            np.clip(bias + readout @ outputs, -1, 1), right[1]
+        ),
         "The action is not put through tanh.": (bias + readout @ outputs, right[1]),
         "The bias of the two wheels is left out.": (np.tanh(readout @ outputs), right[1]),
         "The action is read from the cells instead of the outputs.": (
@@ -351,7 +354,7 @@ def grid_of(places: int, headings: int) -> np.ndarray:
 @starts.check(8)
 def starts_of_a_grid(student: Student):
     rng = rng_of(9)
-    for places, headings in ((2, 1), (3, 4), (4, int(rng.integers(5, 9)))):
+    for places, headings in ((2, 1), (3, 4), (4, int(rng.integers(5, 9))), (7, 2)):
         wanted = grid_of(places, headings)
         answer = student.call("grid", places, headings)
         answer = expect_array(student.said, answer, wanted.shape)
@@ -377,10 +380,10 @@ EDGES = np.array(
 def wandering(rng: np.random.Generator, steps: int, first: int, last: int) -> tuple:
     """Poses, rewards and a cylinder: a made-up walk that is near from step first to last.
 
-    The search begins near a wall and ends far from all; the heading goes beyond the whole turn and
-    back; the robot loses the cylinder once, if there is time.
+    The search begins near a wall and ends far from all; the heading goes beyond the whole turn,
+    back, and beyond it again; the robot loses the cylinder once, if there is time.
     """
-    heading = rng.uniform(5, 6.2) + np.cumsum(rng.normal(0, 0.5, steps + 1))
+    heading = 6.6 + np.cumsum(rng.normal(0.3, 0.4, steps + 1))
     heading[:3] = rng.uniform((6, 6.4, 5.5), (6.2, 6.6, 6))
     stride = rng.uniform(-8, 12, steps)
     x, y = rng.uniform(60, 340, (2, 1))

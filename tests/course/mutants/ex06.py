@@ -570,7 +570,7 @@ _LAST = [np.zeros((2, UNITS))]
 
 # %% whole_millimetres loses 6.3
 # Cuts the fractions of x and y off.
-# says: x is
+# says: this
 # -     ys, xs = np.linspace(270, 350, places), np.linspace(150, 250, places)
 # +     ys, xs = (np.linspace(a, b, places).astype(int) for a, b in ((270, 350), (150, 250)))
 
