@@ -389,6 +389,7 @@ def describe(poses):
 
 # %% wall_includes_its_limit loses 15.8
 # Counts a robot exactly 300 mm from a wall as near.
+# says: this
 _describe = describe
 
 
@@ -605,3 +606,324 @@ def describe(poses):
 # The future competitors are those of the next generation only.
 # -         "future": np.array([matrix[g, g + 1 :].mean() for g in range(count - 1)]),
 # +         "future": np.array([matrix[g, g + 1] for g in range(count - 1)]),
+# %% fitness_of_the_prey_in_a_chase loses 15.1
+# The fitness of a chase is the prey's, 1 minus the predator's.
+# says: this
+# -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
+# +     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": 1 - float(fitness)}
+# %% both_sense_as_the_predator loses 15.1
+# Both networks get what the predator senses, the first 24 numbers.
+# says: this
+# -             network.observation = observation
+# +             network.observation = arena.observation[:24]
+# %% start_counted_as_a_step loses 15.1
+# The fitness counts the poses for the steps, which are one fewer.
+# says: this
+# -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
+# +     fitness = 1 - len(poses) / maxsteps if arena.terminated else 0.0
+# +     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
+# %% caught_if_paid loses 15.1
+# Takes a fitness above 0 for a catch: a catch in the very last step is worth 0, too.
+# says: worth 0
+# -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
+# +     return {"poses": np.array(poses), "caught": fitness > 0, "fitness": float(fitness)}
+# %% left_for_right loses 15.1
+# The left wheel gets the action of the right one, and the other way round.
+# says: this
+# -         arena.action = np.concatenate(wheels)
+# +         arena.action = np.concatenate([pair[::-1] for pair in wheels])
+# %% headings_in_degrees loses 15.1
+# The headings of the poses are in degrees, not in rad.
+# says: this
+# -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
+# +     poses = np.array(poses)
+# +     poses[..., 2] = np.degrees(poses[..., 2])
+# +     return {"poses": poses, "caught": arena.terminated, "fitness": float(fitness)}
+# %% robots_before_steps loses 15.1
+# The poses have the robots on the first axis, and the steps on the second one.
+# says: this
+# -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
+# +     poses = np.swapaxes(poses, 0, 1)
+# +     return {"poses": poses, "caught": arena.terminated, "fitness": float(fitness)}
+# %% each_has_its_own_prey loses 15.2
+# Each predator meets one prey of a generation only, that of its own number, and its result stands for all.
+# says: this
+# -     pairs = np.array([(i, j) for i in range(len(hunters)) for j in range(len(hunted))])
+# +     n, m = len(predators[0]), len(prey[0])
+# +     pairs = np.array([(i, j // m * m + min(i % n, m - 1)) for i in range(len(hunters))
+# +                       for j in range(len(hunted))])
+# %% one_predator_a_generation loses 15.2
+# Only the first predator of each generation plays, and its result stands for all.
+# says: this
+# -     return fitness.reshape(len(predators), len(predators[0]), len(prey), len(prey[0]))
+# +     table = fitness.reshape(len(predators), len(predators[0]), len(prey), len(prey[0]))
+# +     table[:] = table[:, :1]
+# +     return table
+# %% median_for_mean loses 15.3
+# This is the median over the individuals, not the mean.
+# says: this
+# -     mean = table.mean(axis=(1, 3))
+# +     mean = np.median(table, axis=(1, 3))
+# %% present_among_the_ancient loses 15.4
+# The present competitors count among the ancient ones.
+# says: this
+# -         "ancient": np.array([matrix[g, :g].mean() for g in range(1, count)]),
+# +         "ancient": np.array([matrix[g, :g + 1].mean() for g in range(1, count)]),
+# %% present_in_the_future loses 15.4
+# The present competitors count among the future ones.
+# says: this
+# -         "future": np.array([matrix[g, g + 1 :].mean() for g in range(count - 1)]),
+# +         "future": np.array([matrix[g, g:].mean() for g in range(count - 1)]),
+# %% ancient_down_a_column loses 15.4
+# The mean over ancient competitors goes down a column: competitors are the columns of a row.
+# says: this
+# -         "ancient": np.array([matrix[g, :g].mean() for g in range(1, count)]),
+# +         "ancient": np.array([matrix[:g, g].mean() for g in range(1, count)]),
+# %% divided_by_all_generations loses 15.4
+# The sum over ancient competitors is divided by the number of all generations, not by that of the ancient ones.
+# says: this
+# -         "ancient": np.array([matrix[g, :g].mean() for g in range(1, count)]),
+# +         "ancient": np.array([matrix[g, :g].sum() / count for g in range(1, count)]),
+# %% very_last_generation_left_out loses 15.4
+# The very last generation is left out of the future.
+# says: this
+# -         "future": np.array([matrix[g, g + 1 :].mean() for g in range(count - 1)]),
+# +         "future": np.array(
+# +             [matrix[g, g + 1 : max(count - 1, g + 2)].mean() for g in range(count - 1)]
+# +         ),
+# %% present_of_all_times loses 15.4
+# The present is the mean over the competitors of all times.
+# says: this
+# -         "present": np.diag(matrix).copy(),
+# +         "present": matrix.mean(axis=1),
+# %% ancient_to_the_predecessor loses 15.5
+# The ancient competitors of generation g are those before g - 1: the last one of them is left out.
+# says: this
+# -     ancient = [row[:g] for g, row in enumerate(gain, 1)]
+# +     ancient = [row[:max(g - 1, 1)] for g, row in enumerate(gain, 1)]
+# %% draws_left_out loses 15.5
+# Cases in which both do equally well are left out of the share: they count half.
+# says: this
+# -         "share": float(np.mean((cases > 0) + 0.5 * (cases == 0))),
+# +         "share": float(np.sum(cases > 0) / max(np.sum(cases != 0), 1)),
+# %% draws_count_fully loses 15.5
+# Cases in which both do equally well count fully in the share: they count half.
+# says: this
+# -         "share": float(np.mean((cases > 0) + 0.5 * (cases == 0))),
+# +         "share": float(np.mean(cases >= 0)),
+# %% share_of_all_competitors loses 15.5
+# The share counts all competitors, not the ancient ones alone.
+# says: this
+# -         "share": float(np.mean((cases > 0) + 0.5 * (cases == 0))),
+# +         "share": float(np.mean((gain > 0) + 0.5 * (gain == 0))),
+# %% share_of_shares loses 15.5
+# The share is the mean of the shares of the generations: all cases count alike.
+# says: this
+# -         "share": float(np.mean((cases > 0) + 0.5 * (cases == 0))),
+# +         "share": float(np.mean([np.mean((row > 0) + 0.5 * (row == 0)) for row in ancient])),
+# %% neighbouring_columns loses 15.5
+# Neighbouring columns are compared: a generation is a row, its competitors are the columns.
+# says: this
+# -     gain = np.diff(matrix, axis=0)
+# +     gain = np.diff(matrix, axis=1).T
+# %% compared_with_the_first loses 15.5
+# Each generation is compared with the first one, not with its predecessor.
+# says: this
+# -     gain = np.diff(matrix, axis=0)
+# +     gain = matrix[1:] - matrix[0]
+# %% global_by_one_less loses 15.5
+# Global progress is divided by G - 1, not by G.
+# says: this
+# -         "global": gain.mean(axis=1),
+# +         "global": gain.sum(axis=1) / len(gain),
+# %% global_over_the_generations loses 15.5
+# Global progress is the mean over generations for each competitor: take that over competitors for each generation.
+# says: this
+# -         "global": gain.mean(axis=1),
+# +         "global": gain.mean(axis=0)[1:],
+# %% cycles_of_neighbours loses 15.5
+# Only groups of three neighbouring generations are looked at.
+# says: this
+# -         for c in range(len(matrix))
+# -         for b in range(c)
+# -         for a in range(b)
+# +         for c in range(2, len(matrix))
+# +         for b in [c - 1]
+# +         for a in [c - 2]
+# %% divided_by_ordered_triples loses 15.5
+# The number of cycles is divided by that of all ordered triples, not by that of the groups of three.
+# says: this
+# -     return float(np.mean(triples)) if triples else 0.0
+# +     return float(np.sum(triples)) / len(matrix) ** 3
+# %% own_against_those_of_its_time loses 15.6
+# Its own part adds up what each generation gains on its predecessor against the competitors of its own time.
+# says: this
+# -         "own": (matrix[1:] - matrix[0]).mean(axis=1),
+# +         "own": np.cumsum([matrix[g, g] - matrix[g - 1, g] for g in range(1, len(matrix))]),
+# %% own_against_the_ancient loses 15.6
+# Its own part is the mean over the ancient competitors only, not over those of all generations.
+# says: this
+# -         "own": (matrix[1:] - matrix[0]).mean(axis=1),
+# +         "own": np.array([(matrix[g, :g] - matrix[0, :g]).mean() for g in range(1, len(matrix))]),
+# %% own_without_the_first_competitors loses 15.6
+# Its own part leaves out the competitors of the first generation.
+# says: this
+# -         "own": (matrix[1:] - matrix[0]).mean(axis=1),
+# +         "own": (matrix[1:, 1:] - matrix[0, 1:]).mean(axis=1),
+# %% change_as_a_share loses 15.6
+# The change is divided by the first fitness.
+# says: this
+# -         "change": np.diag(matrix)[1:] - matrix[0, 0],
+# +         "change": np.diag(matrix)[1:] / matrix[0, 0] - 1,
+# %% generations_are_drawn loses 15.7
+# Whole generations are drawn, not the individuals of each generation.
+# says: this
+# -         drawn = table[np.arange(rows)[:, None], hunters]
+# -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
+# +         a, b = rng.integers(rows, size=rows), rng.integers(columns, size=columns)
+# +         measures.append(measure(table[a][:, :, b]))
+# %% percentile_of_shares loses 15.7
+# np.percentile takes per cent: 2.5 and 97.5, not 0.025 and 0.975.
+# says: this
+# -     low, high = np.quantile(measures, [0.025, 0.975])
+# +     low, high = np.percentile(measures, [0.025, 0.975])
+# %% first_row_for_all_generations loses 15.7
+# All generations get the individuals that were drawn for the first one.
+# says: this
+# -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
+# +         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
+# +         hunters[:], hunted[:] = hunters[0], hunted[0]
+# %% prey_alone_are_drawn loses 15.7
+# Only the prey are drawn anew; the predators stay as they are.
+# says: this
+# -         drawn = table[np.arange(rows)[:, None], hunters]
+# +         drawn = table
+# %% one_resample_fewer loses 15.7
+# There is one resample fewer than asked for.
+# says: this
+# -     for _ in range(resamples):
+# +     for _ in range(resamples - 1):
+# %% entries_are_drawn loses 15.7
+# Single entries of the table are drawn, not individuals.
+# says: this
+# -         drawn = table[np.arange(rows)[:, None], hunters]
+# -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
+# +         flat = table.reshape(-1)
+# +         measures.append(measure(flat[rng.integers(flat.size, size=table.shape)]))
+# %% resamples_of_resamples loses 15.7
+# Each resample is drawn from the one before it, not from the table.
+# says: this
+# -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
+# +         table = drawn[:, :, np.arange(columns)[:, None], hunted]
+# +         measures.append(measure(table))
+# %% high_before_low loses 15.7
+# Low and high are exchanged.
+# says: this
+# -     return float(low), float(high)
+# +     return float(high), float(low)
+# %% mirrored_at_the_measure loses 15.7
+# The interval is mirrored at the measure of the table: the quantiles themselves are asked for.
+# says: this
+# -     return float(low), float(high)
+# +     middle = measure(table)
+# +     return float(2 * middle - high), float(2 * middle - low)
+# %% same_prey_for_all_resamples loses 15.7
+# The prey are drawn once, before the resamples, so that all resamples have the same.
+# says: this
+# -     measures = []
+# +     measures = []
+# +     always = rng.integers(m, size=(columns, m))
+# -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
+# +         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], always]))
+# %% entries_for_quantiles loses 15.7
+# Low and high are entries of the sorted measures; np.quantile goes on between two of them.
+# says: this
+# -     low, high = np.quantile(measures, [0.025, 0.975])
+# +     measures.sort()
+# +     low, high = measures[int(0.025 * resamples)], measures[int(0.975 * resamples)]
+# %% standard_errors_ddof_1 loses 15.7
+# This is the mean plus and minus 1.96 standard errors (ddof=1), which tells how sure the mean is: quantiles are asked for.
+# says: this
+# -     low, high = np.quantile(measures, [0.025, 0.975])
+# +     error = np.std(measures, ddof=1) / np.sqrt(resamples)
+# +     low, high = np.mean(measures) - 1.96 * error, np.mean(measures) + 1.96 * error
+# %% standard_errors loses 15.7
+# This is the mean plus and minus 1.96 standard errors, which tells how sure the mean is: quantiles are asked for.
+# says: this
+# -     low, high = np.quantile(measures, [0.025, 0.975])
+# +     error = np.std(measures) / np.sqrt(resamples)
+# +     low, high = np.mean(measures) - 1.96 * error, np.mean(measures) + 1.96 * error
+# %% middle_half loses 15.7
+# Half of the measures lie between these two, not 95 %.
+# says: this
+# -     low, high = np.quantile(measures, [0.025, 0.975])
+# +     low, high = np.quantile(measures, [0.25, 0.75])
+# %% bell_shaped_ddof_1 loses 15.7
+# A bell-shaped distribution is assumed: mean and 1.96 standard deviations (ddof=1).
+# says: this
+# -     low, high = np.quantile(measures, [0.025, 0.975])
+# +     low, high = np.mean(measures) + np.array([-1.96, 1.96]) * np.std(measures, ddof=1)
+# %% measures_the_table_itself loses 15.7
+# The table itself is measured each time, not the resample.
+# -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
+# +         measures.append(measure(table))
+# %% speed_by_the_poses loses 15.8
+# The way is divided by the number of poses, which are one more than the steps.
+# says: this
+# -         "speed": np.linalg.norm(moved, axis=-1).mean(axis=0) / 0.1,
+# +         "speed": np.linalg.norm(moved, axis=-1).sum(axis=0) / len(poses) / 0.1,
+# %% sign_left_out_at_the_end loses 15.8
+# Turns to the left and to the right cancel out: the sign is left out after the mean, not before it.
+# says: this
+# -         "turning": np.abs(turned).mean(axis=0) / 0.1,
+# +         "turning": np.abs(turned.mean(axis=0)) / 0.1,
+# %% faced_by_the_other loses 15.8
+# The two robots are exchanged in facing.
+# says: this
+# -         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0),
+# +         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0)[::-1],
+# %% walls_of_all_poses loses 15.8
+# Walls are counted for all poses, the last one included: a step begins at each of them but the last.
+# says: this
+# -     to_wall = np.minimum(before[..., :2], 3000 - before[..., :2]).min(axis=-1)
+# +     to_wall = np.minimum(poses[..., :2], 3000 - poses[..., :2]).min(axis=-1)
+# %% distance_of_all_poses loses 15.8
+# The distance is the mean over all poses, the last one included: no step begins there.
+# says: this
+# -         "distance": float(apart[:, 0].mean()),
+# +         "distance": float(np.linalg.norm(poses[:, 0, :2] - poses[:, 1, :2], axis=-1).mean()),
+# %% distance_of_the_rims loses 15.8
+# The distance is that between the rims of the robots, not between their centres.
+# says: this
+# -         "distance": float(apart[:, 0].mean()),
+# +         "distance": float(apart[:, 0].mean()) - 170,
+# %% middle_for_the_corner loses 15.8
+# The walls are looked for as if 0 were in the middle of the arena.
+# says: this
+# -     to_wall = np.minimum(before[..., :2], 3000 - before[..., :2]).min(axis=-1)
+# +     to_wall = (1500 - np.abs(before[..., :2])).min(axis=-1)
+# %% turning_in_degrees loses 15.8
+# The turning is in degrees per second, not in rad.
+# says: this
+# -         "turning": np.abs(turned).mean(axis=0) / 0.1,
+# +         "turning": np.degrees(np.abs(turned)).mean(axis=0) / 0.1,
+# %% facing_45_degrees_in_all loses 15.8
+# The other robot counts as faced within 22.5 degrees to each side, 45 in all.
+# says: this
+# -         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0),
+# +         "facing": (ahead > np.cos(np.pi / 8) * apart).mean(axis=0),
+# %% facing_at_the_end loses 15.8
+# Facing is that at the end of each step, not at its beginning.
+# says: this
+# -     to_other = before[:, ::-1, :2] - before[..., :2]
+# -     apart = np.linalg.norm(to_other, axis=-1)
+# -     ahead = to_other[..., 0] * np.cos(heading) + to_other[..., 1] * np.sin(heading)
+# +     to_other = after[:, ::-1, :2] - after[..., :2]
+# +     apart = np.linalg.norm(to_other, axis=-1)
+# +     ahead = to_other[..., 0] * np.cos(after[..., 2]) + to_other[..., 1] * np.sin(after[..., 2])
+# %% headings_wrapped_in_place loses 15.8
+# Wraps the headings in the caller's own array of poses.
+# says: changed its argument
+# -     before, after = poses[:-1], poses[1:]
+# +     poses[..., 2] %= 2 * np.pi
+# +     before, after = poses[:-1], poses[1:]
