@@ -45,7 +45,7 @@ inline double power(double base, unsigned exponent) {
   return result.high;
 }
 
-/// a * b + c, rounded once, without fused operations (Boldo and Melquiond 2008): what is small is
+/// a * b + c, rounded once, without fused operations (Boldo and Melquiond 2008): small parts are
 /// added by rounding to odd, so that the last addition rounds as the exact sum would. Not for
 /// numbers near the ends of double's range.
 inline double fused(double a, double b, double c) {
@@ -101,7 +101,7 @@ inline double exact_sum(const double* values, std::size_t count) {
   std::size_t n = parts.size();
   Pair sum{parts[--n], 0.0};
   while (n > 0 && sum.low == 0.0) sum = exact_sum(sum.high, parts[--n]);
-  // half a unit in the last place: what is left decides to which side it is rounded
+  // half a unit in the last place: the rest decides to which side it is rounded
   if (n > 0 && sum.low != 0.0 && (sum.low < 0.0) == (parts[n - 1] < 0.0)) {
     const double twice = 2.0 * sum.low, further = sum.high + twice;
     if (further - sum.high == twice) sum.high = further;

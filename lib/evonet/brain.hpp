@@ -148,7 +148,7 @@ class Brain {
 
   /// Writes a layer's part of a genotype to the parameters of a lane. The rows of a whole group of
   /// receivers lie beside each other, sender by sender, so that sum() reads the weights as one
-  /// stream; those of the last receivers stay as they are.
+  /// stream; the weights of the last receivers keep their order.
   static void place(const Layer& layer, const double* genotype, T* parameters) {
     const int rows = Rows<T, L>::of(layer);
     if (layer.bias >= 0)
@@ -208,7 +208,7 @@ class Brain {
   }
 
   /// The first rows network by network, the others lane by lane. `networks`: where the layer's
-  /// weights in the first network begin; moves on to those of the next layer.
+  /// weights in the first network begin; moves on to the next layer's weights.
   void net_inputs(const Layer& layer, T* out, const T*& networks) const {
     int r = Rows<T, L>::of(layer);
     if constexpr (L > 1)

@@ -38,8 +38,8 @@ class Convolutions {
   struct Stage {
     Layer filters;  ///< a filter is a receiver of all values under its kernel
     int channels, kernel, stride;
-    int rows, columns;         ///< of what it gives
-    int channel, row, column;  ///< distances in what it reads
+    int rows, columns;         ///< of its output
+    int channel, row, column;  ///< distances in its input
     int padded;                ///< filters, in whole groups: the distance of its pixels
     std::ptrdiff_t first;      ///< where it gives its pixels
   };

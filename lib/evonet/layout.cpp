@@ -65,7 +65,7 @@ class Placer {
     layer.block[layer.blocks++] = {sender,  senders, previous, take(layer.neurons * senders),
                                    senders, 0};
   }
-  /// Two blocks whose rows lie beside each other: the senders of now, then those of before.
+  /// Two blocks whose rows lie beside each other: the present senders, then the previous ones.
   void connect_rows(Layer& layer, int now, int nows, int before, int befores) {
     const int row = nows + befores, place = take(layer.neurons * row);
     layer.block[layer.blocks++] = {now, nows, false, place, row, 0};

@@ -12,7 +12,7 @@
 
 BOTSCHOOL_BEGIN
 
-/// The lanes at work, grouped by network: network[g] is that of lane[first[g]] to
+/// The lanes at work, grouped by network: network[g] belongs to lane[first[g]] to
 /// lane[first[g + 1] - 1].
 template <int L>
 struct Groups {
@@ -27,8 +27,8 @@ class Rows {
   /// Lanes in a register, or rows.
   static constexpr int kWidth = L * sizeof(T) < kRegister ? L : kRegister / sizeof(T);
 
-  /// How many of a layer's first rows are summed here: those that fill registers, if the weights of
-  /// as many networks as there are lanes are too large for the nearest cache.
+  /// How many of a layer's first rows are summed here: the rows that fill registers, if the weights of
+  /// one network for each lane are too large for the nearest cache.
   static int of(const Layer& layer) {
     const std::size_t weights = std::size_t(layer.neurons) * senders(layer);
     return L > 1 && weights * L * sizeof(T) > kNear ? layer.neurons / kWidth * kWidth : 0;
@@ -126,7 +126,7 @@ class Rows {
   }
 
   /// Writes which of the first `count` senders to add, and returns how many: all, or, to skip the
-  /// others, those that are not 0 in all N lanes. A sum of finite numbers that begins with +0 is never
+  /// others, all that are not 0 in all N lanes. A sum of finite numbers that begins with +0 is never
   /// -0, so adding 0 or -0 would change nothing.
   template <int N>
   static int choose(const T* from, const int* lane, int count, bool skip, int* sender) {

@@ -59,7 +59,7 @@ struct Scratch {
 Agent make_agent(int inputs, int outputs, bool discrete, const Hyperparameters& h);
 
 /// First parameters of an agent: orthogonal weights (gain sqrt(2), of the policy's outputs 0.01, of the
-/// critic's 1) or those of torch's linear layers; biases 0.
+/// critic's 1) or weights as in torch's linear layers; biases 0.
 void initialise(const Agent& agent, const Hyperparameters& h, float* parameters);
 
 /// Memory of a Scratch, in lines of 64 bytes.

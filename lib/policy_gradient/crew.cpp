@@ -6,7 +6,7 @@
 namespace botschool::policy_gradient {
 namespace {
 
-/// About twice what it takes to wake a thread: longer waits are rare, and then sleeping is cheaper.
+/// About twice the time that waking a thread takes: longer waits are rare, and then sleeping is cheaper.
 constexpr std::chrono::microseconds kSpin{100};
 
 void pause() {
@@ -33,7 +33,7 @@ Crew::Crew(int threads) : spins_(threads <= static_cast<int>(std::thread::hardwa
   try {
     for (int t = 1; t < threads; ++t) others_.emplace_back([this, t] { loop(t); });
   } catch (const std::system_error&) {
-    // the system gives no more threads: those that there are do all the work
+    // the system gives no more threads: the existing ones do all the work
   }
 }
 

@@ -118,7 +118,7 @@ void Experience::rate(int t) {
 const Rollout& Experience::collect(const float* parameters) {
   world_.parameters = parameters;
   const int n = static_cast<int>(groups.size());
-  // step t of a group; first the end of the step before, whose rewards are scaled by now
+  // step t of a group; first the end of the step before: its rewards are scaled by now
   const auto step = [&](int g, int t, int thread) {
     if (t > 0) kernels_.bootstrap(world_, groups[g], t - 1, scratch(thread));
     if (t < h_.n_steps)

@@ -26,7 +26,7 @@ struct Hyperparameters {
   bool ortho_init = true;
   bool relu = false;        ///< in place of tanh
   std::vector<int> shared;  ///< neurons of the hidden layers that policy and critic have in common
-  std::vector<int> pi{64, 64}, vf{64, 64};  ///< those of the policy and of the critic alone
+  std::vector<int> pi{64, 64}, vf{64, 64};  ///< neurons of the policy's and the critic's own layers
   int threads = 1;
 };
 

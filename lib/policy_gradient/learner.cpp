@@ -83,8 +83,8 @@ Indicators Learner::loss(Batch batch, const int* rows, int n, double clip_range,
   if (parts_.size() < chunks * stride) parts_.resize(chunks * stride);
   found_.resize(chunks);
   const auto part = [&](int chunk) { return parts_.data() + chunk * stride; };
-  // Parts are added pairwise, in the same order whoever has computed them: those of a group by the
-  // thread whose cache has them, then those of all groups.
+  // Parts are added pairwise, in the same order for any number of threads: a group's parts by the
+  // thread whose cache has them, then the groups' sums.
   int group = 1;
   while (2 * group * crew_.threads() <= chunks) group *= 2;
   const auto add_pairs = [&](int from, int to, int apart) {

@@ -1,4 +1,4 @@
-// Changes an agent by what it has experienced: sections 4 and 5 of walkthroughs/ppo.py.
+// Changes an agent by its experience: sections 4 and 5 of walkthroughs/ppo.py.
 #pragma once
 
 #include <memory>

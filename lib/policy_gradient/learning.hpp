@@ -1,4 +1,4 @@
-// What learning works on: a minibatch of a rollout, and what is found out about it.
+// The data of learning: a minibatch of a rollout, and the values computed from it.
 #pragma once
 
 namespace botschool::policy_gradient {

@@ -379,7 +379,7 @@ EXPORT(bench_step) int bench_step(Bench* bench) { return bench->step(); }
 EXPORT(bench_reward) double bench_reward(const Bench* bench) { return bench->reward; }
 /// Freezes what the network remembers as it is now, or lets it go on.
 EXPORT(bench_freeze) void bench_freeze(Bench* bench, int frozen) { bench->freeze(frozen != 0); }
-/// Puts what is at the address of values 2 into the simulation.
+/// Puts the state at the address of values 2 into the simulation.
 EXPORT(bench_move) void bench_move(Bench* bench) { bench->stepper->set_state(bench->state.data()); }
 /// 0 genotype, 1 blind (1 where a sensor is), 2 state, 3 observation, 4 action taken, 5 activations,
 /// 6 normalisation.

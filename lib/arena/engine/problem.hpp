@@ -7,8 +7,8 @@
 //   void step(const double* action, double* reward, std::int64_t* ended);
 // and the line BOTSCHOOL_PROBLEM(Name), by which the build finds it. action[o * L + lane] is actuator o
 // (or, for a discrete problem, the index of the action); with several robots, first all observations or
-// actuators of one, then those of the next. All lanes step together; what an ended lane does until it
-// is refilled does not matter.
+// actuators of one, then of the next. All lanes step together; an ended lane may do anything until it
+// is refilled.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct Info {
   double low = -1, high = 1;  ///< range of the actuators
   double seconds = 0.02;      ///< of one step
   int robots = 1;
-  int body = 0;            ///< parameters of a body that evolves, after those of the network
+  int body = 0;            ///< parameters of a body that evolves; they follow the network's
   const char* alias = "";  ///< another name, with
   int alias_limit = 0;     ///< another longest episode
   const char* gym = "";    ///< id of its Gymnasium face; "": `name` itself, or botschool/name
@@ -69,7 +69,7 @@ struct ProblemBase {
   void set(const Setting&) {}
   /// The body of the episode that starts next in a lane: `body` parameters, or null for all zeros.
   void build(int, const double*) {}
-  /// Recomputes what is derived from a state that was changed from outside.
+  /// Recomputes all values derived from the state, after somebody changed the state.
   void refresh(int) {}
   /// Writes the smallest and the largest value of each observation of a robot, if there are limits;
   /// the arrays come with infinities.

@@ -323,7 +323,7 @@ class Rollout {
   NoiseKey keys_[kMaxRobots][L];
   std::ptrdiff_t job_[L];
   std::int32_t candidate_[kMaxRobots][L];
-  std::int32_t in_network_[kMaxRobots][L];  ///< whose weights the brain's networks are
+  std::int32_t in_network_[kMaxRobots][L];  ///< genotype in the brain's networks
   bool finite_[kMaxRobots][L];              ///< whether they are
   Groups<L> groups_[kMaxRobots];
   int active_ = 0, collecting_ = 0;

@@ -1,5 +1,5 @@
-// Gymnasium's MountainCarContinuous (Moore 1990). As there, the state is rounded to single
-// precision after each step and the cost is that of the action before clipping.
+// Gymnasium's MountainCarContinuous (Moore 1990). As there, each step rounds the state to single
+// precision, and the action before clipping determines the cost.
 #pragma once
 
 #include "../engine/problem.hpp"

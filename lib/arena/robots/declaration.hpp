@@ -72,10 +72,10 @@ struct Declaration {
   DeclaredZone zone[kMaxZones] = {};
   int senses = 1;
   Sense sense[kMaxSenses] = {Sense::infrared};
-  double noise = 0;  ///< standard deviation of that of all readings but time and bias
+  double noise = 0;  ///< standard deviation of the noise of all readings except time and bias
   SensorSettings sensing;
   Pay pay = Pay::avoid;
-  double distance = 60;    ///< what is near: mm between edges
+  double distance = 60;    ///< largest distance that counts as near, in mm between edges
   bool bumps_end = false;  ///< whether a collision ends the episode
 };
 

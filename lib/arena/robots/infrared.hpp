@@ -61,7 +61,7 @@ inline const double* readings_of(const InfraredTable& table, double angle, doubl
 }
 
 /// Eight infrared sensors that see walls, cylinders and other robots within `range`, each
-/// summing what they give, capped at 1; by the fitted model, or by a measured table if one is set.
+/// adding their readings, capped at 1; by the fitted model, or by a measured table if one is set.
 struct Infrared : Shares<kInfrared> {
   template <class W, class T>
   static void read(const W& world, int robot, T* BOTSCHOOL_RESTRICT out) {

@@ -136,7 +136,7 @@ class Rewards {
     }
   }
 
-  /// The share of robots near one of the objects whose positions begin at that row.
+  /// The share of robots near one of the objects; their positions begin at this row.
   void near(int things, const double* radius, int row, double* BOTSCHOOL_RESTRICT reward) const {
     for (int r = 0; r < world_.nrobots(); ++r) {
       Flags<L> is_near(0);

@@ -23,7 +23,7 @@ struct Suite {
   }
 };
 
-/// Eight sectors of 45 degrees around a robot, and the largest apparent size of what is seen.
+/// Eight sectors of 45 degrees around a robot, and the largest apparent size of an object in each.
 struct Sectors {
   static constexpr int sectors = 8, size = sectors + 1;
 

@@ -1,7 +1,7 @@
 // Motion of a chain of rods with round ends, in lanes, each lane with rods of its own.
 // docs/specification.md, "PlanarBodyBrain", has the rules.
 //
-// Coordinates are those of dynamics.hpp: x and z of the rear end of the first rod, and the angle of
+// Coordinates are as in dynamics.hpp: x and z of the rear end of the first rod, and the angle of
 // every rod against the world. Rod i moves with the speed of its rear end and turns with its own
 // angle, so its inertia, and what the ground adds to it, are numbers for these three (Featherstone
 // 2008, chapter 2). When the angle of rod j grows, all rods after it move by turn(rod_j), the vector
@@ -125,7 +125,7 @@ struct Chain {
     }
   }
 
-  /// Forces of the ground on the balls at the ends of the rods; the law is that of dynamics.hpp.
+  /// Forces of the ground on the balls at the ends of the rods, by the law of dynamics.hpp.
   template <class Ground>
   BOTSCHOOL_INLINE void touch(const Ground& ground, T h) {
     for (int c = 0; c < contacts; ++c) {
@@ -242,8 +242,8 @@ struct Chain {
     }
   }
 
-  /// One substep of h seconds: half the way with the old speeds, and half with those that the forces
-  /// there lead to. Centripetal forces take the mean of both, as the last substep foretells it.
+  /// One substep of h seconds: half the way with the old speeds, and half with the speeds after the
+  /// forces at that point. Centripetal forces take the mean of both, as the last substep predicts it.
   template <class Ground>
   BOTSCHOOL_INLINE void step(const Drive<V>* drive, const Ground& ground, T h, double gravity) {
     const V half = V(T(0.5) * h);

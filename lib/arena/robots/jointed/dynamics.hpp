@@ -4,7 +4,7 @@
 // that makes the equations short (Featherstone 2008, "Rigid Body Dynamics Algorithms", chapters 5
 // and 6, written out for these coordinates). With r turned by the angle of its segment, a point at r
 // moves by turn(r) = (-r_z, r_x) when the angle grows by 1. With h_c the vector from the origin of a
-// segment i to that of its child c, and j on or below c:
+// segment i to its child c's origin, and j on or below c:
 //   M_ij = h_c . s_j                  s_j: first moment of mass of j and of all that hangs on it
 //   M_xj, M_zj = turn(s_j)            M_jj: constant        M_xx = M_zz = whole mass
 // Speeds cause centripetal forces only. With w the angular speeds they are

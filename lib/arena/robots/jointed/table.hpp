@@ -2,7 +2,7 @@
 // x ahead, z up, angles counter-clockwise from x to z.
 //
 // A body is a tree of segments. Each has a frame of its own: its origin lies on the hinge to its
-// parent, and at angle 0 its axes are those of the world. The first segment is the root; its origin
+// parent, and at angle 0 its axes equal the world's. The first segment is the root; its origin
 // moves freely unless the body is `pinned`: then it hangs in the air and touches nothing.
 #pragma once
 
@@ -17,7 +17,7 @@ struct Capsule {
 };
 
 /// Between a segment and its parent. The torque of a hinge at angle q with speed u is
-/// torque * action - stiffness * q - damping * u, and that of its limits.
+/// torque * action - stiffness * q - damping * u, plus the torque of its limits.
 struct Hinge {
   double low = 0, high = 0;  ///< limits of the angle
   double torque = 0;         ///< at an action of 1
