@@ -684,7 +684,8 @@ def wrong_losses(matrix: np.ndarray, key: str) -> dict:
         "The mean of all foreign places is subtracted, not that of the row or column.":
         own - others.mean(),
         "The best of the others is subtracted, not their mean.": own - rest.max(axis=1),
-        "The loss is divided by the own return.": 1 - rest.mean(axis=1) / np.where(own, own, np.nan),
+        "The loss is divided by the own return.":
+        1 - rest.mean(axis=1) / np.where(own, own, np.nan),
         "This is the mean of the others: subtract it from the own return.": rest.mean(axis=1),
         "Rows are brains and columns bodies: the two are exchanged.":
         own - (table.sum(axis=0) - own) / (n - 1),

@@ -692,7 +692,6 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 # %% five_episodes_always loses 5.7
 # Lasts five episodes, however many are asked for.
-# says: this
 # -                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, episodes).mean()
 # +                 SavedRobot(experiment_file, transplant(brain, body)).evaluate(seed, 5).mean()
 
