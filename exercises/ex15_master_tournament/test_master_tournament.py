@@ -308,6 +308,18 @@ def mistaken_profile(matrix: np.ndarray) -> dict:
     count = len(matrix)
     before, after = range(1, count), range(count - 1)
     return {
+        "present": {
+            "This is the last row of the matrix: each generation has a present of its own.": (
+                matrix[-1]
+            ),
+            "This is the first row of the matrix: each generation has a present of its own.": (
+                matrix[0]
+            ),
+            "These are the means of the columns, over all generations.": matrix.mean(axis=0),
+            "This is the other diagonal: the present of the first generation is the first.": (
+                np.diag(matrix[:, ::-1])
+            ),
+        },
         "ancient": {
             "Only the generation just before counts, not all ancient ones.": [
                 matrix[g, g - 1] for g in before
@@ -346,7 +358,7 @@ def mistaken_profile(matrix: np.ndarray) -> dict:
 
 @times.check(4)
 def against_the_present(student: Student):
-    compare_parts(student, "profile", profile_of, 8, ("present",))
+    compare_parts(student, "profile", profile_of, 8, ("present",), mistaken_profile)
 
 
 @times.check(8)
@@ -485,8 +497,8 @@ def measured(module, table, weights, seed, resamples):
     return module.interval(table, measure, numpy.random.default_rng(seed), **options)
 
 
-def interval_of(table, weights, seed, resamples, missing=0) -> np.ndarray:
-    """The interval; missing: so many individuals at the end of each generation are never drawn."""
+def measures_of(table, weights, seed, resamples, missing=0) -> list[float]:
+    """The measures; missing: so many individuals at the end of each generation are never drawn."""
     rng, values = np.random.default_rng(seed), []
     rows, n, columns, m = table.shape
     for _ in range(resamples):
@@ -497,7 +509,25 @@ def interval_of(table, weights, seed, resamples, missing=0) -> np.ndarray:
             for h in range(columns):
                 drawn[g, :, h] = table[g, :, h][np.ix_(own[g], met[h])]
         values.append(float((weights * drawn).sum()))
-    return np.quantile(values, [0.025, 0.975])
+    return values
+
+
+ENDS = (0.025, 0.975)
+OTHER_ENDS = (0, 0.0025, 0.005, 0.01, 0.02, 0.05, 0.1, 0.16, 0.2, 0.25, 0.5)
+"""Quantiles that are taken for an end by mistake, and as far from the other side."""
+
+
+def mistaken_ends(values: list[float], got: np.ndarray) -> dict:
+    """What other quantiles make of the interval, if both ends are quantiles of the measures."""
+    shares = sorted({*ENDS, *OTHER_ENDS, *(1 - share for share in OTHER_ENDS)})
+    found = [
+        [share for share in shares if np.isclose(np.quantile(values, share), end, rtol=1e-9)]
+        for end in got
+    ]
+    if not all(found):
+        return {}
+    ends = " and ".join(f"{shares[0]:g}" for shares in found)
+    return {f"These are the quantiles {ends} of the measures, not 0.025 and 0.975.": got}
 
 
 def compare_intervals(student: Student, index: int, cases: tuple, weigh) -> None:
@@ -509,12 +539,14 @@ def compare_intervals(student: Student, index: int, cases: tuple, weigh) -> None
         said = f"interval(<table {shape}>, measure, np.random.default_rng({seed}){more})"
         answer = student.run(measured, table, weights, seed, resamples, said=said)
         draws = table, weights, seed, resamples or 300
-        expected = interval_of(*draws)
+        values = measures_of(*draws)
+        expected = np.quantile(values, ENDS)
         got, mistakes = expect_array(said, answer, (2,)), {}
         if np.abs(got - expected).max() > 1e-6:
+            mistakes = mistaken_ends(values, got)
             mistakes[
                 "The last individual of a generation is never drawn: see the end of integers."
-            ] = interval_of(*draws, 1)
+            ] = np.quantile(measures_of(*draws, 1), ENDS)
             other = student.run(measured, table, weights, seed + 1, resamples, said=said)
             if np.array_equal(other, got) and got[0] != got[1]:
                 mistakes["The interval is the same for another rng: draw from the one given."] = got
