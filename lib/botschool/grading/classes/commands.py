@@ -86,7 +86,9 @@ def grade_all_command(
             exercise == "all",
         )
     good = say_class(console, found)
-    console.print(f"Table: {output / TABLE}   Feedback: {output / PAGES}", markup=False)
+    console.print(
+        f"Table: {output / TABLE}   Feedback: {output / PAGES}", markup=False, soft_wrap=True
+    )
     shown = "   ".join(str(path) for path in found.written)
     console.print(f"Also: {shown}", markup=False, soft_wrap=True)
     if said:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import codecs
 import contextlib
-import html.parser
+import html
 import json
 import re
 from typing import Any
@@ -154,8 +154,7 @@ def text_of_page(page: str) -> str:
     preformatted text, if it has functions; else all text, with headings as comments.
     """
     reader = _Page()
-    reader.feed(page)
-    reader.close()
+    reader.read(_without_comments(page))
     found = ["\n".join(reader.highlighted), "\n".join(reader.preformatted)]
     chosen = next((text for text in found if re.search(r"^(def|class) ", text, re.MULTILINE)), "")
     text = chosen or "".join(reader.parts)
@@ -164,13 +163,29 @@ def text_of_page(page: str) -> str:
 
 
 _HEADINGS = {"h1", "h2", "h3", "h4"}
+_TAG = re.compile(r"<(?:(/?)([a-zA-Z][^<>]*)|[!?][^<>]*)>")
+_CLASS = re.compile(r"""\bclass *= *["']?([^"'<>]*)""", re.IGNORECASE)
 
 
-class _Page(html.parser.HTMLParser):
-    """Collects the text of a page, the texts of <pre>, and those in an element `highlight`."""
+def _without_comments(page: str) -> str:
+    """Return a page without its comments; a comment without an end reaches to the page's."""
+    parts, at = [], 0
+    while (start := page.find("<!--", at)) >= 0:
+        parts.append(page[at:start])
+        end = page.find("-->", start + 4)
+        if end < 0:
+            return "".join(parts)
+        at = end + 3
+    return "".join([*parts, page[at:]])
+
+
+class _Page:
+    """Collects the text of a page, the texts of <pre>, and those in an element `highlight`.
+
+    Python's own parser takes time with the square of the length of a hostile page.
+    """
 
     def __init__(self) -> None:
-        super().__init__(convert_charrefs=True)
         self.parts: list[str] = []
         self.preformatted: list[str] = []
         self.highlighted: list[str] = []
@@ -180,12 +195,23 @@ class _Page(html.parser.HTMLParser):
         self._divs: list[bool] = []
         self._highlights = 0
 
-    def handle_starttag(self, tag: str, attributes: list) -> None:
+    def read(self, page: str) -> None:
+        """Read a page without comments."""
+        at = 0
+        for found in _TAG.finditer(page):
+            self._text(page[at : found.start()])
+            at = found.end()
+            if found[2]:
+                tag = re.match(r"[a-z0-9]+", found[2].lower())[0]
+                (self._end if found[1] else self._start)(tag, found[2])
+        self._text(page[at:])
+
+    def _start(self, tag: str, inside: str) -> None:
         if tag in ("script", "style", "head"):
             self._skipped += 1
         if tag == "div":
-            classes = (dict(attributes).get("class") or "").split()
-            self._divs.append("highlight" in classes)
+            classes = _CLASS.search(inside)
+            self._divs.append(bool(classes) and "highlight" in classes[1].split())
             self._highlights += self._divs[-1]
         if tag == "pre":
             self._depth += 1
@@ -195,11 +221,7 @@ class _Page(html.parser.HTMLParser):
         if tag in _HEADINGS:
             self.parts.append("# ")
 
-    def handle_startendtag(self, tag: str, attributes: list) -> None:
-        if tag in _BLOCKS:
-            self._end_line(always=tag == "br")
-
-    def handle_endtag(self, tag: str) -> None:
+    def _end(self, tag: str, inside: str) -> None:
         if tag in ("script", "style", "head"):
             self._skipped = max(0, self._skipped - 1)
         if tag == "pre" and self._depth:
@@ -212,15 +234,16 @@ class _Page(html.parser.HTMLParser):
         if tag in _BLOCKS - {"br"}:
             self._end_line(always=False)
 
-    def handle_data(self, data: str) -> None:
+    def _text(self, text: str) -> None:
         if self._skipped:
             return
+        text = html.unescape(text)
         ended = not self.parts or self.parts[-1].endswith("\n")
         if ended and not self._depth:
-            data = data.lstrip("\r\n")  # the page's own line end after <br> or <p>
-        if data:
-            self.parts.append(data)
-            self._pre += [data] * bool(self._depth)
+            text = text.lstrip("\r\n")  # the page's own line end after <br> or <p>
+        if text:
+            self.parts.append(text)
+            self._pre += [text] * bool(self._depth)
 
     def _end_line(self, always: bool) -> None:
         self._pre += ["\n"] * (always and self._depth > 0)
