@@ -150,6 +150,13 @@ def test_the_newest_attempt_that_was_changed_is_graded(find, tmp_path):
         assert any("Not used" in note for note in found["lada"].choices[3].notes)
 
 
+def test_a_copy_of_jupyter_is_no_attempt_of_canvas(find, tmp_path):
+    half = SOLUTION.replace("2 * numbers", "3 * numbers")
+    files = {"tiny.ipynb": notebook(SOLUTION), "tiny-Copy1.ipynb": notebook(half)}
+    found, _ = find(written(tmp_path / "class", PLATFORMS["canvas"]([Handed("Ada L", files)])))
+    assert is_solution(found["lada"].choices[3].file)
+
+
 def test_text_that_was_typed_into_a_page_is_graded(find, tmp_path):
     found, _ = find(written(tmp_path / "class", moodle([Handed("Ada L", {}, typed=SOLUTION)])))
     choice = found["Ada L"].choices[3]

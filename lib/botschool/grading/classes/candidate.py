@@ -153,11 +153,12 @@ class Candidate:
         """Return a sort key: the larger, the more likely the person wants this file graded."""
         place = self.file.shown in self.wanted.places
         left = len(_STUB.findall(self.code))
+        attempt = re.search(r"-(\d+)$", self._addition)
         number = max(map(int, re.findall(r"\d+", self._addition)), default=0)
         return (
             self.is_exact or self.shared > 0,
             self.differs,
-            number if newest_first else 0,
+            int(attempt[1]) if newest_first and attempt else 0,
             self.is_named,
             not _OLD.search(self._addition),
             -left,
