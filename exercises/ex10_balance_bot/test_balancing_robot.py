@@ -8,14 +8,15 @@ Stochastic checks (tasks 10.9 and 10.10): a controller must balance for 500 step
 episodes (grading seeds 71, 73 and 81) in the grader's simulation. So that none can be written down
 by heart, it is learnt for a robot whose gyroscope is mounted the other way round and for one whose
 wheels turn the other way; evolution must begin with candidates that fall, other seeds must give
-other runs, and the layers of task 10.10 must be those that PPO has made. With each of 20 seeds (1
+other runs, and all layers of task 10.10 must be those that PPO has made. With each of 20 seeds (1
 to 20) the solution's `evolve` balances in 20 of 20 episodes, so its margin is whole; returns are
-462 to 492. Its PPO, of which fewer runs were made (seed 1 and the grading seed), did so, too.
+462 to 492. On the two other robots it did so in 39 of 40 runs (seeds 1000 to 1019; 0 of 20 episodes
+with seed 1005 and the turned gyroscope). So where the first seed fails, a second one decides. PPO,
+of which fewer runs were made (seed 1 and the grading seed), balanced in 20 of 20 episodes, too.
 """
 
 import tempfile
 from fnmatch import fnmatch
-from pathlib import Path
 
 import numpy as np
 from gymnasium.utils import seeding
@@ -137,7 +138,8 @@ def on_stage(module, urdf, call, scenes):
     plane = os.path.join(pybullet_data.getDataPath(), "plane.urdf")
     decoy = pybullet.connect(pybullet.DIRECT)
     pybullet.loadURDF(plane, physicsClientId=decoy)
-    pybullet.loadURDF("balance_bot.urdf", [0, 0, 0.5], physicsClientId=decoy)
+    other = pybullet.loadURDF("balance_bot.urdf", [0, 0, 0.5], physicsClientId=decoy)
+    pybullet.resetBaseVelocity(other, [0.3, -0.2, 0.1], [1.5, 0.7, -0.6], physicsClientId=decoy)
     env = module.BalanceBotEnv()
     reports = []
     if call == "reset":
@@ -179,7 +181,14 @@ def on_stage(module, urdf, call, scenes):
             env.drive, env.observe = turn, seen
             for action in actions:
                 answer = env.step(numpy.array([action], dtype=numpy.float32))
-                reports.append([list(answer[:4]), dict(answer[4]), len(answer)])
+                kinds = [type(each).__name__ for each in answer]
+                reports.append([list(answer[:4]), answer[4], kinds])
+        elif call == "fallen":
+            for height in actions:
+                place = [0.7, -0.9, height], [0, 0, 0, 1]
+                pybullet.resetBasePositionAndOrientation(env.robot, *place, env.client)
+                there = pybullet.getBasePositionAndOrientation(env.robot, env.client)[0]
+                reports.append([there[2], bool(env.fallen())])
         elif call == "draw":
             env.drive, env.observe = turn, seen
             for env.render_mode in (None, "rgb_array", "human"):
@@ -241,20 +250,18 @@ def random_robot(index: int, nlinks: int) -> tuple[str, dict]:
         parent = names[rng.integers(0, i + 1)]
         offset = rng.integers(-50, 50, 3) / 100 if rng.random() < 0.8 else np.zeros(3)
         frames[name] = frames[parent] + offset
-        axis = np.eye(3)[rng.integers(0, 3)] * rng.choice([-1, 1])
+        axis = np.eye(3)[rng.integers(0, 3)] * rng.choice([-2, -1, 1, 2])
         given = rng.random() < 0.7
-        kind = str(rng.choice(["continuous", "revolute", "prismatic"]))
+        kind, own = str(rng.choice(["continuous", "revolute", "prismatic"])), f"joint_{nlinks - i}"
         origin = f'<origin xyz="{text(offset)}"/>' if offset.any() else ""
         link(name)
         lines.append(
-            f'<joint type="{kind}" name="joint_{i}"><parent link="{parent}"/><child link="{name}"/>'
+            f'<joint type="{kind}" name="{own}"><parent link="{parent}"/><child link="{name}"/>'
             + origin
             + (f'<axis xyz="{text(axis)}"/></joint>' if given else "</joint>")
         )
         axis = axis.tolist() if given else [1.0, 0.0, 0.0]
-        joints.append(
-            {"name": f"joint_{i}", "type": kind, "parent": parent, "child": name, "axis": axis}
-        )
+        joints.append({"name": own, "type": kind, "parent": parent, "child": name, "axis": axis})
     mass = sum(masses.values())
     urdf = f'<?xml version="1.0"?>\n<robot name="random">{"".join(lines)}</robot>'
     return urdf, {"links": masses, "joints": joints, "mass": mass, "centre": moment / mass}
@@ -322,7 +329,8 @@ def expect_space(student: Student, which: int, name: str, high: list[float]) -> 
         fits = isinstance(got, np.ndarray) and got.shape == np.shape(wanted)
         expect(
             fits and np.allclose(got, wanted, rtol=1e-6),
-            f"BalanceBotEnv(): {name}.{side} is {show(got)}, but should be {show(list(wanted))}.",
+            f"BalanceBotEnv(): {name}.{side} is {show(got)}, but should be "
+            f"{show(np.array(wanted))}.",
         )
     expect(kind == "float32", f"BalanceBotEnv(): {name} holds {kind}, but float32 is asked for.")
 
@@ -345,9 +353,9 @@ observing = exercise.task("10.3", "What the robot feels", packages=BULLET)
 def observes(student: Student):
     rng = rng_of(10)
     scenes = [
-        (rng.uniform(-0.6, 0.6), rng.uniform(-0.3, 0.3, 2), rng.uniform(-3, 3, 3),
+        (lean * rng.uniform(0.5, 1), rng.uniform(-0.3, 0.3, 2), rng.uniform(-3, 3, 3),
          rng.uniform(-20, 20), [])
-        for _ in range(6)
+        for lean in (0.6, -0.6, 3.0, 0.3, -0.3, -3.0)
     ]  # fmt: skip
     answers = staged(student, "observe()", "observe", scenes[:3])
     answers += staged(student, "observe()", "observe", scenes[3:])
@@ -382,7 +390,7 @@ def after_resets(student: Student, index: int, seeds: list):
 
 @resetting.check(4)
 def begins_at_random(student: Student):
-    seeds = [exercise.seed(i) for i in (20, 21, 20)]
+    seeds = [exercise.seed(20), 0, exercise.seed(21), 0, exercise.seed(20)]
     for said, (observation, kind, *_), inclination in after_resets(student, 20, seeds):
         expect_close(f"{said}: observation", observation, [inclination, 0.0, 0.0], 1e-5)
         expect(kind == "float32", f"{said}: the observation is {kind}, but should be float32.")
@@ -390,7 +398,7 @@ def begins_at_random(student: Student):
 
 @resetting.check(4)
 def goes_on_without_seed(student: Student):
-    seeds = [exercise.seed(22), "no seed", "no seed", exercise.seed(23), "no seed"]
+    seeds = [exercise.seed(22), "no seed", "no seed", 0, "no seed"]
     for said, report, inclination in after_resets(student, 22, seeds):
         observation, _, speed, info, _, _ = report
         expect_close(
@@ -402,7 +410,7 @@ def goes_on_without_seed(student: Student):
 
 @resetting.check(4)
 def makes_the_world(student: Student):
-    seeds = [exercise.seed(i) for i in (24, 25, 26)]
+    seeds = [exercise.seed(24), "no seed", exercise.seed(26)]
     for said, report, inclination in after_resets(student, 24, seeds):
         expect(
             report[4] == 2,
@@ -455,7 +463,7 @@ def compare_drive(student: Student, speed: float, actions: list[float]) -> None:
 def speeds_up_and_slows_down(student: Student):
     rng = rng_of(30)
     for speed in (0.0, 3.0, -5.0):
-        compare_drive(student, speed, rng.uniform(-1, 1, 6).tolist())
+        compare_drive(student, speed, [0.0, *rng.uniform(-1, 1, 5).tolist()])
 
 
 @driving.check(5)
@@ -478,7 +486,7 @@ def steps_of(student: Student, index: int):
     scenes = [
         (rng.uniform(0.1, 0.3) * side, [0.0, 0.0], [0.0, 0.0, 0.0], speed,
          rng.uniform(-1, 1, n).tolist())
-        for side, speed, n in ((1, 0.0, 110), (-1, 3.0, 12), (1, -3.0, 12))
+        for side, speed, n in ((1, 0.0, 110), (-1, 3.0, 12), (1, -3.0, 12), (-1, 23.0, 6))
     ]  # fmt: skip
     answers = iter(staged(student, "step(action)", "step", scenes))
     for inclination, _, _, speed, actions in scenes:
@@ -495,8 +503,8 @@ def steps_of(student: Student, index: int):
 
 @stepping.check(4)
 def moves_one_step(student: Student):
-    for said, ((observation, *_), info, count), world in steps_of(student, 40):
-        expect(count == 5, f"{said}: {count} values came back, but 5 are needed.")
+    for said, ((observation, *_), info, kinds), world in steps_of(student, 40):
+        expect(len(kinds) == 5, f"{said}: {len(kinds)} values came back, but 5 are needed.")
         expect(info == {}, f"{said}: info must be empty, not {show(info)}.")
         if world.height() > 0.2:
             expect_close(f"{said}: observation", observation, world.seen(), 2e-3)
@@ -504,11 +512,12 @@ def moves_one_step(student: Student):
 
 @stepping.check(3)
 def rewards(student: Student):
-    for said, ((_, reward, *_), *_), world in steps_of(student, 41):
+    for said, ((_, reward, *_), _, kinds), world in steps_of(student, 41):
         wanted = 1 - 0.05 * abs(world.speed)
         mistakes = {"Speed costs in both directions: see abs().": 1 - 0.05 * world.speed}
         said_of = f"{said}, with self.speed = {world.speed:.3f}: reward"
         expect_close(said_of, reward, wanted, 1e-5, mistakes)
+        expect(kinds[1] != "ndarray", f"{said}: the reward is an array, but a float is needed.")
 
 
 @stepping.check(3)
@@ -518,6 +527,11 @@ def ends_when_fallen(student: Student):
         fell = terminated if abs(height - 0.15) <= 1e-3 else height < 0.15
         why = f"with the centre of the body {height:.3f} m high it should be"
         expect_ends(said, (terminated, truncated), (fell, False), why)
+    for heights in ([0.15, 0.3], [0.05, 0.1499, 0.1501, 0.15]):
+        scene = (0.0, [0.0, 0.0], [0.0, 0.0, 0.0], 0.0, heights)
+        for height, fell in staged(student, "fallen()", "fallen", [scene]):
+            said = f"fallen(), with the centre of the body at a height of {height:.6g}"
+            expect(fell == (height < 0.15), f"{said}, is {fell}, but should be {not fell}.")
 
 
 @stepping.check(2)
@@ -549,49 +563,40 @@ def leaves_the_time_limit_to_gymnasium(student: Student):
 registering = exercise.task("10.7", "A name for the environment", seconds=40, packages=BULLET)
 
 
-def played(module, urdf, seed, gains, most):
-    """Plays an episode with a controller that the grader can compute again."""
-    import os
+def registered(module, urdf, seed, gains=None):
+    """Plays an episode with a controller that the grader can compute again.
 
-    import gymnasium
-    import numpy
-
-    with open("balance_bot.urdf", "w") as file:
-        file.write(urdf)
-    module.robot_file = lambda name: os.path.abspath("balance_bot.urdf")
-    gymnasium.registry.pop("BalanceBotBulletEnv-v0", None)
-    module.register_robot()
-    env = gymnasium.make("BalanceBotBulletEnv-v0", render_mode="rgb_array")
-    if env.unwrapped.render_mode != "rgb_array":
-        return repr(env.unwrapped.render_mode)
-    observation, _ = env.reset(seed=seed)
-    seen = [observation]
-    for _ in range(most):
-        action = numpy.clip([numpy.dot(gains, observation)], -1, 1).astype(numpy.float32)
-        observation, _, terminated, truncated, _ = env.step(action)
-        seen.append(observation)
-        if terminated or truncated:
-            return [numpy.array(seen), bool(terminated), bool(truncated)]
-    return [numpy.array(seen), False, False]
-
-
-def checked(module, urdf, seed):
-    """Gymnasium's own checker, on the registered environment; how an episode begins after it."""
+    Without a controller: lets Gymnasium check the environment, and begins an episode after it.
+    """
     import os
     import warnings
 
     import gymnasium
+    import numpy
     from gymnasium.utils.env_checker import check_env
 
+    name = "BalanceBotBulletEnv-v0"
     with open("balance_bot.urdf", "w") as file:
         file.write(urdf)
     module.robot_file = lambda name: os.path.abspath("balance_bot.urdf")
-    gymnasium.registry.pop("BalanceBotBulletEnv-v0", None)
+    gymnasium.registry.pop(name, None)
     module.register_robot()
     warnings.simplefilter("ignore")
-    env = gymnasium.make("BalanceBotBulletEnv-v0").unwrapped
-    check_env(env, skip_render_check=True)
-    return env.reset(seed=seed)[0]
+    if gains is None:
+        module.register_robot()  # once more, as in a notebook
+        env = gymnasium.make(name).unwrapped
+        check_env(env, skip_render_check=True)
+        return env.reset(seed=seed)[0]
+    env = gymnasium.make(name, render_mode="rgb_array")
+    if env.unwrapped.render_mode != "rgb_array":
+        return repr(env.unwrapped.render_mode)
+    observation, ends = env.reset(seed=seed)[0], [False, False]
+    seen = [observation]
+    while len(seen) <= 600 and not any(ends):
+        action = numpy.clip([numpy.dot(gains, observation)], -1, 1).astype(numpy.float32)
+        observation, _, *ends, _ = env.step(action)
+        seen.append(observation)
+    return [numpy.array(seen), *map(bool, ends)]
 
 
 def episode_of(inclination: float, gains: np.ndarray) -> tuple[np.ndarray, bool]:
@@ -615,7 +620,7 @@ def compare_episode(student: Student, index: int, gains: np.ndarray) -> None:
     seed = exercise.seed(index)
     made = f'gymnasium.make("{NAME}", render_mode="rgb_array")'
     said = f"an episode of {made} with seed {seed}"
-    answer = student.run(played, robot_text(), seed, gains, 600, said=said)
+    answer = student.run(registered, robot_text(), seed, gains, said=said)
     expect(not isinstance(answer, str), f"{made}: the environment's render_mode is {answer}.")
     expect(isinstance(answer, list) and len(answer) == 3, f"{said}: no answer came back.")
     seen, terminated, truncated = answer
@@ -658,7 +663,7 @@ def ends_when_it_falls(student: Student):
 def passes_gymnasiums_checker(student: Student):
     seed = exercise.seed(53)
     said = f"Gymnasium's check_env, and then reset(seed={seed})"
-    begins = student.run(checked, robot_text(), seed, said=said)
+    begins = student.run(registered, robot_text(), seed, said=said)
     with World(seeding.np_random(seed)[0].uniform(-0.3, 0.3)) as world:
         expect_close(said, begins, np.array(world.seen()), tolerance=0.02)
 
@@ -695,6 +700,9 @@ def imported(module, init, numbers):
     import balance_bot
 
     early = "balance_bot.env" in sys.modules
+    spec = gymnasium.registry.get("BalanceBotBulletEnv-v0")
+    if spec is not None and isinstance(spec.entry_point, str) and ":" not in spec.entry_point:
+        return spec.entry_point
     env = gymnasium.make("BalanceBotBulletEnv-v0", disable_env_checker=True)
     seen = [env.reset()[0][0]]
     for step in range(1, 1001):
@@ -762,6 +770,10 @@ def registers_on_import(student: Student):
     said = "import balance_bot, with your __init__.py"
     numbers = rng_of(60).uniform(-9, 9, 7)
     answer = student.run(imported, text, numbers.tolist(), said=said)
+    expect(
+        not isinstance(answer, str),
+        f"{said}: the entry point of {NAME} is {show(answer)}, but should be 'module:class'.",
+    )
     expect(isinstance(answer, list) and len(answer) == 3, f"{said}: no answer came back.")
     steps, seen, early = answer
     expect(
@@ -790,9 +802,9 @@ def learnt(module, urdf, gyro, name, seed, most):
     evolving or training is broken off.
 
     Returns the answer (None if it was broken off), the first action of each episode, and the
-    episodes' steps. For train also how often PPO has updated a policy, whether the largest layer of
-    the answer is one that a policy had after such an update, and by how much its weights differ
-    on average from those before the first update.
+    episodes' steps. For train also how often PPO has updated a policy, whether all layers of the
+    answer are those that a policy had after such an update, and by how much the weights of the
+    largest one differ on average from those before the first update.
     """
     import gymnasium
     import numpy
@@ -876,7 +888,7 @@ def learnt(module, urdf, gyro, name, seed, most):
     updates, before, learnt = PPO.train, [], []
 
     def tables(model):
-        return [each.detach().numpy().copy() for each in model.policy.parameters() if each.ndim > 1]
+        return [each.detach().numpy().copy() for each in model.policy.parameters()]
 
     def train(self):
         first = tables(self)
@@ -891,13 +903,19 @@ def learnt(module, urdf, gyro, name, seed, most):
         return [None, actions, steps, 0, False, 0.0]
     finally:
         PPO.train = updates
-    largest = max((numpy.array(layer[0]) for layer in answer), key=numpy.size)
+
+    def places(part, after):
+        same = [table.shape == part.shape and numpy.allclose(table, part, atol=1e-5)
+                for table in after]  # fmt: skip
+        return numpy.flatnonzero(same)
+
+    parts = sorted((numpy.array(part) for layer in answer for part in layer), key=numpy.size)
     same, change, start = False, 0.0, None
     for first, after in zip(before, learnt, strict=True):
         start = start if first is None else first
-        for i, table in enumerate(after):
-            if table.shape == largest.shape and numpy.allclose(table, largest, atol=1e-5):
-                same, change = True, max(change, float(numpy.abs(table - start[i]).mean()))
+        if all(places(part, after).size for part in parts):
+            at = places(parts[-1], after)
+            same, change = True, max(change, *(float(abs(after[i] - start[i]).mean()) for i in at))
     return [answer, actions, steps, len(learnt), same, change]
 
 
@@ -961,12 +979,17 @@ def expect_seeded(student: Student, name: str, seed: int, robot: tuple, actions:
         )
 
 
-def evolves(student: Student, index: int, robot: tuple[bool, int]) -> None:
-    seed = exercise.seed(index) % 100_000
-    said, (answer, actions, steps) = learns(student, "evolve", seed, robot, np.inf)
-    parameters = expect_array(said, answer, (4,))
-    expect_balance(said, [(parameters[None, 1:], parameters[:1])], robot, index + 1)
-    good = sum(count == 500 for count in steps[:10])
+def evolves(student: Student, index: int, robot: tuple[bool, int]) -> np.ndarray:
+    """The weights that were found. One seed in some dozens is unlucky: then another one decides."""
+    for place in (index, index + 20):
+        seed = exercise.seed(place) % 100_000
+        said, (answer, actions, steps) = learns(student, "evolve", seed, robot, np.inf)
+        parameters = expect_array(said, answer, (4,))
+        layers, good = [(parameters[None, 1:], parameters[:1])], steps[:10].count(500)
+        if good <= 6 and all(count == 500 for count in balanced(layers, robot, place + 1)):
+            break
+    else:
+        expect_balance(f"{said}, tried after another seed", layers, robot, place + 1)
     expect(
         len(steps) >= 20 and good <= 6,
         f"{said} played {len(steps)} episodes, and in {good} of the first ten the robot balanced "
@@ -974,12 +997,18 @@ def evolves(student: Student, index: int, robot: tuple[bool, int]) -> None:
         "better ones: at least 20 episodes, of which at most 6 of the first ten balance.",
     )
     expect_seeded(student, "evolve", seed, robot, actions)
+    return parameters
 
 
 @evolving.check(8)
 def balances_whichever_way_the_wheels_turn(student: Student):
-    evolves(student, 70, (False, -1))
-    evolves(student, 72, (True, 1))
+    one, other = evolves(student, 70, (False, -1)), evolves(student, 72, (True, 1))
+    expect(
+        not np.allclose(abs(one), abs(other), rtol=0.03, atol=0.05),
+        f"evolve found {show(one)} for one robot, and {show(other)} with another seed for another "
+        "robot: the same weights but for their signs. Begin with weights that know nothing of a "
+        "robot.",
+    )
 
 
 # ----------------------------------------------------------------- 10.10
@@ -1020,8 +1049,8 @@ def trained(student: Student, seed: int, robot: tuple[bool, int]) -> tuple:
         inputs = neurons
     expect(
         same is True,
-        f"{said}: the layers are not those of a policy after one of PPO's updates, of which there "
-        f"were {show(updates)}. What is asked for here is a network that PPO has trained.",
+        f"{said}: the layers are not all those of a policy after one of PPO's updates, of which "
+        f"there were {show(updates)}. What is asked for here is a network that PPO has trained.",
     )
     expect(
         change > 1e-3,

@@ -246,7 +246,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% robots_pile_up loses 10.4, 10.7
-# The old robot stays in the world: the simulation is not emptied.
+# The old robot stays in the world: its simulation is not emptied. resetSimulation(number) takes the number for something else: write physicsClientId=number.
 # says: this
 # -         pybullet.resetSimulation(physicsClientId=self.client)
 
@@ -476,3 +476,411 @@ def train(seed):
 # -         n_steps=512,
 # +         device="cpu",
 # +         n_steps=512,
+
+
+# %% origin_of_the_picture loses 10.1
+# The centre of a link is read from the visual part, not from the inertial one.
+# says: this
+# -         inside = numbers_of(link.find("inertial/origin"), "xyz", [0.0, 0.0, 0.0])
+# +         inside = numbers_of(link.find("visual/origin"), "xyz", [0.0, 0.0, 0.0])
+
+
+# %% heavy_and_light_alike loses 10.1
+# The centres of the links are not weighted by their masses.
+# says: this
+# -         moment += links[link.get("name")] * (frames[link.get("name")] + inside)
+# -     return {"links": links, "joints": joints, "mass": mass, "centre": (moment / mass).tolist()}
+# +         moment += frames[link.get("name")] + inside
+# +     return {"links": links, "joints": joints, "mass": mass,
+# +             "centre": (moment / len(links)).tolist()}
+
+
+# %% continuous_joints_only loses 10.1
+# Only joints of the type continuous are listed.
+# says: this
+# -         joints.append(
+# +         (joints if joint.get("type") == "continuous" else []).append(
+
+
+# %% joints_by_name loses 10.1
+# The joints come in the order of their names, not in that of the file.
+# says: this
+# -     mass, moment = sum(links.values()), np.zeros(3)
+# +     joints.sort(key=lambda each: each["name"])
+# +     mass, moment = sum(links.values()), np.zeros(3)
+
+
+# %% axis_of_length_1 loses 10.1
+# The axis is made 1 long, though the file says otherwise.
+# says: this
+# -         axis = numbers_of(joint.find("axis"), "xyz", [1.0, 0.0, 0.0])
+# +         axis = numbers_of(joint.find("axis"), "xyz", [1.0, 0.0, 0.0])
+# +         axis = (np.array(axis) / np.linalg.norm(axis)).tolist()
+
+
+# %% centre_rounded loses 10.1
+# The centre of mass is rounded to two digits.
+# says: this
+# -     return {"links": links, "joints": joints, "mass": mass, "centre": (moment / mass).tolist()}
+# +     return {"links": links, "joints": joints, "mass": mass,
+# +             "centre": [round(x, 2) for x in (moment / mass).tolist()]}
+
+
+# %% seen_from_the_first_centre loses 10.1
+# The centre of mass is seen from that of the first link, not from its frame.
+# says: this
+# -     return {"links": links, "joints": joints, "mass": mass, "centre": (moment / mass).tolist()}
+# +     first = numbers_of(root.find("link/inertial/origin"), "xyz", [0.0, 0.0, 0.0])
+# +     return {"links": links, "joints": joints, "mass": mass,
+# +             "centre": (moment / mass - first).tolist()}
+
+
+# %% parents_move_along loses 10.1
+# frames[child] is the parent's array and grows in place (+=), so that the parent's frame moves as well.
+# says: this
+# -         frames[child] = frames[parent] + origin
+# +         frames[child] = frames[parent]
+# +         frames[child] += origin
+
+
+# %% double_spaces loses 10.2
+# Both spaces are of type float64.
+# says: holds float64, but float32
+# -         limits = np.array([np.pi, np.inf, FASTEST], dtype=np.float32)
+# -         self.observation_space = gymnasium.spaces.Box(-limits, limits)
+# -         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, shape=(1,))
+# +         limits = np.array([np.pi, np.inf, FASTEST])
+# +         self.observation_space = gymnasium.spaces.Box(-limits, limits, dtype=np.float64)
+# +         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, shape=(1,), dtype=np.float64)
+
+
+# %% limit_of_25 loses 10.2
+# The speed of the wheels is limited to 25 in the space, not to FASTEST.
+# says: is \[-3.14159, -inf, -25. \], but should be \[-3.14159, -inf, -24.6
+# -         limits = np.array([np.pi, np.inf, FASTEST], dtype=np.float32)
+# +         limits = np.array([np.pi, np.inf, 25.0], dtype=np.float32)
+
+
+# %% degrees_of_inclination loses 10.3, 10.7
+# The inclination is in degrees, not in rad.
+# says: this
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         return np.array([np.degrees(inclination), turning[0], self.speed], dtype=np.float32)
+
+
+# %% one_array_for_all loses 10.3, 10.7
+# One array is filled anew and returned each time: observations from before change with it.
+# says: this
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         if not hasattr(self, "seen"):
+# +             self.seen = np.zeros(3, dtype=np.float32)
+# +         self.seen[:] = inclination, turning[0], self.speed
+# +         return self.seen
+
+
+# %% quaternion_begins_with_w loses 10.3, 10.7
+# The quaternion is taken for (w, x, y, z), but PyBullet's is (x, y, z, w).
+# says: this
+# -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
+# +         w, x, y, z = orientation
+# +         inclination = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+
+
+# %% twice_the_arc_sine loses 10.3
+# Twice the arc sine of the quaternion's x is the inclination only if the robot turns around x alone.
+# says: this
+# -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
+# +         inclination = 2 * np.arcsin(orientation[0])
+
+
+# %% turning_around_the_bodys_x loses 10.3
+# The angular velocity is that around the body's own x axis, not the world's.
+# says: this
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         turning = np.reshape(pybullet.getMatrixFromQuaternion(orientation), (3, 3)).T @ turning
+# +         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+
+
+# %% velocity_for_angular_velocity loses 10.3, 10.7
+# The velocity is taken for the angular velocity, which is the second thing that getBaseVelocity returns.
+# says: this
+# -         _, turning = pybullet.getBaseVelocity(self.robot, self.client)
+# +         turning, _ = pybullet.getBaseVelocity(self.robot, self.client)
+
+
+# %% velocity_of_simulation_0 loses 10.3, 10.7
+# The velocity is that of the robot of simulation 0: the physicsClientId is missing.
+# says: this
+# -         _, turning = pybullet.getBaseVelocity(self.robot, self.client)
+# +         _, turning = pybullet.getBaseVelocity(self.robot)
+
+
+# %% inclination_cut loses 10.3
+# The inclination is cut to a quarter turn, but the body may lean by up to pi.
+# says: this
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         inclination = np.clip(inclination, -np.pi / 2, np.pi / 2)
+# +         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+
+
+# %% speed_as_a_share loses 10.3, 10.7
+# The speed is told as a share of FASTEST.
+# says: this
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         return np.array([inclination, turning[0], self.speed / FASTEST], dtype=np.float32)
+
+
+# %% seed_0_is_none loses 10.4
+# Seed 0 is taken for no seed: ask whether it is None.
+# says: this
+# -         super().reset(seed=seed)
+# +         super().reset(seed=seed if seed else None)
+
+
+# %% no_seed_is_a_seed loses 10.4
+# Without a seed all episodes begin alike: 0 is put in its place.
+# says: this
+# -         super().reset(seed=seed)
+# +         super().reset(seed=seed or 0)
+
+
+# %% observed_too_early loses 10.4
+# The observation is made before the speed is set to 0.
+# says: this
+# -         self.speed = 0.0
+# -         return self.observe(), {}
+# +         observation = self.observe()
+# +         self.speed = 0.0
+# +         return observation, {}
+
+
+# %% second_random_number loses 10.4, 10.7
+# Two random numbers are drawn, and the second one is the inclination.
+# says: this
+# -         inclination = self.np_random.uniform(-0.3, 0.3)
+# +         _, inclination = self.np_random.uniform(-0.3, 0.3, size=2)
+
+
+# %% leans_to_one_side loses 10.4, 10.7
+# The robot begins with inclinations from 0 to 0.3 only.
+# says: this
+# -         inclination = self.np_random.uniform(-0.3, 0.3)
+# +         inclination = self.np_random.uniform(0, 0.3)
+
+
+# %% old_robot_put_back loses 10.4, 10.7
+# The world is not made anew: the robot of the last episode is put back, and its wheels go on turning.
+# says: this
+# -         pybullet.resetSimulation(physicsClientId=self.client)
+# +         if self.robot is not None:
+# +             pybullet.resetBasePositionAndOrientation(
+# +                 self.robot, [0, 0, 0.301],
+# +                 pybullet.getQuaternionFromEuler([inclination, 0, 0]), self.client)
+# +             pybullet.resetBaseVelocity(self.robot, [0, 0, 0], [0, 0, 0], self.client)
+# +             self.speed = 0.0
+# +             return self.observe(), {}
+# +         pybullet.resetSimulation(physicsClientId=self.client)
+
+
+# %% no_ground loses 10.4, 10.7
+# There is no plane in the world.
+# says: this
+# -         pybullet.loadURDF(PLANE, physicsClientId=self.client)
+
+
+# %% reset_makes_a_step loses 10.4, 10.7
+# reset makes a step of the simulation before it observes.
+# says: this
+# -         self.speed = 0.0
+# -         return self.observe(), {}
+# +         self.speed = 0.0
+# +         pybullet.stepSimulation(self.client)
+# +         return self.observe(), {}
+
+
+# %% sum_cut_to_1 loses 10.5, 10.7
+# The sum is cut to between -1 and 1, in place of the action.
+# says: this
+# -         change = np.clip(float(action[0]), -1.0, 1.0)
+# -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
+# +         change = float(action[0])
+# +         self.speed = float(np.clip(np.clip(self.speed + change, -1.0, 1.0), -FASTEST, FASTEST))
+
+
+# %% motors_up_to_24 loses 10.5
+# The speed is cut to 24 rad/s, not to FASTEST.
+# says: this
+# -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
+# +         self.speed = float(np.clip(self.speed + change, -24, 24))
+
+
+# %% motors_up_to_25 loses 10.5
+# The speed is cut to 25 rad/s, not to FASTEST.
+# says: this
+# -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
+# +         self.speed = float(np.clip(self.speed + change, -25, 25))
+
+
+# %% motors_get_the_change loses 10.5, 10.7
+# The motors get the change, not the speed that comes of it.
+# says: this
+# -         for wheel, target in ((0, self.speed), (1, -self.speed)):
+# +         for wheel, target in ((0, change), (1, -change)):
+
+
+# %% motors_get_the_old_speed loses 10.5, 10.7
+# The motors get the speed from before the change.
+# says: this
+# -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
+# -         for wheel, target in ((0, self.speed), (1, -self.speed)):
+# +         old = self.speed
+# +         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
+# +         for wheel, target in ((0, old), (1, -old)):
+
+
+# %% rounded_actions loses 10.5, 10.7
+# The action is rounded to a whole number.
+# says: this
+# -         change = np.clip(float(action[0]), -1.0, 1.0)
+# +         change = np.clip(round(float(action[0])), -1.0, 1.0)
+
+
+# %% position_for_speed loses 10.5, 10.7
+# The motors get the speed as a position.
+# says: this
+# -                 pybullet.VELOCITY_CONTROL,
+# -                 targetVelocity=target,
+# +                 pybullet.POSITION_CONTROL,
+# +                 targetPosition=target,
+
+
+# %% motors_only_if_it_changes loses 10.5
+# With an action of 0 the motors get nothing.
+# says: this
+# -         change = np.clip(float(action[0]), -1.0, 1.0)
+# +         change = np.clip(float(action[0]), -1.0, 1.0)
+# +         if change == 0:
+# +             return
+
+
+# %% motors_of_simulation_0 loses 10.5, 10.7
+# The motors are those of simulation 0: the physicsClientId is missing.
+# says: this
+# -                 targetVelocity=target,
+# -                 physicsClientId=self.client,
+# +                 targetVelocity=target,
+
+
+# %% price_of_the_square loses 10.6
+# The price is that of the speed squared.
+# says: this
+# -         return 1.0 - 0.05 * abs(self.speed)
+# +         return 1.0 - 0.05 * self.speed**2
+
+
+# %% never_below_0 loses 10.6
+# The reward does not go below 0.
+# says: this
+# -         return 1.0 - 0.05 * abs(self.speed)
+# +         return max(0.0, 1.0 - 0.05 * abs(self.speed))
+
+
+# %% fallen_at_the_limit loses 10.6
+# A robot whose centre is exactly 15 cm high has fallen.
+# says: this
+# -         return position[2] < LOWEST
+# +         return position[2] <= LOWEST
+
+
+# %% y_for_the_height loses 10.6, 10.7
+# The second number of the position is taken for the height, which is the third.
+# says: this
+# -         return position[2] < LOWEST
+# +         return position[1] < LOWEST
+
+
+# %% a_fall_earns_nothing loses 10.6
+# The step in which the robot falls earns nothing.
+# says: this
+# -         return self.observe(), self.reward(), self.fallen(), False, {}
+# +         fell = self.fallen()
+# +         return self.observe(), 0.0 if fell else self.reward(), fell, False, {}
+
+
+# %% observes_before_it_steps loses 10.6, 10.7
+# The observation is that before the simulation makes its step.
+# says: this
+# -         self.drive(action)
+# -         pybullet.stepSimulation(self.client)
+# -         if self.render_mode == "human":
+# -             self.render()
+# -         return self.observe(), self.reward(), self.fallen(), False, {}
+# +         self.drive(action)
+# +         observation = self.observe()
+# +         pybullet.stepSimulation(self.client)
+# +         if self.render_mode == "human":
+# +             self.render()
+# +         return observation, self.reward(), self.fallen(), False, {}
+
+
+# %% drawn_without_a_window loses 10.6
+# Every step is drawn, without a window, too.
+# says: called self.render\(\) 4 times
+# -         if self.render_mode == "human":
+# -             self.render()
+# -         return self.observe(), self.reward(), self.fallen(), False, {}
+# +         self.render()
+# +         return self.observe(), self.reward(), self.fallen(), False, {}
+
+
+# %% reward_in_an_array loses 10.6
+# The reward is an array of NumPy, not a float.
+# says: is an array, but a float
+# -         return 1.0 - 0.05 * abs(self.speed)
+# +         return np.array(1.0 - 0.05 * abs(self.speed))
+
+
+# %% up_again_at_once loses 10.6, 10.7
+# A robot that has fallen is put up again by step itself, which is for the caller to do.
+# -         return self.observe(), self.reward(), self.fallen(), False, {}
+# +         reward, fell = self.reward(), self.fallen()
+# +         if fell:
+# +             self.reset()
+# +         return self.observe(), reward, fell, False, {}
+
+
+# %% dot_for_the_colon loses 10.8
+# The entry point has a dot where the colon belongs.
+# says: should be 'module:class'
+# -     entry_point="balance_bot.env:BalanceBotEnv",
+# +     entry_point="balance_bot.env.BalanceBotEnv",
+
+
+# %% nothing_but_modules loses 10.8
+# The package has no package-data, so that the robot's file does not get installed.
+# says: without 'package-data'
+# - package-data = { balance_bot = ["*.urdf"] }
+
+
+# %% all_signs_of_known_weights loses 10.9
+# Tries known weights with all signs, and keeps the best.
+# says: the same weights but for their signs
+def evolve(seed):
+    robot = Robot("BalanceBotBulletEnv-v0", nhiddens=0)
+    rng = np.random.default_rng(seed)
+    known = np.array([0.0, 8.0, 2.0, 0.1])
+    signs = np.array([[1, a, b, c] for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)])
+    population = known * signs + 0.01 * rng.standard_normal((8, 4))
+    fitness = robot.evaluate(population, seed, episodes=3, maxsteps=500)
+    return population[np.argmax(fitness)]
+
+
+# %% changed_after_training loses 10.10
+# The last layer is made twice as large after the training.
+# says: not all those of a policy
+# -     model.learn(16_384)
+# -     return actor_layers(model)
+# +     model.learn(16_384)
+# +     layers = actor_layers(model)
+# +     layers[-1][0] *= 2
+# +     return layers
