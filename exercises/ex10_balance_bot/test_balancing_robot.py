@@ -359,16 +359,18 @@ def observes(student: Student):
     ]  # fmt: skip
     answers = staged(student, "observe()", "observe", scenes[:3])
     answers += staged(student, "observe()", "observe", scenes[3:])
-    for (inclination, _, turning, speed, _), (answer, kind) in zip(scenes, answers, strict=True):
+    for (inclination, others, turning, speed, _), (answer, kind) in zip(
+        scenes, answers, strict=True
+    ):
         said = (
             f"observe(), with inclination {inclination:.3f}, angular velocity {turning[0]:.3f} and "
             f"wheel speed {speed:.2f}"
         )
-        mistakes = {
-            "The angular velocity is that around z, but the body leans around x.": [
-                inclination, turning[2], speed
-            ],
-        }  # fmt: skip
+        mistakes = {}
+        for axis, angle, change in zip("yz", others, turning[1:], strict=True):
+            around = f"is that around {axis}, but the body leans around x."
+            mistakes[f"The angle {around}"] = [angle, turning[0], speed]
+            mistakes[f"The angular velocity {around}"] = [inclination, change, speed]
         expect_close(said, answer, [inclination, turning[0], speed], 1e-4, mistakes)
         expect(kind == "float32", f"{said} is of type {kind}, but float32 is asked for.")
 
@@ -452,10 +454,12 @@ def compare_drive(student: Student, speed: float, actions: list[float]) -> None:
                 "is, and work on a copy.",
             )
             turns, wanted = np.array(answer[1:3]), np.array(world.turns())
+            turned = abs(wanted).max() > 0.1 and np.allclose(turns, -wanted, atol=0.01)
+            cause = " Both turn the wrong way round." if turned else ""
             expect(
                 np.allclose(turns, wanted, atol=1e-3),
                 f"{said}: a step later the wheels turn at {show(turns)} rad/s, but should at "
-                f"{show(wanted)}.",
+                f"{show(wanted)}.{cause}",
             )
 
 
