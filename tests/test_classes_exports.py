@@ -560,6 +560,15 @@ def test_a_class_by_the_command(course, tmp_path):
     assert len(pages) == 4 and "was stored as UTF-16" in pages[f"{people[3].name}.html"]
 
 
+def test_the_table_says_that_a_program_is_broken(course, tmp_path):
+    files = {f"ada/{FILE}": SOLUTION.encode() + b"x = \xe2\x80\x9cquoted\xe2\x80\x9d\n"}
+    top = written(tmp_path / "class", files | {f"bob/{FILE}": SOLUTION.encode() + b"\x1a"})
+    assert call("grade-all", top, "-e", "3", "-o", tmp_path / "out")[0] == 0
+    ada, bob = (tmp_path / "out" / "grades.csv").read_text(encoding="utf-8-sig").split("\n")[1:3]
+    assert "Your file is not Python yet." in ada
+    assert bob.startswith("bob,100,") and "Invisible characters" in bob
+
+
 def test_one_submission_by_the_command(course, tmp_path):
     path = saved(tmp_path / "ada.zip", {"x/Tiny (1).py": SOLUTION.encode()})
     for place in (path, written(tmp_path / "ada", {"Tiny.ipynb": notebook(SOLUTION)})):

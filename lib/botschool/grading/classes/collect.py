@@ -218,7 +218,8 @@ def notes_of(row: Graded) -> str:
     """Return everything that a reader must know beside the points."""
     notes = []
     for result in row.results:
-        if said := " ".join(filter(None, [result["problem"], *result["notes"]])):
+        broken = re.match(r"[^.\n]*\.?", result["banner"])[0]
+        if said := " ".join(filter(None, [result["problem"], broken, *result["notes"]])):
             notes.append(f"{called(result['exercise'])}: {said}")
     return " ".join([*notes, *row.submission.notes])
 

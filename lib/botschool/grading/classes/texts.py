@@ -23,7 +23,7 @@ _JUPYTER = re.compile(
     r"^([ \t]*)(get_ipython\(\)|(?<![ \t])(?:%(?:matplotlib|load_ext|autoreload|pip)\b|!\w))",
     re.MULTILINE,
 )
-_INVISIBLE = re.compile("[\u200b-\u200f\u202a-\u202e\u2060\u2066-\u2069\ufeff]")
+_INVISIBLE = re.compile("[\x1a\u200b-\u200f\u202a-\u202e\u2060\u2066-\u2069\ufeff]")
 _CODE = re.compile(r"^[^\n'\"#]*", re.MULTILINE)
 """The beginning of a line, up to its first text or comment."""
 _BLOCKS = {"p", "div", "br", "li", "tr", "pre", "h1", "h2", "h3", "h4", "table", "ul", "ol"}
