@@ -60,7 +60,8 @@ def compete(folder: Path, told: Callable[[str], None] = lambda text: None) -> Le
     """Let all entries of a folder compete. Raises BotschoolError if there are none."""
     if not folder.is_dir():
         raise BotschoolError(f"There is no folder {folder}: name the one with the entries.")
-    files = sorted(path for path in folder.rglob(f"*{SUFFIX}") if ".git" not in path.parts)
+    named = folder.rglob("*.robot*.npz")  # platforms and browsers number copies: x.robot-1.npz
+    files = sorted(path for path in named if ".git" not in path.parts)
     entries, refused = [], []
     for path in files[:MAX_ENTRIES]:
         try:
