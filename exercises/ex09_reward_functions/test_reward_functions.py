@@ -5,6 +5,10 @@ Nothing here is left to chance: an evolution depends on environment, steps and s
 not installed.
 """
 
+from collections.abc import Callable
+from functools import cache, partial
+from itertools import combinations
+
 import numpy as np
 
 from botschool.grading import (
@@ -14,6 +18,7 @@ from botschool.grading import (
     expect_array,
     expect_close,
     expect_fields,
+    slips,
 )
 
 exercise = Exercise(
@@ -56,6 +61,10 @@ def made_up(robot: str, index: int, steps: int = 40) -> dict:
         one["height"][-5:] = 0.8, 0.26, 0.78, 1.2, 1.2
         one["pitch"][-5:] = 0.0, 0.0, 0.0, 1.0, -1.0
         one["touching"][-5:] = 0.0
+    if steps > 12:  # and near them
+        one["height"][-9:-5] = 0.79, 0.27, 0.25, 0.81
+        one["pitch"][-9:-5] = 0.1, -0.1, 0.9, -0.9
+        one["touching"][-9:-5] = 0.0
     return one
 
 
@@ -142,13 +151,18 @@ def expected_gait(one: dict) -> dict:
 
 
 def compare_fields(
-    said: str, answer, wanted: dict, tolerance: float = 1e-9, mistakes: dict | None = None
+    said: str,
+    answer,
+    wanted: dict,
+    tolerance: float = 1e-9,
+    mistakes: dict | None = None,
+    why: dict[str, Callable[[int], str]] | None = None,
 ) -> None:
-    """mistakes: what they make of the fields, each a dict, by sentence."""
+    """mistakes: what they make of the fields, each a dict, by sentence; why: see expect_close."""
     values = expect_fields(said, answer, *wanted)
     for (key, value), got in zip(wanted.items(), values, strict=True):
         made = {text: each[key] for text, each in (mistakes or {}).items() if key in each}
-        expect_close(f"{said}: {key}", got, value, tolerance, made)
+        expect_close(f"{said}: {key}", got, value, tolerance, made, (why or {}).get(key))
 
 
 def expect_no_other(said: str, answer: dict, wanted: dict) -> None:
@@ -156,19 +170,58 @@ def expect_no_other(said: str, answer: dict, wanted: dict) -> None:
     expect(not more, f"{said} returned components that version 0 does not have: {more}.")
 
 
-def of_row(answer, wanted: np.ndarray, sentence) -> dict:
-    """The mistake of the first wrong number, in the words of sentence(its index, its value)."""
-    try:
-        got = np.asarray(answer, dtype=float)
-        apart = np.flatnonzero(~np.isclose(got, wanted, 1e-7, 1e-7))
-        text = sentence(int(apart[0]), got[apart[0]])
-    except (TypeError, ValueError, IndexError):  # of another kind or shape, or all are right
-        return {}
-    return {text: got}
-
-
 # ------------------------------------------------------------------- 9.1
 first = exercise.task("9.1", "Progress, and being alive")
+
+
+def mistaken_progress(distance: np.ndarray, duration: float) -> dict:
+    """What slips make of the progress: sentence -> array."""
+    nearer = distance[:-1] - distance[1:]
+    two = -np.gradient(distance) if len(nearer) > 1 else np.append(nearer, nearer)
+    return slips(
+        lambda way, time: way / time,
+        way={
+            "": nearer,
+            "Progress is positive when the robot goes away: take the distance before the step "
+            "minus the distance after it.": -nearer,
+            "Going away counts as 0, but it is negative progress.": np.maximum(nearer, 0.0),
+            "Going away counts as much as coming nearer, but it is negative progress.":
+            np.abs(nearer),
+            "The way is measured from the start: take the distance before each step.":
+            distance[0] - distance[1:],
+            "The way is measured to the end: take the distance after each step.":
+            distance[:-1] - distance[-1],
+            "The mean way of all steps is taken: each step has its own.":
+            np.full(len(nearer), nearer.mean()),
+            "The progress of a step is taken over two steps, as np.gradient does: take the "
+            "difference of neighbours.": two[1:],
+            "The progress of a step is taken over two steps, as np.gradient does: take the "
+            "difference of the neighbours.": two[:-1],
+            "Each step has the progress of the next one.": np.append(nearer[1:], 0.0),
+            "Each step has the progress of the one before.": np.append(0.0, nearer[:-1]),
+            "The speeds are added up over the steps.": np.cumsum(nearer),
+            "The distance itself is divided; the difference of two distances is asked for.":
+            distance[1:],
+            "The first step is missing, and the last goes back to the start (np.roll).":
+            np.append(nearer[1:], distance[-1] - distance[0]),
+            "The first step is missing: T + 1 distances make T steps.": nearer[1:],
+            "The last step is missing: T + 1 distances make T steps.": nearer[:-1],
+            "The start is no step: T + 1 distances make T steps.": np.append(0.0, nearer),
+        },
+        time={
+            "": duration,
+            "The duration of a step is left out.": 1.0,
+            "The duration multiplies; it divides.": 1 / duration,
+            "Use `duration`, not the 0.0165 s of PyBullet.": 0.0165,
+            "Divide by the duration of a step, not by the time since the start.":
+            duration * np.arange(1, len(nearer) + 1),
+            "Divide by the duration of a step, not by that of the episode.":
+            duration * len(nearer),
+            "The duration is squared: divide by it once.": duration**2,
+            "Divide by the duration alone, not by the distance, too.": duration * distance[:-1],
+            "Metres per second are asked for, not kilometres per hour.": duration / 3.6,
+        },
+    )  # fmt: skip
 
 
 @first.check(6)
@@ -176,21 +229,13 @@ def measures_progress(student: Student):
     for index, steps in ((1, 1), (2, 50), (3, 12)):
         distance, duration = made_up("Hopper", index, steps)["distance"], 0.004 * index
         answer = student.call("progress", distance, duration)
-        change = distance[:-1] - distance[1:]
-        wanted, pair = change / duration, -np.gradient(distance) / duration if steps > 1 else 0
-        mistakes = {
-            "The duration of a step is left out.": change,
-            "The duration multiplies; it divides.": change * duration,
-            "Going away counts as 0, but it is negative progress.": np.maximum(wanted, 0.0),
-            "The progress of a step is taken over two steps, as np.gradient does: take the "
-            "difference of neighbours.": np.resize(pair, steps + 1)[1:],
-            "The progress of a step is taken over two steps, as np.gradient does: take the "
-            "difference of the neighbours.": np.resize(pair, steps + 1)[:-1],
-            "Each step has the progress of the next one.": np.append(wanted[1:], 0.0),
-            "Each step has the progress of the one before.": np.append(0.0, wanted[:-1]),
-            "The speeds are added up over the steps.": np.cumsum(wanted),
-        }
-        expect_close(student.said, answer, wanted, 1e-7, mistakes)
+        wanted = (distance[:-1] - distance[1:]) / duration
+        mistakes = partial(mistaken_progress, distance, duration)
+
+        def why(t: int, one=distance, lasts=duration) -> str:
+            return f"In step {t} it is ({one[t]:.7g} - {one[t + 1]:.7g}) / {lasts:g}."
+
+        expect_close(student.said, answer, wanted, 1e-7, mistakes, why)
 
 
 def why_standing(one: dict, t: int) -> str:
@@ -219,6 +264,69 @@ def why_standing(one: dict, t: int) -> str:
     return f"In step {t} the {robot} {verdict}: {' and '.join(told)}{only}.{edge}"
 
 
+def mistaken_bonus(one: dict) -> dict:
+    """What slips make of the alive bonus: sentence -> array."""
+    robot, steps = one["robot"], len(one["height"])
+    wanted = expected_v0(one)["alive"]
+    upright, off = np.abs(one["pitch"]) < 1, one["touching"] == 0
+    low = {"Ant": 0.26, "Humanoid": 0.78, "HalfCheetah": -1.0}.get(robot, 0.8)
+    high, leans = one["height"] > low, robot not in ("Ant", "Humanoid")
+    cheetah = robot == "HalfCheetah"
+    stands = {
+        "A robot that leans back is forgotten: the pitch may be negative, take abs(pitch).":
+        high & ((one["pitch"] < 1) | (not leans)) & (off | (not cheetah)),
+        "A robot that leans forward is forgotten: take abs(pitch).":
+        high & ((one["pitch"] > -1) | (not leans)) & (off | (not cheetah)),
+        "A robot that has fallen once counts as fallen ever after: judge each step by itself.":
+        np.logical_and.accumulate(wanted > 0),
+        f"The pitch is left out: a {robot} with |pitch| of 1 or more has fallen.":
+        high & (off | (not cheetah)),
+        f"The height is left out: a {robot} at {low} or below has fallen.": upright | (not leans),
+        "The touching is left out: a HalfCheetah with shin or thigh on the floor has fallen.":
+        upright & high,
+        f"One condition is enough to fall (and), yours lets a {robot} fall by both only (or).":
+        (high | upright) if leans and not cheetah else (upright | off),
+        f"The pitch does not matter for a {robot}.": high & upright,
+        f"What touches the floor does not matter for a {robot}.":
+        (wanted > 0) & off,
+        "touching is the wrong way round: 1 means that shin or thigh was on the floor.":
+        upright & ~off,
+        "The pitch is in radians, as its limit is: do not convert it to degrees.":
+        high & ((np.abs(np.degrees(one["pitch"])) < 1) | (not leans)) & (off | (not cheetah)),
+        "Height and pitch are exchanged.":
+        (one["pitch"] > low) & ((np.abs(one["height"]) < 1) | (not leans)),
+        "The limit itself counts as standing: compare with `>` and `<`, not with `>=` and `<=`.":
+        (one["height"] >= low) & ((np.abs(one["pitch"]) <= 1) | (not leans))
+        & (off | (not cheetah)),
+        "The limit of the height counts as standing: compare with `>`, not `>=`.":
+        (one["height"] >= low) & (upright | (not leans)) & (off | (not cheetah)),
+        "A pitch of exactly 1 counts as upright: compare with `<`, not `<=`.":
+        high & ((np.abs(one["pitch"]) <= 1) | (not leans)) & (off | (not cheetah)),
+        "One fall makes all steps count as fallen: judge each step by itself.":
+        np.full(steps, bool((wanted > 0).all())),
+        "All have fallen, or none has: is it a decision for each step?": np.full(steps, True),
+        "The comparison is the wrong way round: the fallen stand, and those who stand have "
+        "fallen.": wanted < 0,
+    } | {
+        f"This is the limit of {other}: the table has {low} for {robot}.":
+        (one["height"] > limit) & (upright | (not leans))
+        for other, limit in (("the Ant", 0.26), ("the Humanoid", 0.78), ("the Hopper", 0.8))
+        if limit != low and not cheetah
+    }  # fmt: skip
+    bonus = wanted.max()
+    return slips(
+        lambda stands, paid: np.where(stands, *paid),
+        stands={"": wanted > 0, **stands},
+        paid={
+            "": (bonus, -1.0),
+            "The fallen get 0, but they pay 1.": (bonus, 0.0),
+            "The fallen pay the bonus of their robot; all pay 1.": (bonus, -bonus),
+            f"The bonus of a {robot} is {bonus:g}, not {3 - bonus:g}.": (3 - bonus, -1.0),
+            "Neither the bonus nor the price of a fall is as in the table.": (1.0, 0.0),
+        },
+    )
+
+
 @first.check(8)
 def tells_the_fallen(student: Student):
     for i, robot in enumerate(ROBOTS):
@@ -226,56 +334,126 @@ def tells_the_fallen(student: Student):
         seen = [one[key] for key in ("height", "pitch", "touching")]
         answer = student.call("alive_bonus", robot, *seen)
         wanted = expected_v0(one)["alive"]
-        level = expected_v0(one | {"pitch": np.maximum(one["pitch"], 0.0)})["alive"]
-        mistakes = {
-            "The fallen get 0, but they pay.": np.maximum(wanted, 0.0),
-            "A robot that leans back is forgotten: the pitch may be negative.": level,
-            "The fallen pay the bonus of their robot; all pay 1.": np.where(
-                wanted < 0, -wanted.max(), wanted
-            ),
-            "A robot that has fallen once counts as fallen ever after: judge each step by itself.":
-            np.where(np.logical_or.accumulate(wanted < 0), -1.0, wanted),
-            **of_row(answer, wanted, lambda t, got, o=one: why_standing(o, t)),
-        }  # fmt: skip
-        expect_close(student.said, answer, wanted, mistakes=mistakes)
+        mistakes = partial(mistaken_bonus, one)
+        expect_close(
+            student.said, answer, wanted, mistakes=mistakes, why=partial(why_standing, one)
+        )
 
 
 # ------------------------------------------------------------------- 9.2
+def why_electricity(one: dict, t: int) -> str:
+    action, speed, n = one["actions"][t], one["speeds"][t], one["actions"].shape[1]
+    work, effort = np.abs(action * speed).mean(), (action**2).mean()
+    price = f"-2 * {work:.5g} - 0.1 * {effort:.5g}"
+    price = f"4.25 * ({price})" if one["robot"] == "Humanoid" else price
+    return (
+        f"In step {t}, the mean |action * speed| of the {n} joints is {work:.5g} and their mean "
+        f"squared action {effort:.5g}: that makes {price}."
+    )
+
+
 def mistaken_electricity(one: dict) -> dict:
-    """What mistakes make of the cost."""
-    actions, speeds, wanted = one["actions"], one["speeds"], expected_v0(one)["electricity"]
-    effort = (actions**2).mean(axis=1)
-    scale = wanted / -(2 * np.abs(actions * speeds).mean(axis=1) + 0.1 * effort)
+    """What slips make of the cost: sentence -> array."""
+    actions, speeds, joints = one["actions"], one["speeds"], one["actions"].shape[1]
+    product, squares, zero = actions * speeds, actions**2, 0 * actions[:, 0]
+    humanoid, six = one["robot"] == "Humanoid", "by 6, however many joints there are: take their"
+    work = {
+        "": np.abs(product).mean(axis=1),
+        "Braking is paid for: the absolute value of the work counts, joint by joint.": product.mean(
+            axis=1
+        ),
+        "Take |action * speed| of each joint first, then the mean.": np.abs(product.mean(axis=1)),
+        "The work is added up over the joints: take their mean.": np.abs(product).sum(axis=1),
+        f"The work is divided {six} mean.": np.abs(product).sum(axis=1) / 6,
+        "The work of the joint that does most is taken: take the mean over the joints.": np.abs(
+            product
+        ).max(axis=1),
+        "The median of the work is taken: take the mean over the joints.": np.median(
+            np.abs(product), axis=1
+        ),
+        "The work is |action * speed|; the actions are left out of it.": np.abs(speeds).mean(
+            axis=1
+        ),
+        "The work is |action * speed|; the speeds are left out of it.": np.abs(actions).mean(
+            axis=1
+        ),
+        "The work is |action * speed|, not its square.": (product**2).mean(axis=1),
+        "The work is the root of the mean square; the mean |action * speed| is asked for.": np.sqrt(
+            (product**2).mean(axis=1)
+        ),
+        "The mean of a product is not the product of the means: multiply joint by joint.": np.abs(
+            actions
+        ).mean(axis=1)
+        * np.abs(speeds).mean(axis=1),
+        "The mean goes over the joints of each step, not over the steps, too (axis=1).": np.full(
+            len(actions), np.abs(product).mean()
+        ),
+        "The work is left out: 2 times the mean |action * speed|.": np.zeros(len(actions)),
+        "Work against the motion is left out: |action * speed| counts.": np.maximum(
+            product, 0
+        ).mean(axis=1),
+    }
+    effort = {
+        "": squares.mean(axis=1),
+        "The cost of standing still with force, 0.1 times the action's square, is left out.": zero,
+        "The 0.1 belongs to the mean of the squares, not to the square of the mean.": actions.mean(
+            axis=1
+        )
+        ** 2,
+        "The 0.1 belongs to the mean squared action, not to the mean |action|.": np.abs(
+            actions
+        ).mean(axis=1),
+        "The squared actions are added up over the joints: take their mean.": squares.sum(axis=1),
+        f"The squared actions are divided {six} mean.": squares.sum(axis=1) / 6,
+        "The mean squared action is asked for, not its root.": np.sqrt(squares.mean(axis=1)),
+        "The actions are squared, not the speeds.": (speeds**2).mean(axis=1),
+        "The second mean is that of the squared actions, not of |action * speed| again.": np.abs(
+            product
+        ).mean(axis=1),
+        "The mean squared action goes over the joints of a step only.": squares.mean() + zero,
+        "The actions are not squared.": actions.mean(axis=1),
+    }
+    found = slips(
+        lambda work, effort, prices, factors: -(
+            factors[0] * prices[0] * work + factors[1] * prices[1] * effort
+        ),
+        work=work,
+        effort=effort,
+        prices={
+            "": (2.0, 0.1),
+            "The speeds stay in units of 10 radians per second: do not multiply them by 10.":
+            (20.0, 0.1),
+            "The factor 2 of the work is left out.": (1.0, 0.1),
+            "The cost of the squared action is 0.1 times it, not 1 time.": (2.0, 1.0),
+            "The squared action is not multiplied by the 2 of the work.": (2.0, 0.2),
+            "The factors 2 and 0.1 are exchanged: 2 belongs to the work.": (0.1, 2.0),
+            "The squared action is subtracted from the cost: both parts are costs.": (2.0, -0.1),
+            "The 0.1 multiplies the work, too.": (0.2, 0.1),
+        },
+        factors={
+            "": (4.25, 4.25) if humanoid else (1.0, 1.0),
+            "The cost is a negative number: the sign is wrong.":
+            (-4.25, -4.25) if humanoid else (-1.0, -1.0),
+            **({
+                "The electricity of a Humanoid costs more than that of others.": (1.0, 1.0),
+                "A Humanoid pays 4.25 times the squared action, too.": (4.25, 1.0),
+                "A Humanoid pays 4.25 times the work, too.": (1.0, 4.25),
+                "A Humanoid's electricity is multiplied by 4.25, not divided.":
+                (1 / 4.25, 1 / 4.25),
+                "The 4.25 of a Humanoid multiplies twice.": (4.25**2, 4.25**2),
+            } if humanoid else {
+                "Only a Humanoid pays 4.25 times as much.": (4.25, 4.25),
+            }),
+        },
+    )  # fmt: skip
+    cost = found["The cost is a negative number: the sign is wrong."]
     return {
-        "Braking is paid for: the absolute value of the work counts, joint by joint.": -scale
-        * (2 * (actions * speeds).mean(axis=1) + 0.1 * effort),
-        "The cost of standing still with force, 0.1 times the action's square, is left out.":
-        -scale * 2 * np.abs(actions * speeds).mean(axis=1),
-        "The electricity of a Humanoid costs more than that of others.": wanted / scale,
-        "The 0.1 belongs to the mean of the squares, not to the square of the mean.": -scale
-        * (2 * np.abs(actions * speeds).mean(axis=1) + 0.1 * actions.mean(axis=1) ** 2),
-        "The 0.1 belongs to the mean squared action, not to the mean |action|.": -scale
-        * (2 * np.abs(actions * speeds).mean(axis=1) + 0.1 * np.abs(actions).mean(axis=1)),
-        "The work is divided by 6, however many joints there are: take their mean.": -scale
-        * (2 * np.abs(actions * speeds).sum(axis=1) / 6 + 0.1 * effort),
-        "The sums are divided by 6, however many joints there are: take their mean.": wanted
-        * actions.shape[1] / 6,
-        "The means are sums over the joints.": wanted * actions.shape[1],
-        "The speeds stay in units of 10 radians per second: do not multiply them by 10.": -scale
-        * (20 * np.abs(actions * speeds).mean(axis=1) + 0.1 * effort),
-        "The factor 2 of the work is left out.": -scale
-        * (np.abs(actions * speeds).mean(axis=1) + 0.1 * effort),
-        "The cost of the squared action is 0.1 times it, not 1 time.": -scale
-        * (2 * np.abs(actions * speeds).mean(axis=1) + effort),
-        "The squared action is not multiplied by the 2 of the work.": -scale
-        * (2 * np.abs(actions * speeds).mean(axis=1) + 0.2 * effort),
-        "The work is |action * speed|; the actions are left out of it.": -scale
-        * (2 * np.abs(speeds).mean(axis=1) + 0.1 * effort),
-        "The mean of a product is not the product of the means: multiply joint by joint.": -scale
-        * (2 * np.abs(actions).mean(axis=1) * np.abs(speeds).mean(axis=1) + 0.1 * effort),
-        "The means go over the joints of each step, not over the steps, too.": -scale
-        * (2 * np.abs(actions * speeds).mean() + 0.1 * (actions**2).mean()) * np.ones(len(actions)),
-    }  # fmt: skip
+        "The sums are divided by 6, however many joints there are: take their mean.":
+        -cost * joints / 6,
+        "The means are sums over the joints.": -cost * joints,
+        "The means go over the joints of each step, not over the steps, too.":
+        np.full(len(cost), -cost.mean()),
+    } | found  # fmt: skip
 
 
 costs = exercise.task("9.2", "What effort costs")
@@ -286,8 +464,9 @@ def charges_for_electricity(student: Student):
     for i, robot in enumerate(("Hopper", "HalfCheetah", "Ant", "Walker2D")):
         one = made_up(robot, 10 + i)
         answer = student.call("electricity", robot, one["actions"], one["speeds"])
-        wanted, mistakes = expected_v0(one)["electricity"], mistaken_electricity(one)
-        expect_close(student.said, answer, wanted, mistakes=mistakes)
+        wanted, mistakes = expected_v0(one)["electricity"], partial(mistaken_electricity, one)
+        why = partial(why_electricity, one)
+        expect_close(student.said, answer, wanted, mistakes=mistakes, why=why)
 
 
 @costs.check(3)
@@ -295,17 +474,59 @@ def charges_humanoids_more(student: Student):
     for index, steps in ((14, 40), (17, 7)):
         one = made_up("Humanoid", index, steps)
         answer = student.call("electricity", "Humanoid", one["actions"], one["speeds"])
-        wanted, mistakes = expected_v0(one)["electricity"], mistaken_electricity(one)
-        expect_close(student.said, answer, wanted, mistakes=mistakes)
+        wanted, mistakes = expected_v0(one)["electricity"], partial(mistaken_electricity, one)
+        why = partial(why_electricity, one)
+        expect_close(student.said, answer, wanted, mistakes=mistakes, why=why)
 
 
-def why_at_limit(one: dict, t: int, got: float) -> str:
+def why_at_limit(one: dict, t: int) -> str:
     row = one["positions"][t]
     count = int((np.abs(row) > 0.99).sum())
     return (
         f"In step {t}, {count} of the {len(row)} joints at {[round(float(p), 4) for p in row]} "
-        f"are beyond 0.99 or -0.99: that makes {-0.1 * count:.1f}, not {got:.4g}."
+        f"are beyond 0.99 or -0.99: that makes {-0.1 * count:.1f}."
     )
+
+
+def mistaken_limits(positions: np.ndarray) -> dict:
+    """What slips make of the cost of limits: sentence -> array."""
+    size = np.abs(positions)
+    return slips(
+        lambda there, over, price: price * over(there),
+        there={
+            "": size > 0.99,
+            "Joints at their lower limits count, too.": positions > 0.99,
+            "Joints at their upper limits count, too.": positions < -0.99,
+            "A joint exactly at 0.99 is not at its limit: compare with `>`, not `>=`.":
+            size >= 0.99,
+            "A joint is at its limit beyond 0.99, not only from 1 on.": size >= 1,
+            "A joint is at its limit beyond 0.99, not only beyond 1.": size > 1,
+            "A joint that is past its limit, beyond 1, counts, too.": (size > 0.99) & (size <= 1),
+            "The comparison is the wrong way round: these joints are not at their limits.":
+            size < 0.99,
+            "Each joint at its limit costs 0.1, however far it is: count them.":
+            size * (size > 0.99),
+        },
+        over={
+            "": lambda there: there.sum(axis=1),
+            "Each joint at its limit costs 0.1: their share (a mean) is taken.":
+            lambda there: there.mean(axis=1),
+            "Each joint at its limit costs 0.1: count them, do not ask whether there is any.":
+            lambda there: there.any(axis=1),
+            "Each joint at its limit costs 0.1: count them, do not ask whether all are.":
+            lambda there: there.all(axis=1),
+            "Count the joints of each step, not of all steps (axis=1).":
+            lambda there: np.full(len(there), there.sum()),
+            "The joints are counted up over the steps: each step has its own number.":
+            lambda there: np.cumsum(there.sum(axis=1)),
+        },
+        price={
+            "": -0.1,
+            "It is a cost: a negative number.": 0.1,
+            "The factor 0.1 is left out.": -1.0,
+            "A joint at its limit costs 0.1, not 0.01.": -0.01,
+        },
+    )  # fmt: skip
 
 
 @costs.check(8)
@@ -313,19 +534,9 @@ def counts_joints_at_their_limits(student: Student):
     for i, robot in enumerate(("Hopper", "Ant")):
         one = made_up(robot, 15 + i)
         answer = student.call("joints_at_limit", one["positions"])
-        mistakes = {
-            "Joints at their lower limits count, too.": -0.1
-            * (one["positions"] > 0.99).sum(axis=1),
-            "A joint exactly at 0.99 is not at its limit: compare with `>`, not `>=`.": -0.1
-            * (np.abs(one["positions"]) >= 0.99).sum(axis=1),
-            "A joint is at its limit beyond 0.99, not only from 1 on.": -0.1
-            * (np.abs(one["positions"]) >= 1).sum(axis=1),
-            "A joint is at its limit beyond 0.99, not only beyond 1.": -0.1
-            * (np.abs(one["positions"]) > 1).sum(axis=1),
-        }
         wanted = expected_v0(one)["joints_at_limit"]
-        mistakes |= of_row(answer, wanted, lambda t, got, o=one: why_at_limit(o, t, got))
-        expect_close(student.said, answer, wanted, 1e-6, mistakes)
+        mistakes, why = partial(mistaken_limits, one["positions"]), partial(why_at_limit, one)
+        expect_close(student.said, answer, wanted, 1e-6, mistakes, why)
 
 
 # ------------------------------------------------------------------- 9.3
@@ -363,8 +574,41 @@ def mistaken_v0(one: dict) -> dict:
         "The components are for each step; these are summed up to each step.": {
             key: np.cumsum(values) for key, values in wanted.items()
         },
+        "The components are for each step, arrays of T numbers; this is their sum.": {
+            key: values.sum() for key, values in wanted.items()
+        },
+        "The components are for each step, arrays of T numbers; this is their mean.": {
+            key: values.mean() for key, values in wanted.items()
+        },
+        "The components are apart: this is the sum of all four.": dict.fromkeys(
+            wanted, sum(wanted.values())
+        ),
     }
+    for other in ROBOTS:
+        if other != one["robot"]:
+            made = expected_v0(one | {"robot": other})
+            mistakes[f"The robot is taken for a {other}: hand on trajectory['robot']."] = {
+                key: made[key] for key in made if not np.array_equal(made[key], wanted[key])
+            }
+    if one["robot"] == "Humanoid":
+        mistakes["The fallen pay 1, a Humanoid, too, not its bonus of 2."] = {
+            "alive": np.where(fallen, -2.0, wanted["alive"])
+        }
+    end = int(np.argmax(fallen)) + 1 if fallen.any() else len(fallen)
+    for last, word in ((end, "after"), (end - 1, "from")):
+        mistakes[f"The steps {word} the first fall on are left out: all T steps count."] = {
+            key: values[:last] for key, values in wanted.items()
+        }
     mixed = {
+        "Height and pitch are exchanged: alive_bonus takes height first.": {
+            "height": one["pitch"],
+            "pitch": one["height"],
+        },
+        "'heading' is taken where 'height' belongs.": {"height": one["heading"]},
+        "Actions and speeds are exchanged: electricity takes actions first.": {
+            "actions": one["speeds"],
+            "speeds": one["actions"],
+        },
         "'heading' is taken where 'pitch' belongs.": {"pitch": one["heading"]},
         "'positions' are taken where 'actions' belong.": {"actions": one["positions"]},
         "'positions' are taken where 'speeds' belong.": {"speeds": one["positions"]},
@@ -388,14 +632,16 @@ def rebuilds_version_0(student: Student):
     for i, robot in enumerate(ROBOTS):
         one = made_up(robot, 20 + i)
         answer, wanted = call_v0(student, one), expected_v0(one)
-        compare_fields(student.said, answer, wanted, 1e-7, mistaken_v0(one))
+        why = {"alive": partial(why_standing, one), "joints_at_limit": partial(why_at_limit, one)}
+        compare_fields(student.said, answer, wanted, 1e-7, mistaken_v0(one), why)
         expect_no_other(student.said, answer, wanted)
 
     one = made_up("Ant", 25, 6) | {"duration": 0.03}
     said = "components_v0(a trajectory of an Ant, 'duration': 0.03)"
     answer = student.call("components_v0", one)
     student.said = said
-    compare_fields(said, answer, expected_v0(one), 1e-7, mistaken_v0(one))
+    why = {"alive": partial(why_standing, one), "joints_at_limit": partial(why_at_limit, one)}
+    compare_fields(said, answer, expected_v0(one), 1e-7, mistaken_v0(one), why)
 
 
 @standard.check(5)
@@ -442,6 +688,12 @@ def compare_v5(student: Student, one: dict, wanted: np.ndarray, tolerance: float
             * (squares - np.abs(one["actions"])).mean(axis=1),
             "An Ant gets 0.01, not the 1 of version 0.": 0.99,
         }
+    if one["robot"] == "Ant":
+        changes |= {f"The 0.01 of an Ant is {much} here.": much - 0.01 for much in (0.1, 0.001)} | {
+            f"The factor 0.01 of the mean squared action is {much} here.": (0.01 - much)
+            * squares.mean(axis=1)
+            for much in (0.1, 0.001, 1.0)
+        }
     if one["robot"] == "Humanoid":
         past, heading = np.maximum(np.abs(one["positions"]) - 1, 0), one["heading"]
         late = np.maximum(np.abs(one["positions"]) - 0.99, 0)
@@ -450,6 +702,19 @@ def compare_v5(student: Student, one: dict, wanted: np.ndarray, tolerance: float
             "The 1 of a Humanoid is left out.": -1.0,
             "A Humanoid gets 1 in version 5, not 2.": 1.0,
             "A Humanoid gets its 1 in every step, fallen or not.": (v0["alive"] > 0) - 1.0,
+            "A Humanoid gets 1 in every step here, not the alive bonus of version 0 (2 or -1).": v0[
+                "alive"
+            ]
+            - 1.0,
+            "A Humanoid gets 1 in every step here, not 1 or -1.": np.sign(v0["alive"]) - 1.0,
+            "Beyond is a cost: subtract it.": 20 * beyond,
+            "The heading is a cost: subtract it.": 0.2 * heading**2,
+            "Beyond is max(0, |position| - 1): the max is left out.": 10
+            * (beyond - (np.abs(one["positions"]) - 1).sum(axis=1)),
+            "Beyond is |position| - 1, how far past the limit, not the whole position.": -10
+            * (past > 0).sum(axis=1),
+            "Beyond is squared: take it as it is.": 10 * (beyond - (past**2).sum(axis=1)),
+            "The factor of beyond is 10, not 0.1.": 9.9 * beyond,
             "Beyond is left out.": 10 * beyond,
             "Beyond is the sum over the joints, not the largest.": 10 * (beyond - past.max(axis=1)),
             "Beyond is the sum over the joints, not their mean.": 10 * (beyond - past.mean(axis=1)),
@@ -465,10 +730,36 @@ def compare_v5(student: Student, one: dict, wanted: np.ndarray, tolerance: float
             "The square of the heading costs 0.1 times it.": -0.9 * heading**2,
             "The pitch is taken for the heading.": 0.1 * (heading**2 - one["pitch"] ** 2),
         }
+    changes |= {
+        "Progress is left out.": -v0["progress"],
+        "Progress counts twice.": v0["progress"],
+        "Progress has the wrong sign.": -2 * v0["progress"],
+        "Joints at their limits count twice.": limits,
+    }
     mistakes = {text: wanted + change for text, change in changes.items()}
+    for (one_text, change), (text, other) in combinations(changes.items(), 2):
+        mistakes.setdefault(f"{one_text} {text}", wanted + change + other)
+    mistakes["The reward is for each step, an array of T numbers; this is the sum."] = wanted.sum()
+    mistakes["The reward is for each step; these are sums up to each step."] = np.cumsum(wanted)
     lasting = f", 'duration': {one['duration']:.4g}" if one["duration"] != 0.0165 else ""
     said = student.said = f"reward_v5(a trajectory of a {one['robot']}{lasting})"
-    expect_close(said, answer, wanted, tolerance, mistakes)
+    why = partial(why_v5, one) if tolerance < 1e-5 else None
+    expect_close(said, answer, wanted, tolerance, mistakes, why)
+
+
+def why_v5(one: dict, t: int) -> str:
+    """The terms of the reward of step t."""
+    v0, positions = expected_v0(one), np.abs(one["positions"][t])
+    terms = [f"progress {v0['progress'][t]:.5g}"]
+    if one["robot"] == "Ant":
+        terms.append(f"0.01 - 0.01 * mean squared action {np.mean(one['actions'][t] ** 2):.5g}")
+    if one["robot"] == "Humanoid":
+        beyond = np.maximum(positions - 1, 0).sum()
+        terms.append(f"1 - 10 * beyond {beyond:.5g} - 0.1 * heading {one['heading'][t]:.5g}^2")
+    if one["robot"] not in ("Hopper", "Walker2D"):
+        terms.append(f"joints at limit {v0['joints_at_limit'][t]:.3g}")
+    nothing = " alone" if len(terms) == 1 else ""
+    return f"The {one['robot']}'s reward of step {t} is {' + '.join(terms)}{nothing}."
 
 
 @evolved.check(4)
@@ -560,14 +851,67 @@ def rebuilds_version_0_of_planar_runners(student: Student):
                 "progress": wanted["progress"] * one["duration"] / 0.0165
             },
         }
+        for text, alive in mistaken_falls(one).items():
+            mistakes[text] = {"alive": alive}
         answer = call_planar(student, one)
-        if isinstance(answer, dict):
-            told = of_row(
-                answer.get("alive"), wanted["alive"], lambda t, got, o=one: why_paid(o, t)
-            )
-            mistakes |= {text: {"alive": made} for text, made in told.items()}
-        compare_fields(student.said, answer, wanted, 1e-7, mistakes)
+        why = {
+            "alive": partial(why_paid, one),
+            "effort": lambda t, one=one, price=price: (
+                f"In step {t} the squares of the actions "
+                f"{np.round(one['actions'][t], 4).tolist()} are added up, times -{price}."
+            ),
+        }
+        compare_fields(student.said, answer, wanted, 1e-7, mistakes, why)
         expect_no_other(student.said, answer, wanted)
+
+
+def mistaken_falls(one: dict) -> dict:
+    """What slips make of a planar runner's bonus: sentence -> array."""
+    robot, height, pitch = one["robot"], one["height"], np.abs(one["pitch"])
+    steep = {"PlanarHopper": 0.2, "PlanarWalker2D": 1.0}.get(robot, np.inf)
+    low, high = {"PlanarHopper": (0.7, np.inf), "PlanarWalker2D": (0.8, 2.0)}.get(robot, (0, 0))
+    stands = {
+        "A PlanarHalfCheetah gets no bonus: 0 in each step.": np.ones(len(height)),
+        "A PlanarHalfCheetah gets no bonus, and its pitch does not matter.": pitch < 1,
+        "The limits of PyBullet's robots are used: planar runners have limits of their own.": (
+            height > 0.8
+        )
+        & (pitch < 1),
+    }
+    if robot != "PlanarHalfCheetah":
+        tall, up = (height > low) & (height < high), pitch < steep
+        stands = {
+            "The limits of PyBullet's robots are used: planar runners have limits of their own.":
+            (height > 0.8) & (pitch < 1),
+            "The limits of PlanarHopper and PlanarWalker2D are exchanged.":
+            (height > 0.8) & (height < 2) & (pitch < 1) if steep < 1
+            else (height > 0.7) & (pitch < 0.2),
+            "The pitch is left out.": tall,
+            "The height is left out.": up,
+            "A runner that leans back is forgotten: abs(pitch).": tall & (one["pitch"] < steep),
+            f"A {robot} has a highest height, too: below {high}.": (height > low) & up,
+            f"The lowest height of a {robot} is left out: above {low}.": (height < high) & up,
+            "The pitch is in radians: no conversion is needed.": tall & (np.radians(pitch) < steep),
+            "The limits belong to the fallen: compare with `<` and `>`, not `<=` and `>=`.":
+            (height >= low) & (height <= high) & (pitch <= steep),
+            "One condition is enough to fall: join them by and, not by or.": tall | up,
+            "Each step has the bonus of the step before: judge by the heights after the step.":
+            np.append(True, (tall & up)[:-1]),
+            "Each step has the bonus of the step after.": np.append((tall & up)[1:], True),
+            "A runner that has fallen once counts as fallen ever after: judge each step by itself.":
+            np.logical_and.accumulate(tall & up),
+            "The comparison is the wrong way round: the fallen get the bonus.": ~(tall & up),
+        }  # fmt: skip
+    right = expected_planar(one)["alive"] > 0
+    return slips(
+        lambda stands, paid: np.where(stands, *paid),
+        stands={"": right, **stands},
+        paid={
+            "": (1.0, 0.0),
+            "The fallen get 0 here, not -1.": (1.0, -1.0),
+            "The bonus is 1, not 2.": (2.0, 0.0),
+        },
+    )
 
 
 @described.check(3)
@@ -664,7 +1008,23 @@ def compare_gait(student: Student, one: dict) -> None:
         text: {key: value} for key, pairs in mistaken_gait(one).items() for text, value in pairs
     }
     said = f"gait(a trajectory of a {one['robot']})"
-    compare_fields(said, answer, wanted, 1e-7, mistakes)
+    why = {key: partial(why_gait, one, wanted, key) for key in wanted}
+    compare_fields(said, answer, wanted, 1e-7, mistakes, why)
+
+
+def why_gait(one: dict, wanted: dict, key: str) -> str:
+    """How a number of the gait is made."""
+    distance, v0, steps = one["distance"], expected_planar(one), len(one["height"])
+    moved = v0["progress"][v0["progress"] > 0].sum()
+    return {
+        "metres": f"The target is {distance[0]:.7g} m away at first, {distance[-1]:.7g} at last.",
+        "seconds": f"There are {steps} steps of {one['duration']:g} s.",
+        "speed": f"These are {wanted['metres']:.5g} m in {wanted['seconds']:.5g} s.",
+        "standing": f"The bonuses add up to {v0['alive'].sum():g}, the progress of the steps "
+        f"forward to {moved:.5g}.",
+        "grounded": f"In {int(one['feet'].max(axis=1).sum())} of {steps} steps a foot touches "
+        "the ground.",
+    }[key]
 
 
 @described.check(7)
@@ -683,7 +1043,8 @@ def earns_nothing(student: Student, robot: str) -> None:
     one = made_up_planar(robot, 63)
     one["distance"] = 1000 + np.cumsum(np.full(41, 0.01))
     compare_gait(student, one)
-    compare_gait(student, {**one, "height": np.full(40, 0.3)})
+    other = made_up_planar(robot, 68)  # other feet: a wrong share that fits both is no chance
+    compare_gait(student, {**one, "height": np.full(40, 0.3), "feet": other["feet"]})
 
 
 # ------------------------------------------------------------------- 9.6
@@ -716,32 +1077,64 @@ def mistaken_means(runner, rows: np.ndarray, seed: int, episodes: int) -> dict:
     """What mistakes make of the mean gaits."""
     from botschool.course.locomotion import Runner
 
-    in_v0 = Runner("PlanarHalfCheetah-v0")
-    wanted = mean_gaits(runner, rows, seed, episodes)
-    first, last = (mean_gaits(runner, rows, seed + i, 1) for i in (0, episodes - 1))
-    run_on = [
-        mean_gaits(runner, rows[i : i + 1], seed + i * episodes, episodes) for i in range(len(rows))
-    ]
+    runners = {"v5": runner, "v0": Runner("PlanarHalfCheetah-v0")}
+
+    @cache
+    def one(i: int, at: int, version: str = "v5") -> dict:
+        return expected_gait(runners[version].record(rows[i], at))
+
+    def table(seeds, mean=np.mean, version="v5") -> dict:
+        """The means over the seeds(number of the row)."""
+        found = [[one(i, at, version) for at in seeds(i)] for i in range(len(rows))]
+        return {
+            name: np.array([mean([each[name] for each in gaits]) for gaits in found])
+            for name in found[0][0]
+        }
+
+    def usual(_) -> range:
+        return range(seed, seed + episodes)
+
+    wanted, apart = table(usual), [table(lambda _, at=at: [at]) for at in usual(0)]
     return {
-        "All are to be recorded in version 5.": mean_gaits(in_v0, rows, seed, episodes),
-        "Only the first episode counts.": first,
-        "Only the last episode counts.": last,
-        "The first episode has the seed itself, not the next one.": mean_gaits(
-            runner, rows, seed + 1, episodes
+        "All are to be recorded in version 5.": table(usual, version="v0"),
+        "Only the first episode counts: episode i is to have seed + i.": apart[0],
+        "Only the last episode counts.": apart[-1],
+        "The first episode has the seed itself, not the next one.": table(
+            lambda _: range(seed + 1, seed + episodes + 1)
         ),
-        "There is one episode too many.": mean_gaits(runner, rows, seed, episodes + 1),
-        "Each row begins anew with the same seed: yours runs on from row to row.": {
-            name: np.concatenate([each[name] for each in run_on]) for name in wanted
+        "There is one episode too many.": table(lambda _: range(seed, seed + episodes + 1)),
+        "There is one episode too few.": table(lambda _: range(seed, seed + max(1, episodes - 1))),
+        "Episode i has the seed seed + i, not seed * i.": table(
+            lambda _: [seed * i for i in range(episodes)]
+        ),
+        "Episode i has the seed seed + i, not i.": table(lambda _: range(episodes)),
+        "Each row begins anew with the same seed: yours runs on from row to row.": table(
+            lambda i: range(seed + i * episodes, seed + (i + 1) * episodes)
+        ),
+        "Each row begins anew with the same seed: yours adds the number of the row.": table(
+            lambda i: range(seed + i, seed + i + episodes)
+        ),
+        **{
+            f"This is the {word} over the episodes, not their mean.": table(usual, function)
+            for word, function in (("median", np.median), ("highest", np.max), ("lowest", np.min),
+                                   ("last", lambda found: found[-1]), ("deviation", np.std))
         },
         "Each row has a number of its own, the mean over its episodes: this is the mean over "
         "all rows.": {name: np.full(len(rows), np.mean(wanted[name])) for name in wanted},
-        "This is the median over the episodes, not their mean.": mean_gaits(
-            runner, rows, seed, episodes, np.median
-        ),
+        "Each row has a number of its own: this is one number, the mean over all rows.": {
+            name: np.mean(wanted[name]) for name in wanted
+        },
+        "Each row has a number of its own, the mean over its episodes: this has one for each "
+        "episode, the mean over the rows.": {
+            name: np.array([np.mean(each[name]) for each in apart]) for name in wanted
+        },
+        "The mean over the episodes is missing: each row has a number for each episode.": {
+            name: np.array([each[name] for each in apart]).T for name in wanted
+        },
         "These are the sums over the episodes, not their means.": {
             name: episodes * wanted[name] for name in wanted
         },
-    }
+    }  # fmt: skip
 
 
 def same(found, name: str, wanted: np.ndarray) -> bool:
@@ -782,6 +1175,11 @@ def evolves_one(student: Student, robot: str, seeds: list[int], steps: int) -> N
     said, pair = student.said, expect_fields(student.said, answer, "v0", "v5")
     for version, genotypes in zip(("v0", "v5"), pair, strict=True):
         runner = Runner(f"{robot}-{version}")
+        expect(
+            np.shape(genotypes)[1:] != (Runner(f"PlanarHopper-{version}").size,)
+            or "Hopper" in robot,
+            f"{said}: {version} holds robots of a PlanarHopper: evolve the one asked for.",
+        )
         genotypes = expect_array(f"{said}: {version}", genotypes, (len(seeds), runner.size))
         for i, (seed, genotype) in enumerate(zip(seeds, genotypes, strict=True)):
             same = bool(np.array_equal(genotype, runner.evolve(steps, seed)))
