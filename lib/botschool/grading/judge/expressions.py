@@ -273,7 +273,7 @@ class Expressions:
             if isinstance(at, ast.Compare):
                 which = colon(self.quoted(at))
                 yield f"All values are used where a condition selects some{which}.", part.value
-            elif not isinstance(at, ast.Slice):
+            elif not isinstance(at, ast.Slice) and not _is_key(at):
                 yield "A whole array or list is used where one element of it belongs.", part.value
 
     # --- expressions that keep their place, and change inside
@@ -367,6 +367,10 @@ class Expressions:
 
 def colon(quoted: str) -> str:
     return f":{quoted}" if quoted else ""
+
+
+def _is_key(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and isinstance(node.value, str)
 
 
 def _is_module(node: ast.expr) -> bool:

@@ -127,8 +127,10 @@ def _grade_task(
                 look_for_causes(failures, again)
                 if told.startswith(VARIED) and any(failure.named for failure in failures):
                     told = ""  # the check's own sentence is written for the task
+            causes: set[str] = set()
             for at, failure in failed:
-                cause = "" if told else failure.cause
+                cause = "" if told or failure.cause in causes else failure.cause
+                causes.add(cause)
                 problems[at] = f"{failure.text}\n  {cause}" if cause else failure.text
             for at, failure in [pair for pair in failed if pair[1].told][:1]:
                 text = ""

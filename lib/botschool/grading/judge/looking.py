@@ -26,6 +26,8 @@ MAX_CASES = 50
 """Wrong answers of a task to look at."""
 INPUTS = 2
 """Different calls that must show the same cause before it is reported."""
+MANY = 5
+"""So many wrong values of yes and no, among right ones or of both kinds, prove a cause."""
 Check = Callable[[Student], None]
 _DIGITS = re.compile(r"[-+]?\d[\d.e+-]*")
 
@@ -112,7 +114,7 @@ def look_for_causes(failures: list[Failure], student: Student) -> None:
             failure.text, failure.direct = case.text, case.direct
             failure.shown = bool(case.pasted) and case.pasted in case.text
             failure.pasted = "" if failure.shown else case.pasted
-            common = _common(own)
+            common = _common(own, cases)
             enough = any(each.certain for each in own) or len({c.request for c in own}) >= INPUTS
             if common and enough:
                 failure.cause, failure.named = common, True
@@ -120,11 +122,27 @@ def look_for_causes(failures: list[Failure], student: Student) -> None:
                 failure.cause, failure.named = case.cause, case.cause in case.named
 
 
-def _common(cases: list[Case]) -> str:
-    """Return the first sentence of a check that explains all its wrong answers, or ""."""
+def _common(own: list[Case], cases: list[Case]) -> str:
+    """Return a sentence of a check that explains all its wrong answers, or "".
+
+    own: the check's cases. Of several sentences, the one that explains most of all cases comes
+    first.
+    """
     said = [{_DIGITS.sub("", text) for text in case.named} for case in cases]
-    fit = (text for text in cases[0].named if all(_DIGITS.sub("", text) in each for each in said))
-    return next(fit, "")
+    mine = [names for case, names in zip(cases, said, strict=True) if case.check is own[0].check]
+
+    def explained(text: str) -> int:
+        return sum(_DIGITS.sub("", text) in names for names in said)
+
+    fit = [text for text in own[0].named if all(_DIGITS.sub("", text) in each for each in mine)]
+    return max(fit, key=explained, default="")
+
+
+def _certain(got: np.ndarray, wanted: np.ndarray) -> bool:
+    """Return whether one array is enough to prove a check's own sentence that explains it."""
+    if Comparison(got, wanted).varied > 2:
+        return True
+    return got.shape == wanted.shape and np.sum(got != wanted) >= MANY and len(np.unique(got)) > 1
 
 
 def _cases(checks: list[Check], student: Student) -> list[Case]:
@@ -134,7 +152,7 @@ def _cases(checks: list[Check], student: Student) -> list[Case]:
         options = student.request.get("options", {}).values()
         given = (*student.request.get("arguments", ()), *options)
         cause = diagnose(error.got, error.wanted, given, student.answer, error.mistakes)
-        certain = cause in error.mistakes and Comparison(error.got, error.wanted).varied > 2
+        certain = cause in error.mistakes and _certain(error.got, error.wanted)
         request = pack({key: student.request[key] for key in ("name", "arguments")})
         if len(found) < MAX_CASES:
             text, pasted, direct = str(error), student.pasted, student.direct
