@@ -800,6 +800,8 @@ def departure(seeds: list, seen: list, seed: int, right: list, *_: int) -> str:
                 )
         before = right[g - 1][:2].mean(axis=0)
         ratio = (own_centre - before) / np.where(centre == before, np.nan, centre - before)
+        if np.ptp(ratio) < 1e-4 and ratio[0] < 0:
+            return f"The step of generation {g - 1} goes the wrong way: fitness is to rise."
         if np.ptp(ratio) < 1e-4:
             return (
                 f"The step of generation {g - 1} is {ratio[0]:.4g} times as long as it should be: "
@@ -812,8 +814,8 @@ def departure(seeds: list, seen: list, seed: int, right: list, *_: int) -> str:
     if len(seen) != len(right):
         return f"evaluate is called {len(seen)} times, but there are {len(right)} generations."
     return (
-        "All candidates and seeds are right, but not what is kept of them: history[g] is the mean "
-        "fitness of generation g alone, and the centre is the one after the last step."
+        "All candidates and seeds are right. history[g] is the mean fitness of generation g alone, "
+        "and the centre is the one after the last step."
     )
 
 

@@ -1121,6 +1121,12 @@ def mistaken_means(runner, rows: np.ndarray, seed: int, episodes: int) -> dict:
         },
         "Each row has a number of its own, the mean over its episodes: this is the mean over "
         "all rows.": {name: np.full(len(rows), np.mean(wanted[name])) for name in wanted},
+        "Each row is another robot: these are the numbers of the first one again.": {
+            name: np.full(len(rows), wanted[name][0]) for name in wanted
+        },
+        "Each row is another robot: these are the numbers of the last one again.": {
+            name: np.full(len(rows), wanted[name][-1]) for name in wanted
+        },
         "Each row has a number of its own: this is one number, the mean over all rows.": {
             name: np.mean(wanted[name]) for name in wanted
         },
