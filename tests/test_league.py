@@ -110,7 +110,10 @@ def spoiled(path, **arrays):
         ({"name": 5}, "no name or experiment as text"),
         ({"name": np.array([{}], dtype=object)}, "damaged"),
         ({"experiment": "{"}, "cannot be read"),
-        ({"experiment": '{"exp": {"environment": "os:system"}, "policy": {}}'}, "has no discipline"),
+        (
+            {"experiment": '{"exp": {"environment": "os:system"}, "policy": {}}'},
+            "has no discipline",
+        ),
         ({"genotype": np.zeros(3)}, "cannot play: The genotype has shape"),
         ({"genotype": np.array(["a"])}, "cannot play"),
         ({"genotype": np.zeros(600_000)}, "more than 4 MB"),
