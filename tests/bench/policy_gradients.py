@@ -70,7 +70,7 @@ def measured(env: str, seed: int) -> tuple[int, float, float, float]:
     return ppo.steps, seconds, last, ppo.play(range(10_000_000, 10_000_100))[0].mean()
 
 
-def compare_threads(env: str = "botschool/PlanarWalker2D-v5", updates: int = 60) -> None:
+def compare_threads(env: str, updates: int = 40) -> None:
     """Seconds of the wall with one thread and with two, taking turns."""
     seconds: dict[int, list[float]] = {1: [], 2: []}
     for _ in range(3):
@@ -87,7 +87,9 @@ def compare_threads(env: str = "botschool/PlanarWalker2D-v5", updates: int = 60)
 
 def main(names: list[str]) -> None:
     if names == ["threads"]:
-        compare_threads()
+        for env in GOALS:
+            if "Planar" in env:
+                compare_threads(env)
         return
     print("| problem | goal | steps | seconds of one core | reached | 100 new episodes |")
     print("|---|---|---|---|---|---|")
