@@ -1287,7 +1287,7 @@ def why_untrained(rows: np.ndarray, generations: list[tuple], size: int) -> str:
 
 def expect_mean(student: Student, environment: str, index: int, goal: float, what: str) -> None:
     """With one of three seeds the centre reaches the goal, over 100 episodes that are new to it."""
-    robot, means, tried = Robot(environment), [], []
+    robot, means, tried, luck = Robot(environment), [], [], 0
     size = robot.nbiases + robot.nweights
     signs = generator(index + 100).choice([-1.0, 1.0], size)
 
@@ -1315,6 +1315,7 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
         share, start = explained(generations, centre) if generations else (0.0, centre)
         # of CartPole's random centres, 4 of 100 can do it by luck: then another seed decides
         lucky = share > EXPLAINED and mean_of(signs * start) >= goal
+        luck += lucky
         if means[-1] >= goal and not lucky:
             break
     expect(
@@ -1324,7 +1325,7 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
         f"{why_untrained(rows, generations, size)}".rstrip(),
     )
     expect(
-        not lucky,
+        not lucky or luck > 1,
         f"{said}: the first centre can do it by luck, before any step, so this seed shows nothing. "
         f"With the three seeds {tried}, the means are {np.round(means, 1).tolist()}; {goal:g} is "
         f"asked for. {why_untrained(rows, generations, size)}",
@@ -1336,7 +1337,7 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
             "noiseStdDev * sample. Return a centre: the steps of the algorithm lead to it.",
         )
     expect(
-        share > EXPLAINED,
+        share > EXPLAINED and not lucky,
         f"{said}: the controller was found, but not by this algorithm: the gradients of the pairs "
         "of candidates that were evaluated do not lead to it from a centre that cannot do it yet.",
     )
