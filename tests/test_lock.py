@@ -3,6 +3,7 @@
 import errno
 import fcntl
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -135,7 +136,23 @@ def pressing_ctrl_c():
 COMMAND = Path(sysconfig.get_path("scripts")) / "botschool"
 
 
-def test_ctrl_c_while_python_starts():
+SHOWS = """#!{python}
+import signal, sys
+print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, []), sys.argv[1:2] + sys.argv[3:])
+"""
+
+
+def test_the_launcher_holds_ctrl_c_back_and_hands_all_words_on(tmp_path):
+    shutil.copy(COMMAND, tmp_path / "botschool")
+    beside = tmp_path / f"python{sys.version_info[0]}.{sys.version_info[1]}"
+    beside.write_text(SHOWS.format(python=sys.executable))
+    beside.chmod(0o755)
+    words = ["es", "two words", "", '"quoted"']
+    done = subprocess.run([tmp_path / "botschool", *words], capture_output=True, text=True)
+    assert done.stdout == f"True {['-c', *words]}\n"
+
+
+def test_ctrl_c_that_waits_is_answered_by_main():
     done = subprocess.run(
         [COMMAND, "--version"], capture_output=True, text=True, preexec_fn=pressing_ctrl_c
     )

@@ -274,12 +274,13 @@ install_wheel() {
     install botschool
 }
 
-# Compiles and puts the module where it is imported from, without asking pip.
+# Compiles and puts the module where it is imported from, and the command beside Python, without asking pip.
 recompile() {
-    PATH="$PWD/.venv/bin:$PATH" cmake --build build/editable --target _core &&
-        PATH="$PWD/.venv/bin:$PATH" cmake --install build/editable --strip --prefix "$PWD/build/installed" &&
+    PATH="$PWD/.venv/bin:$PATH" cmake --build build/editable --target _core launcher &&
+        PATH="$PWD/.venv/bin:$PATH" cmake --install build/editable --strip --component module --prefix "$PWD/build/installed" &&
         place=$("$python" -c 'import sysconfig; print(sysconfig.get_path("platlib"))') &&
-        mv -f build/installed/botschool/_core* "$place/botschool/"
+        mv -f build/installed/botschool/_core* "$place/botschool/" &&
+        cp build/editable/botschool build/installed/launcher && mv -f build/installed/launcher .venv/bin/botschool
 }
 
 # The extras of pyproject.toml that an exercise (3, or a task of it, 3.2) needs: its grader says extras=("NAME",).

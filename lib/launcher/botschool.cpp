@@ -78,19 +78,19 @@ int main(int argc, char** argv) {
   sigprocmask(SIG_BLOCK, &ctrl_c, nullptr);
 
   // `pip install --user` has no Python beside its commands.
+  std::string name = BOTSCHOOL_PYTHON, option = "-c", program = PROGRAM;
   std::vector<std::string> pythons;
   for (const std::string& folder :
        {own_folder(), std::string("/usr/bin/"), std::string("/usr/local/bin/")})
-    pythons.push_back(folder + BOTSCHOOL_PYTHON);
-  std::string option = "-c", program = PROGRAM;
+    pythons.push_back(folder + name);
   std::vector<char*> words{nullptr, option.data(), program.data()};
   words.insert(words.end(), argv + (argc > 0), argv + argc + 1);
   for (std::string& python : pythons) {
     words[0] = python.data();
     execv(words[0], words.data());
   }
-  words[0] = pythons.back().data();
-  execvp(BOTSCHOOL_PYTHON, words.data());
+  words[0] = name.data();  // without a folder, by which Python would look for its library
+  execvp(words[0], words.data());
   std::fprintf(stderr, "error: botschool was installed for %s, and there is none.\n",
                BOTSCHOOL_PYTHON);
   return 2;
