@@ -365,7 +365,6 @@ def starts_of_a_grid(student: Student):
 
 # ------------------------------------------------------------------- 6.4
 behaviour = exercise.task("6.4", "A behaviour in six numbers")
-NEAR = 100.0
 
 
 EDGES = np.array(

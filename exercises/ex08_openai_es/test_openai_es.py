@@ -1268,7 +1268,7 @@ def expect_other_beginning(said: str, seed: int, first: np.ndarray, other: np.nd
     )
 
 
-def why_untrained(rows: np.ndarray, generations: list[tuple], size: int) -> str:
+def why_untrained(rows: np.ndarray, generations: list[tuple]) -> str:
     """What to change about a training that does not reach the goal; "" if nothing is plain."""
     if not len(rows):
         return "robot.evaluate was never called: nothing is evolved."
@@ -1322,13 +1322,13 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
         means[-1] >= goal,
         f"{said}: the controller {what.format(means[-1])} on average over 100 new episodes, but "
         f"{goal:g} is asked for; 0 of the 3 seeds {tried} passed. "
-        f"{why_untrained(rows, generations, size)}".rstrip(),
+        f"{why_untrained(rows, generations)}".rstrip(),
     )
     expect(
         not lucky or luck > 1,
         f"{said}: the first centre can do it by luck, before any step, so this seed shows nothing. "
         f"With the three seeds {tried}, the means are {np.round(means, 1).tolist()}; {goal:g} is "
-        f"asked for. {why_untrained(rows, generations, size)}",
+        f"asked for. {why_untrained(rows, generations)}",
     )
     if generations:
         expect(
