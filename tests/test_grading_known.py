@@ -134,6 +134,60 @@ def test_one_input_is_not_enough(messages):
     assert TOLD not in messages(RIGHT + BY_N, same)[0]
 
 
+def test_where_an_answer_raises_the_mistake_must_be_wrong(messages):
+    """Two wrong answers prove it; the third call raises, and by_n is wrong there, too."""
+    inputs = ((1.0, 2.0, 4.0), (3.0, 9.0, 1.0, 2.0), (1.0, 2.0, 3.0, 4.0, 9.0))
+    text = RIGHT + BY_N.replace(
+        "return float", "\n    if len(x) == 5: raise ValueError('five')\n    return float"
+    )
+    assert messages(text, declared(inputs))[0].startswith(TOLD)
+    same = (*inputs[:2], (2.0,) * 5)  # by_n is right there
+    assert TOLD not in messages(text, declared(same))[0]
+    assert TOLD not in messages(text, declared(inputs[1:]))[0], "a single answer proves nothing"
+
+
+def test_a_mistake_that_raises_the_same_is_proof(messages):
+    raising = (
+        MISTAKES
+        + """
+
+# %% no_root_of_five loses 3.1
+# Five values are too many.
+def spread(values):
+    if len(values) == 5:
+        raise ValueError("five")
+    return float(np.std(values)) if len(values) == 3 else float(np.std(values, ddof=1))
+"""
+    )
+    inputs = ((1.0, 2.0, 4.0), (3.0, 9.0, 1.0, 2.0), (1.0, 2.0, 3.0, 4.0, 9.0))
+    text = (
+        RIGHT
+        + """
+def spread(x):
+    if len(x) > 4:
+        raise ValueError({said!r})
+    return float(np.std(x, ddof=0 if len(x) < 4 else 1))
+"""
+    )
+    told = f"{TOLD} Five values are too many."
+    assert messages(text.format(said="five"), declared(inputs, raising))[0].startswith(told)
+    assert TOLD not in messages(text.format(said="six"), declared(inputs, raising))[0]
+    assert TOLD not in messages(text.format(said="five"), declared(inputs[1:], raising))[0]
+
+
+def test_a_function_that_is_not_done_hides_no_mistake_of_another(messages):
+    """Task 3.1 has two functions here; one of them is not written yet."""
+    exercise = declared()
+    first = exercise.tasks[0]
+
+    @first.check(1)
+    def walks_too(student):
+        expect(student.run(steps, 3, 1.5) == [0, 1.5, 3], "walk: not the steps")
+
+    undone = "import numpy as np\ndef walk(step, many): raise NotImplementedError('task 3.2')\n"
+    assert messages(undone + BY_N, exercise)[0].startswith(TOLD)
+
+
 def test_right_answers_start_no_trial(messages, monkeypatch):
     monkeypatch.setattr(replay, "_calls", None)
     right = RIGHT + BY_N.replace("len(x)", "(len(x) - 1)")

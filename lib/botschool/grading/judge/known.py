@@ -2,9 +2,11 @@
 
 The result never changes the points. The checks run on our solution in a confined child; its calls
 are repeated on the submission and on each known mistake. A mistake is reported if all its answers
-equal the submission's and at least two of them, to different calls, differ from ours. If no mistake
-fits, the same is tried with our solution with one slip in it (variations.py), and then with right
-solutions in other styles with one slip.
+equal the submission's and at least two of them, to different calls, differ from ours. Where the
+submission raises an exception, the mistake must be wrong, too; it is proof if it raises the same.
+Calls of functions that are not done yet do not count. If no mistake fits, the same is tried with
+our solution with one slip in it (variations.py), and then with right solutions in other styles with
+one slip.
 """
 
 from __future__ import annotations
@@ -46,6 +48,8 @@ INPUTS, COUNTS = 2, 4
 """Smallest number of different calls that must point to a mistake; the second is for slips if all
 answers are small whole numbers.
 """
+NOT_DONE = ("NotImplementedError", "Missing")
+"""Exceptions of functions that are not done yet."""
 Check = Callable[[Student], None]
 
 
@@ -82,8 +86,7 @@ def known_mistake(
         try:
             ours = Student(file, TOTAL, task.memory, server, True, refused=task.refused)
             calls = _calls(ours, checks)
-            for call in calls:
-                call.got = submission.ask(unpack(call.request))
+            calls = [call for call in calls if _answered(submission, call)]
             if not _tells(calls, [call.got for call in calls]):
                 return ""
             for what, text in _likely_first(ours, cases, known.solution, calls):
@@ -112,6 +115,29 @@ def _calls(ours: Student, checks: Iterable[Check]) -> list[Call]:
     return [Call(request, unpack(answer)) for request, answer in found]
 
 
+def _answered(submission: Student, call: Call) -> bool:
+    """Store the submission's answer to a call; return False if that function is not done yet."""
+    try:
+        call.got = submission.ask(unpack(call.request))
+    except Wrong:
+        if not submission.raised:
+            raise
+        call.got = submission.raised
+    return not _raised(call.got) or call.got["raised"] not in NOT_DONE
+
+
+def _raised(answer: Any) -> bool:
+    """Return whether an answer stands for an exception."""
+    return isinstance(answer, dict) and answer.keys() == {"raised", "text"}
+
+
+def _agrees(call: Call, made: Any) -> bool:
+    """Return whether an answer equals the submission's; any wrong one agrees with an exception."""
+    if _raised(call.got):
+        return made == call.got if _raised(made) else distance(made, call.ours) > TIE
+    return fits(call.got, made, call.ours)
+
+
 def _changed(case: Case, solution: str) -> str:
     """Return the text of a mistake; "" if it no longer fits the solution."""
     try:
@@ -132,14 +158,19 @@ def _likely_first(
 
 
 def _telling(calls: list[Call]) -> Call:
-    """Return the call with the shortest request among those whose answers are wrong."""
-    return min(calls, key=lambda c: (distance(c.got, c.ours) <= TIE, len(c.request)))
+    """Return the call with the shortest request among those whose answers are wrong.
+
+    An exception comes after other wrong answers, because many mistakes raise it.
+    """
+    return min(
+        calls, key=lambda c: (distance(c.got, c.ours) <= TIE, _raised(c.got), len(c.request))
+    )
 
 
 def _near(ours: Student, texts: list[str], call: Call, seconds: float, said: str) -> list[bool]:
     """Return which texts answer a call as the submission does."""
     made = ours.run(tried, texts, unpack(call.request), seconds, said=said)
-    return [bool(answers) and fits(call.got, answers[0], call.ours) for answers in made]
+    return [bool(answers) and _agrees(call, answers[0]) for answers in made]
 
 
 def _explains(ours: Student, text: str, calls: list[Call]) -> bool:
@@ -155,7 +186,7 @@ def _explains(ours: Student, text: str, calls: list[Call]) -> bool:
             if ours.seconds_left <= 0:
                 raise
             return False
-        if not all(fits(c.got, each, c.ours) for c, each in zip(calls, made, strict=False)):
+        if not all(_agrees(call, each) for call, each in zip(calls, made, strict=False)):
             return False
     return _tells(calls, made)
 
@@ -184,6 +215,7 @@ def tried(module, texts, request, seconds):
     import types
 
     from botschool.sandbox.child import run
+    from botschool.sandbox.exceptions import MAX_TEXT
     from botschool.sandbox.protocol import pack
 
     class TooLong(BaseException):
@@ -203,7 +235,10 @@ def tried(module, texts, request, seconds):
         try:
             signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
             exec(compile(text, module.__file__, "exec"), vars(other))
-            answer = [run(other, copy.deepcopy(request))]
+            try:
+                answer = [run(other, copy.deepcopy(request))]
+            except Exception as error:
+                answer = [{"raised": type(error).__name__, "text": str(error)[:MAX_TEXT]}]
             signal.setitimer(signal.ITIMER_VIRTUAL, 0)
             pack(answer)
         except BaseException:
@@ -222,17 +257,32 @@ def answered(module, text, requests):
     import types
 
     from botschool.sandbox.child import run
+    from botschool.sandbox.exceptions import MAX_TEXT
+
+    def answer(request):
+        try:
+            return run(other, request)
+        except Exception as error:
+            return {"raised": type(error).__name__, "text": str(error)[:MAX_TEXT]}
 
     other = types.ModuleType("student")
     other.__file__ = module.__file__
     sys.modules["student"] = other
     exec(compile(text, module.__file__, "exec"), vars(other))
-    return [run(other, request) for request in requests]
+    return [answer(request) for request in requests]
 
 
 def _tells(calls: list[Call], answers: list[Any]) -> bool:
-    """Return whether answers that fit the submission's prove a mistake, on enough inputs."""
+    """Return whether answers that fit the submission's prove a mistake, on enough inputs.
+
+    Exceptions alone are half as much proof, because many mistakes raise them.
+    """
     told: dict[bytes, float] = {}
     for call, answer in zip(calls, answers, strict=True):
-        told[call.request] = max(told.get(call.request, 0.0), weight(call.got, answer, call.ours))
-    return sum(told.values()) >= INPUTS
+        proof = weight(call.got, answer, call.ours)
+        if _raised(call.got) and not (_raised(answer) and answer == call.got):
+            proof = 0.0
+        told[call.request] = max(told.get(call.request, 0.0), proof)
+    raised = {call.request for call in calls if _raised(call.got)}
+    only = not any(proof for request, proof in told.items() if request not in raised)
+    return sum(told.values()) / (2 if only else 1) >= INPUTS

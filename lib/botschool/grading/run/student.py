@@ -75,6 +75,8 @@ class Student:
         """The last function call as a request, also one that a driver made; else {}."""
         self.answer: Any = None
         """The answer to the last request."""
+        self.raised: dict[str, str] = {}
+        """What the last request raised, "raised" and "text" of the exception; else {}."""
         self.changed = ""
         """A sentence on the first call that changed an array, list or dict of its caller."""
         self.trace: list[tuple[bytes, bytes]] | None = None
@@ -171,7 +173,7 @@ class Student:
         self._scratch.remove()
 
     def _request(self, request: dict[str, Any]) -> Any:
-        self.request, self.answer = request, None
+        self.request, self.answer, self.raised = request, None, {}
         if self.seconds_left <= 0:
             raise Wrong("the task's time was used up by the checks before.")
         first = self._child is None
@@ -206,6 +208,7 @@ class Student:
         self.answers += 1
         self._blame_the_machine_for_a_full_disk(answer)
         if "error" in answer:
+            self.raised = {"raised": str(answer["error"]), "text": str(answer.get("text"))}
             raise explained(answer, self.said, self._source)
         if "value" not in answer:
             raise Wrong(f"{self.said} sent back something that is not plain data.")
