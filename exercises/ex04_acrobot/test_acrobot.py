@@ -210,14 +210,16 @@ popsize = 6
 
 
 def replicate(module, text, seeds, folder, steps):
-    """Writes the experiment file, then runs the student's function."""
+    """Writes the experiment file, then runs the student's function; also lists what it writes."""
     import pathlib
+    import time
 
     pathlib.Path("trial.ini").write_text(text)
-    given = list(seeds)
+    given, start = list(seeds), time.time() - 0.01
     fitness = module.run_replications("trial.ini", given, folder, steps)
     pairs = list(map(list, fitness.items())) if isinstance(fitness, dict) else fitness
-    return [pairs, given]
+    files = pathlib.Path().rglob("stat*.npy")
+    return [pairs, given, sorted(str(each) for each in files if each.stat().st_mtime >= start)[:1]]
 
 
 @lru_cache
@@ -251,11 +253,15 @@ class Trial:
         self.student, self.text, self.folder, self.steps = student, text, folder, steps
         low, high = sorted(secrets.randbelow(999_000) + 1 for _ in range(2))
         self.seeds = seeds or [high + 2, low]
-        self.answer, after = student.run(
+        report = student.run(
             replicate, text, self.seeds, folder, steps,
             said=f"run_replications('trial.ini', {self.seeds}, '{folder}', {steps})",
         )  # fmt: skip
         self.said = student.said
+        expect(isinstance(report, list) and len(report) == 3, f"{self.said} gave no answer.")
+        self.answer, after, made = report
+        self.missing = "was not written"
+        self.missing += f", but {made[0]} was." if made else "."
         expect(after == self.seeds, f"{self.said} changed the list of seeds: it is {after} now.")
 
     def expect_files(self, *kinds: str) -> None:
@@ -263,7 +269,7 @@ class Trial:
         for seed in self.seeds:
             wanted = files_of(self.text, seed, self.steps)
             for name in (f"{kind}S{seed}.npy" for kind in kinds):
-                array = load_array(self.student, f"{self.folder}/{name}")
+                array = load_array(self.student, f"{self.folder}/{name}", self.said, self.missing)
                 self._expect_same(f"{self.said}: {self.folder}/{name}", array, wanted[name])
             fit = self.student.scratch(f"{self.folder}/S{seed}.fit").read_bytes()
             expect(
@@ -285,15 +291,18 @@ class Trial:
         )
 
 
-def load_array(student: Student, name: str) -> np.ndarray:
+def load_array(student: Student, name: str, said: str, missing: str) -> np.ndarray:
     """An array that the submission has saved; nothing but numbers is read."""
-    path = student.scratch(name)
+    try:
+        path = student.scratch(name)
+    except Wrong:
+        raise Wrong(f"{said}: the file {name} {missing}") from None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return np.load(path, allow_pickle=False)
     except Exception:
-        raise Wrong(f"{student.said}: {name} is no file of numbers.") from None
+        raise Wrong(f"{said}: {name} is no file of numbers.") from None
 
 
 @replications.check(8)
@@ -316,7 +325,9 @@ def any_experiment_in_any_folder(student: Student):
 def tells_the_fitness_of_each_run(student: Student):
     """In a folder that exists and holds the files of other runs, which stay."""
     before = Trial(student, PENDULUM, "fitness", 8_000)
+    before.expect_files("stat")
     trial = Trial(student, ACROBOT, "fitness", 40_000)
+    before.said, before.missing = trial.said, "of an earlier run is gone: such files must stay."
     before.expect_files("stat", "best", "bestg")
     trial.expect_files("stat")
     pairs = trial.answer

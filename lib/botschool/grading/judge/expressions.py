@@ -85,6 +85,12 @@ class Expressions:
             return ""
         return f" `{text.strip('()') if isinstance(node, ast.Tuple) else text}`"
 
+    def about(self, test: ast.expr) -> str:
+        """Return a condition, or else its longest name with a dot that the text has."""
+        names = [self.quoted(each) for each in ast.walk(test) if isinstance(each, ast.Attribute)]
+        longest = max(names, key=len, default="")
+        return self.quoted(test) or (f" that asks for{longest}" if longest else "")
+
     def _named(self, node: ast.expr) -> str:
         """Return the name of a called function."""
         return node.attr if isinstance(node, ast.Attribute) else getattr(node, "id", "")
@@ -109,7 +115,7 @@ class Expressions:
                 about = colon(self.quoted(value))
                 yield f"One of several conditions is left out{about}.", kept
         elif isinstance(part, ast.IfExp):
-            yield f"The case{self.quoted(part.test)} is left out.", part.orelse
+            yield f"The case{self.about(part.test)} is left out.", part.orelse
             test = self.quoted(part.test) or " a condition"
             yield f"The case is left out in which{test} does not hold.", part.body
             yield (
@@ -135,7 +141,7 @@ class Expressions:
 
     def _operands(self, part: ast.BinOp) -> Iterator[tuple[str, ast.expr]]:
         left, right = _PARTS.get(type(part.op), ("", ""))
-        whole = f" in{said}" if (said := self.quoted(part)) else ""
+        whole = in_(self.quoted(part))
         if isinstance(part.op, (ast.Sub, ast.Div)):
             what = "A difference" if isinstance(part.op, ast.Sub) else "A fraction"
             yield f"{what} is the wrong way round.", ast.BinOp(part.right, part.op, part.left)
@@ -215,7 +221,7 @@ class Expressions:
 
     def _constants(self, part: ast.Constant) -> Iterator[tuple[str, ast.expr]]:
         value = part.value
-        said = self.quoted(part)
+        said = "" if value in range(-9, 10) else self.quoted(part)  # a text has these anywhere
         if isinstance(value, bool):
             yield f"{not value} stands where {value} belongs.", ast.Constant(not value)
         elif isinstance(value, int):
@@ -300,10 +306,10 @@ class Expressions:
         elif isinstance(part, ast.BinOp):
             for other in OTHER.get(type(part.op), ()):
                 signs = SIGNS[other], SIGNS[type(part.op)]
-                yield (
-                    f"`{signs[0]}` stands where `{signs[1]}` belongs.",
-                    Edit(part, "op", None, other()),
-                )
+                what = f"`{signs[0]}` stands where `{signs[1]}` belongs"
+                if {*signs} == {"+", "-"}:  # in a bracket with a minus sign it is the other one
+                    what = "`+` and `-` are taken for each other"
+                yield f"{what}{in_(self.quoted(part))}.", Edit(part, "op", None, other())
         elif isinstance(part, ast.BoolOp):
             other = ast.Or if isinstance(part.op, ast.And) else ast.And
             words = ("or", "and") if other is ast.Or else ("and", "or")
@@ -367,6 +373,10 @@ class Expressions:
 
 def colon(quoted: str) -> str:
     return f":{quoted}" if quoted else ""
+
+
+def in_(quoted: str) -> str:
+    return f" in{quoted}" if quoted else ""
 
 
 def _is_key(node: ast.expr) -> bool:

@@ -29,6 +29,7 @@ INPUTS = 2
 MANY = 5
 """So many wrong values of yes and no, among right ones or of both kinds, prove a cause."""
 Check = Callable[[Student], None]
+_CALL = re.compile(r"(\w+)\(")
 _DIGITS = re.compile(r"[-+]?\d[\d.e+-]*")
 
 
@@ -79,7 +80,15 @@ def failure_of(error: Wrong, check: Check, student: Student, seconds: float) -> 
     quick = answered and seconds < MAX_SECONDS
     failure = Failure(text, check, quick, student.request, pasted, answered)
     failure.direct, failure.shown = student.direct, bool(student.pasted) and not pasted
+    if _of_another(text, failure.direct):
+        failure.pasted, failure.direct = "", {}
     return failure
+
+
+def _of_another(text: str, direct: dict[str, Any]) -> bool:
+    """Return whether the last call is not the one with which a sentence begins."""
+    called = _CALL.match(text)
+    return bool(called and direct and called[1] != direct["name"])
 
 
 @dataclass
@@ -138,7 +147,9 @@ def _common(own: list[Case], cases: list[Case]) -> str:
     def explained(text: str) -> int:
         return sum(_DIGITS.sub("", text) in names for names in said)
 
-    fit = [text for text in own[0].named if all(_DIGITS.sub("", text) in each for each in mine)]
+    fit = [text for text in own[0].named if all(text in case.named for case in own)]
+    if not fit:  # a number in the sentence may follow from the case
+        fit = [text for text in own[0].named if all(_DIGITS.sub("", text) in each for each in mine)]
     return max(fit, key=explained, default="")
 
 
@@ -160,6 +171,8 @@ def _cases(checks: list[Check], student: Student) -> list[Case]:
         request = pack({key: student.request[key] for key in ("name", "arguments")})
         if len(found) < MAX_CASES:
             text, pasted, direct = str(error), student.pasted, student.direct
+            if _of_another(text, direct):
+                pasted, direct = "", {}
             named = fitting(error.got, error.wanted, error.mistakes)
             found.append(Case(check, text, request, pasted, cause, named, direct, certain))
 

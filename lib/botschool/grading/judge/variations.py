@@ -227,13 +227,13 @@ class _Slips:
                         [Edit(step, "op", None, other())],
                     )
             if isinstance(step, ast.If):
-                quoted = self._parts.quoted(step.test)
+                about = colon(self._parts.about(step.test))
                 yield (
-                    f"A case is left out{colon(quoted)}.",
+                    f"A case is left out{about}.",
                     [Edit(step, "test", None, ast.Constant(False))],
                 )
                 yield (
-                    f"A condition is left out{colon(quoted)}.",
+                    f"A condition is left out{about}.",
                     [Edit(step, "test", None, ast.Constant(True))],
                 )
             if isinstance(step, (ast.Break, ast.Continue)):
