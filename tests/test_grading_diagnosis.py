@@ -53,6 +53,11 @@ CASES = {
     "first missing": (lambda r: ((w := line(r))[1:], w), "first one is missing"),
     "other length": (lambda r: (line(r, 7), line(r, 6)), "it is one too many: an off-by-one"),
     "given back": (lambda r: (x := line(r), line(r), (3, x)), "argument as it was given"),
+    "cut too early": (
+        lambda r: ((x := line(r, 12))[2:6].copy(), x[5:9], (x,)), "begins 3 places too early"
+    ),
+    "cut too late": (lambda r: ((x := line(r, 9))[5:8], x[4:9], (x,)), "1 place too late"),
+    "cut at another end": (lambda r: ((x := line(r, 9))[2:8], x[2:6], (x,)), "but ends elsewhere"),
     "exchanged": (
         lambda r: ((a := with_ends(r))["terminated"], a["truncated"], (), a),
         "returned as 'truncated'",

@@ -89,6 +89,30 @@ def given_back(c: Comparison) -> str | None:
 
 
 @detector
+def cut_elsewhere(c: Comparison) -> str | None:
+    """Return a sentence if both are pieces of the same list of numbers, at different places."""
+    for row in c.given if c.wanted.ndim == c.got.ndim == 1 and c.varied > 2 else ():
+        if row.ndim == 1 and row.size > c.wanted.size:
+            right, wrong = _place(c.wanted, row), _place(c.got, row)
+            if len(right) == len(wrong) == 1 and len(np.unique(c.got)) > 2:
+                way = "early" if wrong[0] < right[0] else "late"
+                piece = f"This is the piece [{wrong[0]}:{wrong[0] + c.got.size}] of the argument"
+                by = abs(int(wrong[0] - right[0]))
+                if not by:
+                    return f"{piece}: it begins where it should, but ends elsewhere."
+                return f"{piece}: it begins {by} place{'s' * (by > 1)} too {way}."
+    return None
+
+
+def _place(piece: np.ndarray, row: np.ndarray) -> np.ndarray:
+    """Return where a list of numbers stands in a longer one."""
+    if not 0 < piece.size <= row.size:
+        return np.zeros(0, dtype=int)
+    windows = np.lib.stride_tricks.sliding_window_view(row, piece.size)
+    return np.flatnonzero((windows == piece).all(axis=1))
+
+
+@detector
 def exchanged(c: Comparison) -> str | None:
     """Return a sentence if the expected value stands in another place of the answer."""
     counted = c.wanted.ndim == 0 and c.wanted == np.round(c.wanted)  # perhaps equal by chance
