@@ -75,7 +75,8 @@ def _told(call: dict[str, Any], found: Student, ours: Student) -> str:
             right, got = ours.ask(simple), found.ask(simple)
         except Wrong:
             continue
-        if distance(got, right) > APART and _finite(got) and _finite(right):
+        tells = np.size(right) > 0 and _finite(got) and _finite(right)
+        if tells and distance(got, right) > APART:
             return _difference(text, got, right)
     return ""
 
@@ -102,7 +103,7 @@ def _difference(said: str, got: Any, right: Any) -> str:
         for place, (mine, wanted) in enumerate(zip(got, right, strict=True)):
             if distance(mine, wanted) > APART:
                 return _difference(f"{said}[{place}]", mine, wanted)
-    if not _of_parts(right):
+    if not _of_parts(right) and got is not None and right is not None:
         try:
             expect_close(said, got, right, APART)
         except Wrong as error:
