@@ -8,8 +8,8 @@ ones of data/genotypes and variations of them that nobody knows before.
 
 import secrets
 import tempfile
-from collections.abc import Iterator
-from functools import lru_cache
+from collections.abc import Callable, Iterator
+from functools import lru_cache, partial
 from itertools import permutations
 from pathlib import Path
 
@@ -18,7 +18,15 @@ import numpy as np
 from botschool import config
 from botschool.course import SavedRobot, genotype_file
 from botschool.evolution.run import Run, evolve
-from botschool.grading import Exercise, Student, expect, expect_array, expect_close, expect_fields
+from botschool.grading import (
+    Exercise,
+    Student,
+    expect,
+    expect_array,
+    expect_close,
+    expect_fields,
+    slips,
+)
 
 exercise = Exercise(
     5,
@@ -64,9 +72,9 @@ def answers(module, name, questions):
 
 
 def asked(student: Student, name: str, questions: np.ndarray) -> Iterator:
-    """Yield the student's answers; the first question is asked alone, then all others."""
+    """Yield the student's answers; the first two questions are asked alone, then all others."""
     said, found = f"{name}(parameters of a body)", []
-    for part in (questions[:1], questions[1:]):
+    for part in (questions[:1], questions[1:2], questions[2:]):
         call = (name, part[0]) if found else None
         given, after = student.run(answers, name, part, said=said, call=call)
         expect(isinstance(given, list) and len(given) == len(part), f"{said} gave no answers.")
@@ -109,11 +117,11 @@ def limits(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.minimum(one, other), np.maximum(one, other)
 
 
-def corners(p: np.ndarray, wide: float = 1.0, turns: float = 1.0) -> np.ndarray:
-    """Segment by segment, in complex numbers; wide and turns: 1, but for mistakes."""
+def corners(p: np.ndarray, wide: float = 1.0) -> np.ndarray:
+    """Segment by segment, in complex numbers; wide: 1, but for mistakes."""
     place, heading, found = 0j, 0.0, []
     for length, thickness, angle in zip(lengths(p), wide * thicknesses(p), angles(p), strict=True):
-        heading = turns * heading + angle
+        heading += angle
         along = length * np.exp(1j * heading)
         side = thickness / 2 * np.exp(1j * (heading + np.pi / 2))
         found.append([place - side, place + along - side, place + along + side, place + side])
@@ -121,129 +129,356 @@ def corners(p: np.ndarray, wide: float = 1.0, turns: float = 1.0) -> np.ndarray:
     return np.stack([np.real(found), np.imag(found)], axis=2)
 
 
+# ------------------------------------------------------------------- what slips make of the parts
 def cut(p: np.ndarray) -> np.ndarray:
     return p.clip(-1, 1)
 
 
-def of_sizes(first: int, nominal: float) -> dict:
-    """Mistakes with lengths (first: 0) or thicknesses (1)."""
-    own, other = slice(first, 22, 2), slice(1 - first, 22, 2)
-    block = slice(11 * first, 11 * first + 11)
-    return {
-        "The parameters are cut off at -1 and 1, but sizes use tanh.":
-        lambda p: nominal * (1 + 0.9 * cut(p[own])),
-        "Lengths and thicknesses take turns among the parameters.":
-        lambda p: scaled(p[block], nominal),
-        "Lengths and thicknesses are exchanged: of each two parameters the length comes first.":
-        lambda p: scaled(p[other], nominal),
-        "0.9 is a factor of tanh p, not of p: it stands before the tanh.":
-        lambda p: nominal * (1 + np.tanh(0.9 * p[own])),
-        "The factor 0.9 is left out.": lambda p: nominal * (1 + np.tanh(p[own])),
-        "The 1 that is added to 0.9 tanh p is left out.": lambda p: nominal * 0.9 * np.tanh(p[own]),
-        f"{nominal} is a factor of the whole bracket, also of 0.9 tanh p.":
-        lambda p: nominal + 0.9 * np.tanh(p[own]),
-        "tanh is left out: the parameters themselves are used.":
-        lambda p: nominal * (1 + 0.9 * p[own]),
-        "tanh stands around the whole bracket, but belongs to p alone.":
-        lambda p: nominal * np.tanh(1 + 0.9 * p[own]),
-    }  # fmt: skip
+def elsewhere(what: str, first: int, made: Callable, many: int = 11) -> dict:
+    """What comes of parameters that begin at another place; made: a function of the place."""
+    places = [i for i in range(BODY + 1 - many) if i != first]
+    return {f"The {what} begin at place {first}, not at {i}.": made(i) for i in places}
 
 
-def of_angles(own: slice, scale: float) -> dict:
-    """Mistakes with angles, before the smaller one of two is sought."""
+def wrong_sizes(p: np.ndarray, first: int, nominal: float) -> dict:
+    """Slips in lengths (first: 0) or thicknesses (1)."""
+    return slips(
+        lambda places, formula: formula(places),
+        places={
+            "": p[first:22:2],
+            "Lengths and thicknesses take turns among the parameters.":
+            p[11 * first : 11 * first + 11],
+            "Lengths and thicknesses are exchanged: of each two parameters the length comes first.":
+            p[1 - first : 22 : 2],
+        },
+        formula={
+            "": lambda q: scaled(q, nominal),
+            "The parameters are cut off at -1 and 1, but sizes use tanh.":
+            lambda q: nominal * (1 + 0.9 * cut(q)),
+            "0.9 is a factor of tanh p, not of p: it stands before the tanh.":
+            lambda q: nominal * (1 + np.tanh(0.9 * q)),
+            "The factor 0.9 is left out.": lambda q: nominal * (1 + np.tanh(q)),
+            "The 1 that is added to 0.9 tanh p is left out.": lambda q: nominal * 0.9 * np.tanh(q),
+            f"{nominal} is a factor of the whole bracket, also of 0.9 tanh p.":
+            lambda q: nominal + 0.9 * np.tanh(q),
+            "0.9 is a factor of tanh p alone, not of 1 + tanh p.":
+            lambda q: nominal * 0.9 * (1 + np.tanh(q)),
+            "0.9 tanh p is added to 1, not subtracted from it.": lambda q: scaled(-q, nominal),
+            "tanh is left out: the parameters themselves are used.":
+            lambda q: nominal * (1 + 0.9 * q),
+            "tanh stands around the whole bracket, but belongs to p alone.":
+            lambda q: nominal * np.tanh(1 + 0.9 * q),
+            f"The factor {nominal} is left out.": lambda q: 1 + 0.9 * np.tanh(q),
+            f"The factor is {nominal} here.": lambda q: scaled(q, 0.16 / nominal),
+        },
+    )  # fmt: skip
+
+
+def wrong_masses(p: np.ndarray) -> dict:
+    def at(i: int) -> np.ndarray:
+        return lengths(p) * thicknesses(p) * (5 + 0.8 * np.tanh(p[i : i + 11]))
+
+    return elsewhere("densities", 53, at) | slips(
+        lambda formula, product: product(lengths(p), thicknesses(p), formula(p[53:])),
+        formula={
+            "": lambda q: 5 + 0.8 * np.tanh(q),
+            "The density is 5 and varies by 0.8, not by 80 % or 90 % of it.":
+            lambda q: 5 + 4 * np.tanh(q),
+            "The density varies by 0.8, not like the sizes.": lambda q: scaled(q, 5),
+            "The parameters of the densities are cut off, but must go through tanh.":
+            lambda q: 5 + 0.8 * cut(q),
+            "The tanh of the densities is left out.": lambda q: 5 + 0.8 * q,
+            "The density varies by 0.8 around 5: 0.8 and 5 are exchanged.":
+            lambda q: 0.8 + 5 * np.tanh(q),
+            "The density varies by 0.8, not by 0.9.": lambda q: 5 + 0.9 * np.tanh(q),
+            "The density varies by 0.8: this factor is left out.": lambda q: 5 + np.tanh(q),
+            "The density is the same for all: the 0.8 tanh p is left out.": lambda q: 5 + 0 * q,
+        },
+        product={
+            "": lambda long, thick, dense: long * thick * dense,
+            "The density is left out.": lambda long, thick, dense: long * thick,
+            "These are the densities: length and thickness are left out.":
+            lambda long, thick, dense: dense,
+            "The thickness is left out.": lambda long, thick, dense: long * dense,
+            "The length is left out.": lambda long, thick, dense: thick * dense,
+            "Length and thickness are multiplied, not added.":
+            lambda long, thick, dense: (long + thick) * dense,
+            "The density is a factor, not a divisor.": lambda long, thick, dense:
+            long * thick / dense,
+        },
+    )  # fmt: skip
+
+
+def wrong_cuts() -> dict:
+    """Slips in what is done with parameters q of angles and their scale."""
     return {
-        "The parameters of angles are to be cut off at -1 and 1.": lambda p: scale * p[own],
+        "": lambda q, scale: scale * cut(q),
+        "The parameters of angles are to be cut off at -1 and 1.": lambda q, scale: scale * q,
         "The parameters of angles are cut off, not put through tanh.":
-        lambda p: scale * np.tanh(p[own]),
+        lambda q, scale: scale * np.tanh(q),
         "The angles are cut off at -1 and 1 after they are scaled: cut off the parameters.":
-        lambda p: cut(scale * p[own]),
+        lambda q, scale: cut(scale * q),
         "The parameters are cut off at 0 and 1 instead of -1 and 1.":
-        lambda p: scale * p[own].clip(0, 1),
+        lambda q, scale: scale * q.clip(0, 1),
+        "The parameters are cut off at the scale, not at -1 and 1.":
+        lambda q, scale: scale * q.clip(-scale, scale),
+        "The angles are cut off at their largest value, but the parameters are not scaled.":
+        lambda q, scale: q.clip(-scale, scale),
+        "The parameters are cut off above only: -1 is a limit, too.":
+        lambda q, scale: scale * np.minimum(q, 1),
+        "The parameters are cut off below only: 1 is a limit, too.":
+        lambda q, scale: scale * np.maximum(q, -1),
     }  # fmt: skip
 
 
-def of_limits(end, name: str) -> dict:
-    """Mistakes with lower limits (end: np.minimum) or upper ones (np.maximum)."""
+def wrong_angles(p: np.ndarray) -> dict:
+    def at(i: int) -> np.ndarray:
+        return 0.75 * np.pi * cut(p[i : i + 11])
 
-    def ends(limits) -> np.ndarray:
-        return end(limits[0::2], limits[1::2])
+    return elsewhere("default angles", 42, at) | slips(
+        lambda cutting, scale, sums: sums(cutting(p[42:53], scale)),
+        cutting=wrong_cuts(),
+        scale={
+            "": 0.75 * np.pi,
+            "The default angles are scaled by pi / 2, as the limits are.": np.pi / 2,
+            "The angles are in degrees, not in radians.": 135,
+            "The scale is 3 pi / 4: pi is left out.": 0.75,
+            "The scale is 3 pi / 4, not 4 pi / 3.": np.pi * 4 / 3,
+            "The scale is 3 pi / 4, not pi / 4.": np.pi / 4,
+        },
+        sums={"": lambda a: a, "These are sums of angles, which belong to `outline`.": np.cumsum},
+    )  # fmt: skip
 
-    one, other = slice(22, 42, 2), slice(23, 42, 2)
-    mistakes = of_angles(slice(22, 42), np.pi / 2).items()
-    sign = -1 if name == "lower" else 1
+
+def wrong_limits(p: np.ndarray, name: str) -> dict:
+    """Slips in "lower" or "upper"."""
+    low = name == "lower"
+    end, far = (np.minimum, np.maximum) if low else (np.maximum, np.minimum)
+    pick = (lambda one, other: one) if low else (lambda one, other: other)
+
+    def amounts(one, other):
+        ordered = np.sort(np.abs([one, other]), axis=0)
+        return ordered[0 if low else 1]
+
+    def by_amount(one, other):
+        first = np.abs(one) < np.abs(other)
+        return np.where(first == low, one, other)
+
+    def at(i: int) -> np.ndarray:
+        return np.pi / 2 * end(*cut(p[i : i + 20].reshape(10, 2).T))
+
+    return elsewhere("limits", 22, at, 20) | slips(
+        lambda places, cutting, scale, end, added: end(*cutting(places, scale)) + added,
+        places={
+            "": p[22:42].reshape(10, 2).T,
+            "The two limits of a joint stand side by side among the parameters.":
+            p[22:42].reshape(2, 10),
+        },
+        cutting=wrong_cuts(),
+        scale={
+            "": np.pi / 2,
+            "The limits are scaled by 3 pi / 4, as the default angles are.": 0.75 * np.pi,
+            "The limits are in degrees, not in radians.": 90,
+            "The scale of the limits is pi / 2, not pi.": np.pi,
+            "The scale of the limits is pi / 2, not pi / 4.": np.pi / 4,
+        },
+        end={
+            "": end,
+            f"The {name} limit is the {'smaller' if low else 'larger'} one of the two.": pick,
+            "Lower and upper limits are exchanged.": far,
+            "The amounts of the limits are compared: the smaller one is the more negative one.":
+            by_amount,
+            "A limit is taken without its sign: both can lie on one side of the default angle.":
+            lambda one, other: (-1 if low else 1) * np.abs(pick(one, other)),
+            "Limits are taken without their signs.": amounts,
+        },
+        added={
+            "": 0,
+            "The default angle is added: limits count from the default angle.": angles(p)[1:],
+            "The default angle of the segment before is added: limits count from 0.":
+            angles(p)[:-1],
+        },
+    )  # fmt: skip
+
+
+def wrong_corners(p: np.ndarray) -> dict:
+    """Slips in `outline`."""
+    long, thick, bends = lengths(p), thicknesses(p), angles(p)
+    flat = np.where(np.arange(11) == 0, 0, bends)
+
+    def drawn(heading, along, across, wide, joint, first):
+        along = long * along(heading)
+        side = wide * across(heading)
+        ends = np.cumsum(along + joint(side))
+        begin = np.append(0, ends[:-1]) + first * along[0]
+        found = np.stack([begin - side, begin + along - side, begin + along + side, begin + side])
+        return np.stack([found.real.T, found.imag.T], axis=2)
+
+    own = corners(p)
+    orders = {
+        "The corners of a segment come in another order: "
+        f"{', '.join(CORNERS[k] for k in order)}.": own[:, order]
+        for order in permutations(range(4)) if order != (0, 1, 2, 3)
+    }  # fmt: skip
+    return orders | slips(
+        drawn,
+        heading={
+            "": np.cumsum(bends),
+            "An angle is that to the segment before, not that to the ground.": bends,
+            "The torso leans by its own default angle: it is left out.": np.cumsum(flat),
+            "A segment's own angle is left out of its heading.": np.cumsum(bends) - bends,
+            "The angles turn clockwise here, but are counter-clockwise.": -np.cumsum(bends),
+            "A heading is cut off, but may go beyond pi.": np.cumsum(bends).clip(-np.pi, np.pi),
+            "The heading of a segment has the angles of two segments only: sum up all.":
+            bends + np.append(0, bends[:-1]),
+            "The angles are summed up twice.": np.cumsum(np.cumsum(bends)),
+        },
+        along={
+            "": lambda a: np.exp(1j * a),
+            "Sine and cosine of the direction along a segment are exchanged.":
+            lambda a: np.sin(a) + 1j * np.cos(a),
+            "A segment goes to x - l cos, not to x + l cos.": lambda a: -np.exp(-1j * a),
+        },
+        across={
+            "": lambda a: 1j * np.exp(1j * a),
+            "The direction across a segment has lost its minus sign.":
+            lambda a: np.sin(a) + 1j * np.cos(a),
+            "The direction across a segment is (-sin, cos), not (cos, -sin) or (-cos, sin).":
+            lambda a: np.cos(a) - 1j * np.sin(a),
+            "The direction across a segment is (-sin, cos), not (-cos, sin).":
+            lambda a: -np.cos(a) + 1j * np.sin(a),
+            "The direction across a segment is the one along it.": lambda a: np.exp(1j * a),
+            "The direction across a segment turns with its heading: it is not always upwards.":
+            lambda a: 1j + 0 * a,
+        },
+        wide={
+            "": thick / 2,
+            "A segment reaches half of its thickness to each side.": thick,
+            "The thickness is left out: these are places on the middle line.": 0 * thick,
+            "Half of the thickness is halved once more.": thick / 4,
+            "All segments are as thick as the torso.": thick[0] / 2 + 0 * thick,
+            "A segment has the thickness of the one before.": np.append(thick[:1], thick[:-1]) / 2,
+            "Half of the length is taken for half of the thickness.": long / 2,
+        },
+        joint={
+            "": lambda side: 0,
+            "The next segment begins at the end of the middle line, not at the left corner there.":
+            lambda side: side,
+            "The next segment begins at the end of the middle line, not at the right corner there.":
+            lambda side: -side,
+            "The thickness of a segment does not move the next one away.": lambda side: thick,
+        },
+        first={
+            "": 0,
+            "The middle of the torso lies at (0, 0), but its beginning belongs there.": -0.5,
+            "The end of the torso lies at (0, 0), but its beginning belongs there.": -1,
+        },
+    )  # fmt: skip
+
+
+def wrong_sums(values: np.ndarray, other: np.ndarray) -> dict:
+    """Slips in "length" or "mass"; other: the numbers that may be mistaken for these."""
+    return slips(
+        lambda values, summary: summary(values),
+        values={"": values, "Another quantity of the segments is added up.": other},
+        summary={
+            "": np.sum,
+            "This is the mean over the segments, not the sum.": np.mean,
+            "The torso is left out.": lambda v: v[1:].sum(),
+            "The last segment is left out.": lambda v: v[:-1].sum(),
+            "This is the largest one, not the sum.": np.max,
+        },
+    )  # fmt: skip
+
+
+def wrong_extent(p: np.ndarray, axis: int) -> dict:
+    """Slips in "width" (axis 0) or "height" (1)."""
+    every, middle = corners(p), corners(p, wide=0)
+    return slips(
+        lambda places, axis, summary: summary(places[..., axis].ravel()),
+        places={
+            "": every,
+            "The thickness is left out: it counts where the corners are, not the middle line.":
+            middle,
+            "All four corners of a segment count, not the first one only.": every[:, :1],
+            "The ends of the segments are left out: they count, too.": every[:, ::3],
+            "The beginnings of the segments are left out: they count, too.": every[:, 1:3],
+            "The left corners of the segments are left out: they count, too.": every[:, :2],
+            "The right corners of the segments are left out: they count, too.": every[:, 2:],
+            "The torso is left out.": every[1:],
+            "The last segment is left out.": every[:-1],
+            "Only the torso is measured.": every[:1],
+        },
+        axis={"": axis, "Width and height are exchanged.": 1 - axis},
+        summary={
+            "": np.ptp,
+            "Only the largest coordinate is taken: subtract the smallest.": np.max,
+            "The largest amount of a coordinate is taken: subtract the smallest coordinate from "
+            "the largest.": lambda v: np.abs(v).max(),
+            "The smallest coordinate is added: subtract it.": lambda v: v.max() + v.min(),
+            "The difference has the wrong sign.": lambda v: -np.ptp(v),
+            "This is the way from the first place to the last: the corners in between count, too.":
+            lambda v: abs(v[-1] - v[0]),
+            "This is a standard deviation, not the difference of the extremes.": np.std,
+        },
+    ) | {
+        "This is the way from the first place to the last: the corners in between count, too.":
+        abs(middle[-1, 1, axis]),
+    }  # fmt: skip
+
+
+def wrong_freedom(p: np.ndarray) -> dict:
+    (low, high), raw = limits(p), p[22:42].reshape(10, 2)
     half = np.pi / 2
-    return {
-        **{text: lambda p, made=made: ends(made(p)) for text, made in mistakes},
-        f"The {name} limit is the {'smaller' if sign < 0 else 'larger'} one of the two.":
-        lambda p: half * cut(p[one if sign < 0 else other]),
-        "A limit is taken without its sign: both can lie on one side of the default angle.":
-        lambda p: half * sign * np.abs(cut(p[one if sign < 0 else other])),
-        "The two limits of a joint stand side by side among the parameters.":
-        lambda p: half * cut(end(p[22:32], p[32:42])),
-        "The default angle is added: limits count from the default angle.":
-        lambda p: half * cut(end(p[one], p[other])) + angles(p)[1:],
-        "The limits are scaled by 3 pi / 4, as the default angles are.":
-        lambda p: 1.5 * half * cut(end(p[one], p[other])),
-    }  # fmt: skip
+    return slips(
+        lambda pair, summary: summary(*pair),
+        pair={
+            "": (low, high),
+            "The limits are those of `joints`, cut off: the parameters go beyond them.":
+            (half * raw.min(axis=1), half * raw.max(axis=1)),
+            "The limits are angles: the parameters are not scaled here.":
+            tuple(np.sort(cut(raw).T, axis=0)),
+            "The smaller limit is the lower one: the limits are not in order here.":
+            tuple(half * cut(raw).T),
+        },
+        summary={
+            "": lambda low, high: np.mean(high - low),
+            "This is the sum over the joints, not the mean.": lambda low, high: np.sum(high - low),
+            "The sum is divided by the 11 segments, but there are 10 joints.":
+            lambda low, high: np.sum(high - low) / 11,
+            "The largest limit and the smallest one belong to different joints: take the "
+            "difference of each joint first.": lambda low, high: high.max() - low.min(),
+            "Only the upper limits count here: subtract the lower ones.":
+            lambda low, high: high.mean(),
+            "Only the lower limits count here: subtract them from the upper ones.":
+            lambda low, high: low.mean(),
+            "The lower limit is added: subtract it.": lambda low, high: np.mean(high + low),
+            "The difference is the wrong way round.": lambda low, high: np.mean(low - high),
+            "The amounts of the two limits are added, but both can be on one side.":
+            lambda low, high: np.mean(np.abs(high) + np.abs(low)),
+            "This is the largest freedom, not the mean.": lambda low, high: np.max(high - low),
+            "This is the median, not the mean.": lambda low, high: np.median(high - low),
+            "This is the freedom of the first joint alone.": lambda low, high: high[0] - low[0],
+            "The freedom is in degrees, not in radians.":
+            lambda low, high: np.degrees(np.mean(high - low)),
+        },
+    )  # fmt: skip
 
 
 MISTAKES = {
-    "lengths": of_sizes(0, 0.8),
-    "thicknesses": of_sizes(1, 0.2),
-    "masses": {
-        "The density is 5 and varies by 0.8, not by 80 % or 90 % of it.":
-        lambda p: lengths(p) * thicknesses(p) * (5 + 4 * np.tanh(p[53:64])),
-        "The density varies by 0.8, not like the sizes.":
-        lambda p: lengths(p) * thicknesses(p) * scaled(p[53:64], 5),
-        "The parameters of the densities are cut off, but must go through tanh.":
-        lambda p: lengths(p) * thicknesses(p) * (5 + 0.8 * cut(p[53:64])),
-        "The density is left out.": lambda p: lengths(p) * thicknesses(p),
-        "These are the densities: length and thickness are left out.":
-        lambda p: 5 + 0.8 * np.tanh(p[53:64]),
-        "The densities begin at place 53.":
-        lambda p: lengths(p) * thicknesses(p) * (5 + 0.8 * np.tanh(p[52:63])),
-    },
-    "angles": {
-        **of_angles(slice(42, 53), 0.75 * np.pi),
-        "The default angles are scaled by pi / 2, as the limits are.":
-        lambda p: np.pi / 2 * cut(p[42:53]),
-    },
-    "lower": of_limits(np.minimum, "lower"),
-    "upper": of_limits(np.maximum, "upper"),
-    "length": {
-        "This is the mean of the lengths, not their sum.": lambda p: lengths(p).mean(),
-        "The torso is left out.": lambda p: lengths(p)[1:].sum(),
-        "The last segment is left out.": lambda p: lengths(p)[:-1].sum(),
-    },
-    "mass": {
-        "This is the mean of the masses, not their sum.": lambda p: masses(p).mean(),
-        "The torso is left out.": lambda p: masses(p)[1:].sum(),
-        "The last segment is left out.": lambda p: masses(p)[:-1].sum(),
-    },
-    **{
-        name: {
-            "Only the largest coordinate is taken: subtract the smallest.":
-            lambda p, axis=axis: corners(p)[:, :, axis].max(),
-            "The thickness is left out: it counts where the corners are, not the middle line.":
-            lambda p, axis=axis: np.ptp(corners(p, wide=0)[:, :, axis]),
-            "This is the way from the first place to the last: the corners in between count, too.":
-            lambda p, axis=axis: abs(corners(p, wide=0)[-1, 1, axis]),
-            "Width and height are exchanged.":
-            lambda p, axis=axis: np.ptp(corners(p)[:, :, 1 - axis]),
-        }
-        for axis, name in enumerate(("width", "height"))
-    },
-    "freedom": {
-        "This is the sum over the joints, not the mean.":
-        lambda p: np.sum(limits(p)[1] - limits(p)[0]),
-        "The sum is divided by the 11 segments, but there are 10 joints.":
-        lambda p: np.sum(limits(p)[1] - limits(p)[0]) / 11,
-        "The largest limit and the smallest one belong to different joints: take the difference "
-        "of each joint first.": lambda p: limits(p)[1].max() - limits(p)[0].min(),
-        "Only the upper limits count here: subtract the lower ones.": lambda p: limits(p)[1].mean(),
-    },
-}  # fmt: skip
-"""What mistakes make of an answer's parts: sentences -> functions of the parameters."""
+    "lengths": lambda p: wrong_sizes(p, 0, 0.8),
+    "thicknesses": lambda p: wrong_sizes(p, 1, 0.2),
+    "masses": wrong_masses,
+    "angles": wrong_angles,
+    "lower": lambda p: wrong_limits(p, "lower"),
+    "upper": lambda p: wrong_limits(p, "upper"),
+    "length": lambda p: wrong_sums(lengths(p), thicknesses(p)),
+    "mass": lambda p: wrong_sums(masses(p), lengths(p) * thicknesses(p)),
+    "width": lambda p: wrong_extent(p, 0),
+    "height": lambda p: wrong_extent(p, 1),
+    "freedom": wrong_freedom,
+}
+"""What slips make of an answer's parts: functions of the parameters."""
 
 
 def expect_decoded(student: Student, name: str, index: int, wanted: dict) -> None:
@@ -253,7 +488,7 @@ def expect_decoded(student: Student, name: str, index: int, wanted: dict) -> Non
         said = said_of(name, p)
         values = expect_fields(said, answer, *wanted)
         for (key, own), value in zip(wanted.items(), values, strict=True):
-            mistakes = {text: made(p) for text, made in MISTAKES.get(key, {}).items()}
+            mistakes = partial(MISTAKES[key], p)
             expect_close(f"{said}: {key}", value, own(p), TOLERANCE, mistakes=mistakes)
 
 
@@ -300,23 +535,9 @@ CORNERS = ("beginning right", "end right", "end left", "beginning left")
 
 def expect_outline(student: Student, questions: np.ndarray) -> None:
     for p, answer in zip(questions, asked(student, "outline", questions), strict=True):
-        own = corners(p)
-        mistakes = {
-            "A segment reaches half of its thickness to each side.": corners(p, wide=2),
-            "The thickness is left out: these are places on the middle line.": corners(p, wide=0),
-            "An angle is that to the segment before, not that to the ground.": corners(p, turns=0),
-            "The torso leans by its own default angle: it is left out.": corners(
-                np.where(np.arange(BODY) == 42, 0, p)
-            ),
-            **{
-                "The corners of a segment come in another order: "
-                f"{', '.join(CORNERS[k] for k in order)}.": own[:, order]
-                for order in permutations(range(4)) if order != (0, 1, 2, 3)
-            },
-        }  # fmt: skip
         said = said_of("outline", p)
         answer = expect_array(said, answer, (11, 4, 2))
-        expect_close(said, answer, own, TOLERANCE, mistakes=mistakes)
+        expect_close(said, answer, corners(p), TOLERANCE, mistakes=partial(wrong_corners, p))
 
 
 @shape.check(5)
@@ -521,12 +742,24 @@ def operate(module, brain, body):
     return [result, bool((before[0] == brain).all() and (before[1] == body).all())]
 
 
+def other_places(genotype: np.ndarray) -> dict[str, np.ndarray]:
+    """Pieces of a genotype that are not the body."""
+    end = len(genotype) - 70
+    pieces = {(i, i + 64) for i in (*range(65), *range(end - 200, end + 7))} - {(end - 64, end)}
+    pieces |= {(i, end) for i in range(end - 200, end - 64)} | {(end - 64, end + 35)}
+    return {
+        f"This is genotype[{i}:{j}]. The body lies before the last 70 numbers, and has 64.":
+        genotype[i:j]
+        for i, j in sorted(pieces | {(end - 64, end + 70), (end, end + 70)})
+    }  # fmt: skip
+
+
 @surgery.check(3)
 def body_is_cut_out(student: Student):
     for index in (30, 31):
         for genotype in genotypes(index):
             body = student.call("body_of", genotype)
-            expect_close(student.said, body, genotype[-134:-70], 0)
+            expect_close(student.said, body, genotype[-134:-70], 0, partial(other_places, genotype))
 
 
 @surgery.check(5)
@@ -580,8 +813,10 @@ def walkers_of(index: int) -> np.ndarray:
     return evolved
 
 
-def own_returns(text: str, walkers: np.ndarray, seed: int, episodes: int) -> np.ndarray:
-    """The return of each brain in each body in each episode."""
+def own_returns(
+    text: str, walkers: np.ndarray, seed: int, episodes: int, other: Callable = lambda i, j: 0
+) -> np.ndarray:
+    """The return of each brain in each body in each episode; other: what slips add to the seed."""
     n = len(walkers)
     returns = np.zeros((n, n, episodes))
     with tempfile.TemporaryDirectory() as folder:
@@ -590,7 +825,7 @@ def own_returns(text: str, walkers: np.ndarray, seed: int, episodes: int) -> np.
         for i, j in np.ndindex(n, n):
             parts = walkers[i, :-134], walkers[j, -134:-70], walkers[i, -70:]
             robot = SavedRobot(file, np.concatenate(parts))
-            returns[i, j] = robot.evaluate(seed, episodes)
+            returns[i, j] = robot.evaluate(seed + other(i, j), episodes)
     return returns
 
 
@@ -601,22 +836,55 @@ def expect_matrix(
     matrix, unchanged = student.run(cross, text, walkers, seed, episodes, said=said)
     expect(unchanged is True, f"{said} changed the walkers that it was given: work on copies.")
     returns = own_returns(text, walkers, seed, episodes)
-    wanted, n = returns.mean(axis=2), len(walkers)
-    own = np.repeat(np.diagonal(wanted)[None], n, axis=0)
-    mistakes = {
-        "Only the first episode counts, not the mean.": returns[:, :, 0],
-        "Only the last episode counts, not the mean.": returns[:, :, -1],
-        "The best episode is taken, not the mean.": returns.max(axis=2),
-        "The median of the episodes is taken, not the mean.": np.median(returns, axis=2),
-        "The episodes are added up, not averaged.": returns.sum(axis=2),
-        "A row holds one number again and again: each brain stays in its own body.": own.T,
-        "A column holds one number again and again: each body keeps its own brain.": own,
+    made = partial(wrong_matrices, returns, text, walkers, seed, episodes)
+    expect_close(said, matrix, returns.mean(axis=2), TOLERANCE, mistakes=made)
+
+
+def wrong_matrices(
+    returns: np.ndarray, text: str, walkers: np.ndarray, seed: int, episodes: int
+) -> dict:
+    """What slips make of a matrix; other seeds for two walkers only, as they take time."""
+    n = len(walkers)
+    rows = {
+        "": lambda m: m,
+        "A row holds one number again and again: each brain stays in its own body.":
+        lambda m: np.repeat(np.diagonal(m)[:, None], n, axis=1),
+        "A column holds one number again and again: each body keeps its own brain.":
+        lambda m: np.repeat(np.diagonal(m)[None], n, axis=0),
         "A pair gets the number of the pair with the roles exchanged: the half below the "
-        "diagonal mirrors the one above.": np.triu(wanted) + np.triu(wanted, 1).T,
+        "diagonal mirrors the one above.": lambda m: np.triu(m) + np.triu(m, 1).T,
         "A pair gets the number of the pair with the roles exchanged: the half above the "
-        "diagonal mirrors the one below.": np.tril(wanted) + np.tril(wanted, -1).T,
-    }
-    expect_close(said, matrix, wanted, TOLERANCE, mistakes=mistakes)
+        "diagonal mirrors the one below.": lambda m: np.tril(m) + np.tril(m, -1).T,
+        "Rows are brains and columns are bodies: the two are exchanged.": lambda m: m.T,
+    }  # fmt: skip
+    seeds = {
+        "Each row has a seed of its own, but all pairs have the same.": lambda i, j: i,
+        "Each column has a seed of its own, but all pairs have the same.": lambda i, j: j,
+        "Each pair has a seed of its own, but all have the same.": lambda i, j: n * i + j,
+        "The diagonal has another seed than the rest.": lambda i, j: int(i != j),
+        "The seed that is given is not used: this is what the seed 0 gives.": lambda i, j: -seed,
+        "The seed that is given is not used: this is what the seed 1 gives.":
+        lambda i, j: 1 - seed,
+    }  # fmt: skip
+    return slips(
+        lambda returns, rows, summary: rows(summary(returns)),
+        returns={"": returns} | {
+            said: own_returns(text, walkers, seed, episodes, other)
+            for said, other in seeds.items() if n == 2
+        },
+        rows=rows,
+        summary={
+            "": lambda r: r.mean(axis=2),
+            "Only the first episode counts, not the mean.": lambda r: r[:, :, 0],
+            "Only the last episode counts, not the mean.": lambda r: r[:, :, -1],
+            "The best episode is taken, not the mean.": lambda r: r.max(axis=2),
+            "The worst episode is taken, not the mean.": lambda r: r.min(axis=2),
+            "The median of the episodes is taken, not the mean.": lambda r: np.median(r, axis=2),
+            "The episodes are added up, not averaged.": lambda r: r.sum(axis=2),
+            "This is the standard deviation of the episodes, not the mean.":
+            lambda r: r.std(axis=2),
+        },
+    )  # fmt: skip
 
 
 @crossing.check(6)
@@ -628,6 +896,7 @@ def pre_evolved_walkers(student: Student):
 def another_experiment(student: Student):
     walkers = rng_of(41).normal(size=(4, 46 * 5 + 10 + BODY + 2 * OBSERVATIONS))
     walkers[:, -OBSERVATIONS:] = 1
+    expect_matrix(student, walking(5, 20), walkers[:2], 41, 2)
     expect_matrix(student, walking(5, 20), walkers, 0, 3)
 
 
