@@ -690,10 +690,11 @@ def compared(module, steps, episodes, seed):
 @comparison.check(4)
 def mean_length(student: Student):
     expect_column(student, "length", lambda runs: np.mean([len(run["rewards"]) for run in runs]))
-    steps = 1500 + exercise.seed(60) % 500
-    said = (
-        f"compare([an environment without a time limit whose episodes end after {steps + 1} and "
-        f"{steps + 2} steps], episodes=2, seed=1)"
-    )
-    lengths = student.run(compared, steps, 2, 1, said=said)
-    expect_close(f"{said}: the length in each row", lengths, [steps + 1.5], 1e-6)
+    for steps, seed in ((1500 + exercise.seed(60) % 500, 1), (1200 + exercise.seed(61) % 99, 4)):
+        said = (
+            "compare([an environment without a time limit whose episodes end after "
+            f"{steps + seed} and {steps + seed + 1} steps], episodes=2, seed={seed})"
+        )
+        lengths = student.run(compared, steps, 2, seed, said=said)
+        wanted = steps + seed + 0.5
+        expect_close(f"{said}: the length in each row", lengths, [wanted], 1e-6)

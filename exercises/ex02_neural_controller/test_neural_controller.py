@@ -220,6 +220,7 @@ def mistaken_outputs(network: dict, observation: np.ndarray) -> dict:
             W2.dot(np.tanh(W1.dot(observation))) + b2
         ),
         "The biases of the outputs are left out.": np.tanh(W2.dot(hidden)),
+        "The biases of the outputs are added after tanh.": np.tanh(W2.dot(hidden)) + b2,
         "tanh is left out at the outputs.": W2.dot(hidden) + b2,
         "tanh is left out in the hidden neurons.": np.tanh(W2.dot(W1.dot(observation) + b1) + b2),
     }
@@ -307,7 +308,7 @@ def expect_sizes(student: Student, discrete: bool) -> None:
             wanted = layers_of(env, 1)[::2]
         answer = student.call("sizes", name)
         expect_close(student.said, answer, wanted)
-    for start in (0, 0, 5):
+    for start in (0, 7, 5):
         wanted = rng.integers(2, 30, size=2).tolist()
         first = f", start={start}" if start else ""
         kind = f"Discrete({wanted[1]}{first})" if discrete else f"a Box of {wanted[1]}"
@@ -591,6 +592,7 @@ def any_seeds_and_steps(student: Student):
     check_fitness(student, "CartPole-v1", 71, 7, 12)
     check_fitness(student, "Acrobot-v1", 72, 1, 30)
     check_fitness(student, "Pendulum-v1", 74, 2, 20, twice=True)
+    check_fitness(student, "MountainCarContinuous-v0", 75, 2, 15, twice=True)
 
 
 # ------------------------------------------------------------------- 2.7

@@ -97,6 +97,9 @@ def recorded(module, gains, seed, steps):
     gains, asked = numpy.asarray(gains), []
 
     def controller(seen):
+        if numpy.shape(seen) != (3,):
+            text = f"the controller was given {seen}, not an observation, which holds 3 numbers"
+            raise ValueError(text)
         asked.append(1)
         return numpy.clip([gains @ seen], -2, 2)
 
@@ -141,6 +144,7 @@ def states_of_an_episode(student: Student):
 def ends_with_the_episode(student: Student):
     compare_recording(student, 6, 200)
     compare_recording(student, 7, 230)
+    compare_recording(student, 8, 203)
 
 
 # ------------------------------------------------------------------- 7.3
@@ -230,7 +234,14 @@ def stepped(module, gains, states):
     import numpy
 
     gains = numpy.asarray(gains)
-    return module.next_states(lambda seen: numpy.clip([gains @ seen], -2, 2), states)
+
+    def controller(seen):
+        if numpy.shape(seen) != (3,):
+            text = f"the controller was given {seen}, not an observation, which holds 3 numbers"
+            raise ValueError(text)
+        return numpy.clip([gains @ seen], -2, 2)
+
+    return module.next_states(controller, states)
 
 
 def one_step(gains: np.ndarray, states: np.ndarray) -> np.ndarray:
@@ -601,7 +612,6 @@ def one_panel_for_each(student: Student):
         )
     titles_stand_above(student)
     path_lies_above(student)
-    axes_end_exactly(student)
 
 
 def titles_stand_above(student: Student) -> None:
@@ -634,23 +644,6 @@ def path_lies_above(student: Student) -> None:
         f"{student.said}: where an arrow of a path and one of the field lie upon each other, the "
         "field covers the path: draw the path after the field.",
     )
-
-
-def axes_end_exactly(student: Student) -> None:
-    """Arrows just inside of the axes' limits are seen, those just outside are not."""
-    plain = pixels_of(student, [CENTRE], [CENTRE])
-    for angle, velocity, seen in (
-        (3.02, 1.0, True), (3.3, 1.0, False), (-3.34, 1.0, False), (1.0, 7.6, True),
-        (1.0, 8.5, False), (1.0, -8.7, False),
-    ):  # fmt: skip
-        arrow = np.array([[angle, velocity, 0.04, 0.2]])
-        picture = pixels_of(student, [CENTRE], [np.vstack([CENTRE, arrow])])
-        same = picture.shape == plain.shape and np.abs(picture - plain).max() <= VISIBLE
-        expect(
-            same != seen,
-            f"{student.said}: an arrow at angle {angle:g} and velocity {velocity:g} is "
-            f"{'not ' if seen else ''}seen: show exactly -pi to pi and -8 to 8.",
-        )
 
 
 ARROWS = np.array(
@@ -724,4 +717,22 @@ def arrows_point_to_the_next_state(student: Student):
             at_head > 1.15 * at_tail,
             f"{student.said}: the arrows of a {what} have no heads at the next state, so that "
             "nobody sees where they point.",
+        )
+    axes_end_exactly(student)
+
+
+def axes_end_exactly(student: Student) -> None:
+    """Arrows just inside of the axes' limits are seen, those just outside are not."""
+    plain = pixels_of(student, [CENTRE], [CENTRE])
+    for angle, velocity, seen in (
+        (3.02, 1.0, True), (3.3, 1.0, False), (-3.34, 1.0, False), (1.0, 7.6, True),
+        (1.0, 8.5, False), (1.0, -8.7, False),
+    ):  # fmt: skip
+        arrow = np.array([[angle, velocity, 0.04, 0.2]])
+        picture = pixels_of(student, [CENTRE], [np.vstack([CENTRE, arrow])])
+        same = picture.shape == plain.shape and np.abs(picture - plain).max() <= VISIBLE
+        expect(
+            same != seen,
+            f"{student.said}: an arrow at angle {angle:g} and velocity {velocity:g} is "
+            f"{'not ' if seen else ''}seen: show exactly -pi to pi and -8 to 8.",
         )

@@ -478,6 +478,9 @@ def measured(module, scores, actions):
 
     scores = torch.tensor(scores, requires_grad=True)
     loss = module.cross_entropy(scores, torch.tensor(actions))
+    if not loss.requires_grad:
+        text = "torch cannot follow the loss back: it went through NumPy, .item() or .detach()"
+        raise ValueError(text)
     loss.backward()
     return [loss.detach().numpy(), scores.grad.numpy()]
 
@@ -623,7 +626,12 @@ def compare_updates(student: Student, index: int, kind: str, whole: bool, update
     losses, after, kinds = answer
     wanted = "torch.int64" if whole else "torch.float32"
     expect(
-        isinstance(kinds, list) and kinds == [wanted] * updates,
+        isinstance(kinds, list) and len(kinds) == updates,
+        f"{said} called the loss {len(kinds)} times: call it once for each update, before the "
+        "optimiser's step, for what is returned and for the gradient.",
+    )
+    expect(
+        kinds == [wanted] * updates,
         f"{said} must call the loss {updates} times, with actions of {wanted}, but the calls had "
         f"{show(kinds)}.",
     )
@@ -692,6 +700,9 @@ def measured_gaussian(module, means, log_deviation, actions):
 
     means, log_deviation = (torch.tensor(x, requires_grad=True) for x in (means, log_deviation))
     loss = module.gaussian_loss(means, log_deviation, torch.tensor(actions))
+    if not loss.requires_grad:
+        text = "torch cannot follow the loss back: it went through NumPy, .item() or .detach()"
+        raise ValueError(text)
     loss.backward()
     grads = [torch.zeros_like(x) if x.grad is None else x.grad for x in (means, log_deviation)]
     return [loss.detach().numpy(), *(grad.numpy() for grad in grads)]
@@ -880,6 +891,22 @@ def mean_return(environment: str, parameters: list[np.ndarray], signs, side: int
     return total / 50
 
 
+def progress(played: object) -> str:
+    """What the returns of a training show about why its policy is not good enough."""
+    had = np.array(played, dtype=float)[:, 0]
+    first, last = had[:20].mean(), had[-20:].mean()
+    text = f"Its first 20 of {len(had)} episodes had {first:.0f} steps on average, the last 20"
+    if last < 2 * first:
+        return (
+            f"{text} {last:.0f}: it has hardly learnt. Do the episodes come from the network as it "
+            "is after each update, does the elite hold the best only, is the learning rate large "
+            "enough?"
+        )
+    if last < 150:
+        return f"{text} {last:.0f}: it learns, but too little, or ends too soon."
+    return f"{text} {last:.0f}: it had learnt. Are the parameters returned those of the end?"
+
+
 def expect_balanced(student: Student, environment: str, index: int) -> None:
     with gymnasium.make(environment) as env:
         discrete = isinstance(env.action_space, gymnasium.spaces.Discrete)
@@ -918,7 +945,7 @@ def expect_balanced(student: Student, environment: str, index: int) -> None:
     expect(
         mean >= 180,
         f"{said}: without chance, the policy keeps the pole up for {mean:.1f} steps on "
-        "average over 50 new episodes, but 180 are asked for.",
+        f"average over 50 new episodes, but 180 are asked for. {progress(played)}",
     )
     gradients, losses = fields("the grader's driver", counts, "gradients", "losses")
     expect(

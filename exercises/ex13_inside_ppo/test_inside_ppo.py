@@ -637,6 +637,9 @@ Of 100,000 draws of five from 60 seeds the solution reached less than 0.41 and 0
 A loop that goes against the gradient reaches 0.03.
 """
 
+OUT_OF_TIME = {"environment": "Pendulum-v1", "n_envs": 1, "n_steps": 512}
+"""A rollout in which time runs out after 200 and after 400 steps."""
+
 
 def looped(module, seed, steps, order, options):
     """Parameters after training by the student's loop, the steps made, and the first samples taken.
@@ -647,7 +650,8 @@ def looped(module, seed, steps, order, options):
 
     from botschool.course.ppo import ENVIRONMENT, SETTINGS, Pieces
 
-    ppo = Pieces(ENVIRONMENT, seed, **(SETTINGS | options))
+    settings = SETTINGS | options
+    ppo = Pieces(settings.pop("environment", ENVIRONMENT), seed, **settings)
     taken = []
 
     def minibatch(rows=None):
@@ -662,13 +666,16 @@ def looped(module, seed, steps, order, options):
 
 
 @functools.cache
-def by_reference(seed: int, steps: int, epochs: int, batch: int, target: float | None):
+def by_reference(
+    seed: int, steps: int, epochs: int, batch: int, target: float | None, environment: str = ""
+):
     """A training by the engine's own loop."""
     from botschool.course.ppo import ENVIRONMENT, SETTINGS
     from botschool.rl.native import PPO
 
     options = {"n_epochs": epochs, "batch_size": batch, "target_kl": target}
-    ppo = PPO(ENVIRONMENT, seed, **(SETTINGS | options))
+    settings = SETTINGS | options | (OUT_OF_TIME if environment else {})
+    ppo = PPO(settings.pop("environment", ENVIRONMENT), seed, **settings)
     while ppo.steps < steps:
         ppo.collect()
         ppo.update()
@@ -682,7 +689,8 @@ def after_loop(student: Student, seed: int, steps: int, order: int = 1, **option
         said += " with " + ", ".join(f"{key}={value}" for key, value in options.items())
     answer = student.run(looped, seed, steps, order, options, said=said)
     expect(isinstance(answer, list) and len(answer) == 4, f"{said}: no answer came back.")
-    size, n = 512, len(by_reference(1, 1, 1, 512, None).parameters)
+    size, environment = 512, options.get("environment", "")
+    n = len(by_reference(1, 1, 1, 512, None, environment).parameters)
     wanted = -(-steps // size) * size
     expect(answer[1] == wanted, f"{said} made {answer[1]} steps, but should make {wanted}.")
     return [expect_array(f"{said}: parameters", answer[0], (n,)), *answer[2:]]
@@ -709,6 +717,15 @@ def one_batch_an_epoch(student: Student):
             f"move by {moved:.3g} in all). Each rollout needs its advantages and returns, "
             f"{epochs} epochs, and an early stop where target_kl asks for one.",
         )
+    options = {"n_epochs": 1, "batch_size": 512, "target_kl": None, **OUT_OF_TIME}
+    got = after_loop(student, seed, 512, **options)[0]
+    right = by_reference(seed, 512, 1, 512, None, "Pendulum-v1").parameters
+    begun = by_reference(seed, 0, 1, 512, None, "Pendulum-v1").parameters
+    expect(
+        np.abs(got - right).max() < 0.02 * np.abs(right - begun).max(),
+        f"{student.said}: all episodes of the rollout end because time runs out. What comes after "
+        "such a step belongs to another episode, too.",
+    )
 
 
 @looping.check(1)

@@ -284,7 +284,10 @@ def a_long_log(student: Student):
     rng = generator(22)
     values = rng.normal(size=10_400).astype(np.float32).astype(np.float64)
     log = {"train/approx_kl": (8 * np.arange(1, len(values) + 1), values)}
-    compare_log("read_indicators(<10400 values>)", read(student, event_file(entries_of(log))), log)
+    answer, said = read(student, event_file(entries_of(log))), "read_indicators(<10400 values>)"
+    (kept,) = expect_fields(said, answer.get("train/approx_kl"), "steps")
+    expect(np.size(kept) != 10_000, f"{said} kept 10000 values of 10400: see size_guidance.")
+    compare_log(said, answer, log)
 
 
 @reading.check(3)
@@ -293,7 +296,18 @@ def without_nan(student: Student):
     entries = entries_of(log)
     entries.insert(3, ("train/explained_variance", 1, float("nan")))
     entries.append(("train/explained_variance", 20_000, float("nan")))
-    compare_log(student.said, read(student, event_file(entries)), log)
+    answer, name = read(student, event_file(entries)), "train/explained_variance"
+    for key, kept in zip(
+        ("steps", "values"),
+        expect_fields(student.said, answer.get(name), "steps", "values"),
+        strict=True,
+    ):
+        expect(
+            np.size(kept) != len(log[name][0]) + 2,
+            f"{student.said}[{name!r}]: {key} has {np.size(kept)} entries: the two whose value is "
+            "NaN are to be left out, of the steps and of the values.",
+        )
+    compare_log(student.said, answer, log)
 
 
 @reading.check(3)
@@ -486,6 +500,14 @@ def compare_chance(student: Student, first: list[float], second: list[float]) ->
     }  # fmt: skip
     answer = student.call("chance_of", first, second)
     student.said = f"chance_of({first}, {second})"
+    right = bool(np.all(np.isclose(answer, hits / len(ways), CLOSE, CLOSE)))
+    whole = np.asarray(answer, dtype=float) * len(ways)
+    expect(
+        right or bool(np.all(np.abs(whole - np.round(whole)) < 1e-6)),
+        f"{student.said} returned {show(answer)}, but {hits} / {len(ways)} was expected: there are "
+        f"{len(ways)} ways, each of which counts once, so the answer is a multiple of "
+        f"1 / {len(ways)}.",
+    )
     expect_close(student.said, answer, hits / len(ways), CLOSE, mistakes)
 
 

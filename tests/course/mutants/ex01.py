@@ -504,3 +504,39 @@ def balance(observation):
 # says: this
 # -                 "mean": float(np.mean(returns)),
 # +                 "mean": round(float(np.mean(returns)), 2),
+
+
+# %% dimensions_for_the_size loses 1.1
+# The size is the number of dimensions of the array, not of the numbers in it.
+# says: this
+# -         return {"kind": "Box", "size": len(low), "low": low, "high": high}
+# +         return {"kind": "Box", "size": space.low.ndim, "low": low, "high": high}
+
+
+# %% seeds_before_each_sample loses 1.2
+# Every action is the first one: seed the space once, and draw anew in each step.
+# says: this
+# -     env.action_space.seed(seed)
+# -     observations, actions, rewards = [observation], [], []
+# +     observations, actions, rewards = [observation], [], []
+# -         action = env.action_space.sample()
+# +         env.action_space.seed(seed)
+# +         action = env.action_space.sample()
+
+
+# %% observations_for_steps loses 1.6
+# The length counts the observations, of which there is one more than steps.
+# says: this
+# -                 "length": float(np.mean([len(run["rewards"]) for run in runs])),
+# +                 "length": float(np.mean([len(run["observations"]) for run in runs])),
+
+
+# %% rows_add_up loses 1.6
+# A row still holds the episodes of the environments before.
+# says: this
+# -     table = []
+# +     table, runs = [], []
+# -         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
+# +         runs += [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
+# -                 "deviation": float(np.std(returns, ddof=1)) if episodes > 1 else 0.0,
+# +                 "deviation": float(np.std(returns, ddof=1)) if len(runs) > 1 else 0.0,

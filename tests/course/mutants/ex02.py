@@ -602,3 +602,20 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 # +         if measured[-1] >= 195:
 # +             break
 # +     networks = networks[: len(measured)]
+
+
+# %% one_output_for_all_choices loses 2.3
+# A discrete action gets one output, but each choice needs its own.
+# says: this
+# -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
+# +     return ninputs, 1 if isinstance(actions, spaces.Discrete) else actions.shape[0]
+
+
+# %% seeds_of_its_own_for_each_network loses 2.8
+# The networks meet different episodes: the seeds move on with the number of the network.
+# says: this
+# -     measured = [fitness(environment_id, network, seeds) for network in networks]
+# +     measured = [
+# +         fitness(environment_id, networks[i], [i + each for each in seeds])
+# +         for i in range(nnetworks)
+# +     ]

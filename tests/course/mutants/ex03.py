@@ -608,3 +608,23 @@ def initial_population(popsize, nbiases, nweights, seed):
 # says: not in the list
 # -     runs = [experiment(seed) for seed in seeds]
 # +     runs = [experiment(seeds[0] + i) for i in range(len(seeds))]
+
+
+# %% best_after_selection loses 3.4
+# The best individual is looked up in the population that was made after the evaluation.
+# says: this
+# -         if fitness[winner] > best_fitness:
+# -             best, best_fitness = population[winner].copy(), float(fitness[winner])
+# -         population = next_population(population, fitness, mutrate, rng)
+# +         population = next_population(population, fitness, mutrate, rng)
+# +         if fitness[winner] > best_fitness:
+# +             best, best_fitness = population[0].copy(), float(fitness[winner])
+
+
+# %% mean_over_the_generations loses 3.6
+# Mean and deviation go over the generations, not over the replications.
+# says: this
+# -         "mean": histories.mean(axis=0),
+# -         "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
+# +         "mean": histories.mean(axis=1),
+# +         "deviation": histories.std(axis=1, ddof=1),

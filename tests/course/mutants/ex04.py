@@ -300,3 +300,37 @@ def curves(stats, column, budgets):
 # -     return 0.0 if height(observation) > 1 else -1.0
 # +     c1, s1, c2, s2 = observation[:4]
 # +     return 0.0 if -c1 - (c1 * c2 - s1 * s2) >= 1 else -1.0
+
+
+# %% arc_tangent_of_the_ratio loses 4.1
+# The arc tangent of sine / cosine knows half of the circle only.
+# says: this
+# -         "angle1": float(np.arctan2(sin1, cos1)),
+# -         "angle2": float(np.arctan2(sin2, cos2)),
+# +         "angle1": float(np.arctan(sin1 / cos1)),
+# +         "angle2": float(np.arctan(sin2 / cos2)),
+
+
+# %% nearest_generation loses 4.5
+# Takes the generation nearest to the budget, also one that was not complete by then.
+# says: this
+def curves(stats, column, budgets):
+    values = [
+        [stat[column][np.argmin(np.abs(stat["steps"] - budget))] for budget in budgets]
+        for stat in stats
+    ]
+    return {"mean": np.mean(values, axis=0), "deviation": np.std(values, axis=0, ddof=1)}
+
+
+# %% best_fitness_promises loses 4.6
+# Takes the best fitness for the promise, which is the best post-evaluated fitness.
+# says: this
+# -         row = {"seed": seed, "promised": float(stat["best post-evaluated"][-1])}
+# +         row = {"seed": seed, "promised": float(stat["best fitness"][-1])}
+
+
+# %% episodes_of_the_run loses 4.6
+# Evaluates with the seed of the run instead of test_seed.
+# says: this
+# -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
+# +             row[kind] = float(robot.evaluate(seed, episodes).mean())

@@ -435,3 +435,42 @@ def three_stages(seed):
 # says: above panel
 # -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
 # +         axes.set(title=titles[0], xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
+
+
+# %% first_observation_decides loses 7.2
+# The controller is asked with the first observation in every step.
+# says: this
+# -     observations = [observation]
+# -     for _ in range(steps):
+# -         observation, _, terminated, truncated, _ = env.step(controller(observation))
+# +     observations, first = [observation], observation
+# +     for _ in range(steps):
+# +         observation, _, terminated, truncated, _ = env.step(controller(first))
+
+
+# %% velocities_first loses 7.4
+# All velocities of an angle come first, but all angles of a velocity are asked for.
+# says: this
+# -     return np.stack([np.tile(angles, nvelocities), np.repeat(velocities, nangles)], axis=1)
+# +     return np.stack([np.repeat(angles, nvelocities), np.tile(velocities, nangles)], axis=1)
+
+
+# %% observation_of_the_step_before loses 7.4
+# The controller sees what the environment observed last, not the state it was put into.
+# says: this
+# -     env.reset()
+# -     following = []
+# +     seen, _ = env.reset(seed=1)
+# +     following = []
+# -         seen = np.array([np.cos(angle), np.sin(angle), velocity], dtype=np.float32)
+# -         observation, *_ = env.step(controller(seen))
+# +         observation, *_ = env.step(controller(seen))
+# +         seen = observation
+
+
+# %% set_to_the_first_state_only loses 7.4
+# The pendulum is put into the first state only, and then goes on from there.
+# says: this
+# -         env.unwrapped.state = np.array([angle, velocity])
+# +         if not following:
+# +             env.unwrapped.state = np.array([angle, velocity])

@@ -637,7 +637,7 @@ def learn(inputs, targets, hiddens, seed):
 # +             group["lr"] *= 0.99
 # +         losses.append(loss.item())
 # %% optimiser_anew_in_each_epoch loses 11.4
-# A new optimiser in each epoch forgets the momentum.
+# The momentum has no effect: it is not handed on, or each epoch's new optimiser forgets it.
 # -     for _ in range(epochs):
 # -         optimiser.zero_grad()
 # -         loss = nn.functional.mse_loss(network(inputs), targets)
@@ -674,3 +674,48 @@ def learn(inputs, targets, hiddens, seed):
 # Returns the loss of the last batch of each epoch instead of that of the whole training set.
 # -             losses.append(nn.functional.mse_loss(network(inputs), targets).item())
 # +             losses.append(nn.functional.mse_loss(network(inputs[batch]), targets[batch]).item())
+
+
+# %% outputs_added_up_by_torch loses 11.3
+# The squares of a pattern's outputs are added up; the mean goes over the outputs, too.
+# says: this
+# -     loss = torch.mean((outputs - torch.tensor(targets, dtype=torch.float64)) ** 2)
+# +     loss = ((outputs - torch.tensor(targets, dtype=torch.float64)) ** 2).sum(dim=1).mean()
+
+
+# %% mean_of_the_minibatches loses 11.7
+# Returns the mean of the losses of the minibatches, while the network was still changing.
+# says: this
+# -         with torch.no_grad():
+# -             losses.append(nn.functional.mse_loss(network(inputs), targets).item())
+# +         losses.append(float(np.mean(found)))
+# -         for batch in minibatches(len(inputs), batch_size, rng):
+# +         found = []
+# +         for batch in minibatches(len(inputs), batch_size, rng):
+# -             loss = nn.functional.mse_loss(network(inputs[batch]), targets[batch])
+# -             loss.backward()
+# +             loss = nn.functional.mse_loss(network(inputs[batch]), targets[batch])
+# +             found.append(loss.item())
+# +             loss.backward()
+
+
+# %% loss_before_the_epoch loses 11.7
+# Returns the loss before each epoch instead of after it.
+# says: this
+# -         for batch in minibatches(len(inputs), batch_size, rng):
+# +         with torch.no_grad():
+# +             losses.append(nn.functional.mse_loss(network(inputs), targets).item())
+# +         for batch in minibatches(len(inputs), batch_size, rng):
+# -         with torch.no_grad():
+# -             losses.append(nn.functional.mse_loss(network(inputs), targets).item())
+# -     return losses
+# +     return losses
+
+
+# %% cleared_once_an_epoch loses 11.7
+# The gradients are cleared once an epoch, so those of its minibatches add up.
+# says: this
+# -         for batch in minibatches(len(inputs), batch_size, rng):
+# -             optimiser.zero_grad()
+# +         optimiser.zero_grad()
+# +         for batch in minibatches(len(inputs), batch_size, rng):

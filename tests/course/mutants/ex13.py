@@ -684,3 +684,67 @@ def responses(activations, observations):
 # +                 if h.target_kl is not None and divergence > 1.5 * h.target_kl:
 # +                     break
 # +                 ppo.step(loss.gradient)
+
+
+# %% time_runs_on loses 13.8
+# An episode that time has ended runs on into the next one.
+# says: all episodes of the rollout end because time runs out
+# -         ended = (rollout.ended > 0).astype(float)
+# +         ended = (rollout.ended == 1).astype(float)
+
+
+# %% share_that_lost loses 13.2
+# Counts the steps in which the clipped product is the smaller one, not all ratios that are far.
+# says: this
+# -         "clip_fraction": float(np.mean(np.abs(ratio - 1) > clip_range)),
+# +         "clip_fraction": float(np.mean(clipped * advantages < ratio * advantages)),
+
+
+# %% ratio_of_the_logarithms loses 13.2
+# Divides the logarithms of the probabilities instead of taking the exponential of their difference.
+# says: this
+# -     ratio = np.exp(log_prob - old_log_prob)
+# +     ratio = log_prob / old_log_prob
+
+
+# %% constant_of_one_actuator loses 13.4
+# The constant counts once, but it counts for each actuator.
+# says: this
+# -     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.asarray(log_deviation)))
+# +     return float(0.5 + 0.5 * np.log(2 * np.pi) + np.sum(log_deviation))
+
+
+# %% exponential_of_the_logarithm loses 13.4
+# Adds sigma where ln sigma belongs.
+# says: this
+# -     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.asarray(log_deviation)))
+# +     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.exp(log_deviation)))
+
+
+# %% variance_of_the_predictions loses 13.6
+# Compares the variance of the predictions with that of the returns, not that of their difference.
+# says: this
+# -     return float(1 - np.var(returns - values) / np.var(returns))
+# +     return float(np.var(values) / np.var(returns))
+
+
+# %% rectified loses 13.7
+# The hidden neurons are cut off at 0 (ReLU) where tanh is asked for.
+# says: this
+# -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
+# +         observations = np.maximum(0, observations @ np.asarray(weights).T + biases)
+
+
+# %% means_stay loses 13.7
+# The means are not subtracted before neurons and observations are multiplied.
+# says: this
+# -     h, x = activations - activations.mean(axis=0), observations - observations.mean(axis=0)
+# +     h, x = np.array(activations), np.array(observations)
+
+
+# %% lost_arrays loses 13.8
+# The advantages and returns are not written into the arrays of the rollout.
+# says: this
+# -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
+# +         own = found, found + rollout.values
+# +         assert len(own) == 2

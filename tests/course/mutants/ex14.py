@@ -618,3 +618,86 @@ def warning_signs(indicators, total, signs):
 # says: this
 # -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
 # +         inside = (steps > part * (total // parts)) & (steps <= (part + 1) * (total // parts))
+
+
+# %% seeds_counted_over_all_variants loses 14.4
+# A seed that another variation has had, too, is left out.
+# says: this
+# -         results.setdefault(run["variant"], {}).setdefault(run["seed"], run["return"])
+# +         mine = results.setdefault(run["variant"], {})
+# +         if not any(run["seed"] in other for other in results.values()):
+# +             mine[run["seed"]] = run["return"]
+# -     means = {variant: np.mean(list(found.values())) for variant, found in results.items()}
+# +     results = {variant: found for variant, found in results.items() if found}
+# +     means = {variant: np.mean(list(found.values())) for variant, found in results.items()}
+# +     means.setdefault(baseline, 0.0)
+# +     results.setdefault(baseline, {0: 0.0})
+
+
+# %% order_for_ranks loses 14.7
+# Takes what argsort gives for the ranks: it is the order of the trainings.
+# says: this
+def rank_correlation(first, second):
+    if np.ptp(first) == 0 or np.ptp(second) == 0:
+        return 0.0
+    return float(np.corrcoef(np.argsort(first), np.argsort(second))[0, 1])
+
+
+# %% neighbours_only loses 14.7
+# Groups only neighbours of the same variation, though they come in any order.
+# says: this
+def within_variants(numbers, variants):
+    numbers, found, begin = np.asarray(numbers, dtype=float), [], 0
+    for end in range(1, len(numbers) + 1):
+        if end == len(numbers) or variants[end] != variants[begin]:
+            found += list(numbers[begin:end] - numbers[begin:end].mean())
+            begin = end
+    return np.round(found, 9)
+
+
+# %% sorted_by_variant loses 14.7
+# The answer is in the order of the variations, not of the numbers.
+# says: this
+def within_variants(numbers, variants):
+    numbers, names, found = np.asarray(numbers, dtype=float), np.array(variants), []
+    for name in sorted(set(variants)):
+        found += list(numbers[names == name] - numbers[names == name].mean())
+    return np.round(found, 9)
+
+
+# %% exact_comparison loses 14.5
+# Leaves the tolerance out: equal differences count only if they are equal to the last bit.
+# says: this
+# -     return float(np.mean(differences >= observed - 1e-9))
+# +     return float(np.mean(differences >= observed))
+
+
+# %% sums_compared loses 14.5
+# Compares sums where means are asked for: the larger group has the larger sum.
+# says: this
+# -     observed = abs(np.mean(first) - np.mean(second))
+# +     observed = abs(np.sum(first) - np.sum(second))
+# -     differences = abs(totals / n - (together.sum() - totals) / m)
+# +     differences = abs(totals - (together.sum() - totals)) + 0 * m
+
+
+# %% random_deals loses 14.5
+# Deals at random some thousand times, but every way is to be counted exactly once.
+# says: multiple of
+# -     ways = np.array(list(combinations(range(n + m), n)))
+# +     rng = np.random.default_rng(0)
+# +     ways = np.array([rng.permutation(n + m)[:n] for _ in range(2000)])
+
+
+# %% average_of_one_run loses 14.8
+# A group is averaged, but each run is to keep its own row.
+# says: this
+# -         found[name] = np.array(reached)
+# +         found[name] = np.mean(reached, axis=0)
+
+
+# %% borders_belong_to_the_next loses 14.6
+# What was logged on the border of two parts counts for the later one, not for the earlier one.
+# says: this
+# -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
+# +         inside = (steps * parts >= part * total) & (steps * parts < (part + 1) * total)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 import time
 import traceback
 import warnings
@@ -140,7 +141,11 @@ def _grade_task(
                 if text or failure.pasted:
                     problems[at] += f"\n  To try it: {text or failure.pasted}"
             for at, failure in [] if told else _diagnosable(failed):
-                problems[at] += looked_at_again(failure, again)
+                with tempfile.TemporaryDirectory(prefix="botschool-") as folder:
+                    place = Path(folder) / file.name
+                    place.write_text(known.solution, encoding="utf-8")
+                    ours = partial(Student, place, *limits, refused=task.refused)
+                    problems[at] += looked_at_again(failure, again, ours)
         except SLIPS as slip:  # of ours, and points do not depend on it
             warnings.warn(f"The cause of a failure could not be found: {slip!r}.", stacklevel=1)
     except Wrong as error:
