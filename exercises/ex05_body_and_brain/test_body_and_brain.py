@@ -166,6 +166,8 @@ def wrong_sizes(p: np.ndarray, first: int, nominal: float) -> dict:
             "0.9 tanh p is added to 1, not subtracted from it.": lambda q: scaled(-q, nominal),
             "tanh is left out: the parameters themselves are used.":
             lambda q: nominal * (1 + 0.9 * q),
+            "tanh lies between -1 and 1, not between 0 and 1: at p = 0 a size is in the middle.":
+            lambda q: nominal * (0.1 + 1.8 * np.tanh(q)),
             "tanh stands around the whole bracket, but belongs to p alone.":
             lambda q: nominal * np.tanh(1 + 0.9 * q),
             f"The factor {nominal} is left out.": lambda q: 1 + 0.9 * np.tanh(q),
@@ -201,6 +203,8 @@ def wrong_masses(p: np.ndarray) -> dict:
             lambda long, thick, dense: dense,
             "The thickness is left out.": lambda long, thick, dense: long * dense,
             "The length is left out.": lambda long, thick, dense: thick * dense,
+            "A segment is flat: its area is length x thickness, not that of a round rod.":
+            lambda long, thick, dense: np.pi * (thick / 2) ** 2 * long * dense,
             "Length and thickness are multiplied, not added.":
             lambda long, thick, dense: (long + thick) * dense,
             "The density is a factor, not a divisor.": lambda long, thick, dense:
@@ -246,7 +250,13 @@ def wrong_angles(p: np.ndarray) -> dict:
             "The scale is 3 pi / 4, not 4 pi / 3.": np.pi * 4 / 3,
             "The scale is 3 pi / 4, not pi / 4.": np.pi / 4,
         },
-        sums={"": lambda a: a, "These are sums of angles, which belong to `outline`.": np.cumsum},
+        sums={
+            "": lambda a: a,
+            "These are sums of angles, which belong to `outline`.": np.cumsum,
+            "The torso has a default angle, too: it is 0 here.":
+            lambda a: np.where(np.arange(11) == 0, 0, a),
+            "The torso has a default angle, too: it is left out.": lambda a: np.append(a[1:], 0),
+        },
     )  # fmt: skip
 
 
@@ -291,6 +301,8 @@ def wrong_limits(p: np.ndarray, name: str) -> dict:
             "A limit is taken without its sign: both can lie on one side of the default angle.":
             lambda one, other: (-1 if low else 1) * np.abs(pick(one, other)),
             "Limits are taken without their signs.": amounts,
+            "The limits of all joints are sorted, but each joint has its own two (axis=1).":
+            lambda one, other: np.sort(one if low else other),
         },
         added={
             "": 0,
@@ -332,6 +344,8 @@ def wrong_corners(p: np.ndarray) -> dict:
             "The heading of a segment has the angles of two segments only: sum up all.":
             bends + np.append(0, bends[:-1]),
             "The angles are summed up twice.": np.cumsum(np.cumsum(bends)),
+            "The torso's angle is counted twice from segment 1 on, and each other one comes one "
+            "segment late.": np.append(bends[0], bends[0] + np.cumsum(bends)[:-1]),
         },
         along={
             "": lambda a: np.exp(1j * a),
@@ -481,6 +495,39 @@ MISTAKES = {
 """What slips make of an answer's parts: functions of the parameters."""
 
 
+def origin_of(p: np.ndarray, key: str, *place: int) -> str:
+    """What the text says about a number, with the parameters or parts from which it comes."""
+    i = place[0] if place else 0
+    long, thick, (low, high) = lengths(p), thicknesses(p), limits(p)
+    if key in ("lengths", "thicknesses"):
+        at, nominal = (2 * i, 0.8) if key == "lengths" else (2 * i + 1, 0.2)
+        return f"{key}[{i}] comes from p[{at}] = {p[at]:.4g}: it is {nominal} (1 + 0.9 tanh p)."
+    if key == "masses":
+        return (
+            f"masses[{i}] is length {long[i]:.4g} x thickness {thick[i]:.4g} x density, which "
+            f"comes from p[{53 + i}] = {p[53 + i]:.4g}: it is 5 + 0.8 tanh p."
+        )
+    cut_off = "times the parameter, which is cut off at -1 and 1 first"
+    if key == "angles":
+        return f"angles[{i}] comes from p[{42 + i}] = {p[42 + i]:.4g}: 3 pi / 4 {cut_off}."
+    if key in ("lower", "upper"):
+        a, b = 22 + 2 * i, 23 + 2 * i
+        return (
+            f"The limits of joint {i} come from p[{a}] = {p[a]:.4g} and p[{b}] = {p[b]:.4g}: "
+            f"pi / 2 {cut_off}. The {'smaller' if key == 'lower' else 'larger'} one is {key}[{i}]."
+        )
+    if key in ("width", "height"):
+        values = corners(p)[:, :, int(key == "height")]
+        return (
+            f"Of all 44 corners the largest {'y' if key == 'height' else 'x'} is "
+            f"{values.max():.4g} and the smallest {values.min():.4g}."
+        )
+    if key == "freedom":
+        return f"The joints can move by {np.round(high - low, 3).tolist()}: take the mean."
+    parts = long if key == "length" else masses(p)
+    return f"It is the sum of these: {np.round(parts, 3).tolist()}."
+
+
 def expect_decoded(student: Student, name: str, index: int, wanted: dict) -> None:
     """wanted: key -> the grader's function of the parameters."""
     questions = bodies(index)
@@ -489,7 +536,8 @@ def expect_decoded(student: Student, name: str, index: int, wanted: dict) -> Non
         values = expect_fields(said, answer, *wanted)
         for (key, own), value in zip(wanted.items(), values, strict=True):
             mistakes = partial(MISTAKES[key], p)
-            expect_close(f"{said}: {key}", value, own(p), TOLERANCE, mistakes=mistakes)
+            why = partial(origin_of, p, key)
+            expect_close(f"{said}: {key}", value, own(p), TOLERANCE, mistakes, why)
 
 
 # ------------------------------------------------------------------- 5.1
@@ -533,11 +581,53 @@ shape = exercise.task("5.3", "The shape at rest", needs=("5.1", "5.2"), refused=
 CORNERS = ("beginning right", "end right", "end left", "beginning left")
 
 
+def measured(got: np.ndarray, p: np.ndarray, *place: int) -> str:
+    """What the corners of a submission show: the first thing that is not as the text says."""
+    own = corners(p)
+    turned = "the sum of all default angles up to its own"
+
+    def parts(corners: np.ndarray) -> tuple:
+        """Beginnings, ends, lengths, headings and thicknesses, from the corners."""
+        begin, end = (corners[:, 0] + corners[:, 3]) / 2, (corners[:, 1] + corners[:, 2]) / 2
+        along, across = end - begin, corners[:, 3] - corners[:, 0]
+        heading = np.arctan2(along[:, 1], along[:, 0])
+        return begin, end, np.hypot(*along.T), heading, np.hypot(*across.T)
+
+    begin, end, long, heading, thick = parts(got)
+    _, _, right_long, right_heading, right_thick = parts(own)
+    sides = got[:, 1] - got[:, 0], got[:, 2] - got[:, 3]
+    along, across = end - begin, got[:, 3] - got[:, 0]
+    left = along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]
+    for k in range(11):
+        before, name = (end[k - 1], f"but segment {k - 1} ends at") if k else (0 * end[0], "not at")
+        if np.abs(begin[k] - before).max() > 1e-3:
+            where, before = begin[k].round(3).tolist(), before.round(3).tolist()
+            return f"Segment {k} begins at {where} there, {name} {before}."
+        if np.abs(sides[0][k] - sides[1][k]).max() > 1e-3 or abs(along[k] @ across[k]) > 1e-3:
+            return f"The four corners of segment {k}, one after another, make no rectangle."
+        if left[k] < 0:
+            return f"The right corners of segment {k} lie to its left."
+        if abs(thick[k] - right_thick[k]) > 1e-3:
+            return (
+                f"Segment {k} is {thick[k]:.4g} m thick there, but `sizes` gives "
+                f"{right_thick[k]:.4g}: half of it belongs to each side."
+            )
+        if abs(long[k] - right_long[k]) > 1e-3:
+            return f"Segment {k} is {long[k]:.4g} m long there, not {right_long[k]:.4g} m."
+        if abs(np.exp(1j * heading[k]) - np.exp(1j * right_heading[k])) > 1e-3:
+            return (
+                f"Segment {k} has the heading {heading[k]:.4g} there, but {turned} is "
+                f"{right_heading[k]:.4g}."
+            )
+    return ""
+
+
 def expect_outline(student: Student, questions: np.ndarray) -> None:
     for p, answer in zip(questions, asked(student, "outline", questions), strict=True):
         said = said_of("outline", p)
         answer = expect_array(said, answer, (11, 4, 2))
-        expect_close(said, answer, corners(p), TOLERANCE, mistakes=partial(wrong_corners, p))
+        why = partial(measured, answer, p)
+        expect_close(said, answer, corners(p), TOLERANCE, partial(wrong_corners, p), why)
 
 
 @shape.check(5)
@@ -698,6 +788,15 @@ class Trial:
             "The seeds that are given are not used: these runs have the seeds 1 and 2.": runs(
                 [1, 2], steps
             ),
+            **(
+                {
+                    "The steps are shared among the runs: each has all of them.": runs(
+                        seeds, steps // len(seeds)
+                    )
+                }
+                if steps
+                else {}
+            ),
             "The seed 0 is a seed like any other: another one is used in its place.": runs(
                 [seed or 1 for seed in seeds], steps
             ),
@@ -837,7 +936,12 @@ def expect_matrix(
     expect(unchanged is True, f"{said} changed the walkers that it was given: work on copies.")
     returns = own_returns(text, walkers, seed, episodes)
     made = partial(wrong_matrices, returns, text, walkers, seed, episodes)
-    expect_close(said, matrix, returns.mean(axis=2), TOLERANCE, mistakes=made)
+
+    def why(i: int, j: int) -> str:
+        each = returns[i, j].round(3).tolist()
+        return f"Brain {i} in body {j} has these returns: {each}. [{i}, {j}] is their mean."
+
+    expect_close(said, matrix, returns.mean(axis=2), TOLERANCE, made, why)
 
 
 def wrong_matrices(
@@ -856,6 +960,11 @@ def wrong_matrices(
         "A pair gets the number of the pair with the roles exchanged: the half above the "
         "diagonal mirrors the one below.": lambda m: np.tril(m) + np.tril(m, -1).T,
         "Rows are brains and columns are bodies: the two are exchanged.": lambda m: m.T,
+        "The diagonal is left out: each brain is evaluated in its own body, too.":
+        lambda m: m - np.diag(np.diagonal(m)),
+        "Only the diagonal is evaluated.": lambda m: np.diag(np.diagonal(m)),
+        "The returns of a row are added up from pair to pair.": lambda m: np.cumsum(m, axis=1),
+        "The returns of a column are added up from pair to pair.": lambda m: np.cumsum(m, axis=0),
     }  # fmt: skip
     seeds = {
         "Each row has a seed of its own, but all pairs have the same.": lambda i, j: i,
@@ -919,6 +1028,12 @@ def wrong_losses(matrix: np.ndarray, key: str) -> dict:
             "This is the other diagonal.": np.diagonal(matrix[:, ::-1]).mean(),
             "The diagonal is added up, not averaged.": own.sum(),
             "This is the mean of the whole matrix.": matrix.mean(),
+            "These are the best returns of the rows: the diagonal is asked for.": matrix.max(
+                axis=1
+            ).mean(),
+            "These are the best returns of the columns: the diagonal is asked for.": matrix.max(
+                axis=0
+            ).mean(),
         }
     if key == "foreign":
         return {
@@ -946,6 +1061,8 @@ def wrong_losses(matrix: np.ndarray, key: str) -> dict:
             np.sum(own > rest.min(axis=1)),
         }  # fmt: skip
     return {
+        "The returns of a column are subtracted for a row: own - matrix pairs them column by "
+        "column.": (own - table).sum(axis=1) / (n - 1),
         "The own place is counted among the others.": own - table.mean(axis=1),
         "The others are added up and divided by n: there are n - 1 others.":
         own - rest.sum(axis=1) / n,
@@ -967,7 +1084,29 @@ def expect_loss(student: Student, index: int, *keys: str) -> None:
         values = expect_fields(student.said, answer, *keys)
         for key, value in zip(keys, values, strict=True):
             wrong = wrong_losses(matrix, key)
-            expect_close(f"{student.said}: {key}", value, own_loss(matrix, key), TOLERANCE, wrong)
+            said, why = f"{student.said}: {key}", partial(reason, matrix, key)
+            expect_close(said, value, own_loss(matrix, key), TOLERANCE, wrong, why)
+
+
+def reason(matrix: np.ndarray, key: str, *place: int) -> str:
+    """What the text says about a part of the answer, with its numbers."""
+    n, own = len(matrix), np.diagonal(matrix)
+    if key == "own":
+        return f"The diagonal is {own.round(2).tolist()}: take the mean."
+    if key == "foreign":
+        return f"There are {n * n - n} places that are not on the diagonal: take their mean."
+    if key == "at home":
+        best = [max(np.delete(row, i)) for i, row in enumerate(matrix)]
+        return (
+            f"At home the brains have {own.round(2).tolist()}; the best of the others in each row "
+            f"is {np.round(best, 2).tolist()}. Count where the first is greater."
+        )
+    line, what = (matrix[place[0]], "row") if key == "brains" else (matrix[:, place[0]], "column")
+    others = np.delete(line, place[0]).round(2).tolist()
+    return (
+        f"{key}[{place[0]}] is {own[place[0]]:.4g}, on the diagonal, minus the mean of the others "
+        f"in its {what}: {others}."
+    )
 
 
 def own_loss(matrix: np.ndarray, key: str):
@@ -1025,7 +1164,9 @@ def as_good_elsewhere_is_not_at_home(student: Student):
     for rows in matrices:
         answer = student.call("loss", np.array(rows))
         (value,) = expect_fields(f"loss({rows})", answer, "at home")
-        expect_close(f"loss({rows}): at home", value, own_loss(np.array(rows), "at home"))
+        matrix = np.array(rows)
+        said, why = f"loss({rows}): at home", partial(reason, matrix, "at home")
+        expect_close(said, value, own_loss(matrix, "at home"), why=why)
     rows = np.array(matrices[1])
     after = student.run(matrix_after, rows, said="loss(matrix)")
     expect(

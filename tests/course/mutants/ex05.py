@@ -522,7 +522,7 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 
 # %% first_body_kept loses 5.1
 # Keeps the answer for the first body and gives it for all others.
-# says: the same answer for 4 different bodies
+# says: the same answer for 2 different bodies
 _sizes, _kept = sizes, {}
 
 
