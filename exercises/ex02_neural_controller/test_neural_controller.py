@@ -640,6 +640,9 @@ def expect_batch(student: Student, index: int, sizes: tuple) -> None:
                 first = {key: stack[0] for key, stack in networks.items()}
                 mistakes = mistaken_outputs(network, observations[i]) | {
                     "It gets the weights of network 0.": outputs_of(first, observations[i]),
+                    "It gets W1 and W2 of network 0, with its own biases.": outputs_of(
+                        network | {"W1": first["W1"], "W2": first["W2"]}, observations[i]
+                    ),
                     "It gets the second layer of network 0.": outputs_of(
                         network | {"W2": first["W2"], "b2": first["b2"]}, observations[i]
                     ),

@@ -347,7 +347,9 @@ def tells_the_fitness_of_each_run(student: Student):
     for seed, value in pairs:
         wanted = files_of(ACROBOT, seed, 40_000)["fitness"]
         expect_close(f"{trial.said}: the fitness of run {seed}", value, wanted)
-    Trial(student, PENDULUM, "fitness", 4_000, before.seeds).expect_files("stat")  # anew
+    again = Trial(student, PENDULUM, "fitness", 4_000, before.seeds)
+    again.said += ", whose seeds have files there already, which must be replaced"
+    again.expect_files("stat")
 
 
 # ------------------------------------------------------------------- 4.4
@@ -475,6 +477,7 @@ def mean_at_equal_steps(student: Student):
     stats = made_up_stats(35, 3)
     budgets = rng_of(36).permutation(np.linspace(2100, 40_000, 12)).round()
     expect_curves(student, stats, "average", budgets, "mean")
+    expect_curves(student, stats, "best fitness", budgets[3:8], "mean")
     expect_curves(student, stats, "average", budgets[:1], "mean")
 
 

@@ -685,10 +685,10 @@ def shown(shares: np.ndarray) -> str:
 def measured(parameters: list, normalised, targets, answers, others) -> str:
     """What is seen of a network that is not good enough."""
     middle, spread = normalised.mean(axis=0), normalised.std(axis=0)
-    if np.abs(middle).max() > 1 or spread.max() > 3 or spread.min() < 0.3:
+    if np.abs(middle).max() > 0.1 or spread.max() > 1.1 or spread.min() < 0.9:
         return (
             f"(inputs - mean) / deviation has the means {show(middle)} and the deviations "
-            f"{show(spread)}: they should be 0 and 1."
+            f"{show(spread)}, where normalised inputs have 0 and 1."
         )
     with np.errstate(invalid="ignore", divide="ignore"):
         pairs = zip(answers.T, others.T, strict=True)

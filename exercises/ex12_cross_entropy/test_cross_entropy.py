@@ -935,7 +935,9 @@ def expect_balanced(student: Student, environment: str, index: int) -> None:
         f"{said}: returns must be a list with a list of returns for each iteration.",
     )
     mean = mean_return(environment, arrays, signs, side)
-    known = mean < 180 and mean_return(environment, arrays, np.ones(4), 1) >= 180
+    had = np.array(played, dtype=float)[:, 0]
+    risen = had[-20:].mean() > 0.9 * had[:20].mean()  # it may have learnt from the worst episodes
+    known = mean < 180 and risen and mean_return(environment, arrays, np.ones(4), 1) >= 180
     expect(
         not known,
         f"{said}: the policy balances the usual environment, but not the one that it was asked to "

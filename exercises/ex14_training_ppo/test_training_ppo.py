@@ -180,7 +180,14 @@ def one_training(student: Student):
     (record,) = varied(student, "Pendulum-v1", {"only": rate}, [2])
     found, said = expect_training(student, record, "Pendulum-v1", "only", rate, 2)
     expect_same_numbers(said, found, reference)
-    expect_close(f"{student.said}: return", record["return"], reference.last, CLOSE)
+    means = reference.returns.mean(axis=1)
+    mistakes = {
+        "It is the best of the post-evaluations: the last one is asked for.": means.max(),
+        "It is the first of the post-evaluations: the last one is asked for.": means[0],
+        "It is the mean of all post-evaluations: the last one is asked for.": means.mean(),
+    }
+    got = record["return"]
+    expect_close(f"{student.said}: return", got, reference.last, CLOSE, mistakes)
 
 
 @varying.check(10)
@@ -591,13 +598,14 @@ def borders_gaps_and_nan(student: Student):
 
 
 def expect_signs(student: Student, index: int, names: tuple[str, ...], missing: int = 0) -> None:
-    """Logs whose beginning says the opposite of their end; limits drawn on both sides of it."""
+    """Logs whose first third, and whose mean, say other things; limits on both sides of the end."""
     rng, total = generator(index), 3000
     indicators, chosen, wanted = {}, {}, []
     for number, name in enumerate(names):
         late = round(float(rng.normal()), 3)
         steps = np.arange(100, total + 1, 100)
-        values = np.where(steps > 2000, late, -30 * np.sign(rng.normal()))
+        early = np.where(steps > 1000, -60, 30) * np.sign(rng.normal())
+        values = np.where(steps > 2000, late, early)
         values = values + np.where(steps % 200 == 0, 0.25, -0.25)
         values += rng.normal(0, 1, len(steps)) * (steps <= 2000)
         indicators[name] = {"steps": steps, "values": values}

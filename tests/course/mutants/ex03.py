@@ -628,3 +628,25 @@ def initial_population(popsize, nbiases, nweights, seed):
 # -         "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
 # +         "mean": histories.mean(axis=1),
 # +         "deviation": histories.std(axis=1, ddof=1),
+
+
+# %% values_in_order loses 3.2
+# Returns the values in order, not the numbers of the individuals.
+# says: this
+# -     return np.argsort(-np.asarray(fitness), kind="stable")
+# +     return np.sort(fitness)[::-1]
+
+
+# %% root_before_dividing loses 3.6
+# Takes the root before it divides by the number of replications minus one.
+# says: this
+# -         "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
+# +         "deviation": histories.std(axis=0) * len(seeds) ** 0.5 / max(1, len(seeds) - 1),
+
+
+# %% above_the_median loses 3.3
+# Keeps all that reach the median, which may be more than half if some are equal.
+# says: but an array of shape
+def next_population(population, fitness, mutrate, rng):
+    good = population[fitness >= np.median(fitness)]
+    return np.vstack([good, good + mutrate * rng.standard_normal(good.shape)])

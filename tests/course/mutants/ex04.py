@@ -334,3 +334,61 @@ def curves(stats, column, budgets):
 # says: this
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(robot.evaluate(seed, episodes).mean())
+
+
+# %% angles_in_degrees loses 4.1
+# The angles are in degrees instead of radians.
+# says: this
+# -         "angle1": float(np.arctan2(sin1, cos1)),
+# -         "angle2": float(np.arctan2(sin2, cos2)),
+# +         "angle1": float(np.degrees(np.arctan2(sin1, cos1))),
+# +         "angle2": float(np.degrees(np.arctan2(sin2, cos2))),
+
+
+# %% arc_sine loses 4.1
+# The angles come from the sine alone, which cannot tell up from down.
+# says: this
+# -         "angle1": float(np.arctan2(sin1, cos1)),
+# -         "angle2": float(np.arctan2(sin2, cos2)),
+# +         "angle1": float(np.arcsin(sin1)),
+# +         "angle2": float(np.arcsin(sin2)),
+
+
+# %% second_angle_from_straight_down loses 4.1
+# The second angle counts from straight down, but the observation's own angle is asked for.
+# says: this
+# -         "angle2": float(np.arctan2(sin2, cos2)),
+# +         "angle2": float(np.arctan2(sin1, cos1) + np.arctan2(sin2, cos2)),
+
+
+# %% line_at_the_nail loses 4.2
+# The line is at the height of the nail instead of 1 above it.
+# says: this
+# -     return 0.0 if height(observation) > 1 else -1.0
+# +     return 0.0 if height(observation) > 0 else -1.0
+
+
+# %% rows_for_columns loses 4.4
+# Takes the first rows of the table where its columns are asked for.
+# says: this
+# -     return {name: table[:, column] for column, name in enumerate(COLUMNS)}
+# +     return {name: table[column] for column, name in enumerate(COLUMNS)}
+
+
+# %% budgets_sorted loses 4.5
+# Sorts the budgets, so that the values come in another order than the budgets given.
+# says: this
+# -     values = [
+# -         stat[column][np.searchsorted(stat["steps"], budgets, side="right") - 1] for stat in stats
+# -     ]
+# +     budgets = np.sort(budgets)
+# +     values = [
+# +         stat[column][np.searchsorted(stat["steps"], budgets, side="right") - 1] for stat in stats
+# +     ]
+
+
+# %% test_seed_and_seed loses 4.6
+# Adds the seed of the run to test_seed, so that the robots meet different episodes.
+# says: this
+# -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
+# +             row[kind] = float(robot.evaluate(test_seed + seed, episodes).mean())

@@ -474,3 +474,36 @@ def three_stages(seed):
 # -         env.unwrapped.state = np.array([angle, velocity])
 # +         if not following:
 # +             env.unwrapped.state = np.array([angle, velocity])
+
+
+# %% last_state_missing loses 7.2
+# The recording ends with the state before the last step, not with the one after it.
+# says: this
+# -         observation, _, terminated, truncated, _ = env.step(controller(observation))
+# -         observations.append(observation)
+# -         if terminated or truncated:
+# -             break
+# -     return to_state(np.array(observations))
+# +         observation, _, terminated, truncated, _ = env.step(controller(observation))
+# +         observations.append(observation)
+# +         if terminated or truncated:
+# +             break
+# +     return to_state(np.array(observations[:-1]))
+
+
+# %% velocities_up_to_one loses 7.4
+# The velocities go from -1 to 1 instead of from -8 to 8.
+# says: this
+# -     velocities = np.linspace(-8, 8, nvelocities)
+# +     velocities = np.linspace(-1, 1, nvelocities)
+
+
+# %% state_of_the_wrapper loses 7.4
+# The state is set on the wrapper; the environment below it starts from the reset.
+# says: this
+# -     env.reset()
+# -     following = []
+# +     following = []
+# -         env.unwrapped.state = np.array([angle, velocity])
+# +         env.reset(seed=0)
+# +         env.state = np.array([angle, velocity])

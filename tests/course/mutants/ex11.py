@@ -379,7 +379,7 @@ def train(network, inputs, targets, epochs, learning_rate, momentum):
 
 
 # %% cleared_before_the_step loses 11.4
-# The gradients are cleared between backward and step, so no step moves anything.
+# The step finds no gradient: backward is missing, too late, or cleared before the step.
 # says: this
 # -         loss.backward()
 # -         optimiser.step()
@@ -719,3 +719,33 @@ def learn(inputs, targets, hiddens, seed):
 # -             optimiser.zero_grad()
 # +         optimiser.zero_grad()
 # +         for batch in minibatches(len(inputs), batch_size, rng):
+
+
+# %% softmax_for_the_features loses 11.1
+# The hidden neurons share out a sum of 1 (softmax) instead of each having its own logistic value.
+# says: this
+# -         return torch.sigmoid(self.hidden(patterns))
+# +         return torch.softmax(self.hidden(patterns), dim=1)
+
+
+# %% smallest_and_range loses 11.6
+# Subtracts the smallest value and divides by the range: mean and deviation are asked for.
+# says: this
+# -     mean, deviation = inputs.mean(axis=0), inputs.std(axis=0)
+# +     mean, deviation = inputs.min(axis=0), np.ptp(inputs, axis=0)
+
+
+# %% outputs_for_features loses 11.9
+# Gives the outputs of the network instead of the activations of its hidden neurons.
+# says: this
+# -         return network.features(patterns).numpy().T.reshape(-1, n, n)
+# +         return network(patterns).numpy().T.reshape(-1, n, n)
+
+
+# %% targets_in_another_order loses 11.7
+# A minibatch's targets are not those of its inputs: they stand in another order.
+# says: this
+# -             loss = nn.functional.mse_loss(network(inputs[batch]), targets[batch])
+# -             loss.backward()
+# +             loss = nn.functional.mse_loss(network(inputs[batch]), targets[np.sort(batch)])
+# +             loss.backward()

@@ -648,3 +648,52 @@ def train(environment, seed, iterations=50, episodes=20, **others):
 # says: this
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.exp(scores / np.abs(scores).max(axis=-1, keepdims=True))
+
+
+# %% shares_of_the_scores loses 12.1
+# Divides the scores by their sum: the exponential is missing.
+# says: this
+# -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
+# +     powers = np.abs(scores)
+
+
+# %% no_gradient_for_the_step loses 12.6
+# The optimiser's step finds no gradient: backward is missing, too late, or cleared before it.
+# says: this
+# -         optimiser.zero_grad()
+# -         value.backward()
+# -         optimiser.step()
+# +         value.backward()
+# +         optimiser.zero_grad()
+# +         optimiser.step()
+
+
+# %% first_kept_episode loses 12.4
+# Returns the first one of the kept episodes only.
+# says: this
+# -         "observations": np.concatenate([episode["observations"] for episode in kept]),
+# -         "actions": np.concatenate([episode["actions"] for episode in kept]),
+# +         "observations": kept[0]["observations"],
+# +         "actions": kept[0]["actions"],
+
+
+# %% every_action_of_every_step loses 12.5
+# Takes the scores of all the actions done, in every step, not the one of each step's own.
+# says: this
+# -     chosen = scores[torch.arange(len(actions)), actions]
+# -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
+# +     return (torch.logsumexp(scores, dim=1) - scores[:, actions]).mean()
+
+
+# %% actions_always_float loses 12.6
+# Whole actions become numbers of float32, too.
+# says: this
+# -     wanted = torch.as_tensor(np.asarray(actions), dtype=torch.int64 if whole else torch.float32)
+# +     wanted = torch.as_tensor(np.asarray(actions), dtype=torch.float32)
+
+
+# %% one_action_too_early loses 12.2
+# Counts the sums below the dart and takes one off: the action before the right one.
+# says: this
+def choose(probabilities, rng):
+    return max(0, int(np.sum(np.cumsum(probabilities) < rng.random())) - 1)

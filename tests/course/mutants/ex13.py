@@ -688,7 +688,7 @@ def responses(activations, observations):
 
 # %% time_runs_on loses 13.8
 # An episode that time has ended runs on into the next one.
-# says: all episodes of the rollout end because time runs out
+# says: both episodes of the rollout end because time runs out
 # -         ended = (rollout.ended > 0).astype(float)
 # +         ended = (rollout.ended == 1).astype(float)
 
@@ -748,3 +748,25 @@ def responses(activations, observations):
 # -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
 # +         own = found, found + rollout.values
 # +         assert len(own) == 2
+
+
+# %% first_step_for_the_last loses 13.8
+# Whether the first step ended its episode is taken for whether the last one did.
+# says: both episodes of the rollout end because time runs out
+# -             rollout.rewards, rollout.values, starts, rollout.last_values, ended[-1],
+# +             rollout.rewards, rollout.values, starts, rollout.last_values, ended[0],
+
+
+# %% clips_the_values loses 13.3
+# Clips the predictions themselves instead of their movement.
+# says: this
+# -         predictions = old_values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
+# +         predictions = np.clip(values, -clip_range_vf, clip_range_vf)
+
+
+# %% shares_of_the_scores loses 13.4
+# Takes shares of the scores for probabilities: softmax is missing.
+# says: this
+def entropy_of_choices(scores):
+    shares = np.abs(scores) / np.abs(scores).sum(axis=1, keepdims=True)
+    return -(shares * np.log(shares)).sum(axis=1)

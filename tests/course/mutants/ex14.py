@@ -701,3 +701,77 @@ def within_variants(numbers, variants):
 # says: this
 # -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
 # +         inside = (steps * parts >= part * total) & (steps * parts < (part + 1) * total)
+
+
+# %% number_of_the_post_evaluation loses 14.3
+# Gives the number of the post-evaluation where its steps are asked for.
+# says: this
+# -     for when, mean in zip(steps[::-1], means[::-1], strict=True):
+# +     for when, mean in reversed(list(enumerate(means))):
+
+
+# %% every_episode_reaches_the_goal loses 14.3
+# Asks every episode to reach the goal, not their mean.
+# says: this
+# -     for when, mean in zip(steps[::-1], means[::-1], strict=True):
+# +     for when, mean in zip(steps[::-1], np.min(returns, axis=1)[::-1], strict=True):
+
+
+# %% gain_over_the_best loses 14.4
+# The gain is that over the best variation, not over the baseline.
+# says: this
+# -                 "gain": float(means[variant] - means[baseline]),
+# +                 "gain": float(means[variant] - max(means.values())),
+
+
+# %% rows_by_name loses 14.4
+# The rows are in the order of the names, not of the means.
+# says: this
+# -     for variant in sorted(means, key=means.get, reverse=True):
+# +     for variant in sorted(means):
+
+
+# %% nan_counts loses 14.6
+# What is NaN is not left out.
+# says: this
+# -         these = values[inside & ~np.isnan(values)]
+# +         these = values[inside]
+
+
+# %% first_third loses 14.6
+# Looks for signs in the first third instead of the last.
+# says: this
+# -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
+# +         late = phase_means(logged["steps"], logged["values"], total, 3)[0]
+
+
+# %% ranks_turned_around loses 14.7
+# One of the two is ranked from the largest number on, so the sign is wrong.
+# says: this
+# -     return float((a * b).sum() / below) if below > 0 else 0.0
+# +     return -float((a * b).sum() / below) if below > 0 else 0.0
+
+
+# %% formula_without_ties loses 14.7
+# Takes the short formula with squared differences of the ranks, which is wrong with equal numbers.
+# says: this
+# -     return float((a * b).sum() / below) if below > 0 else 0.0
+# +     n = len(a)
+# +     return float(1 - 6 * ((a - b) ** 2).sum() / (n * (n**2 - 1))) if below > 0 else 0.0
+
+
+# %% evenly_spaced_logarithms loses 14.8
+# The logarithms of the steps are evenly spaced, not the steps.
+# says: this
+# -     steps = np.linspace(start, end, points)
+# +     steps = np.geomspace(start, end, points)
+
+
+# %% all_ways_of_halves loses 14.5
+# Deals out two halves whatever the sizes of the two lists are.
+# says: this
+# -     n, m = len(first), len(second)
+# -     observed = abs(np.mean(first) - np.mean(second))
+# +     n, m = len(first), len(second)
+# +     observed = abs(np.mean(first) - np.mean(second))
+# +     n, m = (n + m) // 2, n + m - (n + m) // 2

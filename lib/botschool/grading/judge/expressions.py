@@ -40,6 +40,9 @@ _ALIKE = (
     ("nlargest", "nsmallest"), ("tanh", "sigmoid"), ("cumsum", "cumprod"),
 )  # fmt: skip
 """Functions that are taken for one another."""
+FIRST = "The first one is taken where the last one belongs."
+LAST = "The last one is taken where the first one belongs."
+"""Sentences on an index."""
 _KEPT = {"array", "asarray", "zeros", "ones", "float", "len", "range", "enumerate", "zip", "empty"}
 """Functions that nobody leaves out by mistake, or without effect."""
 
@@ -104,8 +107,8 @@ class Expressions:
         elif isinstance(part, ast.UnaryOp):
             if isinstance(part.op, ast.USub):
                 if isinstance(part.operand, ast.Constant) and part.operand.value == 1:
-                    yield "The first one is taken where the last one belongs.", ast.Constant(0)
-                yield "A minus sign is missing.", part.operand
+                    yield FIRST, ast.Constant(0)
+                yield "A minus sign is missing: something is turned around.", part.operand
             elif isinstance(part.op, ast.Not):
                 yield "A condition holds where it should not (`not` is missing).", part.operand
         elif isinstance(part, ast.BoolOp):
@@ -227,7 +230,7 @@ class Expressions:
         elif isinstance(value, int):
             if value == 0:
                 last = ast.UnaryOp(ast.USub(), ast.Constant(1))
-                yield "The last one is taken where the first one belongs.", last
+                yield LAST, last
             for more, word in ((1, "more"), (-1, "less")):
                 end = " (off by one)" if abs(value) < 4 else ""
                 yield (

@@ -38,6 +38,8 @@ CHECK_SECONDS = 20
 SLIPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 SHORT = 120
 """Characters of a call that needs no smaller one."""
+MOST_SECONDS = 2.0
+"""As MAX_SECONDS, of a check that has failed: a known mistake must explain its answers, too."""
 MAX_DIAGNOSED, LOOKING_SECONDS = 2, 6.0
 """Failed checks of a task whose calls are repeated; processor seconds for a second look."""
 
@@ -107,7 +109,8 @@ def _grade_task(
         for worth, _, check in task.checks:
             start = time.thread_time() - student.seconds_left
             problem = _problem(task, check, student)
-            if time.thread_time() - student.seconds_left - start < MAX_SECONDS:
+            spent = time.thread_time() - student.seconds_left - start
+            if spent < (MAX_SECONDS if problem is None else MOST_SECONDS):
                 cheap.append(check)
             if problem is None:
                 result.points += worth
@@ -121,7 +124,7 @@ def _grade_task(
         result.missing = student.missing
         failures = [failure for _, failure in failed]
         try:
-            if any(failure.answered for failure in failures):
+            if any(failure.answered or failure.raised for failure in failures):
                 limits = min(LOOKING_SECONDS, task.seconds), task.memory, server, True
                 again = Student(file, *limits, origin, references, task.refused)
                 told = known_mistake(task, cheap, known, again, file.name, server)

@@ -14,7 +14,15 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from botschool.grading.judge.expressions import OTHER, SIGNS, Edit, Expressions, colon
+from botschool.grading.judge.expressions import (
+    FIRST,
+    LAST,
+    OTHER,
+    SIGNS,
+    Edit,
+    Expressions,
+    colon,
+)
 
 _REGION = re.compile(r"### BEGIN SOLUTION task (\d+\.\d+).*?### END SOLUTION", re.DOTALL)
 _FUNCTIONS = (ast.FunctionDef, ast.ClassDef)
@@ -47,11 +55,16 @@ def variations(solution: str, task: str, styles: Iterable[str] = ()) -> Iterator
     public = set(re.findall(r"\w+", _REGION.sub("", solution)))
     done = {solution}
     for text in (solution, *styles):
-        yield from _of_one(text, task, public, done)
+        yield from _of_one(text, task, public, done, own=text is solution)
 
 
-def _of_one(text: str, task: str, public: set[str], done: set[str]) -> Iterator[Variation]:
-    """Yield the slips in one solution, unless they are done."""
+def _of_one(
+    text: str, task: str, public: set[str], done: set[str], own: bool
+) -> Iterator[Variation]:
+    """Yield the slips in one solution, unless they are done.
+
+    own: whether it is our solution, and not one in another style, whose variables nobody knows.
+    """
     regions = [
         range(*(text.count("\n", 0, at) + 1 for at in found.span()))
         for found in _REGION.finditer(text)
@@ -62,8 +75,8 @@ def _of_one(text: str, task: str, public: set[str], done: set[str]) -> Iterator[
     last = {node.name: node for node in named}
     functions: list[Any] = []
     for node in named:
-        own = any(node.lineno <= region.start <= (node.end_lineno or 0) for region in regions)
-        if own and last[node.name] not in functions:
+        in_task = any(node.lineno <= region.start <= (node.end_lineno or 0) for region in regions)
+        if in_task and last[node.name] not in functions:
             functions.append(last[node.name])
             if last[node.name] is not node:  # written anew, below
                 regions.append(range(functions[-1].lineno, (functions[-1].end_lineno or 0) + 1))
@@ -71,7 +84,7 @@ def _of_one(text: str, task: str, public: set[str], done: set[str]) -> Iterator[
     several: list[tuple[Any, str, list[Edit]]] = []
     for function in functions:
         where = f"In `{function.name}`: " if len(functions) > 1 else ""
-        slips = _Slips(public, regions, function)
+        slips = _Slips(public, regions, function, own)
         found: dict[tuple[str, str], list[Edit]] = {}
         for what, place, edits in slips.all():
             yield from _made(lines, function, where + _placed(place, what), edits, done)
@@ -109,7 +122,10 @@ def _made(
 class _Slips:
     """The slips of a function: sentences with edits."""
 
-    def __init__(self, public: set[str], regions: list[range], function: ast.AST) -> None:
+    def __init__(
+        self, public: set[str], regions: list[range], function: ast.AST, own: bool
+    ) -> None:
+        self._own = own
         self._regions = regions
         self._function = function
         parameters = [
@@ -129,7 +145,9 @@ class _Slips:
                 for what, edit in self._parts.inside(part):
                     yield what, place, [edit]
                 for what, new in self._parts.others(part):
-                    yield what, place, [Edit(node, field, at, new)]
+                    said = _of_its_place(what, node, field, part, new)
+                    if said:
+                        yield said, place, [Edit(node, field, at, new)]
         yield from self._exchanged(places)
         for node, field, at, part, place in places:
             if (type(node), field) in _SIGNED and not isinstance(part, (ast.Constant, ast.Dict)):
@@ -145,11 +163,13 @@ class _Slips:
                 if isinstance(steps, list) and not isinstance(node, ast.ClassDef):
                     for what, edits in self._steps(node, field, steps):
                         yield what, "", edits
-        yield from self._mixed_up(places)
+        yield from self._mixed_up(places if self._own else [])
         for node, field, at, part, place in places:
             if isinstance(part, ast.Constant):
                 for what, new in self._parts.others(part):
-                    yield what, place, [Edit(node, field, at, new)]
+                    said = _of_its_place(what, node, field, part, new)
+                    if said:
+                        yield said, place, [Edit(node, field, at, new)]
 
     def _exchanged(self, places: list[Place]) -> Iterator[tuple[str, str, list[Edit]]]:
         """Yield the slips that take two parameters for each other everywhere."""
@@ -305,6 +325,22 @@ class _Slips:
                 found.append("`return`")
         found = [each for each in found if each]
         return f": {', '.join(dict.fromkeys(found))}" if found else ""
+
+
+def _of_its_place(what: str, node: ast.AST, field: str, part: ast.expr, new: ast.expr) -> str:
+    """Return a sentence that fits the place of a slip; "" if nobody makes this slip there."""
+    index = isinstance(node, ast.Subscript) and field == "slice"
+    if not index and what in (FIRST, LAST):
+        return ""
+    if not isinstance(part, ast.Constant) or not isinstance(new, ast.Constant):
+        numbers = ()
+    else:
+        numbers = new.value, part.value
+    if index and numbers and isinstance(numbers[1], int) and what not in (FIRST, LAST):
+        return "Number {} is taken where number {} belongs (counted from 0).".format(*numbers)
+    if isinstance(node, ast.Expr) and what.endswith(" is left out."):
+        return f"{what[:-1]}, or stands where it has no effect."
+    return what
 
 
 def _placed(place: str, what: str) -> str:
