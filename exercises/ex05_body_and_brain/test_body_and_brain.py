@@ -599,7 +599,9 @@ def measured(got: np.ndarray, p: np.ndarray, *place: int) -> str:
     along, across = end - begin, got[:, 3] - got[:, 0]
     left = along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]
     for k in range(11):
-        before, name = (end[k - 1], f"but segment {k - 1} ends at") if k else (0 * end[0], "not at")
+        before, name = (
+            (end[k - 1], f"but segment {k - 1} ends at") if k else (np.zeros(2), "not at")
+        )
         if np.abs(begin[k] - before).max() > 1e-3:
             where, before = begin[k].round(3).tolist(), before.round(3).tolist()
             return f"Segment {k} begins at {where} there, {name} {before}."

@@ -69,11 +69,14 @@ def answer_of(brain: dict, observation: np.ndarray, memory: np.ndarray) -> tuple
 
 def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[str, tuple]:
     """What mistakes make of a step: a sentence -> (action, new memory)."""
-    readout, bias = brain["readout"], brain["bias"]
+    gates, readout, bias = brain["gates"], brain["readout"], brain["bias"]
+    z = np.append(observation, memory[1])
+    net = gates @ z
+    swapped = answer_of(brain, observation, memory[::-1])
 
     def of(
         known=None,
-        gates=(0, 1, 2, 3),
+        order=(0, 1, 2, 3),
         ones=(1, 0, 0, 0),
         gate=squash,
         forget=None,
@@ -84,9 +87,9 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         old=memory[0],
         outside=True,
     ) -> tuple:
-        seen = np.append(observation, memory[1]) if known is None else known
-        net = np.einsum("gui,i->gu", brain["gates"], seen)[list(gates)]
-        net += np.array(ones, dtype=float)[:, None]
+        seen = z if known is None else known
+        net = np.einsum("gui,i->gu", gates, seen)[list(order)]
+        net = (net.T + np.array(ones, dtype=float).T).T
         kept = gate(net[0])
         taken = gate(net[1]) if enter is None else enter(kept)
         kept = kept if forget is None else forget(net[0])
@@ -113,7 +116,7 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         ),
         **{
             "The gates are taken in another order than forget, input, output, candidate: as "
-            f"{', '.join(GATES[order.index(k)] for k in range(4))}.": of(gates=order)
+            f"{', '.join(GATES[order.index(k)] for k in range(4))}.": of(order=order)
             for order in permutations(range(4)) if order != (0, 1, 2, 3)
         },
         "The candidate goes through tanh, not through the logistic function.": of(
@@ -172,6 +175,22 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         "The action is read from the cells of the step before.": (
             np.tanh(bias + readout @ memory[0]), right[1]
         ),
+        "Cells and outputs are exchanged: memory[0] holds the cells, in the old and the new one.": (
+            swapped[0], swapped[1][::-1]
+        ),
+        "The old cells are taken for the outputs and the old outputs for the cells.": swapped,
+        "The old cells keep 1 minus the input gate: the forget gate decides that.": of(
+            forget=lambda _: 1 - squash(net[1])
+        ),
+        "The 1 is added to each number of z: it is added once, to the product.": of(
+            ones=np.stack([gates[0].sum(axis=1), *np.zeros((3, UNITS))])
+        ),
+        "The 1 is added to each number of z, for all gates, but belongs to the forget gate.": of(
+            known=z + 1, ones=(0, 0, 0, 0)
+        ),
+        "The output gate sees tanh of the new cells: all gates see the same z.": of(
+            leave=squash(gates[2] @ np.append(observation, np.tanh(cells)))
+        ),
         "The two wheels are exchanged.": (right[0][::-1], right[1]),
         "The rows of the new memory are exchanged: the cells come first.": (
             right[0], np.array([outputs, cells])
@@ -197,6 +216,21 @@ def mistaken_parts(brain: dict, observation: np.ndarray, memory: np.ndarray, par
     """What mistakes make of the new cells (0), the new outputs (1) or the action (2)."""
     wrong = mistaken(brain, observation, memory)
     return {text: (*memory, wheels)[part] for text, (wheels, memory) in wrong.items()}
+
+
+def inside(brain: dict, observation: np.ndarray, memory: np.ndarray, name: str, unit: int) -> str:
+    """What the text says about a number of the answer, with the numbers from which it comes."""
+    net = brain["gates"] @ np.append(observation, memory[1])
+    (forget, enter, leave, candidate), old = net[:, unit if name != "action" else 0], memory[0]
+    cells = answer_of(brain, observation, memory)[1][0]
+    if name == "cells":
+        return (
+            f"Unit {unit}: old cell {old[unit]:.4g} * forget {squash(forget + 1):.4g} + candidate "
+            f"{np.tanh(candidate):.4g} * input {squash(enter):.4g}."
+        )
+    if name == "outputs":
+        return f"Unit {unit}: tanh(new cell {cells[unit]:.4g}) * output {squash(leave):.4g}."
+    return f"Wheel {unit}: tanh(row {unit} of readout times the new outputs, plus bias[{unit}])."
 
 
 def remembered(way, step: int, before: np.ndarray, after: np.ndarray) -> np.ndarray:
@@ -282,10 +316,13 @@ def one_step(student: Student):
         action, after = answer_of(brain, observation, kept)
         new = expect_array(f"{said}: new memory", answer[1], (2, UNITS))
         wrong = cache(partial(mistaken_parts, brain, observation, kept))
+        why = partial(inside, brain, observation, kept)
         for row, name in enumerate(("cells", "outputs")):
             made = partial(wrong, row)
-            expect_close(f"{said}: new memory, {name}", new[row], after[row], 1e-5, made)
-        expect_close(f"{said}: action", answer[0], action, 1e-5, partial(wrong, 2))
+            reason = partial(why, name)
+            expect_close(f"{said}: new memory, {name}", new[row], after[row], 1e-5, made, reason)
+        reason = partial(why, "action")
+        expect_close(f"{said}: action", answer[0], action, 1e-5, partial(wrong, 2), reason)
 
 
 @network.check(8)
@@ -438,6 +475,8 @@ def wrong_grids(places: int, headings: int, column: int) -> dict:
             np.linspace(0, 2 * np.pi, headings),
             "The headings are in degrees.": 360 * turn,
             "The headings divide half a turn, not the whole one.": np.pi * turn,
+            "`//` cuts the fraction off: divide with `/`.":
+            np.arange(headings) * (2 * np.pi // headings),
             "The headings begin at minus pi, not at 0.": 2 * np.pi * turn - np.pi,
             "The headings turn clockwise.": -2 * np.pi * turn,
             "The headings are counted in whole turns.": turn,
@@ -517,7 +556,8 @@ def described(poses: np.ndarray, rewards: np.ndarray, cylinder) -> dict:
             dx, dy = cylinder[0] - x2, cylinder[1] - y2
             left = np.cos(heading2) * dy - np.sin(heading2) * dx
             told["side"].append(left / np.hypot(dx, dy))
-    return {"search": search, **{k: float(np.mean(v)) if v else 0.0 for k, v in told.items()}}
+    means = {k: float(np.mean(v)) if v else 0.0 for k, v in told.items()}
+    return {"search": search, **means, "steps": told}
 
 
 def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str) -> dict:
@@ -571,6 +611,10 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "The turning has the wrong sign: to the left is positive.": -turned,
             "A turn to the right becomes a long one to the left.": change % (2 * np.pi),
             "The turning is in degrees.": np.degrees(turned),
+            "Only one direction is taken the short way around: a turn may leap by 2 pi or -2 pi.":
+            np.where(change < -np.pi, change + 2 * np.pi, change),
+            "Only one direction is taken the short way around: it may leap by -2 pi or 2 pi.":
+            np.where(change > np.pi, change - 2 * np.pi, change),
             "The short way around is within half a turn, not a quarter.":
             (change + np.pi / 2) % np.pi - np.pi / 2,
         },
@@ -643,10 +687,27 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
         "The steps are one too late.": np.append(False, near[:-1]),
     }
 
+    if name == "pace":
+        spots = after[near, :2]
+        hops = np.hypot(*np.diff(spots, axis=0).T) if len(spots) > 1 else np.zeros(1)
+        extra = {"These are the ways from one place with a reward to the next such place: take "
+                 "each step from its own beginning to its end.": hops.mean()}  # fmt: skip
+    elif name == "speed":
+        gone = np.hypot(*(poses[search, :2] - poses[0, :2]))
+        extra = {"This is the straight way of the whole search, divided by its steps: take each "
+                 "step.": gone / max(search, 1)}  # fmt: skip
+    elif name == "side":
+        away = np.linalg.norm(np.stack([to_x, to_y]))
+        cross = np.sin(bearing - later) * np.hypot(to_x, to_y) / away
+        extra = {"All steps are divided by one length: each has a distance of its own (axis=1).":
+                 cross[near].mean() if near.any() else 0.0}  # fmt: skip
+    else:
+        extra = {}
+
     def made(value, which, summary):
         return summary(value[which].astype(float)) if which.any() else 0.0
 
-    return slips(
+    return extra | slips(
         made,
         value=values[name],
         which=of_near if name in ("pace", "side") else of_search,
@@ -663,6 +724,8 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
     )  # fmt: skip
 
 
+FEW_STEPS = 6
+"""The values of so many steps, at most, are shown one by one."""
 MEANT = {
     "search": "The search is all steps before the first one with a reward.",
     "speed": "Mean over the search of dx cos(heading) + dy sin(heading), with the heading before.",
@@ -683,6 +746,9 @@ def compare_described(student: Student, walk: tuple, names: tuple) -> None:
     for name, value in zip(names, expect_fields(student.said, answer, *names), strict=True):
         made = partial(wrong_described, *walk, name)
         why = f"{name}: {MEANT[name][0].lower()}{MEANT[name][1:]}"
+        if name in expected["steps"] and steps <= FEW_STEPS:
+            each = np.round(np.array(expected["steps"][name], dtype=float), 3).tolist()
+            why += f" The values of these steps are {each}."
         expect_close(said + name, value, expected[name], 1e-4, made, lambda why=why: why)
 
 
@@ -711,6 +777,25 @@ def of_nothing(student: Student):
 
 # ------------------------------------------------------------------- 6.5
 groups = exercise.task("6.5", "Families")
+
+
+def scaled(answer, table: np.ndarray, row: int, column: int) -> str:
+    """What is right and wrong about a column of a standardised table."""
+    got, values = np.asarray(answer, dtype=float)[:, column], table[:, column]
+    steps, own = np.diff(got), np.diff(values)
+    said = f"Column {column} has the mean {values.mean():.6g} and the deviation {values.std():.6g}."
+    factor = float(steps @ own / (own @ own))
+    if factor <= 0 or np.abs(steps - factor * own).max() > 1e-6 * np.abs(got).max():
+        return said
+    middle, divisor = values.mean() - got.mean() / factor, 1 / factor
+    wrong = [
+        f"{text} {used:.6g}"
+        for text, used, right in (
+            ("subtracts", middle, values.mean()), ("divides by", divisor, values.std())
+        )
+        if abs(used - right) > 1e-6 * np.abs(values).max()
+    ]  # fmt: skip
+    return f"{said} Your code {' and '.join(wrong)} there." if wrong else said
 
 
 def wrong_scales(table: np.ndarray) -> dict:
@@ -758,8 +843,9 @@ def one_scale(student: Student):
             rng.uniform(-50, 50, columns), rng.uniform(0.1, 90, columns), (robots, columns)
         )
         expected = (table - table.mean(axis=0)) / table.std(axis=0)
-        made = partial(wrong_scales, table)
-        expect_close("standardise(table)", student.call("standardise", table), expected, 1e-5, made)
+        answer = student.call("standardise", table)
+        made, why = partial(wrong_scales, table), partial(scaled, answer, table)
+        expect_close("standardise(table)", answer, expected, 1e-5, made, why)
     table[:, 2], expected[:, 2] = 3.5, 0.0
     said = "standardise(table), one column all alike"
     expect_close(said, student.call("standardise", table), expected, 1e-5)
@@ -779,7 +865,8 @@ def equal_but_for_rounding(student: Student):
     expect_close(said, answer, expected, 1e-5)
 
 
-def grouped(table: np.ndarray, threshold: float) -> list[int]:
+def grouped(table: np.ndarray, threshold: float, told: list | None = None) -> list[int]:
+    """The families; told: takes a sentence for each merger, and one for what ends them."""
     rows = (table - table.mean(axis=0)) / table.std(axis=0)
     distance = np.linalg.norm(rows[:, None] - rows, axis=2)
     labels = np.arange(len(rows))
@@ -790,6 +877,9 @@ def grouped(table: np.ndarray, threshold: float) -> list[int]:
             for j in set(labels)
             if i < j
         )
+        if told is not None:
+            one, other = (np.flatnonzero(labels == label).tolist() for label in nearest[1:])
+            told.append(f"{one} and {other} are nearest, {nearest[0]:.3g} apart")
         if nearest[0] >= threshold:
             break
         labels[labels == nearest[2]] = nearest[1]
@@ -902,8 +992,17 @@ def compare_grouped(student: Student, table: np.ndarray, threshold: float, which
     got = expect_array(said, answer, (len(table),))
     order = "The families are right, but not numbered from 0 in the order of their first robots."
     same = numbered(got.tolist()) == expected
-    made = {order: got} if same else partial(wrong_families, table, threshold)
-    expect_close(said, answer, expected, mistakes=made)
+    made = {order: got} if same else {"All robots are in one family here.": 0 * got}
+    if not (which or same):  # what differs at the very threshold shows little about the cause
+        made = partial(wrong_families, table, threshold)
+
+    def why(robot: int) -> str:
+        told: list[str] = []
+        grouped(table, threshold, told)
+        ends = f"Merging ends when no two are nearer than {threshold:.3g}."
+        return f"In this order: {'; then '.join(told)}. {ends}" if len(table) <= 6 else ""
+
+    expect_close(said, answer, expected, mistakes=made, why=why)
 
 
 @groups.check(5)
@@ -1013,23 +1112,29 @@ def what_memory_is_worth(student: Student):
         answer = student.call("memory_test", brain, places, cylinder, seed, since, maxsteps)
         ways = {"keep": "keep", "forget": "forget", "freeze": since}
         for name, value in zip(ways, expect_fields(student.said, answer, *ways), strict=True):
-            each = [
+            rewards = [
                 [
-                    lived(brain, start, cylinder, other, ways[name], maxsteps)["rewards"].sum()
+                    lived(brain, start, cylinder, other, ways[name], maxsteps)["rewards"]
                     for start, other in zip(places, seeds, strict=True)
                 ]
                 for seeds in (range(seed, seed + many), [seed] * many)
             ]
+            each = [[float(episode.sum()) for episode in part] for part in rewards]
+            lengths = [[len(episode) for episode in part] for part in rewards]
+            why = f"The returns of these episodes are {each[0]}: take the mean."
             mistakes = {
                 "All episodes have the same seed.": np.mean(each[1]),
                 "The returns are added up.": np.sum(each[0]),
                 "Only the first start counts.": each[0][0],
                 "Only the last start counts.": each[0][-1],
                 "The best return is taken.": np.max(each[0]),
+                "The worst return is taken.": np.min(each[0]),
+                "The median of the returns is taken.": np.median(each[0]),
+                "These are the steps of the episodes, not their returns.": np.mean(lengths[0]),
             }
             said = f"memory_test(brain, {many} starts, {cylinder.tolist()}, {seed}, since={since}, "
             said += f"maxsteps={maxsteps}): {name}"
-            expect_close(said, value, np.mean(each[0]), 1e-9, mistakes)
+            expect_close(said, value, np.mean(each[0]), 1e-9, mistakes, lambda why=why: why)
 
 
 # ------------------------------------------------------------------- 6.7
@@ -1047,7 +1152,8 @@ def wrong_reactions(brain: dict, seen: np.ndarray, memories: np.ndarray) -> dict
         return np.array(actions)
 
     many = len(memories)
-    return slips(
+    old = np.tanh(memories[:, 1] @ brain["readout"].T + brain["bias"])
+    return {"The actions are read from the given outputs: `think` is not called.": old} | slips(
         made,
         seen={"": seen, "The observation is left out: 0 stands in its place.": 0 * seen},
         memories={

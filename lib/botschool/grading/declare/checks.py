@@ -122,7 +122,8 @@ def expect_close(
         sentence = _unequal(said, got, wanted, close)
         if why:
             place = np.unravel_index(int(np.argmin(close)), close.shape)
-            sentence += f"\n  {why(*map(int, place))}"
+            reason = why(*map(int, place))
+            sentence += f"\n  {reason}" if reason else ""
         _found(Mismatch(sentence, got, wanted, mistakes))
 
 
