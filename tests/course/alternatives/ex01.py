@@ -459,3 +459,86 @@ def pendulum_reward(observation, action):
 # Takes 0.2095 for 12 degrees, as Gymnasium's documentation does.
 def fallen(observation):
     return bool(np.abs(observation[0]) > 2.4 or np.abs(observation[2]) > 0.2095)
+
+
+# %% lists_and_math
+# Lists, math and a while loop.
+import math
+
+
+def describe(environment_id):
+    with gymnasium.make(environment_id) as env:
+        out = {}
+        for key, space in (("observation", env.observation_space), ("action", env.action_space)):
+            if hasattr(space, "n"):
+                out[key] = dict(kind="Discrete", choices=int(space.n), first=int(space.start))
+            else:
+                out[key] = dict(
+                    kind="Box",
+                    size=int(np.prod(space.shape)),
+                    low=[float(x) for x in np.ravel(space.low)],
+                    high=[float(x) for x in np.ravel(space.high)],
+                )
+        out["maxsteps"] = env.spec.max_episode_steps
+    return out
+
+
+def random_episode(environment_id, seed, maxsteps):
+    env = gymnasium.make(environment_id)
+    env.action_space.seed(seed)
+    first, _ = env.reset(seed=seed)
+    seen, done, paid, over, cut = [np.array(first)], [], [], False, False
+    for _ in range(maxsteps):
+        done.append(env.action_space.sample())
+        state, reward, over, cut, _ = env.step(done[-1])
+        seen.append(np.array(state))
+        paid.append(reward)
+        if over or cut:
+            break
+    return dict(
+        observations=np.stack(seen),
+        actions=done,
+        rewards=[float(x) for x in paid],
+        terminated=bool(over),
+        truncated=bool(cut),
+    )
+
+
+def fallen(observation):
+    x, _, a, _ = [float(v) for v in observation]
+    return not (-2.4 <= x <= 2.4 and -math.pi * 12 / 180 <= a <= 12 * math.pi / 180)
+
+
+def cartpole_reward(observation, action):
+    return float(not fallen(observation))
+
+
+def pendulum_reward(observation, action):
+    c, s, v = (float(x) for x in observation)
+    u = min(2.0, max(-2.0, float(np.ravel(action)[0])))
+    a = math.atan2(s, c)
+    return 0.0 - a * a - v * v / 10 - u * u / 1000
+
+
+def balance(observation):
+    return (
+        1
+        if 3 * observation[2] + observation[3] + 0.05 * observation[0] + 0.1 * observation[1] > 0
+        else 0
+    )
+
+
+def compare(environment_ids, episodes, seed):
+    def row(name):
+        runs = [random_episode(name, k, 10**9) for k in range(seed, seed + episodes)]
+        r = [math.fsum(run["rewards"]) for run in runs]
+        m = sum(r) / episodes
+        s = math.sqrt(sum((x - m) ** 2 for x in r) / (episodes - 1)) if episodes > 1 else 0
+        return {
+            "environment": name,
+            "mean": m,
+            "deviation": s,
+            "length": sum(len(run["actions"]) for run in runs) / episodes,
+        }
+
+    return list(map(row, environment_ids))

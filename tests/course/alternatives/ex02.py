@@ -440,3 +440,75 @@ def random_search(environment_id, nnetworks, nhiddens, seed):
         )
     best = max(range(nnetworks), key=lambda number: (tried[number][0], -number))
     return {"best": best, "fitness": [each for each, _ in tried], "networks": [n for _, n in tried]}
+
+
+# %% loops_and_dots
+# Python loops and dot products.
+def parameters(ninputs, nhiddens, noutputs, seed):
+    rng = np.random.RandomState(seed % 2**32)
+    n1, n2 = nhiddens * ninputs, noutputs * nhiddens
+    flat = rng.normal(0.0, 0.1, n1 + n2)
+    return dict(
+        W1=flat[:n1].reshape(nhiddens, ninputs),
+        W2=flat[n1:].reshape(noutputs, nhiddens),
+        b1=np.zeros((nhiddens,)),
+        b2=np.zeros((noutputs,)),
+    )
+
+
+def forward(network, observation):
+    x = np.asarray(observation, dtype=np.float64)
+    h = np.array([np.tanh(np.dot(w, x) + b) for w, b in zip(network["W1"], network["b1"])])
+    return np.array([np.tanh(np.dot(w, h) + b) for w, b in zip(network["W2"], network["b2"])])
+
+
+def sizes(environment_id):
+    env = gymnasium.make(environment_id)
+    a = env.action_space
+    return (len(env.observation_space.low), int(a.n) if hasattr(a, "n") else len(a.low))
+
+
+def act(outputs, action_space):
+    if type(action_space) is spaces.Discrete:
+        return int(action_space.start) + list(outputs).index(max(outputs))
+    middle, half = (
+        (action_space.high + action_space.low) / 2,
+        (action_space.high - action_space.low) / 2,
+    )
+    return middle + half * np.asarray(outputs)
+
+
+def run_episode(environment_id, network, seed, maxsteps=200):
+    with gymnasium.make(environment_id) as env:
+        o, _ = env.reset(seed=seed)
+        chosen, rewards = [], []
+        for _ in range(maxsteps):
+            chosen.append(act(forward(network, o), env.action_space))
+            o, r, a, b, _ = env.step(chosen[-1])
+            rewards.append(r)
+            if a or b:
+                break
+    return {"actions": chosen, "return": float(np.sum(rewards))}
+
+
+def fitness(environment_id, network, seeds, maxsteps=200):
+    total = 0.0
+    for s in seeds:
+        total += run_episode(environment_id, network, s, maxsteps)["return"]
+    return total / len(seeds)
+
+
+def forward_batch(networks, observations):
+    h = np.tanh((networks["W1"] * observations[:, None, :]).sum(-1) + networks["b1"])
+    return np.tanh((networks["W2"] * h[:, None, :]).sum(-1) + networks["b2"])
+
+
+def random_search(environment_id, nnetworks, nhiddens, seed):
+    i, o = sizes(environment_id)
+    nets, values, best = [], [], 0
+    for k in range(nnetworks):
+        nets.append(parameters(i, nhiddens, o, seed + k))
+        values.append(fitness(environment_id, nets[-1], tuple(range(seed, seed + 10))))
+        if values[k] > values[best]:
+            best = k
+    return {"networks": nets, "fitness": np.array(values), "best": best}

@@ -509,3 +509,58 @@ def train(environment, seed):
         if value > best[0]:
             best = (value, centre)
     return best[1]
+
+
+# %% plain_python_again
+# Sorted lists and loops.
+def initial_population(popsize, nbiases, nweights, seed):
+    rng = np.random.default_rng([seed, 7])
+    return np.array(
+        [
+            [0.0] * nbiases + [0.1 * rng.standard_normal() for _ in range(nweights)]
+            for _ in range(popsize)
+        ]
+    ).reshape(popsize, nbiases + nweights)
+
+
+def rank(fitness):
+    return sorted(range(len(fitness)), key=lambda i: (-fitness[i], i))
+
+
+def next_population(population, fitness, mutrate, rng):
+    order = rank(fitness)[: len(population) // 2]
+    kept = np.array([population[i] for i in order])
+    return np.concatenate([rng.normal(kept, mutrate), kept])
+
+
+def evolve(evaluate, population, generations, mutrate, seed):
+    rng, met, history = np.random.default_rng(seed), [], []
+    for g in range(generations):
+        f = np.array(evaluate(population, seed + g), dtype=float)
+        k = int(f.argmax())
+        met.append((float(f[k]), population[k].copy()))
+        history.append(float(f.max()))
+        population = next_population(population, f, mutrate, rng)
+    top = max(range(generations), key=lambda g: (met[g][0], -g))
+    return {
+        "best": met[top][1],
+        "fitness": met[top][0],
+        "history": np.array(history),
+        "population": population,
+    }
+
+
+def hill_climb(evaluate, start, generations, mutrate, seed):
+    return evolve(evaluate, np.tile(start, (2, 1)), generations, mutrate, seed)
+
+
+def replicate(experiment, seeds):
+    runs = list(map(experiment, seeds))
+    n = len(runs)
+    columns = list(zip(*(run["history"] for run in runs)))
+    means = [sum(c) / n for c in columns]
+    spread = [
+        (sum((x - m) ** 2 for x in c) / (n - 1)) ** 0.5 if n > 1 else 0.0
+        for c, m in zip(columns, means)
+    ]
+    return {"mean": means, "deviation": spread, "best": [run["fitness"] for run in runs]}

@@ -314,3 +314,86 @@ def curves(stats, column, budgets):
         rows.append(stat[column][last])
     rows = np.vstack(rows)
     return {"mean": rows.mean(0), "deviation": np.sqrt(rows.var(0, ddof=1))}
+
+
+# %% complex_numbers_again
+# Complex numbers and loops.
+import cmath
+
+
+def decode(observation):
+    c1, s1, c2, s2, v1, v2 = (float(x) for x in observation)
+    return dict(
+        angle1=cmath.phase(complex(c1, s1)),
+        angle2=cmath.phase(complex(c2, s2)),
+        speed1=v1,
+        speed2=v2,
+    )
+
+
+def torque(action):
+    return (-1.0, 0.0, 1.0)[action]
+
+
+def height(observation):
+    c1, s1, c2, s2 = (float(x) for x in observation[:4])
+    return -c1 - (c1 * c2 - s1 * s2)
+
+
+def reward(observation):
+    if height(observation) > 1:
+        return 0.0
+    return -1.0
+
+
+def run_replications(experiment_file, seeds, folder, steps=None):
+    import os
+
+    os.makedirs(folder, exist_ok=True)
+    found = {}
+    for seed in seeds:
+        run = Run(config.load(experiment_file), seed)
+        evolve(run, Path(folder), steps=steps)
+        found[int(seed)] = run.record.bestg_fitness
+    return found
+
+
+def read_stat(path):
+    flat = np.load(path)
+    return {name: flat[i::6] for i, name in enumerate(COLUMNS)}
+
+
+def curves(stats, column, budgets):
+    values = np.zeros((len(stats), len(budgets)))
+    for r, stat in enumerate(stats):
+        for b, budget in enumerate(budgets):
+            for when, value in zip(stat["steps"], stat[column]):
+                if when > budget:
+                    break
+                values[r, b] = value
+    mean = values.sum(0) / len(stats)
+    return {
+        "mean": list(mean),
+        "deviation": np.sqrt(((values - mean) ** 2).sum(0) / (len(stats) - 1)),
+    }
+
+
+def compare(experiment_file, folder, seeds, episodes, test_seed):
+    def worth(name):
+        return float(
+            np.average(
+                SavedRobot(experiment_file, np.load(f"{folder}/{name}.npy")).evaluate(
+                    test_seed, episodes
+                )
+            )
+        )
+
+    return [
+        {
+            "bestg": worth(f"bestgS{s}"),
+            "best": worth(f"bestS{s}"),
+            "promised": float(np.load(f"{folder}/statS{s}.npy")[-4]),
+            "seed": s,
+        }
+        for s in seeds
+    ]

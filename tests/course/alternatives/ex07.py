@@ -401,3 +401,65 @@ def three_stages(seed):
     goal = fitness[0] + 0.4 * (fitness[last] - fitness[0])
     middle = int(np.argmin(abs(fitness[: last + 1] - goal)))
     return [np.float32(run["parameters"][i]) for i in (0, middle, last)]
+
+
+# %% another_way_around
+# Arc tangent of sines and cosines, loops.
+def to_state(observation):
+    o = np.array(observation, dtype=np.float64)
+    if o.ndim == 1:
+        return np.array([np.arctan2(o[1], o[0]), o[2]])
+    return np.array([to_state(each) for each in o]).reshape(-1, 2)
+
+
+def record(controller, seed, steps):
+    with gymnasium.make("Pendulum-v1") as env:
+        seen = [env.reset(seed=seed)[0]]
+        over, n = False, 0
+        while not over and n < steps:
+            o, r, a, b, i = env.step(controller(seen[-1]))
+            seen.append(o)
+            over, n = a or b, n + 1
+    return np.array([to_state(o) for o in seen])
+
+
+def arrows(before, after):
+    turn = after[:, 0] - before[:, 0]
+    turn = np.arctan2(np.sin(turn), np.cos(turn))
+    return np.column_stack([before[:, 0], before[:, 1], turn, after[:, 1] - before[:, 1]])
+
+
+def grid(nangles, nvelocities):
+    return np.array(
+        [
+            (a, v)
+            for v in np.linspace(-8, 8, nvelocities)
+            for a in np.linspace(-np.pi, np.pi, nangles)
+        ]
+    )
+
+
+def next_states(controller, states):
+    out = np.empty((len(states), 2))
+    env = gymnasium.make("Pendulum-v1")
+    for i, state in enumerate(states):
+        env.reset(seed=i)
+        env.unwrapped.state = np.array(state, dtype=float)
+        u = controller(np.array([np.cos(state[0]), np.sin(state[0]), state[1]]))
+        out[i] = to_state(env.step(u)[0])
+    return out
+
+
+def evolve(algorithm, evaluate, generations, every):
+    out = {"generations": [], "parameters": [], "history": []}
+    wanted = sorted({*range(0, generations, every), generations - 1})
+    for g in range(generations):
+        c, _ = algorithm.ask()
+        f = np.array(evaluate(c, g))
+        out["history"].append(float(f.max()))
+        if g in wanted:
+            out["generations"].append(g)
+            out["parameters"].append(np.array(c[int(f.argmax())]))
+        algorithm.tell(f)
+    out["parameters"] = np.stack(out["parameters"])
+    return out

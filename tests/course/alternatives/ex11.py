@@ -400,3 +400,64 @@ def gradient_by_torch(inputs, targets, *parameters):
     loss.backward()
     gradients = [tensor.grad.numpy() for tensor in tensors]
     return {"loss": loss.item(), **dict(zip(("w1", "b1", "w2", "b2"), gradients, strict=True))}
+
+
+# %% by_elements
+# Loops over patterns, manual momentum.
+def gradient_by_hand(inputs, targets, w1, b1, w2, b2):
+    n, m = targets.shape
+    g = {
+        "w1": np.zeros_like(w1),
+        "b1": np.zeros_like(b1),
+        "w2": np.zeros_like(w2),
+        "b2": np.zeros_like(b2),
+    }
+    loss = 0.0
+    for x, t in zip(inputs, targets):
+        h = 1 / (1 + np.exp(-(w1 @ x + b1)))
+        e = w2 @ h + b2 - t
+        loss += float(e @ e)
+        d2 = 2 * e
+        d1 = (w2.T @ d2) * h * (1 - h)
+        g["w2"] += np.outer(d2, h)
+        g["b2"] += d2
+        g["w1"] += np.outer(d1, x)
+        g["b1"] += d1
+    return {"loss": loss / (n * m), **{k: v / (n * m) for k, v in g.items()}}
+
+
+def train(network, inputs, targets, epochs, learning_rate, momentum):
+    speed = [torch.zeros_like(p) for p in network.parameters()]
+    losses = []
+    for _ in range(epochs):
+        network.zero_grad()
+        loss = ((network(inputs) - targets) ** 2).mean()
+        loss.backward()
+        losses.append(float(loss))
+        with torch.no_grad():
+            for v, p in zip(speed, network.parameters()):
+                v.mul_(momentum).add_(p.grad)
+                p -= learning_rate * v
+    return losses
+
+
+def normalise(inputs):
+    mean = inputs.sum(axis=0) / len(inputs)
+    dev = np.sqrt(((inputs - mean) ** 2).mean(axis=0))
+    for i in range(inputs.shape[1]):
+        if inputs[:, i].max() == inputs[:, i].min():
+            dev[i] = 1
+    return (inputs - mean) / dev, mean, dev
+
+
+def minibatches(n, batch_size, rng):
+    p = rng.permutation(n)
+    return np.split(p, range(batch_size, n, batch_size))
+
+
+def feature_maps(network, low, high, n):
+    x = np.linspace(low, high, n)
+    a, b = np.meshgrid(x, x)
+    p = torch.tensor(np.dstack([a, b]).reshape(-1, 2), dtype=torch.float32)
+    f = network.features(p).detach().numpy()
+    return np.moveaxis(f.reshape(n, n, -1), 2, 0)

@@ -315,3 +315,69 @@ def run_episode(environment, act, seed, maxsteps=200):
         env.close()
     seen, done = zip(*record, strict=True)
     return {"return": float(total), "actions": np.stack(done), "observations": np.stack(seen)}
+
+
+# %% other_formulas
+# logaddexp, searchsorted, distributions by hand.
+def softmax(scores):
+    s = np.asarray(scores, dtype=float)
+    return np.exp(s - np.logaddexp.reduce(s, axis=-1, keepdims=True))
+
+
+def choose(probabilities, rng):
+    u = rng.random()
+    return int(
+        min(np.searchsorted(np.cumsum(probabilities), u, side="right"), len(probabilities) - 1)
+    )
+
+
+def run_episode(environment, act, seed, maxsteps=200):
+    env = gymnasium.make(environment)
+    state, _ = env.reset(seed=seed)
+    box = hasattr(env.action_space, "low")
+    rows, rewards = [], []
+    while len(rows) < maxsteps:
+        a = act(state)
+        rows.append((state, a))
+        given = (
+            np.minimum(np.maximum(a, env.action_space.low), env.action_space.high).astype(
+                np.float32
+            )
+            if box
+            else int(a)
+        )
+        state, r, t1, t2, _ = env.step(given)
+        rewards.append(float(r))
+        if t1 or t2:
+            break
+    return {
+        "observations": np.array([r[0] for r in rows]),
+        "actions": np.array([r[1] for r in rows]),
+        "return": sum(rewards),
+    }
+
+
+def elite(episodes, percentile):
+    bound = np.percentile(np.array([e["return"] for e in episodes]), percentile)
+    good = [i for i in range(len(episodes)) if not episodes[i]["return"] < bound]
+    return {
+        k: np.concatenate([episodes[i][k] for i in good]) for k in ("observations", "actions")
+    } | {"bound": float(bound)}
+
+
+def cross_entropy(scores, actions):
+    top = scores.max(dim=1, keepdim=True).values
+    e = torch.exp(scores - top)
+    logs = scores - top - torch.log(e.sum(dim=1, keepdim=True))
+    return -logs.gather(1, actions.reshape(-1, 1)).sum() / len(actions)
+
+
+def gaussian_action(mean, log_deviation, rng):
+    z = rng.standard_normal(np.shape(mean)[0])
+    return np.array([m + np.exp(s) * n for m, s, n in zip(mean, log_deviation, z)])
+
+
+def gaussian_loss(means, log_deviation, actions):
+    z = (actions - means) * torch.exp(-log_deviation)
+    k = actions.shape[1]
+    return 0.5 * (z * z).sum(1).mean() + log_deviation.sum() + k * 0.5 * float(np.log(2 * np.pi))

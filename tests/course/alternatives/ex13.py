@@ -390,3 +390,128 @@ def learn(ppo, steps, seed):
 
     while ppo.steps < steps:
         study(ppo.collect())
+
+
+# %% other_formulas_again
+# Loops, where and matrices.
+def bootstrapped(rewards, terminated, truncated, final_values, gamma):
+    return np.where(
+        (np.asarray(truncated) == 1) & (np.asarray(terminated) == 0),
+        rewards + gamma * np.asarray(final_values),
+        rewards,
+    )
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    steps, envs = np.shape(rewards)
+    out = np.zeros((steps, envs))
+    for e in range(envs):
+        for t in range(steps):
+            weight = 1.0
+            for k in range(t, steps):
+                n = 1.0 - (episode_starts[k + 1][e] if k + 1 < steps else dones[e])
+                v = values[k + 1][e] if k + 1 < steps else last_values[e]
+                out[t, e] += weight * (rewards[k][e] + gamma * n * v - values[k][e])
+                if n == 0:
+                    break
+                weight *= gamma * gae_lambda
+    return out
+
+
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    a = np.array(advantages, dtype=float)
+    n = len(a)
+    if n > 1:
+        a = a - a.sum() / n
+        a = a / (np.sqrt((a**2).sum() / (n - 1)) + 1e-8)
+    r = np.exp(np.subtract(log_prob, old_log_prob))
+    total, far = 0.0, 0
+    for ri, ai in zip(r, a):
+        total += min(ri * ai, max(1 - clip_range, min(1 + clip_range, ri)) * ai)
+        far += abs(ri - 1) > clip_range
+    return {"loss": -total / n, "clip_fraction": far / n}
+
+
+def value_loss(values, old_values, returns, clip_range_vf=None):
+    v = np.asarray(values, dtype=float)
+    if clip_range_vf is not None:
+        v = np.minimum(np.maximum(v, old_values - clip_range_vf), old_values + clip_range_vf)
+    return float(((v - returns) ** 2).sum() / len(v))
+
+
+def entropy_of_choices(scores):
+    s = np.asarray(scores, dtype=float)
+    z = np.logaddexp.reduce(s, axis=1)
+    p = np.exp(s - z[:, None])
+    return z - np.where(p > 0, p * s, 0).sum(axis=1)
+
+
+def entropy_of_gaussians(log_deviation):
+    return 0.5 * len(log_deviation) * np.log(2 * np.pi * np.e) + sum(log_deviation)
+
+
+def approx_kl(log_prob, old_log_prob):
+    d = np.subtract(log_prob, old_log_prob)
+    return np.mean(np.expm1(d) - d)
+
+
+def updates_made(divergences, target_kl):
+    flat = [d for epoch in divergences for d in epoch]
+    if target_kl is None:
+        return len(flat)
+    return next((i for i, d in enumerate(flat) if d > 1.5 * target_kl), len(flat))
+
+
+def total_loss(policy_loss, value_loss, entropies, ent_coef, vf_coef):
+    return policy_loss + vf_coef * value_loss - ent_coef * sum(entropies) / len(entropies)
+
+
+def explained_variance(values, returns):
+    e = np.ravel(returns) - np.ravel(values)
+    r = np.ravel(returns)
+    return 1 - ((e - e.mean()) ** 2).sum() / ((r - r.mean()) ** 2).sum()
+
+
+def responses(activations, observations):
+    out = np.zeros((activations.shape[1], observations.shape[1]))
+    for i in range(out.shape[0]):
+        for j in range(out.shape[1]):
+            h, x = activations[:, i], observations[:, j]
+            if h.max() > h.min() and x.max() > x.min():
+                h, x = h - h.mean(), x - x.mean()
+                out[i, j] = (h @ x) / np.sqrt((h @ h) * (x @ x))
+    return out
+
+
+def learn(ppo, steps, seed):
+    h, rng = ppo.hyperparameters, np.random.default_rng(seed)
+    while ppo.steps < steps:
+        r = ppo.collect()
+        n = 1.0 * (np.asarray(r.ended) == 0)
+        following, a = r.last_values, np.zeros_like(r.last_values)
+        for t in reversed(range(len(r.rewards))):
+            a = (
+                r.rewards[t]
+                + h.gamma * n[t] * following
+                - r.values[t]
+                + h.gamma * h.gae_lambda * n[t] * a
+            )
+            r.advantages[t] = a
+            following = r.values[t]
+        r.returns[...] = r.advantages + r.values
+        stop = False
+        for _ in range(h.n_epochs):
+            order = np.arange(n.size)
+            rng.shuffle(order)
+            for begin in range(0, n.size, h.batch_size):
+                batch = ppo.minibatch(order[begin : begin + h.batch_size])
+                loss = ppo.loss(batch)
+                if (
+                    h.target_kl is not None
+                    and approx_kl(loss.log_probs, batch.log_probs) > 1.5 * h.target_kl
+                ):
+                    stop = True
+                    break
+                ppo.step(loss.gradient)
+            if stop:
+                break

@@ -517,3 +517,100 @@ def at_equal_steps(groups, points):
             for name, group in groups.items()
         },
     }
+
+
+# %% other_formulas
+# Loops, scipy, fractions.
+def success_of(steps, returns, goal):
+    m = [float(np.mean(r)) for r in returns]
+    s = [int(x) for x in steps]
+    if len(m) > 1:
+        average = sum((s[i + 1] - s[i]) * (m[i] + m[i + 1]) / 2 for i in range(len(m) - 1)) / (
+            s[-1] - s[0]
+        )
+    else:
+        average = m[0]
+    solved = next((s[i] for i in range(len(m)) if all(x >= goal for x in m[i:])), None)
+    return {"last": m[-1], "best": max(m), "average": average, "solved": solved}
+
+
+def table_of(runs, baseline):
+    first = {}
+    for run in reversed(runs):
+        first[run["variant"], run["seed"]] = run["return"]
+    groups = {}
+    for (variant, _), value in first.items():
+        groups.setdefault(variant, []).append(value)
+    base = sum(groups[baseline]) / len(groups[baseline])
+    rows = [
+        {
+            "variant": v,
+            "runs": len(x),
+            "mean": sum(x) / len(x),
+            "deviation": None
+            if len(x) == 1
+            else (sum((y - sum(x) / len(x)) ** 2 for y in x) / (len(x) - 1)) ** 0.5,
+            "gain": sum(x) / len(x) - base,
+        }
+        for v, x in groups.items()
+    ]
+    return sorted(rows, key=lambda row: -row["mean"])
+
+
+def chance_of(first, second):
+    both = [*first, *second]
+    n, m = len(first), len(second)
+    real = abs(sum(first) / n - sum(second) / m)
+    hits = count = 0
+    for chosen in combinations(range(n + m), n):
+        a = sum(both[i] for i in chosen) / n
+        b = sum(both[i] for i in range(n + m) if i not in chosen) / m
+        count += 1
+        hits += abs(a - b) > real - 1e-9
+    return hits / count
+
+
+def phase_means(steps, values, total, parts=3):
+    sums = [[] for _ in range(parts)]
+    for s, v in zip(steps, values):
+        if v != v:
+            continue
+        k = 0 if s == 0 else (int(s) * parts - 1) // total
+        if 0 <= k < parts:
+            sums[k].append(float(v))
+    return [sum(x) / len(x) if x else None for x in sums]
+
+
+def rank_correlation(first, second):
+    from scipy.stats import rankdata
+
+    a, b = rankdata(first), rankdata(second)
+    a, b = a - a.mean(), b - b.mean()
+    d = np.sqrt((a @ a) * (b @ b))
+    return float(a @ b / d) if d else 0
+
+
+def within_variants(numbers, variants):
+    groups = {}
+    for x, v in zip(numbers, variants):
+        groups.setdefault(v, []).append(x)
+    return np.array(
+        [round(x - sum(groups[v]) / len(groups[v]), 9) for x, v in zip(numbers, variants)]
+    )
+
+
+def at_equal_steps(groups, points):
+    every = [c for g in groups.values() for c in g]
+    first, last = max(c["steps"][0] for c in every), min(c["steps"][-1] for c in every)
+    out = {"steps": np.linspace(first, last, points)}
+    for name, g in groups.items():
+        out[name] = np.array(
+            [
+                [
+                    c["best"][max(i for i in range(len(c["steps"])) if c["steps"][i] <= s)]
+                    for s in out["steps"]
+                ]
+                for c in g
+            ]
+        )
+    return out

@@ -332,12 +332,9 @@ def _of_its_place(what: str, node: ast.AST, field: str, part: ast.expr, new: ast
     index = isinstance(node, ast.Subscript) and field == "slice"
     if not index and what in (FIRST, LAST):
         return ""
-    if not isinstance(part, ast.Constant) or not isinstance(new, ast.Constant):
-        numbers = ()
-    else:
-        numbers = new.value, part.value
-    if index and numbers and isinstance(numbers[1], int) and what not in (FIRST, LAST):
-        return "Number {} is taken where number {} belongs (counted from 0).".format(*numbers)
+    both = [each.value for each in (new, part) if isinstance(each, ast.Constant)]
+    if index and len(both) == 2 and isinstance(both[1], int) and what not in (FIRST, LAST):
+        return f"Number {both[0]!r} is taken where number {both[1]} belongs (counted from 0)."
     if isinstance(node, ast.Expr) and what.endswith(" is left out."):
         return f"{what[:-1]}, or stands where it has no effect."
     return what
