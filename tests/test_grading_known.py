@@ -11,7 +11,7 @@ from botschool.grading.judge import judging
 from botschool.grading.judge import known as replay
 from botschool.grading.judge.alike import distance, fits, weight
 from botschool.grading.judge.known import TOLD
-from botschool.grading.judge.smallest import _difference, smallest_case
+from botschool.grading.judge.smallest import _difference, _smaller, smallest_case
 from botschool.grading.judge.submission import grade
 from botschool.grading.packed import pack
 from botschool.grading.run.confined import fork_server
@@ -242,6 +242,13 @@ answers = st.recursive(
     lambda parts: st.lists(parts, max_size=3) | st.dictionaries(st.sampled_from("ab"), parts),
     max_leaves=6,
 )
+
+
+def test_a_pair_of_numbers_is_not_cut():
+    pair = {"name": "f", "arguments": [np.array([1.0, 2.0])], "options": {}}
+    row = {"name": "f", "arguments": [np.arange(5.0)], "options": {}}
+    table = {"name": "f", "arguments": [np.ones((2, 3))], "options": {}}
+    assert [bool([*_smaller(each)]) for each in (pair, row, table)] == [False, True, True]
 
 
 @given(answers, answers)
