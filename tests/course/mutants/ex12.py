@@ -650,7 +650,7 @@ def train(environment, seed, iterations=50, episodes=20, **others):
 # +     powers = np.exp(scores / np.abs(scores).max(axis=-1, keepdims=True))
 
 
-# %% shares_of_the_scores loses 12.1
+# %% scores_without_exponential loses 12.1
 # Divides the scores by their sum: the exponential is missing.
 # says: this
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
