@@ -188,6 +188,26 @@ def test_a_function_that_is_not_done_hides_no_mistake_of_another(messages):
     assert messages(undone + BY_N, exercise)[0].startswith(TOLD)
 
 
+def test_a_slow_answer_must_be_explained_too(messages, monkeypatch):
+    """A check that takes long is not replayed, but its wrong answer must fit."""
+    text = RIGHT + BY_N.replace(
+        "return float", "\n    if len(x) == 5: return 7.0\n    return float"
+    )
+    inputs = ((1.0, 2.0, 4.0), (3.0, 9.0, 1.0, 2.0))
+    slow = (1.0, 2.0, 3.0, 4.0, 9.0)
+    for wrong in (text, RIGHT + BY_N):
+        exercise = declared(inputs)
+
+        @exercise.tasks[0].check(1)
+        def slowly(student):
+            answer = student.call("spread", list(slow))
+            monkeypatch.setattr(judging, "MOST_SECONDS", -1.0)
+            expect_close("spread(...)", answer, np.std(slow, ddof=1))
+
+        monkeypatch.setattr(judging, "MOST_SECONDS", 2.0)
+        assert (TOLD in messages(wrong, exercise)[0]) == (wrong != text)
+
+
 def test_right_answers_start_no_trial(messages, monkeypatch):
     monkeypatch.setattr(replay, "_calls", None)
     right = RIGHT + BY_N.replace("len(x)", "(len(x) - 1)")

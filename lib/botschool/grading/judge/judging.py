@@ -127,7 +127,12 @@ def _grade_task(
             if any(failure.answered or failure.raised for failure in failures):
                 limits = min(LOOKING_SECONDS, task.seconds), task.memory, server, True
                 again = Student(file, *limits, origin, references, task.refused)
-                told = known_mistake(task, cheap, known, again, file.name, server)
+                slow = [
+                    (each.request, each.got)
+                    for each in failures
+                    if each.answered and each.check not in cheap
+                ]
+                told = known_mistake(task, cheap, known, again, file.name, server, slow)
                 look_for_causes(failures, again)
                 if told.startswith(VARIED) and any(failure.named for failure in failures):
                     told = ""  # the check's own sentence is written for the task

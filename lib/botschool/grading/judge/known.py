@@ -27,7 +27,7 @@ from botschool.grading.judge.looking import TookTooLong, processor_time_limit
 from botschool.grading.judge.variations import variations
 from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
-from botschool.sandbox.protocol import unpack
+from botschool.sandbox.protocol import pack, unpack
 
 TOLD = "Your code answers exactly as with this known mistake:"
 VARIED = "Your code answers exactly as ours does with this slip:"
@@ -60,6 +60,8 @@ class Call:
     request: bytes
     ours: Any
     got: Any = None
+    slow: bool = False
+    """Whether the check takes long: a mistake must explain the answer, which is no proof of it."""
 
 
 def known_mistake(
@@ -69,11 +71,12 @@ def known_mistake(
     submission: Student,
     name: str,
     server: ForkServer,
+    others: Iterable[tuple[dict[str, Any], Any]] = (),
 ) -> str:
     """Return a line about the known mistake that explains a submission's answers, or "".
 
     checks: the task's quick checks. submission: a Student whose time does not count. name: its
-    file's.
+    file's. others: requests of other checks that have failed, and the submission's answers.
     """
     if not known.solution:
         return ""
@@ -89,6 +92,7 @@ def known_mistake(
             calls = [call for call in calls if _answered(submission, call)]
             if not _tells(calls, [call.got for call in calls]):
                 return ""
+            calls += [Call(pack(request), None, got, slow=True) for request, got in others]
             for what, text in _likely_first(ours, cases, known.solution, calls):
                 if ours.seconds_left < SECONDS:
                     break
@@ -163,7 +167,8 @@ def _telling(calls: list[Call]) -> Call:
     An exception comes after other wrong answers, because many mistakes raise it.
     """
     return min(
-        calls, key=lambda c: (distance(c.got, c.ours) <= TIE, _raised(c.got), len(c.request))
+        (call for call in calls if not call.slow),
+        key=lambda c: (distance(c.got, c.ours) <= TIE, _raised(c.got), len(c.request)),
     )
 
 
@@ -193,7 +198,7 @@ def _explains(ours: Student, text: str, calls: list[Call]) -> bool:
 
 def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterator[str]:
     """Yield the sentences of the slips in our solution that explain a submission's answers."""
-    telling = [call for call in calls if distance(call.got, call.ours) > TIE]
+    telling = [call for call in calls if distance(call.got, call.ours) > TIE and not call.slow]
     if all(counts(call.got) for call in telling) and len(telling) < COUNTS:
         return
     slips = variations(known.solution, task.id, known.styles())
@@ -279,7 +284,7 @@ def _tells(calls: list[Call], answers: list[Any]) -> bool:
     """
     told: dict[bytes, float] = {}
     for call, answer in zip(calls, answers, strict=True):
-        proof = weight(call.got, answer, call.ours)
+        proof = 0.0 if call.slow else weight(call.got, answer, call.ours)
         if _raised(call.got) and not (_raised(answer) and answer == call.got):
             proof = 0.0
         told[call.request] = max(told.get(call.request, 0.0), proof)
