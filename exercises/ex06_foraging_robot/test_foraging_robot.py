@@ -351,10 +351,11 @@ def recorded(module, brain, start, cylinder, seed, way, maxsteps):
     import numpy
 
     def mixed(step, before, after):
+        after, before = numpy.asarray(after), numpy.asarray(before)
         return 0.6 * after + 0.3 * before + 0.01 * numpy.sin(step)
 
     def forgetful(step, before, after):
-        return 0 * after
+        return 0 * numpy.asarray(after)
 
     remember = {"keep": module.keep, "forget": forgetful, "mixed": mixed}[way]
     return module.episode(brain, start, cylinder, seed, remember, maxsteps)

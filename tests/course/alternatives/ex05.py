@@ -420,3 +420,109 @@ def loss(matrix):
         "bodies": list(own - columns.mean(axis=1)),
         "at home": sum(bool(np.all(mine > others)) for mine, others in zip(own, rows)),
     }
+
+
+# %% frames_and_rolled_rows
+# Frames by matrix products along the chain; rolled genotypes and rows; walkers kept by seed.
+def _segment(p, k):
+    t = np.tanh(np.asarray(p, dtype=float)[[2 * k, 2 * k + 1, 53 + k]])
+    return {"l": 0.8 + 0.72 * t[0], "t": 0.2 + 0.18 * t[1], "d": 5 + 0.8 * t[2]}
+
+
+def sizes(parameters):
+    parts = [_segment(parameters, k) for k in range(SEGMENTS)]
+    return {
+        "masses": tuple(s["l"] * s["t"] * s["d"] for s in parts),
+        "thicknesses": tuple(s["t"] for s in parts),
+        "lengths": tuple(s["l"] for s in parts),
+        "names": "extra",
+    }
+
+
+def joints(parameters):
+    own = list(parameters)
+    turn = [max(-1.0, min(1.0, v)) for v in own]
+    lower, upper = [], []
+    for j in range(JOINTS):
+        pair = sorted(turn[22 + 2 * j : 24 + 2 * j])
+        lower.append(pair[0] * np.pi / 2)
+        upper.append(pair[1] * np.pi / 2)
+    return {"angles": [v * np.pi * 0.75 for v in turn[42:53]], "lower": lower, "upper": upper}
+
+
+def outline(parameters):
+    size, bends = sizes(parameters), joints(parameters)["angles"]
+    frame = np.eye(3)
+    found = []
+    for length, thick, bend in zip(size["lengths"], size["thicknesses"], bends, strict=True):
+        c, s = np.cos(bend), np.sin(bend)
+        frame = frame @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+        box = np.array(
+            [[0, length, length, 0], [-thick / 2, -thick / 2, thick / 2, thick / 2], [1, 1, 1, 1]]
+        )
+        found.append((frame @ box)[:2].T)
+        frame = frame @ np.array([[1, 0, length], [0, 1, 0], [0, 0, 1]])
+    return np.stack(found)
+
+
+def describe(parameters):
+    size, angle = sizes(parameters), joints(parameters)
+    xs, ys = zip(*outline(parameters).reshape(-1, 2).tolist())
+    return {
+        "length": sum(size["lengths"]),
+        "mass": sum(size["masses"]),
+        "width": max(xs) - min(xs),
+        "height": max(ys) - min(ys),
+        "freedom": sum(u - l for u, l in zip(angle["upper"], angle["lower"])) / JOINTS,
+    }
+
+
+def body_of(genotype):
+    return np.roll(genotype, 134)[:64].copy()
+
+
+def transplant(brain, body):
+    places = np.arange(len(brain) - 134, len(brain) - 70)
+    new = np.array(brain, copy=True)
+    np.put(new, places, np.take(body, places))
+    return new
+
+
+def cross_evaluate(experiment_file, walkers, seed, episodes):
+    n = len(walkers)
+    table = np.empty(n * n)
+    for k in reversed(range(n * n)):
+        i, j = divmod(k, n)
+        table[k] = np.average(
+            SavedRobot(experiment_file, transplant(walkers[i], walkers[j])).evaluate(seed, episodes)
+        )
+    return table.reshape(n, n)
+
+
+def loss(matrix):
+    n = len(matrix)
+    turned = np.array([np.roll(matrix[i], -i) for i in range(n)])
+    columns = np.array([np.roll(matrix[:, i], -i) for i in range(n)])
+    return {
+        "own": turned[:, 0].mean(),
+        "foreign": turned[:, 1:].mean(),
+        "brains": (turned[:, :1] - turned[:, 1:]).mean(axis=1),
+        "bodies": (columns[:, :1] - columns[:, 1:]).mean(axis=1),
+        "at home": np.count_nonzero((turned[:, :1] > turned[:, 1:]).all(axis=1)),
+    }
+
+
+def evolve_walkers(experiment_file, seeds, folder, steps=None):
+    import os
+
+    os.makedirs(folder, exist_ok=True)
+    known = {}
+
+    def walker(seed):
+        if seed not in known:
+            run = Run(config.load(experiment_file), seed)
+            evolve(run, str(folder), steps)
+            known[seed] = np.array(run.record.bestg)
+        return known[seed]
+
+    return np.stack(list(map(walker, seeds)))

@@ -509,3 +509,135 @@ def reactions(brain, observation, memories):
     for i in range(len(memories)):
         found[i], _ = think(brain, observation, memories[i])
     return found
+
+
+# %% parts_of_z_and_complex_plane
+# The gates in two products; arrays made in advance; complex numbers; families as sets.
+def think(brain, observation, memory):
+    cells, shown = memory
+    w_seen, w_shown = brain["gates"][..., :8], brain["gates"][..., 8:]
+    net = w_seen @ observation + w_shown @ shown
+    f, i, o = 0.5 + 0.5 * np.tanh((net[:3] + np.array([[1.0], [0], [0]])) / 2)
+    fresh = f * cells + i * np.tanh(net[3])
+    out = o * np.tanh(fresh)
+    return list(np.tanh(out @ brain["readout"].T + brain["bias"])), (fresh, out)
+
+
+def reactions(brain, observation, memories):
+    answers = []
+    for cells, outputs in memories:
+        action, _ = think(brain, observation, (cells, outputs))
+        answers.append(action)
+    return answers
+
+
+def forget(step, before, after):
+    return np.zeros((2, UNITS))
+
+
+class freeze:
+    def __init__(self, since):
+        self.since = since
+
+    def __call__(self, step, before, after):
+        return [after, before][step >= self.since]
+
+
+def episode(brain, start, cylinder, seed, remember=keep, maxsteps=500):
+    arena = arenas.make("discrim", max_steps=maxsteps)
+    arena.reset(seed)
+    arena.objects[0, 0], arena.objects[0, 1] = cylinder
+    arena.robots[0, :] = np.asarray(start)
+    arena.sense()
+    seen = np.empty((maxsteps, 8))
+    kept = np.empty((maxsteps, 2, 10))
+    acted = np.empty((maxsteps, 2))
+    won = np.empty(maxsteps)
+    poses = [tuple(arena.robots[0])]
+    memory, t = np.zeros((2, 10)), 0
+    while t < maxsteps and not arena.done:
+        seen[t], kept[t] = arena.observation, memory
+        acted[t], after = think(brain, seen[t], kept[t])
+        arena.action = acted[t]
+        won[t] = arena.step()
+        poses.append(tuple(arena.robots[0]))
+        memory = remember(t, memory, after)
+        t += 1
+    return {
+        "poses": np.array(poses),
+        "observations": seen[:t],
+        "memories": kept[:t],
+        "actions": acted[:t],
+        "rewards": won[:t],
+    }
+
+
+def memory_test(brain, starts, cylinder, seed, since, maxsteps=500):
+    def earned(way):
+        return sum(
+            float(np.sum(episode(brain, s, cylinder, seed + k, way, maxsteps)["rewards"]))
+            for k, s in enumerate(starts)
+        ) / len(starts)
+
+    return {"freeze": earned(freeze(since)), "forget": earned(forget), "keep": earned(keep)}
+
+
+def grid(places, headings):
+    n = places * places * headings
+    k = np.arange(n)
+    h, x, y = k % headings, k // headings % places, k // (headings * places)
+    step = max(places - 1, 1)
+    return np.column_stack([150 + 100 * x / step, 270 + 80 * y / step, 2 * np.pi * h / headings])
+
+
+def describe(poses, rewards, cylinder):
+    z, e = poses[:, 0] + 1j * poses[:, 1], np.exp(1j * poses[:, 2])
+    found = np.where(rewards > 0)[0]
+    search = np.arange(len(rewards)) < (found[0] if found.size else len(rewards))
+    move = np.diff(z)
+    to = complex(*cylinder) - z[1:]
+    side = (to * e[1:].conj() / np.abs(to)).imag
+    wall = np.max(np.abs(poses[:-1, :2] - 200), axis=1) > 127.5
+    return {
+        "search": int(search.sum()),
+        "speed": mean((move * e[:-1].conj()).real[search]),
+        "turning": mean(np.angle(e[1:] / e[:-1])[search]),
+        "wall": mean(wall[search]),
+        "pace": mean(np.abs(move)[found]),
+        "side": mean(side[found]),
+    }
+
+
+def standardise(table):
+    out = np.zeros(table.shape)
+    for c in range(table.shape[1]):
+        column = table[:, c]
+        if np.ptp(column) > 1e-9 * max(1.0, np.abs(column).max()):
+            out[:, c] = (column - np.mean(column)) / np.sqrt(
+                np.mean((column - np.mean(column)) ** 2)
+            )
+    return out
+
+
+def families(table, threshold):
+    z = standardise(table)
+    sets = [frozenset([i]) for i in range(len(z))]
+
+    def apart(a, b):
+        return np.mean([np.sqrt(((z[i] - z[j]) ** 2).sum()) for i in a for j in b])
+
+    while len(sets) > 1:
+        pairs = [
+            (apart(a, b), k, m) for k, a in enumerate(sets) for m, b in enumerate(sets) if k < m
+        ]
+        nearest, k, m = min(pairs)
+        if not nearest < threshold - 1e-12:
+            break
+        merged = sets[k] | sets[m]
+        sets = [s for n, s in enumerate(sets) if n not in (k, m)] + [merged]
+    names = {}
+    out = []
+    for i in range(len(z)):
+        own = next(s for s in sets if i in s)
+        out.append(names.setdefault(own, len(names)))
+    return np.array(out)

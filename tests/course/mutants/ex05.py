@@ -722,3 +722,183 @@ def cross_evaluate(experiment_file, walkers, seed, episodes):
 # says: divided by the own return
 # -         "brains": own - (matrix.sum(axis=1) - own) / (n - 1),
 # +         "brains": 1 - (matrix.sum(axis=1) - own) / (n - 1) / own,
+
+
+# %% densities_of_the_angles loses 5.1
+# Takes the default angles for the densities.
+# says: begin at place 53, not at 42
+def sizes(parameters):
+    t = np.tanh(parameters)
+    lengths = 0.8 + 0.72 * t[:22:2]
+    thicknesses = 0.2 + 0.18 * t[1:22:2]
+    densities = 5 + 0.8 * t[42:53]
+    return {
+        "lengths": lengths,
+        "thicknesses": thicknesses,
+        "masses": lengths * thicknesses * densities,
+    }
+
+
+# %% smaller_in_amount loses 5.2
+# Takes the limit with the smaller amount for the lower one.
+# says: amounts of the limits are compared
+def joints(parameters):
+    limits = (np.pi / 2 * np.clip(parameters[22:42], -1, 1)).reshape(10, 2)
+    lower, upper = [], []
+    for a, b in limits:
+        if abs(a) < abs(b):
+            lower.append(a)
+            upper.append(b)
+        else:
+            lower.append(b)
+            upper.append(a)
+    return {
+        "angles": 0.75 * np.pi * np.clip(parameters[42:53], -1, 1),
+        "lower": np.array(lower),
+        "upper": np.array(upper),
+    }
+
+
+# %% torso_without_angle loses 5.2
+# Sets the default angle of the torso to 0.
+# says: torso has a default angle, too
+def joints(parameters):
+    clipped = np.clip(parameters, -1, 1)
+    pairs = np.sort(clipped[22:42].reshape(10, 2) * np.pi / 2, axis=1)
+    angles = clipped[42:53] * 3 * np.pi / 4
+    angles[0] = 0
+    return {"angles": angles, "lower": pairs[:, 0], "upper": pairs[:, 1]}
+
+
+# %% sorted_over_the_joints loses 5.2
+# Sorts the limits of all joints, not the two of each.
+# says: each joint has its own two
+def joints(parameters):
+    clipped = np.clip(parameters, -1, 1)
+    pairs = np.sort(clipped[22:42].reshape(10, 2) * np.pi / 2, axis=0)
+    angles = clipped[42:53] * 3 * np.pi / 4
+    return {"angles": angles, "lower": pairs[:, 0], "upper": pairs[:, 1]}
+
+
+# %% next_from_the_left_corner loses 5.3
+# Lets the next segment begin at the left corner of the end, not in its middle.
+# says: not at the left corner there
+def outline(parameters):
+    s = sizes(parameters)
+    heads = np.cumsum(joints(parameters)["angles"])
+    corners = np.zeros((11, 4, 2))
+    pos = np.zeros(2)
+    for i, h in enumerate(heads):
+        d = np.array([np.cos(h), np.sin(h)]) * s["lengths"][i]
+        n = np.array([-np.sin(h), np.cos(h)]) * s["thicknesses"][i] / 2
+        corners[i] = [pos - n, pos + d - n, pos + d + n, pos + n]
+        pos = pos + d + n
+    return corners
+
+
+# %% torso_angle_twice loses 5.3
+# Adds a segment's angle after it is drawn, and the torso's twice.
+# says: the sum of all default angles up to its own is
+def outline(parameters):
+    size, angle = sizes(parameters), joints(parameters)["angles"]
+    x, y, h = 0.0, 0.0, angle[0]
+    out = np.zeros((11, 4, 2))
+    for k in range(11):
+        long, t = size["lengths"][k], size["thicknesses"][k] / 2
+        ex, ey = x + long * np.cos(h), y + long * np.sin(h)
+        sx, sy = -t * np.sin(h), t * np.cos(h)
+        out[k] = [[x - sx, y - sy], [ex - sx, ey - sy], [ex + sx, ey + sy], [x + sx, y + sy]]
+        x, y = ex, ey
+        h = h + angle[k]
+    return out
+
+
+# %% torso_begins_at_the_end loses 5.3
+# Rolls the ends, so the torso begins where the last segment ends.
+# says: Segment 0 begins at .* there, not at
+# -     beginnings = np.vstack([[0.0, 0.0], ends[:-1]])
+# +     beginnings = np.roll(ends, 1, axis=0)
+
+
+# %% one_corner_of_each loses 5.4
+# Measures width and height with the first corner of each segment only.
+# says: not the first one only
+# -     width, height = np.ptp(outline(parameters), axis=(0, 1))
+# +     width, height = np.ptp(outline(parameters)[:, 0], axis=0)
+
+
+# %% freedom_beyond_the_limits loses 5.4
+# Takes the parameters of the limits for the freedom without cutting them off.
+# says: the parameters go beyond them
+def describe(parameters):
+    s, o = sizes(parameters), outline(parameters)
+    x, y = o[:, :, 0], o[:, :, 1]
+    raw = parameters[22:42].reshape(10, 2)
+    return {
+        "length": float(np.sum(s["lengths"])),
+        "mass": float(np.sum(s["masses"])),
+        "width": float(x.max() - x.min()),
+        "height": float(y.max() - y.min()),
+        "freedom": float(np.mean(abs(raw[:, 0] - raw[:, 1])) * np.pi / 2),
+    }
+
+
+# %% means_forgotten loses 5.6
+# Counts 35 numbers behind the body, but 35 means and 35 deviations follow it.
+# says: has 64\.|35 places too late
+# -     return genotype[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS]
+# +     return genotype[-OBSERVATIONS - BODY : -OBSERVATIONS]
+
+
+# %% seed_of_the_row loses 5.7
+# Evaluates each row with a seed of its own.
+# says: Each row has a seed of its own
+def cross_evaluate(experiment_file, walkers, seed, episodes):
+    n = len(walkers)
+    m = np.zeros((n, n))
+    for i in range(n):
+        for j in range(n):
+            robot = SavedRobot(experiment_file, transplant(walkers[i], walkers[j]))
+            m[i, j] = np.mean(robot.evaluate(seed + i, episodes))
+    return m
+
+
+# %% nothing_on_the_diagonal loses 5.7
+# Leaves 0 on the diagonal: evaluates no brain in its own body.
+# says: The diagonal is left out
+def cross_evaluate(experiment_file, walkers, seed, episodes):
+    n = len(walkers)
+    matrix = np.zeros((n, n))
+    for i in range(n):
+        for j in range(n):
+            if i != j:
+                matrix[i, j] = (
+                    SavedRobot(experiment_file, transplant(walkers[i], walkers[j]))
+                    .evaluate(seed, episodes)
+                    .mean()
+                )
+    return matrix
+
+
+# %% steps_shared loses 5.5
+# Shares the steps among the runs.
+# says: steps are shared among the runs
+# -         evolve(run, Path(folder), steps)
+# +         evolve(run, Path(folder), steps // len(seeds) if steps else None)
+
+
+# %% losses_column_by_column loses 5.8
+# Subtracts the matrix from the diagonal row by row, which pairs a return with another column's.
+# says: own - matrix pairs them
+def loss(matrix):
+    n = len(matrix)
+    d = np.diag(matrix)
+    mask = ~np.eye(n, dtype=bool)
+    diff = d - matrix
+    return {
+        "own": d.mean(),
+        "foreign": matrix[mask].mean(),
+        "brains": diff.sum(axis=1) / (n - 1),
+        "bodies": diff.sum(axis=0) / (n - 1),
+        "at home": int(np.all(d[:, None] >= matrix, axis=1).sum()),
+    }

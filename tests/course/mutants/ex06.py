@@ -756,3 +756,190 @@ def families(table, threshold):
 # says: this
 # -     ways = {"keep": keep, "forget": forget, "freeze": freeze(since)}
 # +     ways = {"keep": keep, "forget": forget, "freeze": freeze(100)}
+
+
+# %% bias_after_tanh loses 6.1
+# The bias of the wheels is added after tanh.
+# says: added after tanh
+# -     action = np.tanh(brain["readout"] @ outputs + brain["bias"])
+# +     action = np.tanh(brain["readout"] @ outputs) + brain["bias"]
+
+
+# %% output_gate_sees_new_cells loses 6.1
+# The output gate sees tanh of the new cells instead of the outputs of the step before.
+# says: all gates see the same z
+def think(brain, observation, memory):
+    z = np.concatenate([observation, memory[1]])
+    Wf, Wi, Wo, Wc = brain["gates"]
+    c = memory[0] * logistic(Wf @ z + 1) + np.tanh(Wc @ z) * logistic(Wi @ z)
+    z2 = np.concatenate([observation, np.tanh(c)])
+    h = np.tanh(c) * logistic(Wo @ z2)
+    return np.tanh(brain["readout"] @ h + brain["bias"]), np.stack([c, h])
+
+
+# %% rows_exchanged_throughout loses 6.1
+# Takes row 0 of the memory for the outputs and row 1 for the cells, old and new.
+# says: Cells and outputs are exchanged
+def think(brain, observation, memory):
+    h, c = memory
+    z = np.concatenate([observation, h])
+    Wf, Wi, Wo, Wc = brain["gates"]
+    c = c * logistic(Wf @ z + 1) + np.tanh(Wc @ z) * logistic(Wi @ z)
+    h = np.tanh(c) * logistic(Wo @ z)
+    return np.tanh(brain["readout"] @ h + brain["bias"]), np.stack([h, c])
+
+
+# %% keeps_what_is_not_taken loses 6.1
+# Keeps 1 minus the input gate of the old cells: the forget gate is not used.
+# says: 1 minus the input gate
+def think(brain, observation, memory):
+    z = np.concatenate([observation, memory[1]])
+    _, i, o = (logistic(brain["gates"][k] @ z + (k == 0)) for k in range(3))
+    g = np.tanh(brain["gates"][3] @ z)
+    c = memory[0] * (1 - i) + g * i
+    h = np.tanh(c) * o
+    return np.tanh(brain["readout"] @ h + brain["bias"]), np.stack([c, h])
+
+
+# %% headings_floored loses 6.3
+# Divides the whole turn with `//`, which cuts the fraction off.
+# says: cuts the fraction off
+# -     angles = np.arange(headings) * 2 * np.pi / headings
+# +     angles = np.arange(headings) * (2 * np.pi // headings)
+
+
+# %% near_is_all_after_the_search loses 6.4
+# Counts all steps after the search as near the cylinder, for pace and side.
+# says: count only with a reward
+def describe(poses, rewards, cylinder):
+    n = len(rewards)
+    hits = np.flatnonzero(rewards)
+    search = int(hits[0]) if len(hits) else n
+    p, q = poses[:-1], poses[1:]
+    d = q - p
+    fwd = d[:, 0] * np.cos(p[:, 2]) + d[:, 1] * np.sin(p[:, 2])
+    turn = np.arctan2(np.sin(d[:, 2]), np.cos(d[:, 2]))
+    wall = np.minimum.reduce([p[:, 0], p[:, 1], 400 - p[:, 0], 400 - p[:, 1]]) < 72.5
+    pace = np.hypot(d[:, 0], d[:, 1])
+    side = np.sin(np.arctan2(cylinder[1] - q[:, 1], cylinder[0] - q[:, 0]) - q[:, 2])
+    return {
+        "search": search,
+        "speed": mean(fwd[:search]),
+        "turning": mean(turn[:search]),
+        "wall": mean(wall[:search]),
+        "pace": mean(pace[search:]),
+        "side": mean(side[search:]),
+    }
+
+
+# %% search_goes_on_after_the_find loses 6.4
+# Speed, turning and wall count all steps without a reward.
+# says: The search ends at the first reward
+def describe(poses, rewards, cylinder):
+    near = rewards == 1
+    far = ~near
+    search = int(np.argmax(near)) if near.any() else len(rewards)
+    d = np.diff(poses, axis=0)
+    th = poses[:-1, 2]
+    fwd = d[:, 0] * np.cos(th) + d[:, 1] * np.sin(th)
+    turn = (d[:, 2] + np.pi) % (2 * np.pi) - np.pi
+    x, y = poses[:-1, 0], poses[:-1, 1]
+    wall = (x < 72.5) | (x > 327.5) | (y < 72.5) | (y > 327.5)
+    pace = np.sqrt(d[:, 0] ** 2 + d[:, 1] ** 2)
+    q = poses[1:]
+    side = np.sin(np.arctan2(cylinder[1] - q[:, 1], cylinder[0] - q[:, 0]) - q[:, 2])
+    return {
+        "search": search,
+        "speed": mean(fwd[far]),
+        "turning": mean(turn[far]),
+        "wall": mean(wall[far]),
+        "pace": mean(pace[near]),
+        "side": mean(side[near]),
+    }
+
+
+# %% short_way_on_one_side loses 6.4
+# Takes the short way around in one direction only.
+# says: Only one direction is taken the short way
+# -     turned = (after[:, 2] - before[:, 2] + np.pi) % (2 * np.pi) - np.pi
+# +     turned = after[:, 2] - before[:, 2]
+# +     turned = np.where(turned < -np.pi, turned + 2 * np.pi, turned)
+
+
+# %% hops_between_rewards loses 6.4
+# Measures from one place with a reward to the next such place.
+# says: from one place with a reward to the next
+def describe(poses, rewards, cylinder):
+    near = rewards > 0
+    search = int(near.argmax()) if near.any() else len(rewards)
+    p, q = poses[:-1], poses[1:]
+    d = q - p
+    f = d[:, 0] * np.cos(p[:, 2]) + d[:, 1] * np.sin(p[:, 2])
+    t = (d[:, 2] + np.pi) % (2 * np.pi) - np.pi
+    w = np.minimum(p[:, :2], 400 - p[:, :2]).min(1) < 72.5
+    side = np.sin(np.arctan2(cylinder[1] - q[:, 1], cylinder[0] - q[:, 0]) - q[:, 2])
+    spots = q[near]
+    return {
+        "search": search,
+        "speed": mean(f[:search]),
+        "turning": mean(t[:search]),
+        "wall": mean(w[:search]),
+        "pace": mean(np.hypot(*np.diff(spots[:, :2], axis=0).T)),
+        "side": mean(side[near]),
+    }
+
+
+# %% scales_of_rows loses 6.5
+# Brings each row to one scale instead of each column.
+# says: not that of each column
+# -     deviation = table.std(axis=0)
+# -     alike = deviation < 1e-12
+# -     return np.where(alike, 0.0, (table - table.mean(axis=0)) / np.where(alike, 1.0, deviation))
+# +     deviation = table.std(axis=1, keepdims=True)
+# +     alike = deviation < 1e-12
+# +     return np.where(alike, 0.0, (table - table.mean(axis=1, keepdims=True)) / np.where(alike, 1.0, deviation))
+
+
+# %% deviation_and_a_bit loses 6.5
+# Adds 0.01 to the standard deviation.
+# says: Your code divides by
+def standardise(table):
+    return (table - table.mean(axis=0)) / (table.std(axis=0) + 0.01)
+
+
+# %% first_pair_that_is_near loses 6.5
+# Merges the first pair nearer than the threshold, not the two nearest families.
+# says: not the two nearest
+# -         i, j = pairs[int(np.argmin(apart))]
+# +         i, j = next(p for p, a in zip(pairs, apart) if a < threshold)
+
+
+# %% keeps_the_new_memory_for_good loses 6.6
+# Keeps the memory after step `since` of the first episode.
+# says: it stays what `before` is
+def freeze(since):
+    kept = []
+
+    def frozen(step, before, after):
+        if step < since:
+            return after
+        if not kept:
+            kept.append(after)
+        return kept[0]
+
+    return frozen
+
+
+# %% median_of_the_returns loses 6.6
+# Takes the median of the returns.
+# says: The median of the returns
+# -         returns[name] = float(np.mean([each["rewards"].sum() for each in episodes]))
+# +         returns[name] = float(np.median([each["rewards"].sum() for each in episodes]))
+
+
+# %% reads_the_old_outputs loses 6.7
+# Reads the actions from the given outputs without a step of the network.
+# says: `think` is not called
+def reactions(brain, observation, memories):
+    h = memories[:, 1]
+    return np.tanh(h @ brain["readout"].T + brain["bias"])
