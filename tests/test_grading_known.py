@@ -15,6 +15,7 @@ from botschool.grading.judge.smallest import _difference, _smaller, smallest_cas
 from botschool.grading.judge.submission import grade
 from botschool.grading.packed import pack
 from botschool.grading.run.confined import fork_server
+from botschool.grading.run.student import Student
 from tiny_course import FILE, submit
 
 SOLUTION = '''"""A solution."""
@@ -262,6 +263,19 @@ answers = st.recursive(
     lambda parts: st.lists(parts, max_size=3) | st.dictionaries(st.sampled_from("ab"), parts),
     max_leaves=6,
 )
+
+
+def test_answers_of_uneven_arrays_are_shown(server, tmp_path):
+    """hidden_activations of exercise 13 returns a list of arrays with different shapes."""
+    ours = "import numpy as np\ndef f(x): return [np.ones((2, 3)), np.ones((2, 1)) * len(x)]\n"
+    file = tmp_path / "own.py"
+    file.write_text(ours.replace("* len", "+ len"))
+    task = Exercise(3, "Three", "own.py").task("3.1", "First")
+    found = Student(file, 5, server=server)
+    request = {"name": "f", "arguments": [np.arange(6.0)], "options": {}}
+    told = smallest_case(task, ours, "own.py", request, found, server)
+    found.close()
+    assert told.startswith("f(np.array([0.0]))[1] returned") and "was expected" in told
 
 
 def test_a_pair_of_numbers_is_not_cut():

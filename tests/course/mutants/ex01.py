@@ -491,14 +491,6 @@ def balance(observation):
 # +                 "length": float(sum(len(run["rewards"]) for run in runs) // episodes),
 
 
-# %% limit_from_the_spec loses 1.6
-# Takes 1000 steps for the limit of an environment that has none.
-# says: without a time limit
-# -         runs = [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
-# +         limit = gymnasium.spec(environment_id).max_episode_steps or 1000
-# +         runs = [random_episode(environment_id, seed + i, limit) for i in range(episodes)]
-
-
 # %% two_decimals loses 1.6
 # Rounds the mean to two places.
 # says: this

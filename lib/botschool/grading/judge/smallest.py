@@ -77,8 +77,8 @@ def _told(call: dict[str, Any], found: Student, ours: Student) -> str:
             right, got = ours.ask(simple), found.ask(simple)
         except Wrong:
             continue
-        tells = np.size(right) > 0 and _finite(got) and _finite(right)
-        if tells and distance(got, right) > APART:
+        size = right.size if isinstance(right, np.ndarray) else right != [] and right != {}
+        if size and _finite(got) and _finite(right) and distance(got, right) > APART:
             return _difference(text, got, right)
     return ""
 
