@@ -142,7 +142,7 @@ def compare(experiment_file, folder, seeds, episodes, test_seed):
 
 # %% clears_the_folder loses 4.3
 # Empties the folder before it runs, so that earlier runs are lost.
-# says: should have written the file
+# says: of an earlier run is gone
 _replicate = run_replications
 
 
