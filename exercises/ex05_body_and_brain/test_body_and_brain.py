@@ -327,7 +327,7 @@ def wrong_corners(p: np.ndarray) -> dict:
         return np.stack([found.real.T, found.imag.T], axis=2)
 
     own = corners(p)
-    orders = {
+    orders = {"x and y of each corner are exchanged.": own[..., ::-1]} | {
         "The corners of a segment come in another order: "
         f"{', '.join(CORNERS[k] for k in order)}.": own[:, order]
         for order in permutations(range(4)) if order != (0, 1, 2, 3)

@@ -161,6 +161,9 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         "The new candidate is subtracted, but belongs to the old cells.": of(
             candidate=lambda x: -np.tanh(x)
         ),
+        "The forget gate is a factor of the old cells alone, not of what is added to them.": of(
+            enter=lambda kept: kept * squash(net[1])
+        ),
         "The forget gate is used for the input gate, too.": of(enter=lambda kept: kept),
         "The gates see the outputs of the step before alone: the observation is left out.": of(
             known=np.append(0 * observation, memory[1])
@@ -394,9 +397,9 @@ def compare(student: Student, genotype: np.ndarray, where: tuple, seed: int, way
         apart.append((first_apart(got, wanted), name, got))
     for step, name, got in sorted(apart, key=lambda each: each[0]):
         what = CAUSES[name].format(t=step)
-        if step < min(len(got), len(expected[name])):
+        if step < (many := min(len(got), len(expected[name]))):
             what = f" (all that comes before is right; this is {what})"
-            expect_close(f"{said}: {name}{what}", got, expected[name], 1e-3)
+            expect_close(f"{said}: {name}{what}", got[:many], expected[name][:many], 1e-3)
         steps = len(expected["rewards"])
         ends = "with maxsteps" if steps == maxsteps else "with a collision"
         what = f" (right as far as it goes; the episode ends {ends}, after {steps} steps"
@@ -596,6 +599,8 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "": forward(theta),
             "The heading at the end of the step is taken, not that at its beginning.":
             forward(later),
+            "The heading in the middle of the step is taken, not that at its beginning.":
+            forward((theta + later) / 2),
             "This is how far the robot moves, be it forwards or backwards.": length,
             "The speed has lost its sign.": np.abs(forward(theta)),
             "The speed has the wrong sign.": -forward(theta),
@@ -990,6 +995,12 @@ def compare_grouped(student: Student, table: np.ndarray, threshold: float, which
     answer = student.call("families", table, threshold)
     expected = grouped(table, threshold)
     said = f"families(<{len(table)} robots>, threshold={threshold:.3g}{which})"
+    many = np.size(answer) if isinstance(answer, (list, tuple, np.ndarray)) else len(table)
+    expect(
+        many == len(table),
+        f"{said} returned {many} numbers, but the family of each of the {len(table)} robots is "
+        "asked for.",
+    )
     got = expect_array(said, answer, (len(table),))
     order = "The families are right, but not numbered from 0 in the order of their first robots."
     same = numbered(got.tolist()) == expected
