@@ -764,11 +764,18 @@ def train(seed):
 
 
 # %% motors_of_simulation_0 loses 10.5, 10.7
-# The motors are those of simulation 0: the physicsClientId is missing.
+# The wheels of this robot get no speed: physicsClientId is missing, or the speed is passed without the name targetVelocity.
 # says: this
 # -                 targetVelocity=target,
 # -                 physicsClientId=self.client,
 # +                 targetVelocity=target,
+
+
+# %% speed_passed_by_place loses 10.5, 10.7
+# The wheels of this robot get no speed: physicsClientId is missing, or the speed is passed without the name targetVelocity.
+# says: this
+# -                 targetVelocity=target,
+# +                 target,
 
 
 # %% price_of_the_square loses 10.6
