@@ -6,6 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from botschool.grading import Exercise, expect, expect_close
+from botschool.grading.declare.beside import slips_beside
+from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.mistakes import Known, read_cases
 from botschool.grading.judge import judging
 from botschool.grading.judge import known as replay
@@ -358,6 +360,31 @@ def test_a_packed_grader_knows_them_and_shows_nothing(messages, tmp_path):
     exec(packed, names)
     (first,) = messages(BY_N.replace("np.", "__import__('numpy')."), names["exercise"])
     assert first.startswith(f"{TOLD} The sum is divided by n instead of n - 1.")
+
+
+def test_a_packed_grader_takes_the_slips_beside_it_along(messages, tmp_path, monkeypatch):
+    """It says the same as the grader that imports slips.py; no text shows a slip."""
+    course = tmp_path / "course"
+    grader = course / "exercises" / "ex03_three" / "test_three.py"
+    grader.parent.mkdir(parents=True)
+    monkeypatch.setenv("BOTSCHOOL_COURSE", str(course))
+    imports = "from slips import halved\n"
+    wanted = "np.std(values, ddof=1))"
+    grader.write_text(imports + GRADER.replace(wanted, f"{wanted[:-1]}, mistakes=halved(values))"))
+    (grader.parent / "slips.py").write_text(
+        "import numpy as np\n"
+        "def halved(values): return {'It is half.': np.std(values, ddof=1) / 2}\n"
+    )
+    half = RIGHT + "def spread(x): return float(np.std(x, ddof=1)) / 2\n"
+    plain = messages(half, load_exercise(3, course))
+    assert "It is half." in plain[0]
+    packed = pack(grader.read_text(), slips=slips_beside(grader.parent))
+    assert "halved" not in packed and "It is half." not in packed
+    (grader.parent / "slips.py").unlink()
+    with pytest.raises(ModuleNotFoundError):
+        load_exercise(3, course)  # what one grader imports is not left for the next one
+    grader.write_text(packed)
+    assert messages(half, load_exercise(3, course)) == plain
 
 
 def test_answers_are_compared_part_by_part():

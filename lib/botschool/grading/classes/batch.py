@@ -23,6 +23,7 @@ from types import MappingProxyType
 from typing import Any
 
 from botschool.errors import BotschoolError
+from botschool.grading.declare.beside import SLIPS
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import (
     STATE,
@@ -279,7 +280,7 @@ def _versions(root: Path, number: Number) -> str:
     own: list[Path] = []
     if isinstance(number, int):
         folder = folder_of(number, root)
-        own += sorted(folder.glob("test_*.py"))
+        own += [*sorted(folder.glob("test_*.py")), *folder.glob(SLIPS)]
         own += sorted((root / "solutions" / folder.name).glob("*.py"))
         own += case_files(root, number)
     for path in (*sorted((IMPORT_ROOT / "botschool").rglob("*")), *own):

@@ -16,6 +16,7 @@ from pathlib import Path
 
 from botschool.errors import BotschoolError
 from botschool.grading.copies.skeleton import find_leaks, pairs, skeleton
+from botschool.grading.declare.beside import slips_beside
 from botschool.grading.declare.exercise import exercise_numbers, folder_of
 from botschool.grading.declare.mistakes import case_files
 from botschool.grading.declare.trust import check_trusted, trust
@@ -39,7 +40,7 @@ START = "exercises/README.md"
 """The students' start page; the copy gets it as README.md, too."""
 _WITHHELD = re.compile(
     r"docs/(reports/)?(instructor|answer|solution|architecture|algorithms|chapter|cluster|results\.|evolution)"
-    r"|^lib/(?!botschool/labs/lab\d\d\.).*\.md$|^docs/book/|^tools/(figures|studies)/"
+    r"|^exercises/ex\d\d_[^/]*/slips\.py$|^lib/(?!botschool/labs/lab\d\d\.).*\.md$|^docs/book/|^tools/(figures|studies)/"
     r"|(^|/)(__pycache__|\..*_cache|results)/"
     r"|\.(pyc|so|pyd|dylib|dll|ipynb|egg-info)$|(^|/)(?!\.gitignore$)\.[^/]*$",
     re.IGNORECASE,
@@ -214,7 +215,8 @@ def _packed(grader: str, root: Path, folder: str) -> str:
         return grader
     solution = (root / "solutions" / folder / file[1]).read_text(encoding="utf-8")
     cases = case_files(root, int(folder[2:4]))
-    return pack(grader, solution, "\n".join(path.read_text(encoding="utf-8") for path in cases))
+    known = "\n".join(path.read_text(encoding="utf-8") for path in cases)
+    return pack(grader, solution, known, slips_beside(root / "exercises" / folder))
 
 
 def pack_measures(package: Path, target: Path) -> None:

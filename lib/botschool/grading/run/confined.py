@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from botschool.errors import BotschoolError
+from botschool.grading.declare.beside import SLIPS
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.run.temporary import PREFIX
 from botschool.paths import material
@@ -127,7 +128,7 @@ def content_digest(file: Path, sources: Iterable[str] | None = None) -> hashlib.
 
 
 def _is_grader(name: str, depth: int) -> bool:
-    return depth == 1 and name.startswith("test_")
+    return depth == 1 and (name.startswith("test_") or name == SLIPS)
 
 
 def close_class(*folders: Path) -> None:
