@@ -891,3 +891,51 @@ def evolve(seed):
 # +     layers = actor_layers(model)
 # +     layers[-1][0] *= 2
 # +     return layers
+
+
+# %% place_not_weighted loses 10.1
+# The centre of mass inside a link is added without the link's mass: the mass multiplies the sum of both.
+# says: this
+# -         moment += links[link.get("name")] * (frames[link.get("name")] + inside)
+# +         moment += links[link.get("name")] * frames[link.get("name")] + inside
+
+
+# %% mass_of_the_first_link loses 10.1
+# The mass is that of the first link alone, not of the whole robot.
+# says: this
+# -     return {"links": links, "joints": joints, "mass": mass, "centre": (moment / mass).tolist()}
+# +     first = next(iter(links.values()))
+# +     return {"links": links, "joints": joints, "mass": first, "centre": (moment / mass).tolist()}
+
+
+# %% mass_of_the_last_link loses 10.1
+# The mass is that of the last link alone, not of the whole robot.
+# says: this
+# -     return {"links": links, "joints": joints, "mass": mass, "centre": (moment / mass).tolist()}
+# +     last = list(links.values())[-1]
+# +     return {"links": links, "joints": joints, "mass": last, "centre": (moment / mass).tolist()}
+
+
+# %% looks_around_y loses 10.3, 10.7
+# Inclination and angular velocity are those around the y axis: the robot falls over around x.
+# says: this
+# -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
+# -         _, turning = pybullet.getBaseVelocity(self.robot, self.client)
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         inclination = pybullet.getEulerFromQuaternion(orientation)[1]
+# +         _, turning = pybullet.getBaseVelocity(self.robot, self.client)
+# +         return np.array([inclination, turning[1], self.speed], dtype=np.float32)
+
+
+# %% leans_around_y loses 10.4, 10.7
+# The robot leans around the y axis at the start: the inclination is the first Euler angle, around x.
+# says: this
+# -             pybullet.getQuaternionFromEuler([inclination, 0, 0]),
+# +             pybullet.getQuaternionFromEuler([0, inclination, 0]),
+
+
+# %% speed_is_the_action loses 10.5, 10.7
+# The action replaces the target speed, as a share of FASTEST: it is a change that is added to it.
+# says: this
+# -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
+# +         self.speed = float(change * FASTEST)
