@@ -585,6 +585,9 @@ def registered(module, urdf, seed, gains=None):
     module.robot_file = lambda name: os.path.abspath("balance_bot.urdf")
     gymnasium.registry.pop(name, None)
     module.register_robot()
+    made = gymnasium.registry[name].entry_point if name in gymnasium.registry else "module:class"
+    if not callable(made) and ":" not in str(made):
+        return f"entry_point is {made!r:.60}: give the class, not an object of it or its name."
     warnings.simplefilter("ignore")
     if gains is None:
         module.register_robot()  # once more, as in a notebook
@@ -593,7 +596,7 @@ def registered(module, urdf, seed, gains=None):
         return env.reset(seed=seed)[0]
     env = gymnasium.make(name, render_mode="rgb_array")
     if env.unwrapped.render_mode != "rgb_array":
-        return repr(env.unwrapped.render_mode)
+        return f"the environment's render_mode is {env.unwrapped.render_mode!r}."
     observation, ends = env.reset(seed=seed)[0], [False, False]
     seen = [observation]
     while len(seen) <= 600 and not any(ends):
@@ -625,7 +628,7 @@ def compare_episode(student: Student, index: int, gains: np.ndarray) -> None:
     made = f'gymnasium.make("{NAME}", render_mode="rgb_array")'
     said = f"an episode of {made} with seed {seed}"
     answer = student.run(registered, robot_text(), seed, gains, said=said)
-    expect(not isinstance(answer, str), f"{made}: the environment's render_mode is {answer}.")
+    expect(not isinstance(answer, str), f"{made}: {answer}")
     expect(isinstance(answer, list) and len(answer) == 3, f"{said}: no answer came back.")
     seen, terminated, truncated = answer
     start = seeding.np_random(seed)[0].uniform(-0.3, 0.3)
@@ -636,9 +639,10 @@ def compare_episode(student: Student, index: int, gains: np.ndarray) -> None:
         isinstance(seen, np.ndarray) and seen.ndim == 2 and seen.shape[1] == 3,
         f"{said}: no observations of three numbers came back.",
     )
+    endless = "" if len(seen) <= 600 else " Nothing ended it: is max_episode_steps given?"
     expect(
         min(lengths) <= len(seen) <= max(lengths),
-        f"{said} had {len(seen) - 1} steps, but should have {steps}.",
+        f"{said} had {len(seen) - 1} steps, but should have {steps}.{endless}",
     )
     expect_ends(said, (terminated, truncated), (fell, not fell), f"after {steps} steps should be")
     length = min(len(seen), *lengths)
@@ -668,6 +672,7 @@ def passes_gymnasiums_checker(student: Student):
     seed = exercise.seed(53)
     said = f"Gymnasium's check_env, and then reset(seed={seed})"
     begins = student.run(registered, robot_text(), seed, said=said)
+    expect(not isinstance(begins, str), f"gymnasium.make: {begins}")
     with World(seeding.np_random(seed)[0].uniform(-0.3, 0.3)) as world:
         expect_close(said, begins, np.array(world.seen()), tolerance=0.02)
 

@@ -939,3 +939,17 @@ def evolve(seed):
 # says: this
 # -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
 # +         self.speed = float(change * FASTEST)
+
+
+# %% an_object_registered loses 10.7
+# An object of the class is registered, not the class.
+# says: give the class, not an object of it or its name
+# -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
+# +         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv(), max_episode_steps=500
+
+
+# %% the_name_of_the_class_registered loses 10.7
+# The name of the class is registered, without its module.
+# says: give the class, not an object of it or its name
+# -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
+# +         id="BalanceBotBulletEnv-v0", entry_point="BalanceBotEnv", max_episode_steps=500
