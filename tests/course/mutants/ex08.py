@@ -1011,18 +1011,6 @@ def smooth(curve, width):
 # +     return centre
 
 
-# %% one_centre_for_all_seeds loses 8.8
-# Remembers the centre of an environment.
-_found = {}
-_train = train
-
-
-def train(environment, seed):
-    if environment not in _found:
-        _found[environment] = _train(environment, seed)
-    return _found[environment]
-
-
 # %% unstable_in_evolve loses 8.6
 # Ranks anew in evolve, by a sort that may exchange equals.
 # says: equal fitness
