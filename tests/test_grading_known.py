@@ -241,6 +241,21 @@ def test_mistakes_that_import_something_come_last():
     assert names == ["by_n", "half_range", "slow"]
 
 
+def test_no_time_limit_cuts_the_import_of_a_package_short(messages, monkeypatch):
+    """An import that was cut short crashed the child, and the mistake was not named."""
+    timed = []
+
+    def near(ours, texts, *_):
+        timed.extend(texts)
+        return [False] * len(texts)
+
+    monkeypatch.setattr(replay, "_near", near)
+    library = "# %% library loses 3.1\n# It asks a library.\nimport torch\n\n"
+    first, _ = messages(RIGHT + BY_N, declared(mistakes=library + MISTAKES))
+    assert first.startswith(TOLD)
+    assert timed and not any("import torch" in text for text in timed)
+
+
 def test_a_mistake_that_fits_no_more_is_left_out(messages):
     text = MISTAKES.replace("# -     spread_marks", "# -     another_marks", 1)
     with pytest.raises(ValueError, match="must hold these lines exactly once"):

@@ -11,6 +11,8 @@ one slip.
 
 from __future__ import annotations
 
+import re
+import sys
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -51,6 +53,7 @@ answers are small whole numbers.
 NOT_DONE = ("NotImplementedError", "Missing")
 """Exceptions of functions that are not done yet."""
 Check = Callable[[Student], None]
+_IMPORTED = re.compile(r"^[ \t]*(?:from|import) +(\w+)", re.MULTILINE)
 
 
 @dataclass
@@ -150,12 +153,21 @@ def _changed(case: Case, solution: str) -> str:
         return ""
 
 
+def _imports_little(text: str, solution: str) -> bool:
+    """Return whether a text imports no package that our solution does not import.
+
+    Such imports take long, and a time limit that cuts them short may crash the child.
+    """
+    names = {*_IMPORTED.findall(text)} - {*_IMPORTED.findall(solution)}
+    return names <= sys.stdlib_module_names | {"numpy"}
+
+
 def _likely_first(
     ours: Student, cases: list[Case], solution: str, calls: list[Call]
 ) -> list[tuple[str, str]]:
     """Return sentences and texts of mistakes; mistakes that fit one wrong answer come first."""
     made = [(case.what, _changed(case, solution)) for case in cases]
-    texts = [text for _, text in made if text]
+    texts = [text for _, text in made if text and _imports_little(text, solution)]
     near = _near(ours, texts, _telling(calls), CASE_SECONDS, "known mistakes")
     likely = {text for text, fitting in zip(texts, near, strict=True) if fitting}
     return sorted(made, key=lambda each: each[1] not in likely)
@@ -201,7 +213,8 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
     telling = [call for call in calls if distance(call.got, call.ours) > TIE and not call.slow]
     if all(counts(call.got) for call in telling) and len(telling) < COUNTS:
         return
-    slips = variations(known.solution, task.id, known.styles())
+    styles = [text for text in known.styles() if _imports_little(text, known.solution)]
+    slips = variations(known.solution, task.id, styles)
     end = ours.seconds_left - SECONDS
     while ours.seconds_left > end and (batch := list(islice(slips, BATCH))):
         texts = [each.text for each in batch]
