@@ -276,7 +276,7 @@ def entropy_of_gaussians(log_deviation):
 
 
 # %% asks_later loses 13.4, 13.5, 13.6
-# Imports the libraries' answers only when it needs them.
+# Hands in what Stable-Baselines3 and torch compute.
 def entropy_of_gaussians(log_deviation):
     import torch
 
