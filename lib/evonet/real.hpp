@@ -201,6 +201,25 @@ BOTSCHOOL_INLINE T logistic(T x) {
   return T(1) / (T(1) + exponential(-x));
 }
 
+/// hyperbolic_tangent and logistic for several vectors at a time, in place.
+template <int n, class T, class F>
+BOTSCHOOL_INLINE void hyperbolic_tangents(F* x) {
+  F e[n], scale[n];
+  for (int i = 0; i < n; ++i) e[i] = clamp(x[i] + x[i], F{} - kTwiceHigh<T>, F{} + kTwiceHigh<T>);
+  exponentials<n>(e, scale);
+  for (int i = 0; i < n; ++i) {
+    e[i] += scale[i] - T(1);
+    x[i] = e[i] / (e[i] + T(2));
+  }
+}
+template <int n, class T, class F>
+BOTSCHOOL_INLINE void logistics(F* x) {
+  F scale[n];
+  for (int i = 0; i < n; ++i) x[i] = clamp(-x[i], F{} + kExpLow<T>, F{} + kExpHigh<T>);
+  exponentials<n>(x, scale);
+  for (int i = 0; i < n; ++i) x[i] = T(1) / (T(1) + (x[i] + scale[i]));
+}
+
 /// Nearest integer, as a double; |x| < 2^51.
 BOTSCHOOL_INLINE double nearest(double x) {
   const double magic = 6755399441055744.0;

@@ -1,6 +1,7 @@
 // The elementary functions against <cmath>, in units in the last place.
 #include "evonet/real.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -85,6 +86,29 @@ TEST(logistic_is_exact_to_units) {
   CHECK((worst<float, double>(logistic<float>, exact, -5, 5) < 4));
   CHECK(logistic(0.0) == 0.5 && logistic(kInfinity) == 1 && logistic(-kInfinity) < 1e-300);
   CHECK(logistic(1e30f) == 1 && logistic(-1e30f) < 1e-37f && std::isnan(logistic(kNan)));
+}
+
+TEST(several_vectors_at_a_time_give_the_same_bits) {
+  using Vector = VectorOf<float, 8>;
+  constexpr int kEach = sizeof(Vector) / sizeof(float);
+  std::mt19937_64 random(3);
+  std::normal_distribution<float> normal(0, 30);
+  alignas(64) float x[5 * kEach], tangents[5 * kEach], chances[5 * kEach];
+  for (int round = 0; round < 20000; ++round) {
+    for (int i = 0; i < 5 * kEach; ++i) x[i] = normal(random);
+    x[round % (5 * kEach)] = round % 3 == 0   ? static_cast<float>(kNan)
+                             : round % 3 == 1 ? static_cast<float>(kInfinity)
+                                              : -0.0f;
+    std::copy_n(x, 5 * kEach, tangents);
+    std::copy_n(x, 5 * kEach, chances);
+    hyperbolic_tangents<5, float>(reinterpret_cast<Vector*>(tangents));
+    logistics<5, float>(reinterpret_cast<Vector*>(chances));
+    for (int i = 0; i < 5 * kEach; ++i) {
+      const float tangent = hyperbolic_tangent(x[i]), chance = logistic(x[i]);
+      CHECK(bits_of<std::uint32_t>(tangents[i]) == bits_of<std::uint32_t>(tangent));
+      CHECK(bits_of<std::uint32_t>(chances[i]) == bits_of<std::uint32_t>(chance));
+    }
+  }
 }
 
 TEST(sine_and_cosine_are_exact_to_units) {
