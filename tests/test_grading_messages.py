@@ -249,7 +249,7 @@ def test_the_call_and_the_cause_stand_below(graded):
     message = graded("def double(x): return -2 * x\n").tasks[0].message
     cause, first, call, *_ = message.splitlines()
     assert first.startswith("double([")
-    assert cause == f"{VARIED} The sign is reversed."
+    assert cause.startswith(f"{VARIED} The sign is reversed")
     assert call.startswith("  To try it: double(np.array([")
     assert eval(call.partition(": ")[2], {"np": np, "double": len}) == 4
 

@@ -27,6 +27,7 @@ from botschool.grading.judge.looking import (
     processor_time_limit,
 )
 from botschool.grading.judge.smallest import smallest_case
+from botschool.grading.judge.variations import is_vague
 from botschool.grading.run.confined import MachineFault, machine_fault
 from botschool.grading.run.failures import Origin
 from botschool.grading.run.student import Student
@@ -137,8 +138,10 @@ def _grade_task(
                 if told.startswith(VARIED) and any(failure.named for failure in failures):
                     told = ""  # the check's own sentence is written for the task
             causes: set[str] = set()
+            vague = told.startswith(VARIED) and is_vague(told[len(VARIED) :])
             for at, failure in failed:
-                cause = "" if told or failure.cause in causes else failure.cause
+                known_cause = (told and not vague) or failure.cause in causes
+                cause = "" if known_cause else failure.cause
                 causes.add(cause)
                 problems[at] = f"{failure.text}\n  {cause}" if cause else failure.text
             for at, failure in [pair for pair in failed if pair[1].told][:1]:

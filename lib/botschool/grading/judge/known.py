@@ -26,7 +26,7 @@ from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Case, Known
 from botschool.grading.judge.alike import TIE, counts, distance, fits, weight
 from botschool.grading.judge.looking import TookTooLong, processor_time_limit
-from botschool.grading.judge.variations import variations
+from botschool.grading.judge.variations import Variation, variations
 from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 from botschool.sandbox.protocol import pack, unpack
@@ -101,7 +101,8 @@ def known_mistake(
                     break
                 if _explains(ours, text, calls):
                     return f"{TOLD} {what}"
-            return next((f"{VARIED} {what}" for what in _slips(ours, task, known, calls)), "")
+            slip = _clearest(_slips(ours, task, known, calls))
+            return f"{VARIED} {slip.what}" if slip else ""
         except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
             return ""
         finally:
@@ -208,8 +209,19 @@ def _explains(ours: Student, text: str, calls: list[Call]) -> bool:
     return _tells(calls, made)
 
 
-def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterator[str]:
-    """Yield the sentences of the slips in our solution that explain a submission's answers."""
+def _clearest(slips: Iterator[Variation]) -> Variation | None:
+    """Return the first slip; if it is vague, the first of our own that names its place, if any."""
+    first = next(slips, None)
+    if first is None or not first.vague:
+        return first
+    try:
+        return next((each for each in slips if each.own and not each.vague), first)
+    except (BotschoolError, Wrong):  # no time is left
+        return first
+
+
+def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterator[Variation]:
+    """Yield the slips that explain a submission's answers: in our solution, then in others."""
     telling = [call for call in calls if distance(call.got, call.ours) > TIE and not call.slow]
     if all(counts(call.got) for call in telling) and len(telling) < COUNTS:
         return
@@ -221,7 +233,7 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
         near = _near(ours, texts, _telling(calls), SLIP_SECONDS, "slips in our solution")
         for slip, fitting in zip(batch, near, strict=True):
             if fitting and _explains(ours, slip.text, calls):
-                yield slip.what
+                yield slip
 
 
 def tried(module, texts, request, seconds):

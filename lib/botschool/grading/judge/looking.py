@@ -218,7 +218,8 @@ def looked_at_again(failure: Failure, student: Student, ours: Callable[[], Stude
     if not same(first, second) and _steady(failure.request, ours):
         text += (
             "\n  Two calls with the same arguments give different answers: random numbers "
-            "do not come from the seed, or something kept from call to call changes them."
+            "do not come from the seed or another argument, or something that stays from call to "
+            "call (a variable, an object, a file) changes them."
         )
     if "driver" not in failure.request and isinstance(found["arguments"], list):
         for number, (before, after) in enumerate(

@@ -31,6 +31,10 @@ _SKIPPED = {
     (ast.AnnAssign, "annotation"),
 }  # fmt: skip
 """Fields of nodes that hold no steps."""
+_QUOTED = re.compile(r":? `[^`]*`(?: in `[^`]*`)?(?=\.$)| in `[^`]*`(?=\.$)")
+"""What a sentence quotes at its end: it differs where the same slip is made in several places."""
+_CLEAR = ("sign", "wrong way round", "a loop", "not reversed", "counting", "matrix")
+"""Words of sentences that need no quotation."""
 MOST_NAMES = 16
 """Variables of a function that are tried for one another."""
 _SIGNED = {(ast.Assign, "value"), (ast.Dict, "values"), (ast.Return, "value")}
@@ -45,17 +49,34 @@ class Variation:
 
     what: str
     text: str
+    own: bool = True
+    """Whether it is our solution that has the slip, and not one in another style."""
+
+    @property
+    def vague(self) -> bool:
+        return is_vague(self.what)
+
+
+def is_vague(what: str) -> bool:
+    """Return whether a sentence names neither a place nor a clear mistake."""
+    named = "`" in what or bool(re.search(r"\d", what))
+    return not named and not any(clear in what.lower() for clear in _CLEAR)
 
 
 def variations(solution: str, task: str, styles: Iterable[str] = ()) -> Iterator[Variation]:
     """Yield the solution with one slip in a task's functions, then with one made everywhere.
 
-    styles: right solutions in other styles, whose functions are then varied, too.
+    styles: right solutions in other styles, whose functions are then varied, too. A vague sentence
+    is not said of them if it is true of our solution, with another answer.
     """
     public = set(re.findall(r"\w+", _REGION.sub("", solution)))
-    done = {solution}
+    done, said = {solution}, set[str]()
     for text in (solution, *styles):
-        yield from _of_one(text, task, public, done, own=text is solution)
+        for each in _of_one(text, task, public, done, own=text is solution):
+            if each.own:
+                said.add(each.what)
+            if each.own or not each.vague or each.what not in said:
+                yield each
 
 
 def _of_one(
@@ -87,18 +108,29 @@ def _of_one(
         slips = _Slips(public, regions, function, own)
         found: dict[tuple[str, str], list[Edit]] = {}
         for what, place, edits in slips.all():
-            yield from _made(lines, function, where + _placed(place, what), edits, done)
+            if not own and len(edits) == 1 and _hidden(edits[0], what):
+                continue  # a number in code that nobody has seen
+            yield from _made(lines, function, where + _placed(place, what), edits, done, own)
             if len(edits) == 1:
-                found.setdefault((what, ""), []).append(edits[0])
+                several_times = _QUOTED.sub("", what)
+                found.setdefault((several_times, ""), []).append(edits[0])
                 found.setdefault((what, place or str(edits[0].line)), []).append(edits[0])
         several += [(function, where + what, edits) for (what, _), edits in found.items()]
     for function, what, edits in several:
         if len(edits) > 1:
-            yield from _made(lines, function, what, edits, done)
+            yield from _made(lines, function, what, edits, done, own)
+
+
+def _hidden(edit: Edit, what: str) -> bool:
+    """Return whether a slip changes a number that its sentence does not name."""
+    new = edit.new
+    if isinstance(new, ast.UnaryOp):
+        new = new.operand
+    return isinstance(new, ast.Constant) and what.startswith("A number is") and "`" not in what
 
 
 def _made(
-    lines: list[str], function: Any, what: str, edits: list[Edit], done: set[str]
+    lines: list[str], function: Any, what: str, edits: list[Edit], done: set[str], own: bool
 ) -> Iterator[Variation]:
     """Yield the variation that edits make, unless it is there already or no longer Python."""
     for edit in edits:
@@ -116,7 +148,7 @@ def _made(
         done.add(text)
         first, last = function.lineno - 1, function.end_lineno
         first -= sum(1 for _ in function.decorator_list)
-        yield Variation(what, "".join([*lines[:first], text, "\n", *lines[last:]]))
+        yield Variation(what, "".join([*lines[:first], text, "\n", *lines[last:]]), own)
 
 
 class _Slips:
@@ -152,7 +184,9 @@ class _Slips:
         for node, field, at, part, place in places:
             if (type(node), field) in _SIGNED and not isinstance(part, (ast.Constant, ast.Dict)):
                 negative = ast.UnaryOp(ast.USub(), part)
-                yield "The sign is reversed.", place, [Edit(node, field, at, negative)]
+                whole = place or isinstance(node, ast.Return)
+                what = "The sign is reversed" + ("." if whole else ", of the whole or of a part.")
+                yield what, place, [Edit(node, field, at, negative)]
         for node in {id(each[0]): each[0] for each in places}.values():
             if isinstance(node, (ast.For, ast.comprehension)):
                 for what, new in self._parts.passes(node.iter):
@@ -190,7 +224,7 @@ class _Slips:
         names = {
             part.id: part
             for _, _, _, part, _ in places
-            if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)
+            if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store) and part.id != "_"
         }
         for node, field, at, part, place in places if len(names) <= MOST_NAMES else ():
             if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Load) and part.id in names:
@@ -213,12 +247,16 @@ class _Slips:
                 inner = place
                 if isinstance(node, ast.Dict) and field == "values" and node.keys[at or 0]:
                     inner = ast.unparse(node.keys[at or 0])  # type: ignore[arg-type]
-                elif isinstance(node, ast.Assign) and field == "value":
+                elif isinstance(node, ast.Assign) and field == "value" and self._named(node):
                     inner = self._parts.quoted(node.targets[0]).strip() or place
                 line = getattr(part, "lineno", None)
                 if line is None or any(line in region for region in self._regions):
                     yield node, field, at, part, inner
                 yield from self._places(part, inner)
+
+    def _named(self, node: ast.Assign) -> bool:
+        """Return whether to name what is assigned to: not the variables of another style."""
+        return self._own or not isinstance(node.targets[0], ast.Name)
 
     # --- steps
 
@@ -316,15 +354,27 @@ class _Slips:
         """Return what steps are about, as far as the task's text has their names."""
         found: list[str] = []
         for step in steps:
+            value = getattr(step, "value", None)
+            called = [value.func, *_inside(value.func)] if isinstance(value, ast.Call) else []
             if isinstance(step, (ast.Assign, ast.AugAssign)):
                 targets = step.targets if isinstance(step, ast.Assign) else [step.target]
-                found += [self._parts.quoted(each).strip() for each in targets]
-            elif isinstance(step, ast.Expr) and isinstance(step.value, ast.Call):
-                found.append(self._parts.quoted(step.value.func).strip())
+                named = [self._parts.quoted(each).strip() for each in targets]
+                found += named if any(named) else [self._first_named(called)]
+            elif isinstance(step, ast.Expr) and called:
+                found.append(self._first_named(called))
             elif isinstance(step, ast.Return):
                 found.append("`return`")
         found = [each for each in found if each]
         return f": {', '.join(dict.fromkeys(found))}" if found else ""
+
+    def _first_named(self, parts: list[ast.expr]) -> str:
+        """Return the first part that may be quoted, or ""."""
+        return next((said for each in parts if (said := self._parts.quoted(each).strip())), "")
+
+
+def _inside(function: ast.expr) -> list[ast.expr]:
+    """Return what a method is called of: `observations` of `observations.append`."""
+    return [function.value] if isinstance(function, ast.Attribute) else []
 
 
 def _of_its_place(what: str, node: ast.AST, field: str, part: ast.expr, new: ast.expr) -> str:

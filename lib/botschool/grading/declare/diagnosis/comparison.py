@@ -40,26 +40,38 @@ class Comparison:
 
     @cached_property
     def telling(self) -> bool:
-        """Return whether no factor or formula fits by chance; one fits a few numbers like 1/2."""
+        """Return whether no factor or formula fits by chance; one fits 1/2, or a count like 200."""
         parts = 60 * self.wanted
         simple = np.abs(parts - np.round(parts)).max() < 1e-9 and np.abs(parts).max() < 1200
-        return self.varied >= (3 if simple else 1)
+        whole = (
+            np.array_equal(self.wanted, np.round(self.wanted)) and np.abs(self.wanted).max() < 1000
+        )
+        return self.varied >= (3 if simple or whole else 1)
 
     @cached_property
     def given(self) -> list[np.ndarray]:
         """Return the arrays of numbers among the arguments, also inside lists and dicts."""
         return [each for each in arrays(self.arguments, 0) if each.size <= MAX_NUMBERS]
 
-    @cached_property
+    @property
+    def pairs(self) -> list[int]:
+        """Return [2] if two things are counted here, else []."""
+        return [2] if 2 in self._counted else []
+
+    @property
     def counts(self) -> list[int]:
         """Return counts at hand: lengths of the arguments and the answer, small integers."""
+        return sorted(n for n in self._counted if n > 2)
+
+    @cached_property
+    def _counted(self) -> set[int]:
         found = set(self.wanted.shape)
         found |= {len(each) for each in self.arguments if isinstance(each, (list, dict))}
         for each in self.given:
             found |= {*each.shape, each.size}
             if each.ndim == 0 and each == np.round(each) and abs(float(each)) < 10_000:
                 found.add(int(each))
-        return sorted(n for n in found if n > 2)
+        return found
 
 
 def alike(one: Any, other: Any) -> bool:

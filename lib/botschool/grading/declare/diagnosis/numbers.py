@@ -21,7 +21,10 @@ FEW = 3
 def wrong_sign(c: Comparison) -> str | None:
     if c.same(-c.wanted):
         return "Only the sign is wrong: it is reversed."
-    if c.got.shape == c.wanted.shape and alike(np.abs(c.got), np.abs(c.wanted)):
+    sizes = len(
+        np.unique(np.abs(c.wanted[c.wanted != 0]))
+    )  # of yes and no, nothing but signs differ
+    if c.got.shape == c.wanted.shape and sizes > 1 and alike(np.abs(c.got), np.abs(c.wanted)):
         wrong = int(np.sum(np.sign(c.got) != np.sign(c.wanted)))
         if np.all(c.got >= 0) and c.varied:
             return "Only the sign is wrong: negative values have lost theirs."
@@ -89,7 +92,7 @@ def a_known_factor(c: Comparison) -> str | None:
         if c.same(c.wanted / n):
             return f"{each} 1/{n} of what was expected, and {n} is a count here: a mean for a sum?"
     near = {n + step for n in c.counts for step in (-1, 1) if n + step > 4}  # 2/3 may be any factor
-    for n in sorted({2, *c.counts, *near}):
+    for n in sorted({*c.pairs, *c.counts, *near}):
         for power in (1, 0.5, -0.5, -1):
             if c.same(c.wanted * ((n - 1) / n) ** power):
                 used, right = (n, n - 1) if power > 0 else (n - 1, n)
@@ -140,6 +143,8 @@ def rounded(c: Comparison) -> str | None:
     if c.got.shape != c.wanted.shape or not np.all(c.got == np.round(c.got)) or c.wanted.size < 3:
         return None
     for function in (np.trunc, np.floor, np.round):
+        if function is np.round and len(np.unique(c.got)) < FEW:  # may be a choice of yes or no
+            break
         if np.array_equal(c.got, function(c.wanted)) and np.any(c.got):
             return (
                 "The fractions are cut off. An array of integers (made of [0, 0], or with "

@@ -16,6 +16,8 @@ from botschool.grading.declare.diagnosis.comparison import (
     parts,
 )
 
+TELLING = 5
+"""Places in an order, at least: of three, any wrong order may be the inverse of the right one."""
 DETECTORS: list[Detector] = []
 detector = adding_to(DETECTORS)
 
@@ -32,7 +34,10 @@ def of_shapes(got: tuple[int, ...], wanted: tuple[int, ...]) -> str:
         apart = [i for i in range(len(got)) if got[i] != wanted[i]]
         if len(apart) == 1 and abs(got[apart[0]] - wanted[apart[0]]) == 1:
             which = "too many" if got[apart[0]] > wanted[apart[0]] else "too few"
-            return f"Along axis {apart[0]} it is one {which}: an off-by-one?"
+            return (
+                f"Along axis {apart[0]} it is one {which}: an off-by-one, or the length of "
+                "something else?"
+            )
     return ""
 
 
@@ -119,7 +124,10 @@ def exchanged(c: Comparison) -> str | None:
     for place, part in parts(c.answer) if c.telling and not counted else ():
         found = arrays(part)
         if len(found) == 1 and alike(found[0], c.wanted) and not c.same(found[0]):
-            return f"What belongs here is returned as {place}: are the two exchanged?"
+            return (
+                f"What belongs here is returned as {place}: are the two exchanged, or should "
+                "they be equal?"
+            )
     return None
 
 
@@ -161,7 +169,7 @@ def another_summary(c: Comparison) -> str | None:
         made = {name: function(values) for name, function in _SUMMARIES.items()}
         wanted = [name for name, value in made.items() if alike(value, c.wanted)]
         got = [name for name, value in made.items() if c.same(value)]
-        if wanted and got:
+        if len(wanted) == 1 and got:  # of several, which one the task asks for is open
             which = " or ".join(got[:2])
             return f"This is {which} of {len(values)} values, but {wanted[0]} is asked for."
     return None
@@ -223,7 +231,7 @@ def places_for_order(c: Comparison) -> str | None:
     """Return a sentence if argsort stands for ranks, or ranks for argsort."""
     if c.got.ndim != 1 or c.got.shape != c.wanted.shape or len(np.unique(c.wanted)) < len(c.wanted):
         return None
-    if len(c.got) < 3 or not alike(np.sort(c.got), np.sort(c.wanted)):
+    if len(c.got) < TELLING or not alike(np.sort(c.got), np.sort(c.wanted)):
         return None
     got, wanted = (np.argsort(np.argsort(each)) for each in (c.got, c.wanted))
     if np.array_equal(got[wanted], np.arange(len(got))):
