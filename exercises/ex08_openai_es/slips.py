@@ -50,10 +50,12 @@ def mistaken_candidates(centre, samples, noise) -> dict:
         pair = [middle + sign * length * samples for sign in sides]
         return rows(pair).reshape(-1, len(centre))
 
+    lengths = np.linalg.norm(samples, axis=1, keepdims=True)
     return slips(
         made,
         length={
             "": noise,
+            "The samples are used as they are, not divided by their lengths.": noise / lengths,
             "noiseStdDev is left out.": 1.0,
             "noiseStdDev is a standard deviation: multiply by it, not by its root.": noise**0.5,
             "noiseStdDev is a standard deviation: multiply by it, not by its square.": noise**2,
@@ -118,6 +120,8 @@ def mistaken_utilities(fitness) -> dict:
             "best to the worst.": from_best,
             "np.argsort gives the order of the candidates, not their ranks.":
             np.argsort(fitness, kind="stable"),
+            "The utilities are sorted: number i is to be that of candidate i.":
+            np.arange(n),
             "The fitness itself is scaled: its size is not to count, only its ranks.":
             (n - 1) * spread / (spread.max() or 1.0),
             "The fitness itself is used: only its ranks are to count.": fitness,
@@ -150,10 +154,20 @@ def why_gradient(samples, utilities, i: int) -> str:
     return f"At [{i}] it is ({' + '.join(parts[:3])}{more}) / {len(utilities)}."
 
 
-def mistaken_gradient(samples, utilities) -> dict:
+def mistaken_gradient(samples, utilities, answer) -> dict:
     """What slips make of the gradient: sentence -> array."""
     many, n = samples.shape
     plus, minus = utilities[0::2], utilities[1::2]
+    shapes = {
+        (): "All is added up to a single number: add up over the samples only, so that each "
+        "parameter keeps a number of its own.",
+        (many,): "The sum goes over the parameters: add up over the samples.",
+        (many, n): "The weighted samples are not added up.",
+        (2 * many, n): "The samples are not added up.",
+    }
+    shape = np.shape(answer)
+    if shape != (n,) and shape in shapes:
+        return {shapes[shape]: answer}
     return slips(
         lambda weights, divisor, vectors: weights @ vectors / divisor,
         weights={
@@ -207,13 +221,18 @@ def mistaken_descent(gradient, centre, wdecay) -> dict:
         "wdecay 0 asks for no decay, but there is one.": centre,
         "wdecay 0 asks for no decay, but there is one by the signs.": np.sign(centre),
         "The decay of the other kind (wdecay) is taken.": (0, np.sign(centre), centre)[wdecay],
+        "The sign of the gradient is taken: the pull is by the sign of the centre.":
+        np.sign(gradient),
+        "The gradient is pulled: the pull is in proportion to the centre.": gradient,
+        "The centre is divided by its length: the pull is in proportion to the centre itself.":
+        centre / max(float(np.linalg.norm(centre)), 1e-300),
         "The pull takes |centre|: parameters below 0 go away from 0.": np.abs(centre),
         "The pull takes the square of the centre: wdecay 1 is in proportion to it.": centre**2,
         "The sign of 0 is 0: a parameter that is 0 is not pulled.": np.where(centre < 0, -1, 1),
         "The pull is the same for all: each parameter has a pull of its own.": centre.sum(),
         "The pull grows with wdecay, a number of a kind.": wdecay * centre,
         "Both pulls are added up: each wdecay has one of its own.": centre + np.sign(centre),
-    }
+    }  # fmt: skip
     return slips(
         lambda uphill, rate, pull: uphill + rate * pull,
         uphill={
@@ -551,6 +570,14 @@ def mistaken_drops(curve: np.ndarray, drop) -> dict:
             "The drop is to be a share of the curve's whole range.": 1.0,
             "The fall is divided by the highest value: divide by max - min.": curve.max(),
             "The fall is divided by the height that it fell from: divide by max - min.": top,
+            "The fall is divided by the size of the height that it fell from: divide by max - min.":
+            abs(top),
+            "The fall is divided by the size of the highest value: divide by max - min.":
+            abs(curve.max()),
+            "The fall is divided by the size of the lowest value: divide by max - min.":
+            abs(curve.min()),
+            "The fall is divided by the size of the last value - the first one: divide by "
+            "max - min.": abs(curve[-1] - curve[0]),
             "The fall is divided by max - the first value: divide by max - min.":
             curve.max() - curve[0],
             "The fall is divided by the last value - the first one: divide by max - min.":
@@ -616,8 +643,31 @@ MISTAKEN_VERDICTS = {
 """What mistakes make of a drop: a place in VERDICTS, by sentence."""
 
 
-def why_untrained(rows: np.ndarray, generations: list[tuple]) -> str:
-    """What to change about a training that does not reach the goal; "" if nothing is plain."""
+def why_verdicts(drops: list[float], places: list[int]) -> str:
+    """Where a submission's verdicts change, which are right at other limits; "" if nowhere."""
+    told = []
+    for number, (limit, one, other) in enumerate(
+        ((0.1, "monotonic", "mild"), (0.3, "mild", "severe")), 1
+    ):
+        below = [drop for drop, place in zip(drops, places, strict=True) if place < number]
+        above = [drop for drop, place in zip(drops, places, strict=True) if place >= number]
+        if not below or not above or max(below) > min(above):
+            return ""
+        if not max(below) <= limit <= min(above):
+            told.append(
+                f"In yours, {one} becomes {other} between the drops {max(below):.3g} and "
+                f"{min(above):.3g}: the limit is {limit}."
+            )
+    return " ".join(told)
+
+
+def why_untrained(
+    rows: np.ndarray, generations: list[tuple], centre: np.ndarray, share: float
+) -> str:
+    """What to change about a training that does not reach the goal; "" if nothing is plain.
+
+    share: how well the gradients explain the way to the centre, from -1 to 1.
+    """
     if not len(rows):
         return "robot.evaluate was never called: nothing is evolved."
     if len(generations) < 2:
@@ -627,6 +677,10 @@ def why_untrained(rows: np.ndarray, generations: list[tuple]) -> str:
         )
     noise = float(np.median([np.std(e) for _, e, _ in generations]))
     told = f"It evaluated {len(generations)} generations with a noiseStdDev of about {noise:.2g}."
+    if np.allclose(centre, generations[0][0], 1e-6, 1e-9):
+        return f"{told} It returned the first centre of these, where the search begins."
+    if share < -0.6:
+        return f"{told} Its centre moves to where fitness is lower, but fitness is to rise."
     flat = np.mean([np.ptp(fitness) == 0 for _, _, fitness in generations])
     if flat > 0.3 or noise < 0.1:
         return f"{told} All candidates do about the same: take a larger noiseStdDev."

@@ -37,6 +37,7 @@ from slips import (
     why_ranked,
     why_step,
     why_untrained,
+    why_verdicts,
 )
 
 from botschool.course import Robot
@@ -148,7 +149,7 @@ def weighted_samples(student: Student):
         samples = rng.normal(size=(samplesize, n))
         weights = rng.permutation(np.linspace(-0.5, 0.5, 2 * samplesize))
         answer = student.call("gradient", samples, weights)
-        mistakes = partial(mistaken_gradient, samples, weights)
+        mistakes = partial(mistaken_gradient, samples, weights, answer)
         why = partial(why_gradient, samples, weights)
         expect_close(student.said, answer, estimated(samples, weights), 1e-9, mistakes, why)
     expect_unchanged(student, "gradient", [samples, weights])
@@ -176,9 +177,12 @@ decay = exercise.task("8.4", "Weight decay", refused=OPENAI_ES)
 
 def compare_descent(student: Student, index: int, wdecay: int) -> None:
     rng = generator(index)
-    for n in (1, 5, 60):
+    for n in (6, 1, 60):
         gradient, centre = 0.02 * rng.normal(size=n), rng.normal(size=n)
         centre[n // 2] = 0.0
+        if n == 6:  # all pairs of signs
+            gradient = np.abs(gradient) * (1, -1, 1, -1, 1, -1)
+            centre = np.abs(centre) * (1, 1, -1, 1, -1, -1)
         answer = student.call("descent", gradient, centre, wdecay)
         wanted = decayed(gradient, centre, wdecay)
         mistakes = partial(mistaken_descent, gradient, centre, wdecay)
@@ -318,6 +322,13 @@ def departure(seeds: list, seen: list, seed: int, right: list, *_: int) -> str:
         if not np.allclose(own_centre, own[-2:].mean(axis=0), 1e-6, 1e-9):
             return f"In {where}, the candidates are not pairs on both sides of one centre."
         if np.allclose(own_centre, centre, 1e-6, 1e-9):
+            far = float(np.linalg.norm(own - centre) / np.linalg.norm(wanted - centre))
+            if np.allclose(own - centre, far * (wanted - centre), 1e-4, 1e-9):
+                return (
+                    f"The candidates of {where} lie {far:.4g} times as far from the right centre "
+                    "as they should: noiseStdDev comes in once, as it is given, in "
+                    "candidates_around."
+                )
             return (
                 f"The candidates of {where} lie around the right centre, but their samples or "
                 "noiseStdDev are others: draw them by one rng.standard_normal((samplesize, n))."
@@ -432,6 +443,8 @@ def compare_smooth(student: Student, curve: np.ndarray, width: int) -> None:
         "Windows overlap: each begins one place after the one before.": expected[::width],
         "Each window has width numbers, not one more.":
         np.array([curve[i : i + width + 1].mean() for i in range(len(curve) - width)]),
+        "Each window has width numbers; yours have one more, where there is one.":
+        np.array([curve[i : i + width + 1].mean() for i in range(len(expected))]),
         "This is a running mean from the beginning on: take the last width numbers only.":
         np.cumsum(curve)[width - 1 :] / np.arange(width, len(curve) + 1),
         "The window is divided by width - 1: divide by width.":
@@ -518,7 +531,7 @@ VERDICTS = ("monotonic", "mild regressions", "severe regressions")
 
 @curves.check(4)
 def verdicts(student: Student):
-    falls = (0.0, 0.05, 0.09, 0.11, 0.2, 0.29, 0.31, 0.6, 0.8)
+    falls = (0.0, 0.05, 0.09, 0.11, 0.2, 0.29, 0.31, 0.6, 0.8, 0.34, 0.16, 0.24, 0.45, 0.38)
     cases = [np.arange(12.0), np.full(4, -500.0), np.array([5.0, 1.0])]
     # at the limits, which belong to the milder verdict
     cases += [np.array([0.0, 10.0, 9.0, 10.0]), np.array([0.0, 1.0, 0.0, 10.0])]
@@ -542,6 +555,9 @@ def verdicts(student: Student):
     ]
     if str(answer["verdict"]) not in VERDICTS:
         fits = [f"The verdicts are {', '.join(map(repr, VERDICTS))}, written exactly so."]
+    elif all(str(one[1]["verdict"]) in VERDICTS for one in judgements):
+        places = [VERDICTS.index(str(one[1]["verdict"])) for one in judgements]
+        fits += [why_verdicts([one[2]["drop"] for one in judgements], places)]
     limits = {0: "at most 0.1", 1: "more than 0.1 and at most 0.3", 2: "more than 0.3"}
     where = limits[VERDICTS.index(right["verdict"])]
     expect(
@@ -725,13 +741,13 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
         means[-1] >= goal,
         f"{said}: the controller {what.format(means[-1])} on average over 100 new episodes, but "
         f"{goal:g} is asked for; 0 of the 3 seeds {tried} passed. "
-        f"{why_untrained(rows, generations)}".rstrip(),
+        f"{why_untrained(rows, generations, centre, share)}".rstrip(),
     )
     expect(
         not lucky or luck > 1,
         f"{said}: the first centre can do it by luck, before any step, so this seed shows nothing. "
         f"With the three seeds {tried}, the means are {np.round(means, 1).tolist()}; {goal:g} is "
-        f"asked for. {why_untrained(rows, generations)}",
+        f"asked for. {why_untrained(rows, generations, centre, share)}",
     )
     if generations:
         expect(

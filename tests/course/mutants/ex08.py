@@ -1278,3 +1278,74 @@ def smooth(curve, width):
 # says: return its 'centre'
 # -     return run["centre"]
 # +     return run
+
+# %% samples_of_length_one loses 8.1
+# Divides each sample by its length.
+# says: used as they are
+# -     candidates[0::2] = centre + noiseStdDev * samples
+# -     candidates[1::2] = centre - noiseStdDev * samples
+# +     samples = samples / np.linalg.norm(samples, axis=1, keepdims=True)
+# +     candidates[0::2] = centre + noiseStdDev * samples
+# +     candidates[1::2] = centre - noiseStdDev * samples
+
+# %% sorted_utilities loses 8.2
+# Returns the utilities in order, not each in the place of its candidate.
+# says: this
+# -     utilities[np.argsort(fitness, kind="stable")] = np.linspace(-0.5, 0.5, len(fitness))
+# +     utilities[np.arange(len(fitness))] = np.linspace(-0.5, 0.5, len(fitness))
+
+# %% one_number_for_all loses 8.3
+# Adds everything up, so that a single number comes back.
+# says: single number
+# -     return weights @ samples / len(utilities)
+# +     return np.sum(weights[:, None] * samples) / len(utilities)
+
+# %% sign_of_the_gradient loses 8.4
+# Pulls by the sign of the gradient, not by that of the centre.
+# says: sign of the (gradient|centre)
+# -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
+# +     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(gradient)}[wdecay]
+
+# %% centre_of_length_one loses 8.4
+# The pull of wdecay 1 is divided by the length of the centre.
+# says: divided by (its|the) length
+# -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
+# +     length = np.linalg.norm(centre)
+# +     pull = {0: np.zeros(len(centre)), 1: centre / length, 2: np.sign(centre)}[wdecay]
+
+# %% noise_in_the_samples loses 8.6
+# noiseStdDev comes in twice: the samples are multiplied by it already.
+# says: times as far from the right centre|comes in twice
+# -         samples = rng.standard_normal((samplesize, len(centre)))
+# +         samples = noiseStdDev * rng.standard_normal((samplesize, len(centre)))
+
+# %% one_neighbour_more loses 8.7
+# Each window of smooth has one number more than width.
+# says: this|one more
+# -     return np.convolve(curve, np.full(width, 1 / width), mode="valid")
+# +     places = range(len(curve) - width + 1)
+# +     return np.array([np.mean(curve[i : i + width + 1]) for i in places])
+
+# %% size_of_the_peak loses 8.7
+# The fall is divided by the absolute value of the peak, not by the whole range.
+# says: absolute value of the peak|height that it fell from
+# -     height = curve.max() - curve.min()
+# +     height = abs(curve[peak])
+
+# %% severe_from_a_half loses 8.7
+# Only a drop of more than 0.5 is severe.
+# says: the limit is 0.3
+# -     elif drop <= 0.3:
+# +     elif drop <= 0.5:
+
+# %% returns_the_first_centre loses 8.8
+# Returns the first centre instead of the one that evolve returns.
+# says: the first centre of these
+# -     return run["centre"]
+# +     return centre
+
+# %% minimises_fitness loses 8.8
+# Turns the fitness around, so that evolve looks for the worst.
+# says: fitness is to rise
+# -         return robot.evaluate(candidates, seed, episodes=10)
+# +         return -robot.evaluate(candidates, seed, episodes=10)
