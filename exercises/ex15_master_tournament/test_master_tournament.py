@@ -9,6 +9,19 @@ from the same seed, or made up so that the answer is known: steady progress, cir
 import itertools
 
 import numpy as np
+from slips import (
+    ENDS,
+    measures_of,
+    mistaken_cycles,
+    mistaken_descriptions,
+    mistaken_ends,
+    mistaken_fitness,
+    mistaken_intervals,
+    mistaken_parts,
+    mistaken_profile,
+    mistaken_progress,
+    mistaken_tables,
+)
 
 from botschool import arena as arenas
 from botschool.course.coevolution import play, robot
@@ -101,14 +114,15 @@ def say_where_it_begins(said: str, poses, expected: np.ndarray) -> None:
     cause = ""
     if step == 1 and wrong[1].all():
         cause = (
-            " Both robots move wrongly from the first step on: does each network get its own "
-            "robot's observation (24 numbers, the predator's first), and do its wheels stand in "
-            "the action where they belong (the predator's first)?"
+            " Both robots move wrongly from the first step on: are the networks new ones, does each "
+            "get its own "
+            "robot's observation (24 numbers, the predator's first), and does the action hold "
+            "left and right wheel of the predator, then those of the prey?"
         )
     elif step > 1:
         cause = (
-            " Up to then all poses are right: what does a step of yours keep from, or read "
-            "later than, the step before?"
+            " Up to then all poses are right: does each network get its own robot's observation "
+            "of this very step, and the arena `maxsteps` (robots sense the time)?"
         )
     expect(
         False,
@@ -131,7 +145,8 @@ def compare_chase(student: Student, predator, prey, expected: dict, maxsteps: in
     found = expect_fields(said, answer, *expected)
     say_where_it_begins(said, found[0], expected["poses"])
     for name, value in zip(expected, found, strict=True):
-        expect_close(f"{said}: {name}", value, expected[name], 1e-6)
+        mistakes = mistaken_fitness(expected, maxsteps) if name == "fitness" else None
+        expect_close(f"{said}: {name}", value, expected[name], 1e-6, mistakes)
 
 
 @chasing.check(8)
@@ -177,13 +192,17 @@ def groups(rng: np.random.Generator, generations: tuple, individuals: tuple) -> 
     return [predators_of(rng, n) for _ in range(g)], [prey_of(rng, m) for _ in range(h)]
 
 
+def compare_tables(student: Student, answer, expected: np.ndarray) -> None:
+    expect_close(student.said, answer, expected, 1e-6, lambda: mistaken_tables(expected))
+
+
 @meeting.check(8)
 def as_many_of_both(student: Student):
     rng = rng_of(4)
     for count, individuals, maxsteps in ((1, 2, 80), (3, 2, 60)):
         both = groups(rng, (count, count), (individuals, individuals))
         answer = student.call("tournament", *both, maxsteps)
-        expect_close(student.said, answer, all_chases(*both, maxsteps), 1e-6)
+        compare_tables(student, answer, all_chases(*both, maxsteps))
 
 
 @meeting.check(6)
@@ -192,7 +211,7 @@ def of_different_sizes(student: Student):
     for generations, individuals in (((2, 3), (3, 1)), ((3, 2), (2, 4))):
         both = groups(rng, generations, individuals)
         answer = student.call("tournament", *both, 70)
-        expect_close(student.said, answer, all_chases(*both, 70), 1e-6)
+        compare_tables(student, answer, all_chases(*both, 70))
 
 
 # ------------------------------------------------------------------- 15.3
@@ -230,6 +249,11 @@ def compare_means(student: Student, index: int, side: str, turned) -> None:
                 table.max(axis=3).mean(axis=1)
             ),
         }
+        for axes in itertools.combinations(range(4), 2):
+            names = " and ".join("GnHm"[axis] for axis in axes)
+            mistakes[f"The mean is taken over {names}: the individuals are n and m."] = turned(
+                table.mean(axis=axes)
+            )
         expect_close(f"{said}: {side}", value, turned(mean), EXACT, mistakes)
 
 
@@ -303,59 +327,6 @@ def profile_of(matrix: np.ndarray) -> dict:
     }
 
 
-def mistaken_profile(matrix: np.ndarray) -> dict:
-    """What mistakes make of a profile."""
-    count = len(matrix)
-    before, after = range(1, count), range(count - 1)
-    return {
-        "present": {
-            "This is the last row of the matrix: each generation has a present of its own.": (
-                matrix[-1]
-            ),
-            "This is the first row of the matrix: each generation has a present of its own.": (
-                matrix[0]
-            ),
-            "These are the means of the columns, over all generations.": matrix.mean(axis=0),
-            "This is the other diagonal: the present of the first generation is the first.": (
-                np.diag(matrix[:, ::-1])
-            ),
-        },
-        "ancient": {
-            "Only the generation just before counts, not all ancient ones.": [
-                matrix[g, g - 1] for g in before
-            ],
-            "Only the very first generation counts, not all ancient ones.": matrix[1:, 0],
-            "The present competitors count as ancient ones, too.": [
-                matrix[g, : g + 1].mean() for g in before
-            ],
-            "These are sums over the ancient competitors, not means.": [
-                matrix[g, :g].sum() for g in before
-            ],
-            "The mean goes down a column: competitors are the columns of a row.": [
-                matrix[:g, g].mean() for g in before
-            ],
-        },
-        "future": {
-            "Only the next generation counts, not all future ones.": [
-                matrix[g, g + 1] for g in after
-            ],
-            "Only the very last generation counts, not all future ones.": matrix[:-1, -1],
-            "The present competitors count as future ones, too.": [
-                matrix[g, g:].mean() for g in after
-            ],
-            "The last generation is left out of the future.": [
-                matrix[g, g + 1 : -1].mean() if g + 2 < count else np.nan for g in after
-            ],
-            "These are sums over the future competitors, not means.": [
-                matrix[g, g + 1 :].sum() for g in after
-            ],
-            "The mean goes down a column: competitors are the columns of a row.": [
-                matrix[g + 1 :, g].mean() for g in after
-            ],
-        },
-    }
-
-
 @times.check(4)
 def against_the_present(student: Student):
     compare_parts(student, "profile", profile_of, 8, ("present",), mistaken_profile)
@@ -389,7 +360,7 @@ def exact_matrix(rng: np.random.Generator, count: int) -> np.ndarray:
 
 @gaining.check(7)
 def over_the_predecessor(student: Student):
-    compare_parts(student, "progress", progress_of, 10, ("historical", "global"))
+    compare_parts(student, "progress", progress_of, 10, ("historical", "global"), mistaken_progress)
 
 
 @gaining.check(4)
@@ -400,7 +371,8 @@ def share_of_cases(student: Student):
         matrix = kind(rng, count)
         said = f"progress(<matrix {matrix.shape}>)"
         (value,) = expect_fields(said, student.call("progress", matrix), "share")
-        expect_close(f"{said}: share", value, progress_of(matrix)["share"], EXACT)
+        mistakes = mistaken_progress(matrix)["share"]
+        expect_close(f"{said}: share", value, progress_of(matrix)["share"], EXACT, mistakes)
 
 
 def cycles_of(matrix: np.ndarray) -> float:
@@ -422,7 +394,8 @@ def in_circles(student: Student):
                         (exact_matrix, 6), (exact_matrix, 8), (circles, 8)):  # fmt: skip
         matrix = kind(rng, count)
         answer = student.call("cycles", matrix)
-        expect_close(f"cycles(<matrix {matrix.shape}>)", answer, cycles_of(matrix), EXACT)
+        said, mistakes = f"cycles(<matrix {matrix.shape}>)", mistaken_cycles(matrix)
+        expect_close(said, answer, cycles_of(matrix), EXACT, mistakes)
 
 
 # ------------------------------------------------------------------- 15.6
@@ -438,41 +411,9 @@ def parts_of(matrix: np.ndarray) -> dict:
     }
 
 
-def mistaken_parts(matrix: np.ndarray) -> dict:
-    """What mistakes make of the two parts."""
-    rows, columns = matrix[1:] - matrix[0], matrix[:, 1:] - matrix[:, :1]
-    other_axis = "The mean is taken along the other axis: see axis=."
-    return {
-        "own": {
-            other_axis: rows.mean(axis=0)[1:],
-            "Each generation is compared with the one before it, not with the first.": np.diff(
-                matrix, axis=0
-            ).mean(axis=1),
-            "The competitors of the first generation alone hold still: take the mean over all.": (
-                rows[:, 0]
-            ),
-            "The competitors change with the generation: the very same ones are asked for.": (
-                np.diag(matrix)[1:] - matrix[0, 1:]
-            ),
-        },
-        "others": {
-            other_axis: columns.mean(axis=1)[1:],
-            "Each generation is compared with the one before it, not with the first.": np.diff(
-                matrix, axis=1
-            ).mean(axis=0),
-            "The first generation of the side alone holds still: take the mean over all.": (
-                columns[0]
-            ),
-            "The sign is turned around: what competitors leave to the side is asked for.": (
-                -columns.mean(axis=0)
-            ),
-        },
-    }
-
-
 @hiding.check(3)
 def what_is_seen(student: Student):
-    compare_parts(student, "red_queen", parts_of, 13, ("change",))
+    compare_parts(student, "red_queen", parts_of, 13, ("change",), mistaken_parts)
 
 
 @hiding.check(7)
@@ -497,39 +438,6 @@ def measured(module, table, weights, seed, resamples):
     return module.interval(table, measure, numpy.random.default_rng(seed), **options)
 
 
-def measures_of(table, weights, seed, resamples, missing=0) -> list[float]:
-    """The measures; missing: so many individuals at the end of each generation are never drawn."""
-    rng, values = np.random.default_rng(seed), []
-    rows, n, columns, m = table.shape
-    for _ in range(resamples):
-        own = rng.integers(max(n - missing, 1), size=(rows, n))
-        met = rng.integers(max(m - missing, 1), size=(columns, m))
-        drawn = np.empty_like(table)
-        for g in range(rows):
-            for h in range(columns):
-                drawn[g, :, h] = table[g, :, h][np.ix_(own[g], met[h])]
-        values.append(float((weights * drawn).sum()))
-    return values
-
-
-ENDS = (0.025, 0.975)
-OTHER_ENDS = (0, 0.0025, 0.005, 0.01, 0.02, 0.05, 0.1, 0.16, 0.2, 0.25, 0.5)
-"""Quantiles that are taken for an end by mistake, and as far from the other side."""
-
-
-def mistaken_ends(values: list[float], got: np.ndarray) -> dict:
-    """What other quantiles make of the interval, if both ends are quantiles of the measures."""
-    shares = sorted({*ENDS, *OTHER_ENDS, *(1 - share for share in OTHER_ENDS)})
-    found = [
-        [share for share in shares if np.isclose(np.quantile(values, share), end, rtol=1e-9)]
-        for end in got
-    ]
-    if not all(found):
-        return {}
-    ends = " and ".join(f"{shares[0]:g}" for shares in found)
-    return {f"These are the quantiles {ends} of the measures, not 0.025 and 0.975.": got}
-
-
 def compare_intervals(student: Student, index: int, cases: tuple, weigh) -> None:
     rng = rng_of(index)
     for shape, resamples in cases:
@@ -544,9 +452,7 @@ def compare_intervals(student: Student, index: int, cases: tuple, weigh) -> None
         got, mistakes = expect_array(said, answer, (2,)), {}
         if np.abs(got - expected).max() > 1e-6:
             mistakes = mistaken_ends(values, got)
-            mistakes[
-                "The last individual of a generation is never drawn: see the end of integers."
-            ] = np.quantile(measures_of(*draws, 1), ENDS)
+            mistakes |= mistaken_intervals(*draws)
             other = student.run(measured, table, weights, seed + 1, resamples, said=said)
             if np.array_equal(other, got) and got[0] != got[1]:
                 mistakes["The interval is the same for another rng: draw from the one given."] = got
@@ -575,7 +481,7 @@ behaviour = exercise.task("15.8", "How do they behave?")
 
 def wandering(rng: np.random.Generator, steps: int) -> np.ndarray:
     """Made-up poses of two robots that drive to and fro, turn over and over, and meet walls."""
-    heading = rng.uniform(0, 6.28, 2) + np.cumsum(rng.normal(0, 0.5, (steps + 1, 2)), axis=0)
+    heading = rng.uniform(0, 6.28, 2) + np.cumsum(rng.normal(0, 0.9, (steps + 1, 2)), axis=0)
     stride = rng.normal(10, 30, (steps + 1, 2))
     ways = []
     for start, direction in zip(rng.uniform(100, 2900, (2, 2)), (np.cos, np.sin), strict=True):
@@ -643,88 +549,6 @@ def at_the_limits() -> np.ndarray:
     poses[:7, 0, :2], poses[:7, 1, :2] = predator, prey
     poses[7] = poses[6]
     return poses
-
-
-def mistaken_descriptions(poses: np.ndarray) -> dict:
-    """What mistakes make of a description."""
-    before, after = poses[:-1], poses[1:]
-
-    def along(step: np.ndarray, heading: np.ndarray) -> np.ndarray:
-        return step[..., 0] * np.cos(heading) + step[..., 1] * np.sin(heading)
-
-    def bearings(these: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Angles of the other robot from the heading: as subtracted, and the short way around."""
-        to_other = (these[:, ::-1] - these)[..., :2]
-        raw = np.arctan2(to_other[..., 1], to_other[..., 0]) - these[..., 2]
-        return raw, (raw + np.pi) % (2 * np.pi) - np.pi
-
-    moved = after[..., :2] - before[..., :2]
-    turned = after[..., 2] - before[..., 2]
-    short = (turned + np.pi) % (2 * np.pi) - np.pi
-    raw, bearing = bearings(before)
-    mixed = np.where(abs(raw) > np.pi, 9, raw)
-    late = np.concatenate([before[..., :2], after[..., 2:]], axis=2)
-    ends = "This looks at the end of each step, not at its beginning."
-    quarter = np.pi / 4
-    shown = {
-        "turning": {
-            "The difference of two headings is not taken the short way around.": 10 * abs(turned),
-            "Turns to the left and to the right cancel out: the sign is to be left out.": 10
-            * short,
-            "This is the turning of a step, not that of a second.": abs(short),
-            "No step turns: the heading of poses[t] is to be compared with that of poses[t + 1].": (
-                0 * short
-            ),
-        },
-        "speed": {
-            "This is the speed of a step, not that of a second.": np.linalg.norm(moved, axis=2),
-            "The distance is counted as steps in x and y added up, not as the straight way.": 10
-            * abs(moved).sum(axis=2),
-        },
-        "backwards": {
-            "The movement is taken along the heading at the end of the step, not at its "
-            "beginning.": along(moved, after[..., 2]) < 0,
-            "This is the share of steps forwards.": along(moved, before[..., 2]) > 0,
-            "This is the share of steps in which x becomes smaller: the heading is left out.": (
-                moved[..., 0] < 0
-            ),
-        },
-        "facing": {
-            "The angle to the other robot is not taken the short way around: 350 degrees to the "
-            "left are 10 to the right.": abs(mixed) < quarter,
-            "The other robot counts only if it is on the left of the heading.": (bearing > 0)
-            & (bearing < quarter),
-            "The other robot counts only if it is on the right of the heading.": (bearing < 0)
-            & (bearing > -quarter),
-            "The other robot counts as faced within 90 degrees, not 45.": abs(bearing)
-            < 2 * quarter,
-            "45 degrees in all are taken: 22.5 to each side, not 45.": abs(bearing) < quarter / 2,
-            "45 is compared with an angle in rad.": abs(bearing) < 45,
-            "This takes the heading at the end of each step, not at its beginning.": abs(
-                bearings(late)[1]
-            )
-            < quarter,
-            "The other robot's heading is taken, not its own.": abs(
-                bearings(np.concatenate([before[..., :2], before[:, ::-1, 2:]], axis=2))[1]
-            )
-            < quarter,
-            ends: abs(bearings(after)[1]) < quarter,
-        },
-        "wall": {
-            ends: np.minimum(after[..., :2], 3000 - after[..., :2]).min(axis=2) < 300,
-            "Only the walls on the left and below count.": before[..., :2].min(axis=2) < 300,
-            "Only the walls on the left and on the right count.": (
-                np.minimum(before[..., 0], 3000 - before[..., 0]) < 300
-            ),
-            "Only the walls above and below count.": (
-                np.minimum(before[..., 1], 3000 - before[..., 1]) < 300
-            ),
-        },
-    }
-    return {
-        name: {text: np.mean(values, axis=0) for text, values in these.items()}
-        for name, these in shown.items()
-    }
 
 
 def compare_described(student: Student, walks: list[np.ndarray], names: tuple) -> None:

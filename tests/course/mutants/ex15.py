@@ -21,7 +21,7 @@ def chase(predator, prey, maxsteps=2000):
 
 # %% memory_goes_on loses 15.1
 # Uses the networks of a chase again in the next one, with what they remember.
-# says: something kept from call to call
+# says: from call to call
 _robot = robot
 _known = {}
 
@@ -927,3 +927,27 @@ def describe(poses):
 # -     before, after = poses[:-1], poses[1:]
 # +     poses[..., 2] %= 2 * np.pi
 # +     before, after = poses[:-1], poses[1:]
+# %% left_wheels_first loses 15.1
+# The action holds the left wheels of both robots, then the right ones: the predator's two wheels come first.
+# says: this
+# -         arena.action = np.concatenate(wheels)
+# +         arena.action = np.stack(wheels, axis=1).ravel()
+# %% start_always_counted_as_a_step loses 15.1
+# The fitness comes from the number of poses, which is one more than the steps.
+# says: one fewer than the poses
+# -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
+# +     fitness = 1 - len(poses) / maxsteps
+# +     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
+# %% observed_once loses 15.1
+# The networks sense the start in every step: what they sense is read once, before the loop.
+# says: this
+# -     while not arena.done:
+# +     seen = np.split(arena.observation.copy(), 2)
+# +     while not arena.done:
+# -         for network, observation in zip(networks, np.split(arena.observation, 2), strict=True):
+# +         for network, observation in zip(networks, seen, strict=True):
+# %% prey_drawn_from_n loses 15.7
+# The prey are drawn among n individuals, the number of the predators: a generation of prey has m.
+# says: this
+# -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
+# +         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(n, size=(columns, m))
