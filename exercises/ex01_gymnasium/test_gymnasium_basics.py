@@ -77,10 +77,14 @@ def expect_space(said: str, got: object, space: gymnasium.Space) -> None:
             f"{said}: {name} is {show(bounds)}, but a flat list of {wanted.size} numbers is "
             "needed.",
         )
+        fit = all(type(bound) in (int, float) for bound in bounds)
+        why = ""
+        if fit and np.allclose(bounds, -(space.high if name == "low" else space.low).ravel()):
+            why = "\n  It is minus the other limit, but each number has two limits of its own."
         expect(
-            all(type(bound) in (int, float) for bound in bounds)
-            and np.allclose(bounds, wanted.ravel(), rtol=1e-6, atol=0),
-            f"{said}: {name} is {show(bounds)}, but {show(wanted.ravel().tolist())} was expected.",
+            fit and np.allclose(bounds, wanted.ravel(), rtol=1e-6, atol=0),
+            f"{said}: {name} is {show(bounds)}, but {show(wanted.ravel().tolist())} was expected."
+            f"{why}",
         )
 
 
@@ -137,7 +141,8 @@ def time_limit(student: Student):
         (maxsteps,) = expect_fields(student.said, answer, "maxsteps")
         expect(
             type(maxsteps) in (int, type(None)) and maxsteps == wanted,
-            f"{student.said}: maxsteps is {show(maxsteps)}, but {wanted} was expected.",
+            f"{student.said}: maxsteps is {show(maxsteps)}, but {wanted} was expected"
+            f"{'.' if wanted else ', as this environment has no time limit.'}",
         )
 
 
@@ -184,12 +189,25 @@ def seed_of(case: int) -> int:
     return 0 if case == ZERO else exercise.seed(10 + case)
 
 
+def expect_same_start(said: str, reported: object, start: np.ndarray) -> None:
+    """If the first observation is another one, the episode is another one, too."""
+    try:
+        first = np.asarray(reported, dtype=float)[0]
+    except (ValueError, TypeError, IndexError):
+        return
+    expect(
+        first.shape != start.shape or np.allclose(first, start, rtol=1e-4, atol=1e-4),
+        f"{said}: the first observation is {show(first)}, but env.reset(seed=seed) gives "
+        f"{show(start)}: the episode does not begin where this seed puts it.",
+    )
+
+
 def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
     """What the student reports, the actions in it, and the same actions in a fresh environment."""
     name, maxsteps = CASES[case]
     seed = seed_of(case)
     report = student.call("random_episode", name, seed=seed, maxsteps=maxsteps)
-    _, actions, *_ = expect_fields(student.said, report, *KEYS)
+    reported, actions, *_ = expect_fields(student.said, report, *KEYS)
     expect(
         isinstance(actions, (list, np.ndarray)) and 0 < len(actions) <= maxsteps,
         f"{student.said}: actions must be a list of 1 to {maxsteps} actions, not {show(actions)}.",
@@ -200,11 +218,13 @@ def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
             f"{student.said}: actions", actions, (len(actions), *env.action_space.shape)
         )
         for step, action in enumerate(actions):
-            expect(
-                not any(ends),
-                f"{student.said}: the episode was over after {step} steps, but {len(actions)} "
-                f"actions are reported.\n  {went_on(*ends)}".rstrip(),
-            )
+            if any(ends):
+                if len(reported) == len(actions) + 1:
+                    expect_same_start(student.said, reported, observations[0])
+                raise Wrong(
+                    f"{student.said}: the episode was over after {step} steps, but {len(actions)} "
+                    f"actions are reported.\n  {went_on(*ends)}".rstrip()
+                )
             expect(
                 belongs(action, env.action_space),
                 f"{student.said}: {show(action)} is no action of {name}.",
@@ -225,10 +245,14 @@ def observations_and_rewards_follow_from_the_actions(student: Student):
             len(actions) > 3,
             f"{student.said} did only {len(actions)} steps: go on to the end of the episode.",
         )
-        for key in ("observations", "rewards"):
+        before = replay["observations"][[0, *range(len(actions))]]
+        for key, mistakes in (
+            ("observations", {"Kept is what was observed before each step, not after it.": before}),
+            ("rewards", {}),
+        ):
             expect_close(
                 f"{student.said}: {key} (against its actions, replayed)",
-                report[key], replay[key], 1e-6,
+                report[key], replay[key], 1e-6, mistakes,
             )  # fmt: skip
 
 
@@ -481,13 +505,21 @@ def expect_rewards(student: Student, index: int, torque) -> None:
         return np.round(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2), 4)
 
     mistakes = {
-        "arctan(sin / cos) knows half of the circle only: see np.arctan2.": reward_of(
-            np.arctan(sine / cosine)
+        "The angle is one of half of the circle, as arctan(sin / cos) or arcsin give it: see "
+        "np.arctan2.": reward_of(np.arctan(sine / cosine)),
+        "The angle counts from 0 to 2 pi, but it lies between -pi and pi.": reward_of(
+            np.arctan2(sine, cosine) % (2 * np.pi), torque.clip(-2, 2)
         ),
         "The torque is not cut to -2 and 2, as the motor does.": reward_of(
             np.arctan2(sine, cosine)
         ),
-        "The torque is left out.": reward_of(np.arctan2(sine, cosine), 0.0),
+        "These torques cost nothing here, but each costs as much as the motor gives.": reward_of(
+            np.arctan2(sine, cosine), 0.0
+        ),
+        "The torque has no square"
+        f"{', or its square is cut instead of the torque' * bool(np.abs(torque).max() > 2)}.": (
+            reward_of(np.arctan2(sine, cosine), np.sqrt(np.abs(torque.clip(-2, 2))))
+        ),
         "The angular speed is left out.": reward_of(
             np.arctan2(sine, cosine), torque.clip(-2, 2), 0.0
         ),

@@ -359,7 +359,7 @@ def compare(environment_ids, episodes, seed, table=[]):  # noqa: B006
 
 
 # %% last_choice loses 1.1
-# Takes start + n - 1, the highest choice, for the number of choices.
+# Adds the number of the first choice to the number of choices.
 # says: this
 # -             return {"kind": "Discrete", "choices": int(space.n), "first": int(space.start)}
 # +             return {"kind": "Discrete", "choices": int(space.start + space.n), "first": int(space.start)}
@@ -532,3 +532,36 @@ def balance(observation):
 # +         runs += [random_episode(environment_id, seed + i, 1_000_000) for i in range(episodes)]
 # -                 "deviation": float(np.std(returns, ddof=1)) if episodes > 1 else 0.0,
 # +                 "deviation": float(np.std(returns, ddof=1)) if len(runs) > 1 else 0.0,
+
+
+# %% torque_without_square loses 1.4
+# Takes the size of the torque instead of its square.
+# says: The torque has no square
+# -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
+# +     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * abs(torque)))
+
+
+# %% symmetric_limits loses 1.1
+# Takes minus the upper limit for the lower one.
+# says: minus the other limit
+# -         low, high = space.low.ravel().tolist(), space.high.ravel().tolist()
+# +         high = space.high.ravel().tolist()
+# +         low = [-value for value in high]
+
+
+# %% observed_before_the_step loses 1.2
+# Keeps what was observed before each step: the start comes twice, and the end is missing.
+# says: before each step, not after it
+# -         observation, reward, terminated, truncated, _ = env.step(action)
+# -         observations.append(observation)
+# +         observations.append(observation)
+# +         observation, reward, terminated, truncated, _ = env.step(action)
+
+
+# %% speed_for_the_angle loses 1.3
+# Compares the speed of the angle with 12 degrees.
+# says: this
+# -     position, _, angle, _ = observation
+# -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
+# +     position, _, _, angle = observation
+# +     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
