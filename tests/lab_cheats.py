@@ -301,7 +301,6 @@ SPOILED = [
     another_robot,
     too_few,
     one_run_copied_to_fill_up,
-    quick_runs_as_full_ones,
     another_prediction,
     another_prediction_and_files_renamed,
     spaces_in_the_prediction,
@@ -310,5 +309,5 @@ SPOILED = [
     one_choice_against_its_data,
     conclusions_against_their_data,
 ]
-IF_DRAWN = [another_robot_forged, a_run_of_another_experiment]
-"""Those of a single run, found where it is made again."""
+IF_DRAWN = [another_robot_forged, a_run_of_another_experiment, quick_runs_as_full_ones]
+"""Those of some of the runs, found where one of these is made again."""
