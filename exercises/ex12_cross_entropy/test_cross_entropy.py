@@ -782,12 +782,16 @@ def trained(module, environment, seed, signs, side, most):
 
     Of each episode also the return without its last reward: task 12.3 is judged elsewhere. Then the
     first actions, and of what torch's optimisers changed the parameters before their first step,
-    and whether W2 is among those after a step (W1 may hold a scale of the observations, too).
+    and whether W2 is among those after a step (W1 may hold a scale of the observations, too). Last
+    the seeds of the episodes, and for each function of task 12.7 that was called whether its
+    log_deviation ever changed.
     After `most` episodes the training is broken off: the answer is None.
 
     The environment is changed: each number observed is multiplied by its sign, and with side -1
     left and right of the action are exchanged. Who trains in it does not notice.
     """
+    import contextlib
+
     import gymnasium
     import numpy
     import torch
@@ -798,6 +802,7 @@ def trained(module, environment, seed, signs, side, most):
     creator = gymnasium.envs.registration.load_env_creator(spec.entry_point)
     played, counts = [], {"gradients": 0, "losses": 0}
     actions, learnt, tables = [], [], []
+    given, noted, noise = [], {}, {}
 
     class BrokenOff(BaseException):
         pass
@@ -824,6 +829,7 @@ def trained(module, environment, seed, signs, side, most):
                 raise BrokenOff
             observation, info = super().reset(**kwargs)
             played.append([0.0, 0.0])
+            given.append(kwargs.get("seed"))
             self.number = len(played) - 1
             return (observation * signs).astype(observation.dtype), info
 
@@ -837,6 +843,24 @@ def trained(module, environment, seed, signs, side, most):
             before = played[self.number][0]
             played[self.number] = [before + float(reward), before]
             return (observation * signs).astype(observation.dtype), reward, *others
+
+    def note(name, arguments, options):
+        if noise.get(name):
+            return
+        value = options["log_deviation"] if "log_deviation" in options else arguments[1]
+        if isinstance(value, torch.Tensor):
+            value = value.detach().numpy()
+        value = numpy.array(value, dtype=float)
+        first = noted.setdefault(name, value)
+        noise[name] = not numpy.array_equal(first, value)
+
+    def noting(function, name):
+        def noting(*arguments, **options):
+            with contextlib.suppress(Exception):
+                note(name, arguments, options)
+            return function(*arguments, **options)
+
+        return noting
 
     def counting(function, what):
         def counted(*arguments, **options):
@@ -852,14 +876,17 @@ def trained(module, environment, seed, signs, side, most):
     for name in ("cross_entropy", "gaussian_loss"):
         if callable(loss := getattr(module, name, None)):
             setattr(module, name, counting(loss, "losses"))
+    for name in ("gaussian_loss", "gaussian_action"):
+        if callable(function := getattr(module, name, None)):
+            setattr(module, name, noting(function, name))
     hooks = [first_hook(before), last_hook(after)]
     try:
         answer = module.train(environment, seed=seed)
         if learnt:
             learnt.append(reached(answer["parameters"]))
-        return [answer, counts, played, actions, learnt]
+        return [answer, counts, played, actions, learnt, given, noise]
     except BrokenOff:
-        return [None, counts, played, actions, learnt]
+        return [None, counts, played, actions, learnt, given, noise]
     finally:
         for hook in hooks:
             hook.remove()
@@ -915,8 +942,8 @@ def expect_balanced(student: Student, environment: str, index: int) -> None:
     signs[2] = -side  # so that whoever knows the usual environment pushes the wrong way
     said = f"train({environment!r}, seed={seed})"
     report = student.run(trained, environment, seed, signs, side, 10**6, said=said)
-    expect(isinstance(report, list) and len(report) == 5, f"{said} gave no answer.")
-    answer, counts, played, actions, learnt = report
+    expect(isinstance(report, list) and len(report) == 7, f"{said} gave no answer.")
+    answer, counts, played, actions, learnt, given, noise = report
     parameters, returns = fields(said, answer, "parameters", "returns")
     expect(
         isinstance(parameters, list) and len(parameters) == 4,
@@ -970,10 +997,19 @@ def expect_balanced(student: Student, environment: str, index: int) -> None:
     )
     if isinstance(learnt, list) and len(learnt) == 2:
         expect_learnt(said, environment, arrays, learnt, (signs, side))
+    if isinstance(given, list) and isinstance(noise, dict):
+        expect_noise(said, noise, len(returns))
+        expect_starts(said, given, returns)
     for other in (seed, seed + 1):
         again = student.run(trained, environment, other, signs, side, FIRST, said=said)
-        expect(isinstance(again, list) and len(again) == 5, f"{said} gave no answer.")
+        expect(isinstance(again, list) and len(again) == 7, f"{said} gave no answer.")
         shared = min(len(actions), len(again[3]))
+        seeds = given[:FIRST], again[5][:FIRST]
+        expect(
+            other == seed or None in seeds[0] or seeds[0] != seeds[1],
+            f"train({environment!r}, seed={other}) begins its episodes with the same seeds as with "
+            f"seed={seed}: episode e of iteration i has the seed `seed + i * starts + e % starts`.",
+        )
         same = np.array_equal(actions[:shared], again[3][:shared])
         expect(
             same or other != seed,
@@ -1011,6 +1047,45 @@ def expect_learnt(said: str, environment: str, arrays: list, learnt: list, chang
                 f"{said}: before the optimiser's first step the policy stays up for {before:.1f} "
                 "steps already, so your losses taught it nothing.",
             )
+
+
+def expect_noise(said: str, noise: dict, iterations: int) -> None:
+    """The deviation of the noise is learnt, and the actions have the one that is learnt."""
+    expect(
+        noise.get("gaussian_loss") is not False,
+        f"{said}: ln sigma is the same number in all calls of gaussian_loss, so it is not learnt. "
+        "The policy learns it like any other parameter.",
+    )
+    expect(
+        iterations < 2 or noise.get("gaussian_action") is not False,
+        f"{said}: ln sigma is learnt, but gaussian_action gets the same number in all calls: the "
+        "policy acts with the deviation of the beginning.",
+    )
+
+
+def expect_starts(said: str, given: list, returns: list) -> None:
+    """Later iterations begin their episodes with other seeds than the first one.
+
+    A few resets more than the text asks for, and iterations that count from another number, are
+    right.
+    """
+    seeds = [seed for seed in given if isinstance(seed, int)]
+    episodes = len(returns[0])
+    first, later = set(seeds[:episodes]), set(seeds[episodes + 1 :])
+    formula = "episode e of iteration i has the seed `seed + i * starts + e % starts`."
+    if len(seeds) < 2 * episodes:
+        return
+    expect(
+        not later <= first,
+        f"{said}: all iterations begin their episodes with the seeds of the first one, but "
+        f"{formula}",
+    )
+    together = len(set(seeds[: 3 * episodes]))
+    expect(
+        len(first) < 4 or len(seeds) < 3 * episodes or together >= 1.5 * len(first),
+        f"{said}: the first {3 * episodes} episodes have only {together} different seeds, so the "
+        f"iterations share most of their starts, but {formula}",
+    )
 
 
 @training.check(8)

@@ -381,3 +381,50 @@ def gaussian_loss(means, log_deviation, actions):
     z = (actions - means) * torch.exp(-log_deviation)
     k = actions.shape[1]
     return 0.5 * (z * z).sum(1).mean() + log_deviation.sum() + k * 0.5 * float(np.log(2 * np.pi))
+
+
+# %% looks_before_and_between
+# Resets once to see the shapes; one start an iteration; tests without chance; attempts in a loop.
+def train(environment, seed):
+    env = gymnasium.make(environment)
+    observation, _ = env.reset(seed=seed)
+    space = env.action_space
+    env.close()
+    discrete = hasattr(space, "n")
+    rng = np.random.default_rng([seed, 7])
+    generator = torch.manual_seed(seed)
+    for _attempt in range(4):
+        torch.manual_seed(int(torch.randint(2**31, (1,), generator=generator)))
+        network = make_network(len(observation), space.n if discrete else len(space.low))
+        network.register_parameter("sigma", torch.nn.Parameter(torch.zeros(1)))
+        optimiser = torch.optim.Adam(network.parameters(), lr=0.01)
+
+        def forward(patterns, network=network):
+            return network(patterns)
+
+        def act(seen, network=network):
+            outputs = outputs_of(parameters, seen)
+            if discrete:
+                return choose(softmax(outputs), rng)
+            return gaussian_action(outputs, network.sigma.detach().numpy(), rng)
+
+        def best_act(seen):
+            outputs = outputs_of(parameters, seen)
+            return int(outputs.argmax()) if discrete else outputs
+
+        def loss(outputs, actions, network=network):
+            if discrete:
+                return cross_entropy(outputs, actions)
+            return gaussian_loss(outputs, log_deviation=network.sigma, actions=actions)
+
+        returns = []
+        for i in range(60):
+            parameters = [p.detach().numpy().astype(float) for p in list(network.parameters())[-4:]]
+            played = [run_episode(environment, act, seed + 30 * i + e) for e in range(30)]
+            returns.append([each["return"] for each in played])
+            tests = [run_episode(environment, best_act, seed + e)["return"] for e in range(10)]
+            if min(tests) >= 199:
+                return {"parameters": parameters, "returns": returns}
+            best = elite(played, 70)
+            improve(forward, optimiser, best["observations"], best["actions"], loss, 10)
+    return {"parameters": parameters, "returns": returns}

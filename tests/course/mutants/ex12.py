@@ -697,3 +697,38 @@ def train(environment, seed, iterations=50, episodes=20, **others):
 # says: this
 def choose(probabilities, rng):
     return max(0, int(np.sum(np.cumsum(probabilities) < rng.random())) - 1)
+
+
+# %% sigma_is_no_parameter loses 12.8
+# The optimiser does not get ln sigma, so it stays as it is at the beginning.
+# says: ln sigma is the same number in all calls of gaussian_loss
+# -     optimiser = torch.optim.Adam([*network.parameters(), log_deviation], lr=learning_rate)
+# +     optimiser = torch.optim.Adam(network.parameters(), lr=learning_rate)
+
+
+# %% noise_of_the_beginning loses 12.8
+# ln sigma is learnt, but the actions are drawn with that of the beginning.
+# says: acts with the deviation of the beginning
+# -         parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
+# +         parameters, spread = parameters_of(network), np.zeros(noutputs)
+
+
+# %% starts_of_the_first_iteration loses 12.8
+# Each iteration begins its episodes with the seeds of the first one.
+# says: all iterations begin their episodes with the seeds of the first one
+# -         first = seed + iteration * starts
+# +         first = seed
+
+
+# %% starts_one_further_in_each_iteration loses 12.8
+# The iteration is added to the seed, and not the iteration times the starts.
+# says: share most of their starts
+# -         first = seed + iteration * starts
+# +         first = seed + iteration
+
+
+# %% starts_without_the_seed loses 12.8
+# The seeds of the episodes do not depend on that of the training.
+# says: begins its episodes with the same seeds
+# -         first = seed + iteration * starts
+# +         first = iteration * starts
