@@ -200,7 +200,6 @@ def mistaken_cycles(matrix: np.ndarray) -> dict:
         * np.mean(right),
         "Each cycle counts twice.": 2 * np.mean(right),
         "The cycles are divided by the number of generations.": sum(right) / count,
-        "This is the share of groups that are no cycles.": 1 - np.mean(right),
     }
 
 
@@ -538,6 +537,7 @@ def mistaken_descriptions(poses: np.ndarray) -> dict:
             < 2 * quarter,
             "45 degrees in all are taken: 22.5 to each side, not 45.": abs(bearing) < quarter / 2,
             "45 is compared with an angle in rad.": abs(bearing) < 45,
+            "np.cos takes rad: 45 degrees are not 45 rad.": np.cos(bearing) > np.cos(45),
             "The direction leads from the other robot to this one: it is the wrong way round.": abs(
                 bearing
             )

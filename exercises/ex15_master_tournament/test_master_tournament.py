@@ -114,10 +114,10 @@ def say_where_it_begins(said: str, poses, expected: np.ndarray) -> None:
     cause = ""
     if step == 1 and wrong[1].all():
         cause = (
-            " Both robots move wrongly from the first step on: are the networks new ones, does each "
-            "get its own "
-            "robot's observation (24 numbers, the predator's first), and does the action hold "
-            "left and right wheel of the predator, then those of the prey?"
+            " Both robots move wrongly from the first step on: are the networks new ones, do they "
+            "step once, does each get its own robot's observation (24 numbers, the predator's "
+            "first), and does the action hold left and right wheel of the predator, then those of "
+            "the prey?"
         )
     elif step > 1:
         cause = (

@@ -951,3 +951,31 @@ def describe(poses):
 # says: this
 # -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
 # +         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(n, size=(columns, m))
+# %% sides_exchanged_in_play loses 15.2
+# The predators play as prey, and the prey as predators.
+# says: this
+# -     fitness = play(hunters, hunted, pairs, maxsteps)
+# +     fitness = play(hunted, hunters, pairs[:, ::-1], maxsteps)
+# %% a_generation_twice_in_a_group loses 15.5
+# A group may hold a generation twice here: it has three different ones.
+# says: this
+# -         for b in range(c)
+# -         for a in range(b)
+# +         for b in range(c + 1)
+# +         for a in range(b + 1)
+# %% two_matches_make_a_cycle loses 15.5
+# Two matches are looked at here: a cycle needs three, of each generation with each other.
+# says: this
+# -         (wins[a, b] and wins[b, c] and wins[c, a]) or (wins[b, a] and wins[c, b] and wins[a, c])
+# +         (wins[a, b] and wins[b, c]) or (wins[b, a] and wins[c, b])
+# %% movement_to_the_other_is_forwards loses 15.8
+# Backwards is taken as away from the other robot: it is against the robot's own heading.
+# says: this
+# -     forward = moved[..., 0] * np.cos(heading) + moved[..., 1] * np.sin(heading)
+# +     other = before[:, ::-1, :2] - before[..., :2]
+# +     forward = (moved * other).sum(axis=-1)
+# %% cosine_of_45_rad loses 15.8
+# np.cos takes rad: 45 degrees are not 45 rad.
+# says: this
+# -         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0),
+# +         "facing": (ahead > np.cos(45) * apart).mean(axis=0),
