@@ -641,3 +641,35 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 # says: this
 # -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 # +     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else 1
+
+
+# %% subtracts_the_biases loses 2.2
+# Subtracts the biases, as if they were thresholds.
+# says: The biases are subtracted
+# -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
+# -     return np.tanh(network["W2"] @ hidden + network["b2"])
+# +     hidden = np.tanh(network["W1"] @ observation - network["b1"])
+# +     return np.tanh(network["W2"] @ hidden - network["b2"])
+
+
+# %% even_weights_up_to_a_tenth loses 2.1
+# Draws the weights evenly between -0.1 and 0.1.
+# says: evenly distributed
+# -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
+# +         "W1": rng.uniform(-0.1, 0.1, (nhiddens, ninputs)),
+# -         "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
+# +         "W2": rng.uniform(-0.1, 0.1, (noutputs, nhiddens)),
+
+
+# %% fitness_for_its_number loses 2.8
+# Gives the fitness of the best network for its number.
+# says: but its number is asked for
+# -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
+# +     return {"networks": networks, "fitness": measured, "best": float(np.max(measured))}
+
+
+# %% hidden_neurons_of_the_first loses 2.7
+# Gives the hidden neurons of network 0 to all.
+# says: hidden neurons of network 0
+# -     return np.tanh((networks["W2"] @ hidden[:, :, None])[:, :, 0] + networks["b2"])
+# +     return np.tanh(networks["W2"] @ hidden[0] + networks["b2"])
