@@ -62,6 +62,11 @@ def elsewhere(what: str, first: int, made: Callable, many: int = 11) -> dict:
 
 def wrong_sizes(p: np.ndarray, first: int, nominal: float) -> dict:
     """Slips in lengths (first: 0) or thicknesses (1)."""
+
+    def at(i: int) -> np.ndarray:
+        return scaled(p[i : i + 22 : 2], nominal)
+
+    other = elsewhere("lengths" if nominal > 0.5 else "thicknesses", first, at, 22)
     return slips(
         lambda places, formula: formula(places),
         places={
@@ -92,8 +97,21 @@ def wrong_sizes(p: np.ndarray, first: int, nominal: float) -> dict:
             lambda q: nominal * np.tanh(1 + 0.9 * q),
             f"The factor {nominal} is left out.": lambda q: 1 + 0.9 * np.tanh(q),
             f"The factor is {nominal} here.": lambda q: scaled(q, 0.16 / nominal),
+            "The function is tanh, not tan.": lambda q: nominal * (1 + 0.9 * np.tan(q)),
+            "The function is tanh, not the inverse tangent.":
+            lambda q: nominal * (1 + 0.9 * np.arctan(q)),
+            "The function is tanh, not sine.": lambda q: nominal * (1 + 0.9 * np.sin(q)),
+            "The function is tanh, not the logistic function.":
+            lambda q: nominal * (1 + 0.9 / (1 + np.exp(-q))),
+            "tanh lies between -1 and 1: its sign is lost here.":
+            lambda q: nominal * (1 + 0.9 * np.abs(np.tanh(q))),
+            "1 and 0.9 are exchanged.": lambda q: nominal * (0.9 + np.tanh(q)),
+            f"{nominal} is a factor of the size, not of the parameter.":
+            lambda q: 1 + 0.9 * np.tanh(nominal * q),
+            f"{nominal} is a factor of the size, and not of the parameter, too.":
+            lambda q: nominal * (1 + 0.9 * np.tanh(nominal * q)),
         },
-    )  # fmt: skip
+    ) | other  # fmt: skip
 
 
 def wrong_masses(p: np.ndarray) -> dict:
@@ -129,6 +147,24 @@ def wrong_masses(p: np.ndarray) -> dict:
             lambda long, thick, dense: (long + thick) * dense,
             "The density is a factor, not a divisor.": lambda long, thick, dense:
             long * thick / dense,
+            "Length and thickness are factors of the whole density: 5 + 0.8 tanh p needs brackets.":
+            lambda long, thick, dense: long * thick * 5 + dense - 5,
+            "Each segment has a density of its own, not the mean of all.":
+            lambda long, thick, dense: long * thick * dense.mean(),
+            "The thickness is a factor once, not twice: the world is flat.":
+            lambda long, thick, dense: long * thick**2 * dense,
+            "The length is a factor once, not twice.":
+            lambda long, thick, dense: long**2 * thick * dense,
+            "Half of the thickness is taken, but the area is length x thickness.":
+            lambda long, thick, dense: long * thick / 2 * dense,
+            "The segments are as long and thick as at p = 0 here: take their own sizes.":
+            lambda long, thick, dense: 0.16 * dense,
+            "The masses are added up from segment to segment.":
+            lambda long, thick, dense: np.cumsum(long * thick * dense),
+            "The densities stand in the opposite order.":
+            lambda long, thick, dense: long * thick * dense[::-1],
+            "One mass for each segment is asked for, not their sum.":
+            lambda long, thick, dense: np.sum(long * thick * dense),
         },
     )  # fmt: skip
 
@@ -152,6 +188,19 @@ def wrong_cuts() -> dict:
         lambda q, scale: scale * np.minimum(q, 1),
         "The parameters are cut off below only: 1 is a limit, too.":
         lambda q, scale: scale * np.maximum(q, -1),
+        "Parameters beyond -1 and 1 come back on the other side here: cut them off.":
+        lambda q, scale: scale * ((q + 1) % 2 - 1),
+        "Parameters beyond -1 and 1 become 0 here: they become -1 and 1.":
+        lambda q, scale: scale * np.where(np.abs(q) > 1, 0, q),
+        "The parameters are divided by the largest amount: cut each one off.":
+        lambda q, scale: scale * q / np.maximum(np.abs(q).max(), 1e-9),
+        "Only the sign of a parameter is used.": lambda q, scale: scale * np.sign(q),
+        "The parameters are put through sine: cut them off.": lambda q, scale: scale * np.sin(q),
+        "The parameters have lost their signs.": lambda q, scale: scale * cut(np.abs(q)),
+        "The angles are cut off at -pi and pi, the parameters not at all.":
+        lambda q, scale: (scale * q).clip(-np.pi, np.pi),
+        "A length's formula is used, 1 + 0.9 tanh p: angles are cut off and scaled.":
+        lambda q, scale: scale * (1 + 0.9 * np.tanh(q)),
     }  # fmt: skip
 
 
@@ -169,6 +218,14 @@ def wrong_angles(p: np.ndarray) -> dict:
             "The scale is 3 pi / 4: pi is left out.": 0.75,
             "The scale is 3 pi / 4, not 4 pi / 3.": np.pi * 4 / 3,
             "The scale is 3 pi / 4, not pi / 4.": np.pi / 4,
+            "pi is a factor of the scale, not a divisor.": 0.75 / np.pi,
+            "The scale is 3 pi / 4, not 3 pi / 2.": 1.5 * np.pi,
+            "The scale is 3 pi / 4, not pi.": np.pi,
+            "The scale is 3 pi / 4: the 4 is left out.": 3 * np.pi,
+            "All segments have the scale 3 pi / 4: only the torso has it here.":
+            np.append(0.75 * np.pi, np.full(10, np.pi / 2)),
+            "All segments have the scale 3 pi / 4, also the torso.":
+            np.append(np.pi / 2, np.full(10, 0.75 * np.pi)),
         },
         sums={
             "": lambda a: a,
@@ -176,6 +233,13 @@ def wrong_angles(p: np.ndarray) -> dict:
             "The torso has a default angle, too: it is 0 here.":
             lambda a: np.where(np.arange(11) == 0, 0, a),
             "The torso has a default angle, too: it is left out.": lambda a: np.append(a[1:], 0),
+            "These are differences of neighbours: a parameter already counts from the segment "
+            "before.": lambda a: np.diff(a, prepend=0),
+            "The torso's angle is added to all others.": lambda a: np.append(a[:1], a[1:] + a[0]),
+            "The torso's angle is subtracted from all.": lambda a: a - a[0],
+            "The angles are cut to -pi to pi or 0 to 2 pi: an angle may be negative.":
+            lambda a: a % (2 * np.pi),
+            "The angles stand in the opposite order.": lambda a: a[::-1],
         },
     )  # fmt: skip
 
@@ -193,6 +257,9 @@ def wrong_limits(p: np.ndarray, name: str) -> dict:
     def by_amount(one, other):
         first = np.abs(one) < np.abs(other)
         return np.where(first == low, one, other)
+
+    def paired(one, other):
+        return np.sort(np.ravel([one, other], order="F")).reshape(10, 2)[:, 0 if low else 1]
 
     def at(i: int) -> np.ndarray:
         return np.pi / 2 * end(*cut(p[i : i + 20].reshape(10, 2).T))
@@ -223,6 +290,28 @@ def wrong_limits(p: np.ndarray, name: str) -> dict:
             "Limits are taken without their signs.": amounts,
             "The limits of all joints are sorted, but each joint has its own two (axis=1).":
             lambda one, other: np.sort(one if low else other),
+            "All 20 limits are sorted together, but each joint has its own two (axis=1).": paired,
+            f"The {name} limit is {'minus the larger' if low else 'minus the smaller'} one here: "
+            "the two limits are two numbers of their own.": lambda one, other: -far(one, other),
+            "The limit with the larger amount counts to both sides here: the two limits are two "
+            "numbers of their own.":
+            lambda one, other: (-1 if low else 1) * np.maximum(np.abs(one), np.abs(other)),
+            "The limit with the smaller amount counts to both sides here.":
+            lambda one, other: (-1 if low else 1) * np.minimum(np.abs(one), np.abs(other)),
+            "The second limit is added to the first one: it counts from the default angle, too.":
+            lambda one, other: end(one, one + other),
+            "Half of the way between the two limits is taken to each side.":
+            lambda one, other: (-1 if low else 1) * np.abs(one - other) / 2,
+            "One limit of all joints is taken: each joint has its own two (axis=1).":
+            lambda one, other: 0 * one + (np.min if low else np.max)([one, other]),
+            "A joint has two limits: only the first one is looked at.":
+            lambda one, other: end(one, 0),
+            "A joint has two limits: only the second one is looked at.":
+            lambda one, other: end(other, 0),
+            "A lower limit is at most 0 and an upper one at least 0 here: both can lie on one "
+            "side.": lambda one, other: end(end(one, other), 0),
+            "The limits are cut off at 0: both can lie on one side of the default angle.":
+            lambda one, other: far(end(one, other), 0),
         },
         added={
             "": 0,
@@ -238,16 +327,26 @@ def wrong_corners(p: np.ndarray) -> dict:
     long, thick, bends = lengths(p), thicknesses(p), angles(p)
     flat = np.where(np.arange(11) == 0, 0, bends)
 
+    low, high = (np.append(0, each) for each in limits(p))
+
     def drawn(heading, along, across, wide, joint, first):
         along = long * along(heading)
         side = wide * across(heading)
         ends = np.cumsum(along + joint(side))
-        begin = np.append(0, ends[:-1]) + first * along[0]
+        begin = np.append(0, ends[:-1]) + first(along)
         found = np.stack([begin - side, begin + along - side, begin + along + side, begin + side])
         return np.stack([found.real.T, found.imag.T], axis=2)
 
-    own = corners(p)
-    orders = {"x and y of each corner are exchanged.": own[..., ::-1]} | {
+    own, heading = corners(p), np.exp(1j * np.cumsum(bends))
+    begin = np.append(0, np.cumsum(long * heading)[:-1])
+    placed = np.stack([begin + x * long + y * thick * 1j for x, y in RECTANGLE], axis=1)
+    turned = placed * heading[:, None]
+    orders = {
+        "The segments are turned around (0, 0) after they are moved: turn each around its own "
+        "beginning, then move it.": np.stack([turned.real, turned.imag], axis=2),
+        "Four lists of 11 corners are reshaped, which mixes them up: stack them with axis=1.":
+        own.swapaxes(0, 1).reshape(11, 4, 2),
+    } | {"x and y of each corner are exchanged.": own[..., ::-1]} | {
         "The corners of a segment come in another order: "
         f"{', '.join(CORNERS[k] for k in order)}.": own[:, order]
         for order in permutations(range(4)) if order != (0, 1, 2, 3)
@@ -264,6 +363,21 @@ def wrong_corners(p: np.ndarray) -> dict:
             "The heading of a segment has the angles of two segments only: sum up all.":
             bends + np.append(0, bends[:-1]),
             "The angles are summed up twice.": np.cumsum(np.cumsum(bends)),
+            "The headings are converted: np.cos takes radians.": np.radians(np.cumsum(bends)),
+            "The headings are in degrees here: np.cos takes radians.":
+            np.degrees(np.cumsum(bends)),
+            "The joints are at their lower limits here: at rest they are at their default angles.":
+            np.cumsum(bends + low),
+            "The joints are at their upper limits here: at rest they are at their default angles.":
+            np.cumsum(bends + high),
+            "The joints are in the middle of their limits here: at rest they are at their default "
+            "angles.": np.cumsum(bends + (low + high) / 2),
+            "The angles are subtracted from segment to segment: add them up.":
+            2 * bends[0] - np.cumsum(bends),
+            "The last segment's angle comes first here: the torso's comes first.":
+            np.cumsum(bends[::-1]),
+            "The headings are means of the angles, not their sums.":
+            np.cumsum(bends) / (np.arange(11) + 1),
             "The torso's angle is counted twice from segment 1 on, and each other one comes one "
             "segment late.": np.append(bends[0], bends[0] + np.cumsum(bends)[:-1]),
         },
@@ -272,6 +386,16 @@ def wrong_corners(p: np.ndarray) -> dict:
             "Sine and cosine of the direction along a segment are exchanged.":
             lambda a: np.sin(a) + 1j * np.cos(a),
             "A segment goes to x - l cos, not to x + l cos.": lambda a: -np.exp(-1j * a),
+            "A segment goes to y + l sin, not to y - l sin.": lambda a: np.exp(-1j * a),
+            "A segment goes along its heading, not against it.": lambda a: -np.exp(1j * a),
+            "A segment lies along the heading of the one before, though its corners have its own.":
+            lambda a: np.exp(1j * np.append(0, a[:-1])),
+            "A segment lies along the heading of the one before it, though its corners have its "
+            "own.": lambda a: np.exp(1j * np.append(a[:1], a[:-1])),
+            "A segment lies along its own default angle, though its corners have its heading.":
+            lambda a: np.exp(1j * bends),
+            "The segments lie in a straight line, though their corners are turned.":
+            lambda a: 1 + 0j * a,
         },
         across={
             "": lambda a: 1j * np.exp(1j * a),
@@ -284,6 +408,14 @@ def wrong_corners(p: np.ndarray) -> dict:
             "The direction across a segment is the one along it.": lambda a: np.exp(1j * a),
             "The direction across a segment turns with its heading: it is not always upwards.":
             lambda a: 1j + 0 * a,
+            "The direction across a segment belongs to its heading, not to its default angle.":
+            lambda a: 1j * np.exp(1j * bends),
+            "The direction across a segment belongs to its own heading, not to that of the one "
+            "before.": lambda a: 1j * np.exp(1j * np.append(0, a[:-1])),
+            "The direction across a segment belongs to its own heading, not that of the one "
+            "before it.": lambda a: 1j * np.exp(1j * np.append(a[:1], a[:-1])),
+            "Half of the thickness counts in x and in y alike: it belongs to the direction across.":
+            lambda a: 1 + 1j + 0 * a,
         },
         wide={
             "": thick / 2,
@@ -303,11 +435,35 @@ def wrong_corners(p: np.ndarray) -> dict:
             "The thickness of a segment does not move the next one away.": lambda side: thick,
         },
         first={
-            "": 0,
-            "The middle of the torso lies at (0, 0), but its beginning belongs there.": -0.5,
-            "The end of the torso lies at (0, 0), but its beginning belongs there.": -1,
+            "": lambda along: 0,
+            "The middle of the torso lies at (0, 0), but its beginning belongs there.":
+            lambda along: -along[0] / 2,
+            "The end of the torso lies at (0, 0), but its beginning belongs there.":
+            lambda along: -along[0],
+            "Each segment has its middle where its beginning belongs.": lambda along: -along / 2,
+            "Each segment begins where it ends: the place is moved on before the corners are "
+            "found.": lambda along: along,
+            "All segments begin at (0, 0): each begins at the end of the one before.":
+            lambda along: -np.append(0, np.cumsum(along)[:-1]),
         },
     )  # fmt: skip
+
+
+def wrong_mass(p: np.ndarray) -> dict:
+    """Slips in "mass"."""
+    long, thick = lengths(p), thicknesses(p)
+    dense = masses(p) / long / thick
+    mixed = "Multiply for each segment first, then add up: the mass is not that of one segment "
+    return wrong_sums(masses(p), long * thick) | {
+        f"{mixed}with the length of all and a mean thickness and density.":
+        long.sum() * thick.mean() * dense.mean(),
+        f"{mixed}with the sums of all lengths, thicknesses and densities.":
+        long.sum() * thick.sum() * dense.sum(),
+        f"{mixed}with the area of all and a mean density.": (long * thick).sum() * dense.mean(),
+        f"{mixed}with mean sizes.": long.mean() * thick.mean() * dense.mean(),
+        f"{mixed}with sums of lengths and thicknesses.": long.sum() * thick.sum() * dense.mean(),
+        "The densities are added up, but masses are asked for.": dense.sum(),
+    }  # fmt: skip
 
 
 def wrong_sums(values: np.ndarray, other: np.ndarray) -> dict:
@@ -321,10 +477,15 @@ def wrong_sums(values: np.ndarray, other: np.ndarray) -> dict:
             "The torso is left out.": lambda v: v[1:].sum(),
             "The last segment is left out.": lambda v: v[:-1].sum(),
             "This is the largest one, not the sum.": np.max,
+            "This is the largest minus the smallest one, not the sum.": np.ptp,
+            "This is that of the torso alone.": lambda v: v[0],
+            "The numbers are multiplied, not added up.": np.prod,
+            "This is the median, not the sum.": np.median,
         },
     )  # fmt: skip
 
 
+@np.errstate(all="ignore")
 def wrong_extent(p: np.ndarray, axis: int) -> dict:
     """Slips in "width" (axis 0) or "height" (1)."""
     every, middle = corners(p), corners(p, wide=0)
@@ -342,6 +503,8 @@ def wrong_extent(p: np.ndarray, axis: int) -> dict:
             "The torso is left out.": every[1:],
             "The last segment is left out.": every[:-1],
             "Only the torso is measured.": every[:1],
+            "The middles of the segments are measured: all corners count.":
+            every.mean(axis=1, keepdims=True),
         },
         axis={"": axis, "Width and height are exchanged.": 1 - axis},
         summary={
@@ -354,8 +517,30 @@ def wrong_extent(p: np.ndarray, axis: int) -> dict:
             "This is the way from the first place to the last: the corners in between count, too.":
             lambda v: abs(v[-1] - v[0]),
             "This is a standard deviation, not the difference of the extremes.": np.std,
+            "Only the smallest coordinate is taken: subtract it from the largest.": np.min,
+            "Only the amount of the smallest coordinate is taken: subtract it from the largest.":
+            lambda v: -v.min(),
+            "The mean is subtracted from the largest coordinate: subtract the smallest.":
+            lambda v: v.max() - v.mean(),
+            "Twice the largest amount is taken, but the body is not the same on both sides of 0.":
+            lambda v: 2 * np.abs(v).max(),
+            "The lower end is at most 0 here, as if there were ground: subtract the smallest.":
+            lambda v: v.max() - max(v.min(), 0),
         },
     ) | {
+        "The amounts of all segments' ways are added up, but ways there and back overlap.":
+        np.abs(middle[:, 1, axis] - middle[:, 0, axis]).sum(),
+        "The difference is taken for each segment alone: take it over all corners of all.":
+        np.ptp(every[..., axis], axis=1).max(),
+        "The differences of the segments are added up: take one over all corners of all.":
+        np.ptp(every[..., axis], axis=1).sum(),
+        "The difference is taken for each of the four corners alone, then their mean.":
+        np.ptp(every[..., axis], axis=0).mean(),
+        "The difference is taken for each of the four corners alone, then the largest one.":
+        np.ptp(every[..., axis], axis=0).max(),
+        "x and y are mixed: width is of x alone, height of y alone.": np.ptp(every),
+        "x and y of the first corners are mixed: width is of x alone, height of y alone.":
+        np.ptp(every[:, 0]),
         "This is the way from the first place to the last: the corners in between count, too.":
         abs(middle[-1, 1, axis]),
     }  # fmt: skip
@@ -393,6 +578,18 @@ def wrong_freedom(p: np.ndarray) -> dict:
             "This is the largest freedom, not the mean.": lambda low, high: np.max(high - low),
             "This is the median, not the mean.": lambda low, high: np.median(high - low),
             "This is the freedom of the first joint alone.": lambda low, high: high[0] - low[0],
+            "These are the amounts of the 20 limits: subtract lower from upper ones.":
+            lambda low, high: np.mean(np.abs([low, high])),
+            "The freedom is the whole way from the lower to the upper limit: this is half of it.":
+            lambda low, high: np.mean(high - low) / 2,
+            "This is the smallest freedom, not the mean.": lambda low, high: np.min(high - low),
+            "Only joints that move at all are counted: the mean is over all 10.":
+            lambda low, high: np.mean((high - low)[high > low]) if (high > low).any() else 0.0,
+            "This is the standard deviation of all limits.": lambda low, high: np.std([low, high]),
+            "The largest amount of the limits is taken for each joint.":
+            lambda low, high: np.mean(np.maximum(np.abs(low), np.abs(high))),
+            "The limits are added to the default angles and all of them compared.":
+            lambda low, high: np.ptp([angles(p)[1:] + low, angles(p)[1:] + high]),
             "The freedom is in degrees, not in radians.":
             lambda low, high: np.degrees(np.mean(high - low)),
         },
@@ -407,7 +604,7 @@ MISTAKES = {
     "lower": lambda p: wrong_limits(p, "lower"),
     "upper": lambda p: wrong_limits(p, "upper"),
     "length": lambda p: wrong_sums(lengths(p), thicknesses(p)),
-    "mass": lambda p: wrong_sums(masses(p), lengths(p) * thicknesses(p)),
+    "mass": wrong_mass,
     "width": lambda p: wrong_extent(p, 0),
     "height": lambda p: wrong_extent(p, 1),
     "freedom": wrong_freedom,
@@ -448,7 +645,34 @@ def origin_of(p: np.ndarray, key: str, *place: int) -> str:
     return f"It is the sum of these: {np.round(parts, 3).tolist()}."
 
 
+RECTANGLE = ((0, -0.5), (1, -0.5), (1, 0.5), (0, 0.5))
+"""The corners of a segment in lengths and thicknesses, as it lies before it is turned."""
 CORNERS = ("beginning right", "end right", "end left", "beginning left")
+
+
+def same_corners(got: np.ndarray, own: np.ndarray) -> bool:
+    """Whether the four corners are the right ones, in any order but the right one."""
+    apart = np.abs(got[:, None] - own).max(axis=2) < 1e-3
+    return bool(apart.any(axis=1).all() and apart.any(axis=0).all() and not apart.diagonal().all())
+
+
+def crooked(got: np.ndarray) -> str:
+    """What is wrong with four corners that make no rectangle."""
+    first, last = got[3] - got[0], got[2] - got[1]
+    if np.abs(first - last).max() > 1e-3:
+        wide = [float(np.hypot(*each)) for each in (first, last)]
+        if abs(wide[0] - wide[1]) > 1e-3:
+            return (
+                f"it is {wide[0]:.4g} m thick at its beginning and {wide[1]:.4g} m at its end. "
+                "Both ends have half the thickness of the segment itself to each side."
+            )
+        return "the direction across is another one at its end than at its beginning."
+    along = (got[1] + got[2] - got[0] - got[3]) / 2
+    turned = [float(np.arctan2(each[1], each[0])) for each in (along, first)]
+    return (
+        f"it goes in the direction {turned[0]:.4g} from its beginning to its end, and "
+        f"{turned[1]:.4g} from right to left. Both follow from one heading, a right angle apart."
+    )
 
 
 def measured(got: np.ndarray, p: np.ndarray, *place: int) -> str:
@@ -474,9 +698,12 @@ def measured(got: np.ndarray, p: np.ndarray, *place: int) -> str:
         )
         if np.abs(begin[k] - before).max() > 1e-3:
             where, before = begin[k].round(3).tolist(), before.round(3).tolist()
+            if same_corners(got[k], own[k]):
+                return f"The corners of segment {k} are right, but come in another order."
             return f"Segment {k} begins at {where} there, {name} {before}."
         if np.abs(sides[0][k] - sides[1][k]).max() > 1e-3 or abs(along[k] @ across[k]) > 1e-3:
-            return f"The four corners of segment {k}, one after another, make no rectangle."
+            said = f"The four corners of segment {k}, one after another, make no rectangle"
+            return f"{said}: {crooked(got[k])}"
         if left[k] < 0:
             return f"The right corners of segment {k} lie to its left."
         if abs(thick[k] - right_thick[k]) > 1e-3:
@@ -487,11 +714,84 @@ def measured(got: np.ndarray, p: np.ndarray, *place: int) -> str:
         if abs(long[k] - right_long[k]) > 1e-3:
             return f"Segment {k} is {long[k]:.4g} m long there, not {right_long[k]:.4g} m."
         if abs(np.exp(1j * heading[k]) - np.exp(1j * right_heading[k])) > 1e-3:
+            bend = f" ({' + '.join(f'{a:.4g}' for a in angles(p)[: k + 1])})" * (0 < k < 6)
             return (
                 f"Segment {k} has the heading {heading[k]:.4g} there, but {turned} is "
-                f"{right_heading[k]:.4g}."
+                f"{right_heading[k]:.4g}{bend}."
             )
     return ""
+
+
+def wrong_parts(brain: np.ndarray, body: np.ndarray, part: slice) -> dict[str, np.ndarray]:
+    """What slips make of a part of a transplanted genotype; all have the length of the part."""
+    one, other, end = brain[part], body[part], len(brain) - 70
+    if part.stop == -70:
+        return {
+            "The body is still the one of the brain's own genotype.": one,
+            "The foreign body is added to the brain's own: it takes its place.": one + other,
+            "The mean of both bodies is taken: the foreign one takes the place of the own.":
+            (one + other) / 2,
+            "The body is all 0.": 0 * one,
+            "The first half of the body is still the one of the brain's own genotype.":
+            np.append(one[:32], other[32:]),
+            "The second half of the body is still the one of the brain's own genotype.":
+            np.append(other[:32], one[32:]),
+            "The last 64 numbers of the other genotype are taken for the body.": body[-64:],
+            "The first 64 numbers of the other genotype are taken for the body.": body[:64],
+            "The body of the other genotype is sought 35 numbers from the end.": body[-99:-35],
+        } | {
+            f"All but {abs(by)} of the body's numbers are foreign: its place is {abs(by)} too "
+            f"{'late' if by > 0 else 'early'} in both genotypes.": np.where(
+                (np.arange(end - 64, end) >= end - 64 + by) & (np.arange(end - 64, end) < end + by),
+                other, one)
+            for by in (-35, -6, -5, -4, -3, -2, -1, 1, 2, 3, 4, 5, 6, 35)
+        }  # fmt: skip
+    if part.start == -70:
+        return {
+            "Means and deviations come from the body's genotype, but belong to the brain.": other,
+            "The means come from the body's genotype, but belong to the brain.":
+            np.append(other[:35], one[35:]),
+            "The deviations come from the body's genotype, but belong to the brain.":
+            np.append(one[:35], other[35:]),
+            "Means and deviations are exchanged.": np.append(one[35:], one[:35]),
+            "Means and deviations of both genotypes are averaged: they belong to the brain.":
+            (one + other) / 2,
+            "Means and deviations are 0 and 1: they belong to the brain.":
+            np.repeat([0.0, 1.0], 35),
+            "Means and deviations are all 0: they belong to the brain.": 0 * one,
+        }  # fmt: skip
+    return {
+        "The network is that of the body's genotype: brain and body are exchanged.": other,
+        "The networks of both genotypes are averaged.": (one + other) / 2,
+        "The networks of both genotypes are added.": one + other,
+        "The network is all 0.": 0 * one,
+    }
+
+
+def wrong_transplants(brain: np.ndarray, body: np.ndarray) -> dict[str, np.ndarray]:
+    """What slips make of a whole transplanted genotype, whose length is wrong."""
+    network, norm, own, foreign = brain[:-134], brain[-70:], brain[-134:-70], body[-134:-70]
+    missing = "The means and deviations at the end are missing: they belong to the brain."
+    return {
+        missing: np.append(network, foreign),
+        "The brain's own body is still there: the foreign one takes its place.":
+        np.concatenate([network, own, foreign, norm]),
+        "The foreign body stands behind the whole genotype of the brain.":
+        np.append(brain, foreign),
+        "The foreign body stands in front of the brain's whole genotype.":
+        np.append(foreign, brain),
+        "This is the body alone.": foreign,
+        "This is the brain without any body.": np.append(network, norm),
+        "The two whole genotypes stand one after another.": np.append(brain, body),
+        "The means are left out: 35 means and 35 deviations follow the body.":
+        np.concatenate([network, foreign, norm[35:]]),
+        "The deviations are left out: 35 means and 35 deviations follow the body.":
+        np.concatenate([network, foreign, norm[:35]]),
+        "The foreign genotype from its body on stands behind the whole genotype of the brain.":
+        np.append(brain, body[-134:]),
+        "Network, body, means and deviations are given one by one: make one array of them.":
+        np.zeros(0),
+    }  # fmt: skip
 
 
 def other_places(genotype: np.ndarray) -> dict[str, np.ndarray]:
@@ -522,6 +822,7 @@ def own_returns(
     return returns
 
 
+@np.errstate(all="ignore")
 def wrong_matrices(
     returns: np.ndarray, text: str, walkers: np.ndarray, seed: int, episodes: int
 ) -> dict:
@@ -543,6 +844,26 @@ def wrong_matrices(
         "Only the diagonal is evaluated.": lambda m: np.diag(np.diagonal(m)),
         "The returns of a row are added up from pair to pair.": lambda m: np.cumsum(m, axis=1),
         "The returns of a column are added up from pair to pair.": lambda m: np.cumsum(m, axis=0),
+        "The brain's return in its own body is subtracted: that belongs to `loss`.":
+        lambda m: m - np.diagonal(m)[:, None],
+        "The body's return with its own brain is subtracted: that belongs to `loss`.":
+        lambda m: m - np.diagonal(m)[None],
+        "Each row is divided by the brain's return in its own body.":
+        lambda m: m / np.diagonal(m)[:, None],
+        "Each column is divided by the body's return with its own brain.":
+        lambda m: m / np.diagonal(m)[None],
+        "The matrix holds whole numbers: the fractions are cut off.": np.trunc,
+        "The columns stand in the opposite order.": lambda m: m[:, ::-1],
+        "The rows stand in the opposite order.": lambda m: m[::-1],
+        "Each row holds the returns of the first brain.": lambda m: m[[0] * n],
+        "Each row holds the returns of the last brain.": lambda m: m[[-1] * n],
+        "Each column holds the returns with the first body.": lambda m: m[:, [0] * n],
+        "Each column holds the returns with the last body.": lambda m: m[:, [-1] * n],
+        "The returns below 0 count as 0.": lambda m: np.maximum(m, 0),
+        "The returns have lost their signs.": np.abs,
+        "Only the half above the diagonal is evaluated.": np.triu,
+        "Only the half below the diagonal is evaluated.": np.tril,
+        "Each row is put in order, but column j belongs to body j.": lambda m: np.sort(m, axis=1),
     }  # fmt: skip
     seeds = {
         "Each row has a seed of its own, but all pairs have the same.": lambda i, j: i,
@@ -552,13 +873,25 @@ def wrong_matrices(
         "The seed that is given is not used: this is what the seed 0 gives.": lambda i, j: -seed,
         "The seed that is given is not used: this is what the seed 1 gives.":
         lambda i, j: 1 - seed,
+        "The seed is one more than the one that is given.": lambda i, j: 1,
     }  # fmt: skip
+    anew = {}
+    if n == 2:
+        each = [own_returns(text, walkers, seed + k, 1) for k in range(episodes)]
+        anew = {
+            "Each episode has a seed of its own: `evaluate` gets the seed once, and all episodes.":
+            np.concatenate(each, axis=2),
+            "Seed and number of episodes are exchanged.":
+            own_returns(text, walkers, episodes, min(seed, 100)),
+            "One episode more than asked for is evaluated.":
+            own_returns(text, walkers, seed, episodes + 1),
+        }  # fmt: skip
     return slips(
         lambda returns, rows, summary: rows(summary(returns)),
         returns={"": returns} | {
             said: own_returns(text, walkers, seed, episodes, other)
             for said, other in seeds.items() if n == 2
-        },
+        } | anew,
         rows=rows,
         summary={
             "": lambda r: r.mean(axis=2),
@@ -570,10 +903,13 @@ def wrong_matrices(
             "The episodes are added up, not averaged.": lambda r: r.sum(axis=2),
             "This is the standard deviation of the episodes, not the mean.":
             lambda r: r.std(axis=2),
+            "The sum of the episodes is divided by one more than their number.":
+            lambda r: r.sum(axis=2) / (r.shape[2] + 1),
         },
     )  # fmt: skip
 
 
+@np.errstate(all="ignore")
 def wrong_losses(matrix: np.ndarray, key: str) -> dict:
     """What mistakes make of a part of the answer."""
     n, own, others = len(matrix), np.diagonal(matrix), matrix[~np.eye(len(matrix), dtype=bool)]
@@ -582,14 +918,23 @@ def wrong_losses(matrix: np.ndarray, key: str) -> dict:
             "This is the other diagonal.": np.diagonal(matrix[:, ::-1]).mean(),
             "The diagonal is added up, not averaged.": own.sum(),
             "This is the mean of the whole matrix.": matrix.mean(),
-            "These are the best returns of the rows: the diagonal is asked for.": matrix.max(
-                axis=1
-            ).mean(),
-            "These are the best returns of the columns: the diagonal is asked for.": matrix.max(
-                axis=0
-            ).mean(),
-        }
+            "These are the best returns of the rows: the diagonal is asked for.":
+            matrix.max(axis=1).mean(),
+            "These are the best returns of the columns: the diagonal is asked for.":
+            matrix.max(axis=0).mean(),
+            "This is the median of the diagonal, not the mean.": np.median(own),
+            "This is the best one of the diagonal, not the mean.": own.max(),
+            "This is the first one of the diagonal, not the mean.": own[0],
+            "The sum of the diagonal is divided by all places of the matrix.": own.sum() / n**2,
+            "The sum of the diagonal is divided by n - 1.": own.sum() / (n - 1),
+            "This is the mean of the first row, not of the diagonal.": matrix[0].mean(),
+            "The whole diagonal is given, but its mean is asked for.": own,
+            "The foreign returns are subtracted: `own` is the mean of the diagonal alone.":
+            own.mean() - others.mean(),
+            "These are the foreign returns: own and foreign are exchanged.": others.mean(),
+        }  # fmt: skip
     if key == "foreign":
+        upper, lower = matrix[np.triu_indices(n, 1)], matrix[np.tril_indices(n, -1)]
         return {
             "The diagonal is counted among the foreign places.": matrix.mean(),
             "The foreign returns are divided by the number of all places: there are n (n - 1) "
@@ -598,9 +943,28 @@ def wrong_losses(matrix: np.ndarray, key: str) -> dict:
             others.sum() / n,
             "The foreign returns are divided by n - 1: there are n (n - 1) foreign places.":
             others.sum() / (n - 1),
-            "Only the places above the diagonal are counted.": matrix[np.triu_indices(n, 1)].mean(),
-            "Only the places below the diagonal are counted.":
-            matrix[np.tril_indices(n, -1)].mean(),
+            "The foreign returns are divided by one less than all places, but not by n (n - 1).":
+            others.sum() / (n**2 - 1),
+            "The foreign returns are divided by half of the foreign places: there are n (n - 1).":
+            others.sum() / (n * (n - 1) / 2),
+            "Only the places above the diagonal are counted.": upper.mean(),
+            "Only the places below the diagonal are counted.": lower.mean(),
+            "The foreign returns are added up, not averaged.": others.sum(),
+            "This is the median of the foreign places, not the mean.": np.median(others),
+            "This is the best foreign return, not the mean.": others.max(),
+            "The other diagonal is left out, not the one of the walkers themselves.":
+            matrix[~np.eye(n, dtype=bool)[::-1]].mean(),
+            "These are the own returns: own and foreign are exchanged.": own.mean(),
+            "This is the loss, own minus foreign: the foreign mean itself is asked for.":
+            own.mean() - others.mean(),
+            "The mean of the diagonal is subtracted from the mean of the whole matrix: take the "
+            "mean over all other places.": matrix.mean() - own.mean(),
+            "The sum of the diagonal is not subtracted from that of the matrix.":
+            matrix.sum() / (n * n - n),
+            "The best return of each row is averaged: all foreign places count.":
+            matrix.max(axis=1).mean(),
+            "This is the mean of the places next to the diagonal: all foreign places count.":
+            np.diagonal(matrix, 1).mean(),
         }  # fmt: skip
     table = matrix.T if key == "bodies" else matrix
     rest = table[~np.eye(n, dtype=bool)].reshape(n, n - 1)
@@ -613,7 +977,36 @@ def wrong_losses(matrix: np.ndarray, key: str) -> dict:
             np.sum(own > rest.mean(axis=1)),
             "A brain must beat all other places of its row, not just one.":
             np.sum(own > rest.min(axis=1)),
+            "A brain that does as well in another body is not at home: it must do better.":
+            np.sum(own >= rest.max(axis=1)),
+            "The first of equal returns counts as the best: a brain must do better than in all "
+            "others.": np.sum(matrix.argmax(axis=1) == np.arange(n)),
+            "Foreign bodies are counted in which a brain does worse: count brains.":
+            np.sum(own[:, None] > matrix),
+            "Foreign places with less than the diagonal's return of their column are counted.":
+            np.sum(own > matrix),
+            "Brains that do worse at home than in each other body are counted.":
+            np.sum(own < rest.min(axis=1)),
+            "Brains that are not at home are counted.": np.sum(own <= rest.max(axis=1)),
+            "The best return of the whole matrix is compared: each brain has its own row.":
+            np.sum(own >= matrix.max()),
+            "A brain is at home if its loss is above 0: it must beat each of the others.":
+            np.sum(own - rest.mean(axis=1) > 0),
+            "A brain must beat each other place of its row, not the mean of all foreign places.":
+            np.sum(own > others.mean()),
+            "A brain must beat each other place of its row, not their median.":
+            np.sum(own > np.median(rest, axis=1)),
+            "0 stands on the diagonal, which beats returns below 0.":
+            np.sum(own > (matrix * (1 - np.eye(n))).max(axis=1)),
+            "A brain must be the best in its row only: row and column are both asked here.":
+            np.sum((own > rest.max(axis=1)) & (own > [
+                max(np.delete(matrix[:, i], i)) for i in range(n)])),
+            "The numbers of the brains are added up: count them.":
+            np.flatnonzero(own > rest.max(axis=1)).sum(),
         }  # fmt: skip
+    with np.errstate(all="ignore"):
+        unequal = np.where(table == own[:, None], np.nan, table)
+        unequal = np.nansum(unequal, axis=1) / np.sum(np.isfinite(unequal), axis=1)
     return {
         "The returns of a column are subtracted for a row: own - matrix pairs them column by "
         "column.": (own - table).sum(axis=1) / (n - 1),
@@ -629,6 +1022,37 @@ def wrong_losses(matrix: np.ndarray, key: str) -> dict:
         "This is the mean of the others: subtract it from the own return.": rest.mean(axis=1),
         "Rows are brains and columns bodies: the two are exchanged.":
         own - (table.sum(axis=0) - own) / (n - 1),
+        "Places that equal the own return are left out, too: leave out the own place alone.":
+        own - unequal,
+        "The first place of each line is left out, not the own one.":
+        own - table[:, 1:].mean(axis=1),
+        "The last place of each line is left out, not the own one.":
+        own - table[:, :-1].mean(axis=1),
+        "The loss has lost its sign: it is below 0 where a foreign one does better.":
+        np.abs(own - rest.mean(axis=1)),
+        "The loss is the other way round: subtract the others from the own return.":
+        rest.mean(axis=1) - own,
+        "The worst of the others is subtracted, not their mean.": own - rest.min(axis=1),
+        "The median of the others is subtracted, not their mean.": own - np.median(rest, axis=1),
+        "One number for each is asked for, not the mean of all.": np.mean(own - rest.mean(axis=1)),
+        "One number for each is asked for, not the sum of all.": np.sum(own - rest.mean(axis=1)),
+        "The mean of the own returns is used for each: take its own return.":
+        own.mean() - rest.mean(axis=1),
+        "A loss below 0 counts as 0: keep it.": np.maximum(own - rest.mean(axis=1), 0),
+        "The others' mean is divided by, not subtracted.": own / rest.mean(axis=1),
+        "The loss is divided by the mean of the others.": own / rest.mean(axis=1) - 1,
+        "The others are added up and divided by n - 2: there are n - 1 others.":
+        own - rest.sum(axis=1) / max(n - 2, 0.5),
+        "0 stands on the own place and is counted among the others.":
+        own - (table * (1 - np.eye(n))).sum(axis=1) / n,
+        "The best one of the line is taken for the own return.":
+        table.max(axis=1) - rest.mean(axis=1),
+        "The best of the whole line is subtracted, the own one included.":
+        own - table.max(axis=1),
+        "The whole line is added up, the own return included.":
+        own - table.sum(axis=1) / (n - 1),
+        "The loss is added up over the others: take their mean.":
+        ((n - 1) * own - rest.sum(axis=1)),
     }  # fmt: skip
 
 

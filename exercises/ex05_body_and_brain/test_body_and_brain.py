@@ -30,6 +30,8 @@ from slips import (
     wrong_corners,
     wrong_losses,
     wrong_matrices,
+    wrong_parts,
+    wrong_transplants,
 )
 
 from botschool import config
@@ -157,9 +159,31 @@ def limits_of_joints(student: Student):
 shape = exercise.task("5.3", "The shape at rest", needs=("5.1", "5.2"), refused=TOOL)
 
 
+AXES = {
+    (11, 2, 4): "x and y stand before the corners: each corner has its own x and y on the last "
+    "axis (axis=1 of np.stack puts the corners in the middle).",
+    (4, 11, 2): "The corners stand before the segments: each segment has its four corners (axis=1 "
+    "of np.stack puts the corners in the middle).",
+    (2, 11, 4): "x and y stand on the first axis, but belong on the last one.",
+    (2, 4, 11): "The axes are in the opposite order.",
+    (4, 2, 11): "The segments stand on the last axis, but belong on the first one.",
+    (44, 2): "The corners of all segments are in one list: each segment has a list of its own.",
+    (11, 8): "The numbers of each segment are in one row: each corner has a row of its own.",
+    (11, 5, 2): "The first corner is there twice: a segment has four corners.",
+    (11, 2, 2): "These are two places for each segment, but it has four corners.",
+    (11, 2): "These are places of segments: each segment has four corners.",
+    (12, 2): "These are the places of the hinges: each segment has four corners.",
+}
+"""What is wrong with some shapes of an outline."""
+
+
 def expect_outline(student: Student, questions: np.ndarray) -> None:
     for p, answer in zip(questions, asked(student, "outline", questions), strict=True):
         said = said_of("outline", p)
+        shape = np.shape(answer) if isinstance(answer, np.ndarray) else ()
+        if shape in AXES:
+            expect_close(said, answer, corners(p), mistakes={AXES[shape]: answer})
+            continue
         answer = expect_array(said, answer, (11, 4, 2))
         why = partial(measured, answer, p)
         expect_close(said, answer, corners(p), TOLERANCE, partial(wrong_corners, p), why)
@@ -262,7 +286,11 @@ def try_runs(module, text, seeds, folder, steps):
     for seed in seeds:
         file = pathlib.Path(folder) / f"bestgS{seed}.npy"
         saved[seed] = numpy.load(file) if file.exists() else None
-    return [walkers, saved, given]
+    places = {}
+    for seed in seeds:
+        found = sorted(pathlib.Path(".").rglob(f"bestgS{seed}.npy"))
+        places[seed] = found[0].parent.as_posix() if found else ""
+    return [walkers, saved, given, places]
 
 
 @lru_cache
@@ -291,7 +319,7 @@ class Trial:
         seeds = telling_seeds(text, index)
         seeds = [seeds[0], 0] if zero else seeds
         self.said = f"evolve_walkers('trial.ini', {seeds}, 'some/runs', {steps})"
-        self.walkers, saved, after = student.run(
+        self.walkers, saved, after, self.places = student.run(
             try_runs, text, seeds, "some/runs", steps, said=self.said
         )
         expect(after == seeds, f"{self.said} changed the list of seeds: it is {after} now.")
@@ -301,6 +329,25 @@ class Trial:
 
     def compare(self) -> None:
         """Expect the walkers that the grader finds."""
+        shape = np.shape(self.walkers) if isinstance(self.walkers, np.ndarray) else ()
+        whole = self.wanted.shape[1]
+        columns = {
+            64: "This is the body alone",
+            whole - 70: "The 70 means and deviations at the end are missing",
+            whole - 134: "This is the network alone",
+            6: "These are the columns of a stat file",
+        }
+        what = columns.get(shape[-1] if len(shape) == 2 else -1)
+        if len(shape) == 1 and shape[0] in (2, 2 * whole, whole):
+            what = {
+                2: "This is one number for each run",
+                whole: "This is one genotype only",
+            }.get(shape[0], "The genotypes stand one after another in one row")
+        expect(
+            not what,
+            f"{self.said} returned an array of shape {shape}, not {self.wanted.shape}.\n  {what}: "
+            "the whole genotype of each run in a row of its own is asked for.",
+        )
         right = self.walkers is not None and np.array_equal(self.walkers, self.wanted)
         expect_close(self.said, self.walkers, self.wanted, mistakes={} if right else self.made())
 
@@ -336,6 +383,21 @@ class Trial:
                 [seed or 1 for seed in seeds], steps
             ),
             "Each run begins with the seed of the first one.": runs([seeds[0]] * 2, steps),
+            "All rows hold the genotype of the last run: keep each one in its own row.": runs(
+                [seeds[1]] * 2, steps
+            ),
+            "The place in the list is added to each seed.": runs([seeds[0], seeds[1] + 1], steps),
+            "One is added to each seed.": runs([seed + 1 for seed in seeds], steps),
+            "The seeds count on from the first one: take each from the list.": runs(
+                [seeds[0], seeds[0] + 1], steps
+            ),
+            "The genotypes of all runs are averaged.": np.repeat(
+                self.wanted.mean(axis=0)[None], 2, axis=0
+            ),
+            "The first row is right, the others are 0: only one run is kept.": self.wanted
+            * [[1.0], [0.0]],
+            "Only the last row is filled: keep the genotype of each run.": self.wanted
+            * [[0.0], [1.0]],
         }
 
 
@@ -349,7 +411,12 @@ def best_walker_of_each_run(student: Student):
 def leaves_the_files(student: Student):
     trial = Trial(student, 20, None)
     for seed, file, wanted in zip(trial.seeds, trial.saved, trial.wanted, strict=True):
-        expect(file is not None, f"{trial.said} left no file bestgS{seed}.npy in some/runs.")
+        where = trial.places.get(str(seed))
+        expect(
+            file is not None,
+            f"{trial.said} left no file bestgS{seed}.npy in some/runs"
+            + (f": it is in {where}." if where else "."),
+        )
         expect_close(f"{trial.said}: bestgS{seed}.npy", file, wanted)
 
 
@@ -376,6 +443,13 @@ def operate(module, brain, body):
     return [result, bool((before[0] == brain).all() and (before[1] == body).all())]
 
 
+PARTS = {
+    "parameters of the network": slice(0, -134),
+    "parameters of the body": slice(-134, -70),
+    "means and deviations": slice(-70, None),
+}
+
+
 @surgery.check(3)
 def body_is_cut_out(student: Student):
     for index in (30, 31):
@@ -389,10 +463,14 @@ def brain_in_another_body(student: Student):
     for index in (32, 33):
         brain, body = genotypes(index)
         answer = student.run(operate, brain, body, said="transplant(brain, body)")
+        wanted = np.concatenate([brain[:-134], body[-134:-70], brain[-70:]])
+        if np.shape(answer[0]) != wanted.shape:
+            made = partial(wrong_transplants, brain, body)
+            expect_close(student.said, answer[0], wanted, 0, made)
         got = expect_array(student.said, answer[0], brain.shape)
-        expect_close(f"{student.said}: parameters of the network", got[:-134], brain[:-134], 0)
-        expect_close(f"{student.said}: parameters of the body", got[-134:-70], body[-134:-70], 0)
-        expect_close(f"{student.said}: means and deviations", got[-70:], brain[-70:], 0)
+        for name, part in PARTS.items():
+            made = partial(wrong_parts, brain, body, part)
+            expect_close(f"{student.said}: {name}", got[part], wanted[part], 0, made)
 
 
 @surgery.check(2)
@@ -475,8 +553,13 @@ def made_up_matrices(index: int) -> list[np.ndarray]:
     return [*(matrix.round() + 0.0 for matrix in made[:2]), *made[2:]]
 
 
+TIES = [[4.0, 4.0, 1.0], [2.0, -1.0, -1.0], [4.0, 0.0, 3.0]]
+"""Returns that are the same as the own one in a row, or in a column."""
+
+
 def expect_loss(student: Student, index: int, *keys: str) -> None:
-    for matrix in made_up_matrices(index):
+    more = [] if "at home" in keys else [np.array(TIES)]
+    for matrix in [*made_up_matrices(index), *more]:
         answer = student.call("loss", matrix)
         values = expect_fields(student.said, answer, *keys)
         for key, value in zip(keys, values, strict=True):
@@ -526,7 +609,8 @@ def as_good_elsewhere_is_not_at_home(student: Student):
         (value,) = expect_fields(f"loss({rows})", answer, "at home")
         matrix = np.array(rows)
         said, why = f"loss({rows}): at home", partial(reason, matrix, "at home")
-        expect_close(said, value, own_loss(matrix, "at home"), why=why)
+        wrong = wrong_losses(matrix, "at home")
+        expect_close(said, value, own_loss(matrix, "at home"), mistakes=wrong, why=why)
     rows = np.array(matrices[1])
     after = student.run(matrix_after, rows, said="loss(matrix)")
     expect(

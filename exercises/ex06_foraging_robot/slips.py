@@ -25,6 +25,7 @@ def answer_of(brain: dict, observation: np.ndarray, memory: np.ndarray) -> tuple
     return wheels, np.array([cells, outputs])
 
 
+@np.errstate(all="ignore")
 def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[str, tuple]:
     """What mistakes make of a step: a sentence -> (action, new memory)."""
     gates, readout, bias = brain["gates"], brain["readout"], brain["bias"]
@@ -57,7 +58,102 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         return np.tanh(bias + readout @ outputs), np.array([cells, outputs])
 
     _, (cells, outputs) = right = answer_of(brain, observation, memory)
-    return {
+    kept, taken, shown = squash(net[0] + 1), squash(net[1]), squash(net[2])
+
+    def made(cells: np.ndarray, outputs: np.ndarray | None = None) -> tuple:
+        """What follows from other cells, and from other outputs."""
+        outputs = shown * np.tanh(cells) if outputs is None else outputs
+        return np.tanh(bias + readout @ outputs), np.array([cells, outputs])
+
+    def noticed(weights: np.ndarray) -> np.ndarray:
+        """The gates with other weights of the units' outputs or of the observation."""
+        net = weights @ z
+        cells = squash(net[0] + 1) * memory[0] + squash(net[1]) * np.tanh(net[3])
+        return made(cells, squash(net[2]) * np.tanh(cells))
+
+    more = {
+        "The forget gate is used for the candidate and the input gate for the old cells.":
+        made(taken * memory[0] + kept * np.tanh(net[3])),
+        "The new cells are kept after tanh: tanh belongs to the outputs alone.":
+        made(np.tanh(cells), outputs),
+        "The new cells are put through tanh, and once more for the outputs.": made(np.tanh(cells)),
+        "The input gate is a factor of tanh(candidate), and stands outside the tanh.":
+        made(kept * memory[0] + np.tanh(taken * net[3])),
+        "The forget gate is a factor of the old cells, not of tanh of them.":
+        made(kept * np.tanh(memory[0]) + taken * np.tanh(net[3])),
+        "The old cells are not added: only the new candidate is there.": made(
+            taken * np.tanh(net[3])),
+        "Old cells and candidate are averaged, but belong together as a sum.": made(cells / 2),
+        "Old cells and candidate are multiplied, but belong together as a sum.":
+        made(kept * memory[0] * taken * np.tanh(net[3])),
+        "The forget gate is added to the old cells, but is a factor of them.":
+        made(kept + memory[0] + taken * np.tanh(net[3])),
+        "The input gate is added to the candidate, but is a factor of it.":
+        made(kept * memory[0] + taken + np.tanh(net[3])),
+        "The output gate is added to tanh(new cells), but is a factor of it.":
+        made(cells, shown + np.tanh(cells)),
+        "The forget gate is used for the output gate, too.": made(cells, kept * np.tanh(cells)),
+        "The input gate is used for the output gate, too.": made(cells, taken * np.tanh(cells)),
+        "The output gate is used for the input gate, too.":
+        made(kept * memory[0] + shown * np.tanh(net[3])),
+        "The output gate is used for the forget gate, too.":
+        made(shown * memory[0] + taken * np.tanh(net[3])),
+        "The new outputs are the old ones where the output gate is 0: no such mixing is asked for.":
+        made(cells, shown * np.tanh(cells) + (1 - shown) * memory[1]),
+        "The logistic function stands around the whole output.":
+        made(cells, squash(net[2] * np.tanh(cells))),
+        "The gates are not put through the logistic function.":
+        made((net[0] + 1) * memory[0] + net[1] * np.tanh(net[3]),
+             net[2] * np.tanh((net[0] + 1) * memory[0] + net[1] * np.tanh(net[3]))),
+        "The forget gate is not put through the logistic function.":
+        made((net[0] + 1) * memory[0] + taken * np.tanh(net[3])),
+        "The input gate is not put through the logistic function.":
+        made(kept * memory[0] + net[1] * np.tanh(net[3])),
+        "The output gate is not put through the logistic function.":
+        made(cells, net[2] * np.tanh(cells)),
+        "The forget gate goes through tanh, but belongs to the logistic function.":
+        made(np.tanh(net[0] + 1) * memory[0] + taken * np.tanh(net[3])),
+        "The input gate goes through tanh, but belongs to the logistic function.":
+        made(kept * memory[0] + np.tanh(net[1]) * np.tanh(net[3])),
+        "The output gate goes through tanh, but belongs to the logistic function.":
+        made(cells, np.tanh(net[2]) * np.tanh(cells)),
+        "The 1 is added before the logistic function to the candidate's tanh.":
+        made(kept * memory[0] + taken * (1 + np.tanh(net[3]))),
+        "The cells are cut off at -1 and 1.": made(cells.clip(-1, 1)),
+        "The old outputs are added to the new cells.": made(cells + memory[1]),
+        "The outputs of the step before are put through tanh before the gates see them.": of(
+            known=np.append(observation, np.tanh(memory[1]))),
+        "The tanh of the cells stands in z instead of the outputs.": of(
+            known=np.append(observation, np.tanh(memory[0]))),
+        "The observation is put through tanh first.": of(
+            known=np.append(np.tanh(observation), memory[1])),
+        "The new outputs stay those of the step before.": made(cells, memory[1]),
+        "The new cells stay those of the step before.": (
+            right[0], np.array([memory[0], outputs])),
+        "The new memory is the old one.": (right[0], memory),
+        "Both rows of the new memory are the cells.": (right[0], np.array([cells, cells])),
+        "Both rows of the new memory are the outputs.": (right[0], np.array([outputs, outputs])),
+        "The second row of the new memory is tanh(cells), without the output gate.": (
+            right[0], np.array([cells, np.tanh(cells)])),
+        "The gates of the observation see it in the opposite order.": noticed(
+            np.concatenate([gates[..., 7::-1], gates[..., 8:]], axis=2)),
+        "The bias is added once for each unit: it is added once for each wheel.": (
+            np.tanh(readout @ outputs + UNITS * bias), right[1]),
+        "The bias is a factor, but belongs added.": (np.tanh((readout @ outputs) * bias), right[1]),
+        "The bias of the first wheel is used for both.": (
+            np.tanh(readout @ outputs + bias[0]), right[1]),
+        "The two biases are exchanged.": (np.tanh(readout @ outputs + bias[::-1]), right[1]),
+        "The action lies between -1 and 1: it is 0 to 1 here.": (
+            (np.tanh(readout @ outputs + bias) + 1) / 2, right[1]),
+        "The action is divided by the number of units: take the sum.": (
+            np.tanh(readout @ outputs / UNITS + bias), right[1]),
+        "The action is read from tanh(outputs): the outputs themselves are asked for.": (
+            np.tanh(readout @ np.tanh(outputs) + bias), right[1]),
+        "The action goes through tanh twice.": (np.tanh(right[0]), right[1]),
+        "The action has lost its sign.": (np.abs(right[0]), right[1]),
+        "The action has the wrong sign.": (-right[0], right[1]),
+    }  # fmt: skip
+    return more | {
         "The 1 that is added for the forget gate is left out.": of(ones=(0, 0, 0, 0)),
         "1 is subtracted from the forget gate's net input instead of added.": of(
             ones=(-1, 0, 0, 0)
@@ -201,6 +297,7 @@ def grid_of(places: int, headings: int) -> np.ndarray:
     )
 
 
+@np.errstate(all="ignore")
 def wrong_grids(places: int, headings: int, column: int) -> dict:
     """What slips make of a column of a grid."""
 
@@ -212,6 +309,7 @@ def wrong_grids(places: int, headings: int, column: int) -> dict:
 
     turn = np.arange(headings) / headings
     names = ("y", "x", "the heading")
+    xy = ("x", "y", "x or y")[column]
     return slips(
         made,
         order={"": (0, 1, 2)} | {
@@ -229,8 +327,25 @@ def wrong_grids(places: int, headings: int, column: int) -> dict:
             "x and y are the middles of equal parts: both ends belong to the grid.":
             lambda a, b, n: a + (b - a) * (np.arange(n) + 0.5) / n,
             "x and y are cut to whole numbers.": lambda a, b, n: np.linspace(a, b, n).astype(int),
-            "x has the range of y, and y that of x.": lambda a, b, n:
+            ("x has the range of y.", "y has the range of x.", "")[column]: lambda a, b, n:
             np.linspace(*((150, 250) if a == 270 else (270, 350)), n),
+            f"{xy} falls: it begins at the lower end.": lambda a, b, n: np.linspace(b, a, n),
+            f"{xy} is left at its lower end.": lambda a, b, n: np.full(n, float(a)),
+            f"{xy} is left at its upper end.": lambda a, b, n: np.full(n, float(b)),
+            f"The lower end of {xy} is missing.": lambda a, b, n: np.linspace(a, b, n + 1)[1:],
+            f"Both ends of {xy} are missing.": lambda a, b, n: np.linspace(a, b, n + 2)[1:-1],
+            f"{xy} is counted from 0, not from its lower end.":
+            lambda a, b, n: np.linspace(0, b - a, n),
+            f"{xy} ends at its upper end, but does not begin at 0.":
+            lambda a, b, n: np.linspace(0, b, n),
+            f"The steps of {xy} are as long as its range divided by `places` + 1.":
+            lambda a, b, n: a + np.arange(n) * (b - a) / (n + 1),
+            f"The steps of {xy} are whole millimetres: {xy} holds fractions.":
+            lambda a, b, n: a + np.arange(n) * ((b - a) // max(n - 1, 1)),
+            f"The steps of {xy} are rounded: {xy} holds fractions.":
+            lambda a, b, n: np.linspace(a, b, n).round(),
+            f"{xy} has the steps of the other one of x and y.": lambda a, b, n:
+            a + np.linspace(0, 100 if a == 270 else 80, n),
         },
         angles={
             "": 2 * np.pi * turn,
@@ -245,6 +360,24 @@ def wrong_grids(places: int, headings: int, column: int) -> dict:
             "The headings are counted in whole turns.": turn,
             "The headings divide the turn into one part too many.":
             2 * np.pi * np.arange(headings) / (headings + 1),
+            "The headings begin half a part after 0, which belongs to them.":
+            2 * np.pi * (turn + 0.5 / headings),
+            "The headings fall from 2 pi: they begin at 0 and grow.": 2 * np.pi * (1 - turn),
+            "The headings stand in the opposite order.": 2 * np.pi * turn[::-1],
+            "The headings lie between -pi and pi: they grow from 0.":
+            np.angle(np.exp(2j * np.pi * turn)),
+            "The headings divide a quarter of a turn, not the whole one.": np.pi / 2 * turn,
+            "The headings divide two turns.": 4 * np.pi * turn,
+            "The headings reach half a turn, which is included.": np.linspace(0, np.pi, headings),
+            "The headings begin at minus pi and end at pi: they begin at 0, without 2 pi.":
+            np.linspace(-np.pi, np.pi, headings),
+            "All headings are 0.": 0 * turn,
+            "The headings are counted, not measured: they are angles.": 1.0 * np.arange(headings),
+            "The step between headings is a right angle, however many there are.":
+            np.pi / 2 * np.arange(headings),
+            "The step between headings is 2 pi divided by `places`, not by `headings`.":
+            2 * np.pi * np.arange(headings) / places,
+            "The headings are rounded.": (2 * np.pi * turn).round(),
             "The headings begin after 0, which belongs to them.":
             2 * np.pi * (np.arange(headings) + 1) / headings,
         },
@@ -271,6 +404,7 @@ def described(poses: np.ndarray, rewards: np.ndarray, cylinder) -> dict:
     return {"search": search, **means, "steps": told}
 
 
+@np.errstate(all="ignore")
 def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str) -> dict:
     """What slips make of a descriptor."""
     before, after, near = poses[:-1], poses[1:], rewards > 0
@@ -279,13 +413,23 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
     last = int(np.flatnonzero(near)[-1]) if near.any() else many
     if name == "search":
         return {
-            "A robot that is never near searches through the whole episode: np.argmax gives 0.":
-            np.argmax(near),
+            "Without any reward, all steps belong to the search.": np.argmax(near),
             "The first step with a reward is part of the search here.": search + 1,
             "The last step of the search is left out.": search - 1,
-            "All steps without a reward are counted: the search ends at the first reward.":
+            "The search ends at the first reward: later steps without one do not belong to it.":
             np.sum(~near),
-            "The steps near the cylinder are counted.": np.sum(near),
+            "All steps count here, not those of the search.": many,
+            "These are the steps near the cylinder, not those of the search.": np.sum(near),
+            "Without any reward, the search has as many steps as the episode, not 500.":
+            search if near.any() else 500,
+            "Without any reward, the search has as many steps as the episode, not one more.":
+            search if near.any() else many + 1,
+            "Without any reward, the search has as many steps as the episode, not one less.":
+            search if near.any() else many - 1,
+            "The search is counted in steps of 0.1 s, not in seconds.": search / 10,
+            "The search begins anew whenever the cylinder is lost: it ends at the first reward.":
+            max(map(len, "".join(".x"[int(each)] for each in near).split("x"))),
+            "These are the steps from the first reward on.": many - search,
             "The search ends at the last step with a reward, not at the first one.": last,
             "The share of the search is given, not its number of steps.": search / many,
             "A search without end has -1 here, not all the steps.": search if near.any() else -1,
@@ -316,6 +460,30 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             dx * np.cos(theta) - dy * np.sin(theta),
             "This is how far the robot moves sideways.": dy * np.cos(theta) - dx * np.sin(theta),
             "The heading is left out: speed is along it.": dx + dy,
+            "The heading of each step is asked for, not that at the start.":
+            dx * np.cos(theta[0]) + dy * np.sin(theta[0]),
+            "The speed is per step of 0.1 s, not per second.": 10 * forward(theta),
+            "The speed is divided by 10: it is per step.": forward(theta) / 10,
+            "The way is divided by its own length: this is the cosine of its direction.":
+            forward(theta) / np.where(length > 0, length, 1),
+            "The heading is taken for degrees: np.cos takes radians.":
+            forward(np.radians(theta)),
+            "The heading is turned into degrees: np.cos takes radians.":
+            forward(np.degrees(theta)),
+            "Only the x part is there: the y part is to be added.": dx * np.cos(theta),
+            "Only the y part is there: the x part is to be added.": dy * np.sin(theta),
+            "The places are multiplied, not the ways between them.":
+            after[:, 0] * np.cos(theta) + after[:, 1] * np.sin(theta),
+            "The places are multiplied, not the ways between them: this is the beginning.":
+            before[:, 0] * np.cos(theta) + before[:, 1] * np.sin(theta),
+            "The way has the sign of the speed, but its own length: only the part along the "
+            "heading counts.": np.sign(forward(theta)) * length,
+            "The squares are added and the root is taken: this is not the way along the heading.":
+            np.hypot(dx * np.cos(theta), dy * np.sin(theta)),
+            "Ways backwards count as 0: they are negative.": np.maximum(forward(theta), 0),
+            "The way is that of the next step.": np.append(forward(theta)[1:], 0),
+            "The direction of the way is compared with the x axis, not with the heading.":
+            np.arctan2(dy, dx),
         },
         "turning": {
             "": turned,
@@ -328,6 +496,28 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             np.where(change < -np.pi, change + 2 * np.pi, change),
             "Only one direction is taken the short way around: it may leap by -2 pi or 2 pi.":
             np.where(change > np.pi, change - 2 * np.pi, change),
+            "The short way around is the smaller amount, but keeps its sign.":
+            np.minimum(np.abs(change), 2 * np.pi - np.abs(change)),
+            "The turning is the heading itself: take its change.": later,
+            "The turning is the heading at the beginning of the step: take its change.": theta,
+            "Half a turn is not taken off again: the short way is from -pi to pi.":
+            (change + np.pi) % (2 * np.pi),
+            "The turning lies between -2 pi and 0: a turn to the left becomes a long one to the "
+            "right.": -(-change % (2 * np.pi)),
+            "The turning is cut off at -pi and pi: a leap is a whole turn too much.":
+            change.clip(-np.pi, np.pi),
+            "A leap counts as 0: take the short way around.":
+            np.where(np.abs(change) > np.pi, 0, change),
+            "The remainder by pi is taken: a whole turn is 2 pi.": change % np.pi,
+            "The turning is the sine of the change.": np.sin(change),
+            "The turning is per step, not per second.": 10 * turned,
+            "The direction in which the robot moves is taken for its heading.":
+            np.angle(np.exp(1j * (np.arctan2(dy, dx) - theta))),
+            "np.fmod keeps the sign of what is divided: use % for the short way.":
+            np.fmod(change + np.pi, 2 * np.pi) - np.pi,
+            "The wrong half is taken: a change above pi loses pi, not 2 pi.":
+            change - np.pi * np.sign(change) * (np.abs(change) > np.pi),
+            "The long way around is taken.": turned - np.sign(turned) * 2 * np.pi,
             "The short way around is within half a turn, not a quarter.":
             (change + np.pi / 2) % np.pi - np.pi / 2,
         },
@@ -347,6 +537,31 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "The robot's radius is subtracted, but 72.5 mm count from its centre.":
             nearest - 27.5 < 72.5,
             "Walls count within 45 mm of the centre: it is 72.5 mm.": nearest < 45,
+            "Walls count within 100 mm of the centre: it is 72.5 mm.": nearest < 100,
+            "Walls count within 27.5 mm of the centre: it is 72.5 mm.": nearest < 27.5,
+            "The distance to the nearest corner counts here: it is that to a wall.":
+            np.hypot(*np.minimum(before[:, :2], 400 - before[:, :2]).T) < 72.5,
+            "The distance to the cylinder counts here: it is that to a wall.":
+            np.hypot(from_x, from_y) < 72.5,
+            "The distance to (0, 0) counts here: it is that to a wall.":
+            np.hypot(*before[:, :2].T) < 72.5,
+            "The distance to the arena's middle counts here: it is that to a wall.":
+            np.hypot(*(before[:, :2] - 200).T) > 127.5,
+            "Only the left wall is looked at.": walls[0] < 72.5,
+            "Only the lower wall is looked at.": walls[1] < 72.5,
+            "Only the right wall is looked at.": walls[2] < 72.5,
+            "Only the upper wall is looked at.": walls[3] < 72.5,
+            "Steps near a wall count once for each wall that is near.":
+            np.sum(walls < 72.5, axis=0),
+            "The upper wall is left out.": walls[:3].min(axis=0) < 72.5,
+            "The right wall is left out.": walls[[0, 1, 3]].min(axis=0) < 72.5,
+            "The lower wall is left out.": walls[[0, 2, 3]].min(axis=0) < 72.5,
+            "The left wall is left out.": walls[1:].min(axis=0) < 72.5,
+            "A step counts if it begins or ends near a wall: its beginning decides.":
+            np.minimum(nearest, np.minimum(after[:, :2], 400 - after[:, :2]).min(axis=1)) < 72.5,
+            "The arena is 400 mm wide: the far walls are elsewhere here.":
+            np.minimum(before[:, :2].min(axis=1), 500 - before[:, :2].max(axis=1)) < 72.5,
+            "The share is given in per cent.": 100 * (nearest < 72.5),
         },
         "pace": {
             "": length,
@@ -357,6 +572,18 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "The pace is that of the step before.": np.append(0, length[:-1]),
             "The pace is that of the step after.": np.append(length[1:], 0),
             "The change of the heading is counted in the pace.": np.sqrt(length**2 + change**2),
+            "The pace is per step of 0.1 s, not per second.": 10 * length,
+            "The pace is the way to the cylinder.": np.hypot(to_x, to_y),
+            "The pace is the change of the distance to the cylinder.":
+            np.hypot(from_x, from_y) - np.hypot(to_x, to_y),
+            "The pace is the amount of the change of the distance to the cylinder.":
+            np.abs(np.hypot(from_x, from_y) - np.hypot(to_x, to_y)),
+            "Only the way in x is counted.": np.abs(dx),
+            "Only the way in y is counted.": np.abs(dy),
+            "The pace is the larger one of the two ways.": np.maximum(np.abs(dx), np.abs(dy)),
+            "The pace is the turning, not the way.": np.abs(turned),
+            "The place itself is measured: take the way from pose to pose.":
+            np.hypot(*after[:, :2].T),
         },
         "side": {
             "": np.sin(bearing - later),
@@ -375,6 +602,31 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "The sine is not divided by the distance.":
             np.sin(bearing - later) * np.hypot(to_x, to_y),
             "Only the sign of the side is taken.": np.sign(np.sin(bearing - later)),
+            "The direction leads from the arena's middle to the cylinder, not from the robot.":
+            np.sin(np.arctan2(cylinder[1] - 200, cylinder[0] - 200) - later),
+            "The direction is that of the cylinder's coordinates: it leads from the robot to it.":
+            np.sin(np.arctan2(cylinder[1], cylinder[0]) - later),
+            "The direction leads from the start to the cylinder: take the robot's place.":
+            np.sin(np.arctan2(*(np.asarray(cylinder) - poses[0, :2])[::-1]) - later),
+            "The heading at the start is subtracted: take that after each step.":
+            np.sin(bearing - poses[0, 2]),
+            "The angle is turned into degrees: np.sin takes radians.":
+            np.sin(np.degrees(bearing - later)),
+            "The angle is taken for degrees: np.sin takes radians.":
+            np.sin(np.radians(bearing - later)),
+            "np.arctan(dy / dx) does not tell a cylinder ahead from one behind: use np.arctan2.":
+            np.sin(np.arctan(to_y / np.where(to_x == 0, 1e-9, to_x)) - later),
+            "The side has lost its sign: -1 means that the cylinder is to the right.":
+            np.abs(np.sin(bearing - later)),
+            "This is the tangent, not the sine.": np.tan(bearing - later),
+            "The short way around is the angle itself: take its sine.":
+            np.angle(np.exp(1j * (bearing - later))),
+            "The direction in which the robot moves is taken for its heading.":
+            np.sin(bearing - np.arctan2(dy, dx)),
+            "The sine of each is subtracted: take the sine of the difference.":
+            np.sin(bearing) - np.sin(later),
+            "x and y of the cylinder are exchanged.":
+            np.sin(np.arctan2(cylinder[0] - after[:, 1], cylinder[1] - after[:, 0]) - later),
         },
     }  # fmt: skip
     of_search = {
@@ -398,22 +650,52 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
         "The first step near the cylinder is left out.": near & (steps > search),
         "The steps are one too early.": np.append(near[1:], False),
         "The steps are one too late.": np.append(False, near[:-1]),
+        "Steps count from the first reward to the last: only those with a reward do.": (
+            steps >= search
+        )
+        & (steps <= last),
+        "The first step is left out.": near & (steps > 0),
+        "The last step with a reward is left out.": near & (steps < last),
     }
+    of_near["Without any reward no step is near: all count here."] = rewards == rewards.max()
 
     if name == "pace":
         spots = after[near, :2]
         hops = np.hypot(*np.diff(spots, axis=0).T) if len(spots) > 1 else np.zeros(1)
-        extra = {"These are the ways from one place with a reward to the next such place: take "
-                 "each step from its own beginning to its end.": hops.mean()}  # fmt: skip
+        many_near = max(int(near.sum()), 1)
+        extra = {
+            "These are the ways from one place with a reward to the next such place: take "
+            "each step from its own beginning to its end.": hops.mean(),
+            "The ways are added up with their directions, so they cancel out: take each length.":
+            np.hypot(dx[near].sum(), dy[near].sum()) / many_near,
+            "The root is taken of the mean of the squares: take the mean of the lengths.":
+            np.sqrt(np.sum(length[near] ** 2) / many_near),
+            "This is the straight way from the first place near the cylinder to the last one.":
+            np.hypot(*(spots[-1] - spots[0])) / many_near if len(spots) else 0.0,
+        }  # fmt: skip
     elif name == "speed":
         gone = np.hypot(*(poses[search, :2] - poses[0, :2]))
-        extra = {"This is the straight way of the whole search, divided by its steps: take each "
-                 "step.": gone / max(search, 1)}  # fmt: skip
+        part = steps < search
+        ahead = np.array([np.cos(theta[part]).mean(), np.sin(theta[part]).mean()]) if search else 0
+        extra = {
+            "This is the straight way of the whole search, divided by its steps: take each "
+            "step.": gone / max(search, 1),
+            "Mean ways and mean headings are multiplied: multiply in each step first.":
+            float(np.sum(ahead * np.array([dx[part].mean(), dy[part].mean()]))) if search else 0.0,
+        }  # fmt: skip
     elif name == "side":
         away = np.linalg.norm(np.stack([to_x, to_y]))
         cross = np.sin(bearing - later) * np.hypot(to_x, to_y) / away
         extra = {"All steps are divided by one length: each has a distance of its own (axis=1).":
                  cross[near].mean() if near.any() else 0.0}  # fmt: skip
+    elif name == "turning":
+        gone = poses[search, 2] - poses[0, 2]
+        extra = {
+            "The short way around is taken once, from the first heading to the last: take it in "
+            "each step.": ((gone + np.pi) % (2 * np.pi) - np.pi) / max(search, 1),
+            "The mean is taken first and the short way around then: take it in each step.":
+            (gone / max(search, 1) + np.pi) % (2 * np.pi) - np.pi,
+        }  # fmt: skip
     else:
         extra = {}
 
@@ -433,6 +715,11 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "This is the last value, not the mean.": lambda v: v[-1],
             "The sum is divided by one too few.": lambda v: v.sum() / max(len(v) - 1, 1),
             "The sum is divided by one too many.": lambda v: v.sum() / (len(v) + 1),
+            "This is the first value, not the mean.": lambda v: v[0],
+            "This is the largest value, not the mean.": np.max,
+            "This is the smallest value, not the mean.": np.min,
+            "This is the standard deviation, not the mean.": np.std,
+            "This is the largest minus the smallest value, not the mean.": np.ptp,
         },
     )  # fmt: skip
 
@@ -467,6 +754,7 @@ def scaled(answer, table: np.ndarray, row: int, column: int) -> str:
     return f"{said} Your code {' and '.join(wrong)} there." if wrong else said
 
 
+@np.errstate(all="ignore")
 def wrong_scales(table: np.ndarray) -> dict:
     """What slips make of a standardised table."""
     deviations = {
@@ -500,8 +788,34 @@ def wrong_scales(table: np.ndarray) -> dict:
             np.linalg.norm(table - table.mean(axis=0), axis=0),
             "The differences are divided by the mean, not by the standard deviation.":
             table.mean(axis=0),
+            "The differences are divided by the root of the standard deviation.":
+            np.sqrt(table.std(axis=0)),
+            "The differences are divided by the mean amount of the differences.":
+            np.abs(table - table.mean(axis=0)).mean(axis=0),
+            "The differences are divided by the sum of the column.": table.sum(axis=0),
+            "The differences are divided by the largest value of the column.": table.max(axis=0),
+            "The standard deviation is that of the amounts.": np.abs(table).std(axis=0),
+            "The differences are divided by the root of the mean square of the column, not of the "
+            "differences.": np.sqrt((table**2).mean(axis=0)),
         },
-    )  # fmt: skip
+    ) | {
+        "The mean is subtracted after the division: subtract it first.":
+        table / table.std(axis=0) - table.mean(axis=0),
+        "The differences are multiplied by the standard deviation: divide by it.":
+        (table - table.mean(axis=0)) * table.std(axis=0),
+        "The values are added to the mean: subtract it.":
+        (table + table.mean(axis=0)) / table.std(axis=0),
+        "The differences have lost their signs.":
+        np.abs(table - table.mean(axis=0)) / table.std(axis=0),
+        "The differences are turned around: subtract the mean from the value.":
+        (table.mean(axis=0) - table) / table.std(axis=0),
+        "The places in the order of the column are given, not the values.":
+        table.argsort(axis=0).argsort(axis=0),
+        "The standard deviation is that of the last column, for all.":
+        (table - table.mean(axis=0)) / table[:, -1].std(),
+        "The standard deviation is that of the first column, for all.":
+        (table - table.mean(axis=0)) / table[:, 0].std(),
+    }  # fmt: skip
 
 
 def grouped(table: np.ndarray, threshold: float, told: list | None = None) -> list[int]:
@@ -531,6 +845,20 @@ def numbered(labels: list) -> list[int]:
     return [names.index(label) for label in labels]
 
 
+OVER_PAIRS: dict[str, Callable] = {
+    "union": lambda apart, a, b: apart[np.ix_(a + b, a + b)].mean(),
+    "median": lambda apart, a, b: np.median(apart[np.ix_(a, b)]),
+    "sum of nearest": lambda apart, a, b: (
+        (apart[np.ix_(a, b)].min() + apart[np.ix_(a, b)].max()) / 2
+    ),
+    "root": lambda apart, a, b: np.sqrt((apart[np.ix_(a, b)] ** 2).mean()),
+    "last": lambda apart, a, b: apart[a[-1], b[-1]],
+    "first row": lambda apart, a, b: apart[np.ix_(a[:1], b)].mean(),
+    "one member": lambda apart, a, b: apart[np.ix_(a, b)].sum() / max(len(a), len(b)),
+}
+"""Other distances of two families, from the distances of their robots."""
+
+
 def joined(
     table: np.ndarray, threshold: float, rows: Callable, apart: Callable, link: Callable, rule: str
 ) -> list[int]:
@@ -540,7 +868,8 @@ def joined(
     is merged; "leader", "centre" and "once" are other ways to make families.
     """
     points = np.nan_to_num(rows(table), posinf=0, neginf=0)
-    distance = apart(points[:, None] - points)
+    base = apart(points[:, None] - points)
+    distance = base.copy()
     if rule == "leader":
         labels = []
         for robot in range(len(table)):
@@ -553,12 +882,20 @@ def joined(
         below = np.triu(distance <= threshold if rule == "equal" else distance < threshold)
         if not below.any():
             break
-        best = {"first": np.argmax(below), "lowest": np.argmax(below.T)}
+        best = {
+            "first": np.argmax(below),
+            "lowest": np.argmax(below.T),
+            "farthest": np.argmax(np.where(np.isfinite(distance), distance, -np.inf)),
+            "farthest below": np.argmax(np.where(below, distance, -np.inf)),
+        }
         i, j = sorted(np.unravel_index(best.get(rule, np.argmin(distance)), distance.shape))
         if rule == "centre":
             points = np.delete(points, j, 0)
             points[i] = rows(table)[groups[i] + groups[j]].mean(axis=0)
             distance = apart(points[:, None] - points)
+        elif rule in OVER_PAIRS:
+            parts = [*groups[:i], groups[i] + groups[j], *groups[i + 1 : j], *groups[j + 1 :]]
+            distance = np.array([[OVER_PAIRS[rule](base, a, b) for b in parts] for a in parts])
         else:
             distance[i] = link(distance[i], distance[j], sizes[i], sizes[j])
             distance[:, i] = distance[i]
@@ -619,9 +956,38 @@ def wrong_families(table: np.ndarray, threshold: float) -> dict:
         "The distance of two families is that of their means: take the mean distance of robots.":
         "centre",
         "Only one merger is made: merge again and again.": "once",
+        "The pairs inside a family are counted, too: take the mean over a robot of the one and a "
+        "robot of the other.": "union",
+        "The median over the pairs is taken, not the mean.": "median",
+        "The nearest and the farthest pair are averaged: take the mean over all pairs.":
+        "sum of nearest",
+        "The distances are squared before the mean is taken.": "root",
+        "A family is represented by its last robot: take the mean over all pairs.": "last",
+        "One of the two families is represented by its first robot: take the mean over all pairs.":
+        "first row",
+        "The sum over all pairs is divided by the robots of one family: divide by the number of "
+        "pairs.": "one member",
+        "The two families farthest apart are merged, not the two nearest.": "farthest",
+        "Of the families nearer than the threshold, the two farthest apart are merged, not the two "
+        "nearest.": "farthest below",
     }  # fmt: skip
     make = partial(joined, table, threshold)
-    return slips(make, most=1, rows=rows, apart=apart, link=link, rule=rule)
+    many = np.size(table, axis=1)
+    other = {
+        "The threshold is multiplied by the number of columns.": threshold * many,
+        "The threshold is divided by the number of columns.": threshold / many,
+        "The square of the distance is compared with the threshold.": np.sqrt(threshold),
+        "The distance is compared with the square of the threshold.": threshold**2,
+        "Twice the threshold is used.": 2 * threshold,
+        "Half of the threshold is used.": threshold / 2,
+    }
+    right = {name: part[""] for name, part in
+             {"rows": rows, "apart": apart, "link": link, "rule": rule}.items()}  # fmt: skip
+    at_other = {text: joined(table, value, **right) for text, value in other.items()}
+    found = slips(make, most=1, rows=rows, apart=apart, link=link, rule=rule) | at_other
+    found["All robots are in one family here."] = np.zeros(len(table))
+    found["Each robot is in a family of its own here."] = np.arange(len(table))
+    return found
 
 
 REMEMBERED = {
@@ -635,6 +1001,14 @@ def wrong_memories(first: np.ndarray, afters: np.ndarray, episode: int) -> dict:
     """Memories that may stand where another one belongs."""
     own, other = -(episode + 1) * afters, -(2 - episode) * afters
     return {
+        **(
+            {
+                "This is the memory at the beginning of the second episode: what `freeze` counts "
+                "goes on from one episode to the next, but `step` begins anew.": first
+            }
+            if episode
+            else {}
+        ),
         "This is the memory at the beginning of the episode.": first,
         "This memory is empty.": 0 * first,
         **{f"This is the memory after step {k}.": each for k, each in enumerate(own)},
@@ -644,6 +1018,18 @@ def wrong_memories(first: np.ndarray, afters: np.ndarray, episode: int) -> dict:
             for k, each in enumerate(other)
         },
         "Only the cells are empty, but the outputs are memory, too.": own[0] * [[0], [1]],
+        **{
+            f"The {what} are those of step {k}, the others are empty.": each * factors
+            for k, each in enumerate(own)
+            for what, factors in (("cells", [[1], [0]]), ("outputs", [[0], [1]]))
+        },
+        **{
+            f"The {what} are those of step {k}, the others those of step {k + 1}: the whole memory "
+            "is frozen.": np.stack([own[k + (what != "cells")][0], own[k + (what == "cells")][1]])
+            for k in range(len(own) - 1)
+            for what in ("cells", "outputs")
+        },
+        "This is a memory of ones: an empty memory is 0.": np.ones_like(first),
     }
 
 
@@ -659,7 +1045,38 @@ def wrong_reactions(brain: dict, seen: np.ndarray, memories: np.ndarray) -> dict
 
     many = len(memories)
     old = np.tanh(memories[:, 1] @ brain["readout"].T + brain["bias"])
-    return {"The actions are read from the given outputs: `think` is not called.": old} | slips(
+    found = [answer_of(brain, seen, memory) for memory in memories]
+    actions = np.array([action for action, _ in found])
+    made_memories = np.array([memory for _, memory in found])
+    others = {
+        "The actions are read from the given outputs: `think` is not called.": old,
+        "These are the new memories: the actions are asked for.": made_memories,
+        "These are the new cells: the actions are asked for.": made_memories[:, 0],
+        "These are the new outputs: the actions are asked for.": made_memories[:, 1],
+        "This is the action of the first wheel alone.": actions[:, 0],
+        "This is the action of the second wheel alone.": actions[:, 1],
+        "This is the action to the first memory alone.": actions[0],
+        "This is the action to the last memory alone.": actions[-1],
+        "This is the mean of the actions: the action to each memory is asked for.":
+        actions.mean(axis=0),
+        "All actions are in one row: each has a row of its own.": actions.ravel(),
+        "A row for each wheel is given: each action has a row of its own.": actions.T,
+        "The last memory is left out.": actions[:-1],
+        "The first memory is left out.": actions[1:],
+        "The action to the first memory is subtracted from all.": actions - actions[0],
+        "The mean of the actions is subtracted from all.": actions - actions.mean(axis=0),
+        "The action to an empty memory is subtracted from all.":
+        actions - answer_of(brain, seen, 0 * memories[0])[0],
+        "The action is put through tanh once more: `think` has done this.": np.tanh(actions),
+        "The two wheels are exchanged.": actions[:, ::-1],
+        "The actions are added up from memory to memory.": np.cumsum(actions, axis=0),
+        "The actions are rounded.": actions.round(),
+        "Only the signs of the actions are given.": np.sign(actions),
+        "Each action is a step of the network twice: call `think` once for each memory.": np.array(
+            [answer_of(brain, seen, memory)[0] for memory in made_memories]
+        ),
+    }  # fmt: skip
+    return others | slips(
         made,
         seen={"": seen, "The observation is left out: 0 stands in its place.": 0 * seen},
         memories={

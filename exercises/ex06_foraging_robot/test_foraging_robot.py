@@ -6,7 +6,8 @@ the pre-evolved robots of data/genotypes, and of robots that drive into a wall, 
 grading seed like starts, cylinders, seeds and ways to remember.
 """
 
-from functools import cache, partial
+from collections.abc import Callable
+from functools import cache, lru_cache, partial
 
 import numpy as np
 from slips import (
@@ -77,27 +78,142 @@ def remembered(way, step: int, before: np.ndarray, after: np.ndarray) -> np.ndar
         return 0.6 * after + 0.3 * before + 0.01 * np.sin(step)
     if way == "forget":
         return 0 * after
+    if isinstance(way, str) and way.startswith("forget "):
+        return after if step < int(way.split()[1]) else 0 * after
     return after if way == "keep" or step < way else before
 
 
-def lived(brain: dict, start, cylinder, seed: int, way, maxsteps: int) -> dict:
-    """An episode; way: keep, forget, mixed, or the step from which memory is frozen."""
-    arena = arenas.make("discrim", max_steps=maxsteps)
-    arena.reset(seed)
-    arena.robots[0], arena.objects[0, :2] = start, cylinder
-    arena.sense()
-    memory, rows = np.zeros((2, UNITS)), []
-    poses = [arena.robots[0].copy()]
+def lived(brain: dict, start, cylinder, seed: int, way, maxsteps: int, slip: str = "") -> dict:
+    """An episode; way: keep, forget, mixed, or the step from which memory is frozen.
+
+    slip: a key of SLIPS, for what a mistake makes of it.
+    """
+    arena = arenas.make("discrim", max_steps=500 if slip == "500" else maxsteps)
+    if slip == "reset last":
+        start, cylinder = None, None
+    arena.reset(seed + (slip == "seed + 1"))
+    if start is not None:
+        arena.robots[0] = start
+    if cylinder is not None and slip != "cylinder":
+        arena.objects[0, :2] = cylinder
+    if slip != "sense":
+        arena.sense()
+    memory, rows = np.ones((2, UNITS)) if slip == "ones" else np.zeros((2, UNITS)), []
+    poses, last = [arena.robots[0].copy()], np.zeros(2)
     while not arena.done:
         seen = arena.observation.copy()
-        arena.action, after = answer_of(brain, seen, memory)
+        given = {
+            "no memory": 0 * memory,
+            "no cells": memory * [[0], [1]],
+            "no outputs": memory * [[1], [0]],
+            "rows": memory[::-1],
+        }.get(slip, memory)
+        action, after = answer_of(brain, 0 * seen if slip == "blind" else seen, given)
+        if slip == "think again":
+            action, _ = answer_of(brain, seen, after)
+        if slip == "think twice":
+            action, after = answer_of(brain, seen, after)
+        arena.action = {
+            "late": last,
+            "half": action / 2,
+            "wheels": action[::-1],
+            "sign": np.sign(action),
+            "still": 0 * action,
+        }.get(slip, action)
+        last = action
         reward = arena.step()
-        rows.append((seen, memory, arena.action.copy(), reward))
+        if slip == "two steps" and not arena.done:
+            reward = arena.step()
+        if slip == "two rewards" and not arena.done:
+            reward += arena.step()
+        rows.append((seen, memory, action.copy(), reward))
         poses.append(arena.robots[0].copy())
-        memory = remembered(way, len(rows) - 1, memory, after)
+        step = {"from 1": len(rows), "step 0": 0, "backwards": maxsteps - len(rows)}.get(
+            slip, len(rows) - 1
+        )
+        one, other = {
+            "exchanged": (after, memory),
+            "after twice": (after, after),
+            "before twice": (memory, memory),
+        }.get(slip, (memory, after))
+        memory = after if slip == "not asked" else remembered(way, step, one, other)
+        if (slip == "found" and reward > 0) or (slip == "lost" and reward == 0 and len(rows) > 1):
+            break
     seen, memories, actions, rewards = map(np.array, zip(*rows, strict=True))
     return {"poses": np.array(poses), "observations": seen, "memories": memories,
             "actions": actions, "rewards": rewards}  # fmt: skip
+
+
+SLIPS = {
+    "no memory": "`think` is given an empty memory in each step, not what is remembered.",
+    "no cells": "`think` is given memories without cells.",
+    "no outputs": "`think` is given memories without outputs.",
+    "rows": "The two rows of the memory are exchanged before `think` gets it.",
+    "blind": "`think` is given zeros instead of the observation.",
+    "think again": "The action comes from a second call of `think`, with the new memory.",
+    "think twice": "`think` is called twice in each step, each time with the memory before it.",
+    "late": "The wheels do in each step what the network answered in the step before: set "
+    "arena.action before arena.step().",
+    "half": "The wheels get half of the action.",
+    "wheels": "The two wheels are exchanged when the action is set.",
+    "sign": "The wheels get only the sign of the action.",
+    "still": "The wheels get no action: set arena.action before each step.",
+    "two steps": "Two steps of the arena are made in each pass: arena.step() is called twice.",
+    "two rewards": "Two steps of the arena are made in each pass, and their rewards added.",
+    "from 1": "`remember` is told that the first step is number 1: count from 0.",
+    "step 0": "`remember` is told that each step is number 0.",
+    "backwards": "`remember` is told how many steps are left, not the number of the step.",
+    "exchanged": "`remember` gets the memory after the step first: before comes before after.",
+    "after twice": "`remember` gets the memory after the step twice: it needs the one before, too.",
+    "before twice": "`remember` gets the memory before the step twice, but needs that after it.",
+    "not asked": "What `remember` returns is not used.",
+    "found": "The episode ends with the first reward: it goes on.",
+    "lost": "The episode ends with a step without a reward: it goes on.",
+    "500": "The episode lasts up to 500 steps, whatever maxsteps is.",
+    "seed + 1": "The seed is one more than the one that is given.",
+    "ones": "The memory begins with ones, not with zeros.",
+    "cylinder": "The cylinder stays where the seed has put it.",
+    "reset last": "Robot and cylinder are where the seed has put them: reset, then place them.",
+    "sense": "The first observation is not renewed after robot and cylinder are placed.",
+}
+"""What mistakes make of an episode: slip of `lived` -> sentence."""
+
+
+def wrong_recordings(brain: dict, *case) -> dict[str, dict]:
+    """The episodes that mistakes make."""
+    return {text: lived(brain, *case, slip=slip) for slip, text in SLIPS.items()}
+
+
+def wrong_parts(made: Callable, right: dict, name: str, many: int | None) -> dict:
+    """What mistakes make of a part of a recording, up to a number of steps."""
+    found = {text: episode[name] for text, episode in made().items()}
+    memories, last = right["memories"], len(right["rewards"])
+    more = {
+        "poses": {
+            "The pose before each step is kept, but not the last one.": right["poses"][:-1],
+            "The place is kept, but not the heading.": right["poses"][:, :2],
+        },
+        "memories": {
+            "The cells are kept, but not the outputs.": memories[:, 0],
+            "The memory before the step is kept twice at the beginning.": np.concatenate(
+                [memories[:1], memories[:-1]]
+            ),
+        },
+        "actions": {
+            "The action of the step before is kept.": np.concatenate(
+                [np.zeros((1, 2)), right["actions"][:-1]]
+            ),
+        },
+        "rewards": {
+            "The rewards are added up so far.": np.cumsum(right["rewards"]),
+            "The rewards are added up: each step has its own.": right["rewards"].sum(),
+            "The mean reward so far is kept.": np.cumsum(right["rewards"]) / np.arange(1, last + 1),
+            "These are the rewards of the steps before.": np.append(0, right["rewards"][:-1]),
+            "A first reward of 0 stands in front.": np.append(0, right["rewards"]),
+        },
+    }.get(name, {})
+    return {text: values[:many] if np.ndim(values) else values
+            for text, values in (found | more).items()}  # fmt: skip
 
 
 def place(rng: np.random.Generator) -> tuple:
@@ -151,6 +267,15 @@ def one_step(student: Student):
         expect(
             isinstance(answer, (list, tuple)) and len(answer) == 2,
             f"{said} must return two things: the action, and the new memory.",
+        )
+        shapes = [np.shape(each) if isinstance(each, np.ndarray) else () for each in answer]
+        expect(
+            shapes != [(2, UNITS), (2,)],
+            f"{said} returned the new memory first: the action comes first, then the new memory.",
+        )
+        expect(
+            shapes[1] != (UNITS,),
+            f"{said} returned one row as the new memory: it has two, the cells and the outputs.",
         )
         action, after = answer_of(brain, observation, kept)
         new = expect_array(f"{said}: new memory", answer[1], (2, UNITS))
@@ -225,6 +350,7 @@ def compare(student: Student, genotype: np.ndarray, where: tuple, seed: int, way
     brain = weights(genotype)
     answer = student.run(recorded, brain, start, cylinder, seed, way, maxsteps, said=said)
     expected = lived(brain, start, cylinder, seed, way, maxsteps)
+    wrong = cache(partial(wrong_recordings, brain, start, cylinder, seed, way, maxsteps))
     apart = []
     for name, value in zip(CAUSES, expect_fields(said, answer, *CAUSES), strict=True):
         wanted = expected[name]
@@ -235,14 +361,16 @@ def compare(student: Student, genotype: np.ndarray, where: tuple, seed: int, way
         what = CAUSES[name].format(t=step)
         if step < (many := min(len(got), len(expected[name]))):
             what = f" (all that comes before is right; this is {what})"
-            expect_close(f"{said}: {name}{what}", got[:many], expected[name][:many], 1e-3)
+            made = partial(wrong_parts, wrong, expected, name, many)
+            expect_close(f"{said}: {name}{what}", got[:many], expected[name][:many], 1e-3, made)
         steps = len(expected["rewards"])
         ends = "with maxsteps" if steps == maxsteps else "with a collision"
         what = f" (right as far as it goes; the episode ends {ends}, after {steps} steps"
         if (own := len(answer["rewards"])) not in (steps, maxsteps):
             what += f"; yours has {own}, though neither maxsteps nor a collision ends it there"
         what += ")"
-        expect_close(f"{said}: {name}{what}", got, expected[name], 1e-3)
+        made = partial(wrong_parts, wrong, expected, name, None)
+        expect_close(f"{said}: {name}{what}", got, expected[name], 1e-3, made)
 
 
 @recording.check(7)
@@ -342,12 +470,22 @@ def compare_described(student: Student, walk: tuple, names: tuple) -> None:
         expect_close(said + name, value, expected[name], 1e-4, made, lambda why=why: why)
 
 
-@behaviour.check(10)
+SEARCHES = ((6, 3, 6), (4, 0, 0), (30, 20, 28), (60, 41, 60), (40, 0, 0))
+"""Steps of a walk, the first one near the cylinder, and the last."""
+
+
+@behaviour.check(3)
+def length_of_the_search(student: Student):
+    rng = rng_of(10)
+    for case in SEARCHES:
+        compare_described(student, wandering(rng, *case), ("search",))
+
+
+@behaviour.check(7)
 def of_the_search(student: Student):
     rng = rng_of(10)
-    for steps, first, last in ((6, 3, 6), (4, 0, 0), (30, 20, 28), (60, 41, 60), (40, 0, 0)):
-        walk = wandering(rng, steps, first, last)
-        compare_described(student, walk, ("search", "speed", "turning", "wall"))
+    for case in SEARCHES:
+        compare_described(student, wandering(rng, *case), ("speed", "turning", "wall"))
 
 
 @behaviour.check(7)
@@ -403,6 +541,14 @@ def compare_grouped(student: Student, table: np.ndarray, threshold: float, which
     answer = student.call("families", table, threshold)
     expected = grouped(table, threshold)
     said = f"families(<{len(table)} robots>, threshold={threshold:.3g}{which})"
+    if isinstance(answer, (list, tuple)) and any(
+        isinstance(each, (list, tuple)) for each in answer
+    ):
+        expect(
+            False,
+            f"{said} returned lists of robots: the number of the family of each robot is asked "
+            "for, in the order of the robots.",
+        )
     many = np.size(answer) if isinstance(answer, (list, tuple, np.ndarray)) else len(table)
     expect(
         many == len(table),
@@ -497,41 +643,106 @@ def ways_to_remember(student: Student):
                 expect_close(said, got, wanted, 1e-6, made, lambda *_, way=way: REMEMBERED[way[:6]])
 
 
+@lru_cache
+def trial(many: int, drawn: int, which: int) -> tuple:
+    """A brain, starts, a cylinder and a seed; drawn: the seed of all of them."""
+    rng = np.random.default_rng(drawn)
+    brain = weights(evolved(rng, which))
+    cylinder = rng.uniform((180, 170), (220, 190)).round()
+    places = [(x, 282, 4.2 + rng.uniform(0, 1)) for x in (175, 200, 225)[:many]]
+    return brain, np.array(places).round(2), cylinder, int(rng.integers(100_000))
+
+
+@lru_cache(maxsize=4096)
+def outcome(case: tuple, place: int, seed: int, way, maxsteps: int) -> tuple[float, int]:
+    """The return and the steps of an episode."""
+    brain, places, cylinder, _ = trial(*case)
+    rewards = lived(brain, places[place], cylinder, seed, way, maxsteps)["rewards"]
+    return float(rewards.sum()), len(rewards)
+
+
+def returns_of(case: tuple, way, maxsteps: int, seeds=None) -> list[float]:
+    """The return of each episode; seeds: others than seed + i."""
+    seed, many = trial(*case)[-1], case[0]
+    seeds = range(seed, seed + many) if seeds is None else seeds
+    return [outcome(case, i, other, way, maxsteps)[0] for i, other in enumerate(seeds)]
+
+
+def wrong_means(case: tuple, ways: dict, name: str, maxsteps: int) -> dict:
+    """What slips make of a mean of returns."""
+    many, seed, way, since = case[0], trial(*case)[-1], ways[name], ways["freeze"]
+    each = returns_of(case, way, maxsteps)
+    all_ways = {key: returns_of(case, other, maxsteps) for key, other in ways.items()}
+    steps = [outcome(case, i, seed + i, way, maxsteps)[1] for i in range(many)]
+    other_seeds = {
+        "All episodes have the same seed.": [seed] * many,
+        "The first episode has the seed `seed`: counting begins at 1 here.":
+        range(seed + 1, seed + 1 + many),
+        "The seed of an episode is its place: `seed` is left out.": range(many),
+        "The seeds are in the opposite order.": range(seed + many - 1, seed - 1, -1),
+        "The seeds go on from one kind of memory to the next: all three have the same.":
+        range(seed + many * list(ways).index(name), seed + many * (1 + list(ways).index(name))),
+    }  # fmt: skip
+    found = {
+        "The returns are added up.": np.sum(each),
+        "Only the first start counts.": each[0],
+        "Only the last start counts.": each[-1],
+        "The best return is taken.": np.max(each),
+        "The worst return is taken.": np.min(each),
+        "The median of the returns is taken.": np.median(each),
+        "These are the steps of the episodes, not their returns.": np.mean(steps),
+        "This is the mean reward of a step, not the return.": np.mean(np.divide(each, steps)),
+        "This is the reward of all steps divided by all steps, not the return.":
+        np.sum(each) / np.sum(steps),
+        "This is the share of maxsteps, not the return.": np.mean(each) / maxsteps,
+        "The mean is divided by that of keep.":
+        np.mean(each) / max(np.mean(all_ways["keep"]), 1e-9),
+        "The mean is subtracted from that of keep.": np.mean(all_ways["keep"]) - np.mean(each),
+        "That of keep is subtracted from the mean.": np.mean(each) - np.mean(all_ways["keep"]),
+        "The sum is divided by one more than the starts.": np.sum(each) / (many + 1),
+        "The returns of all starts are given, but their mean is asked for.": np.array(each),
+        "This is the standard deviation of the returns, not the mean.": np.std(each),
+    } | {
+        text: np.mean(returns_of(case, way, maxsteps, seeds)) for text, seeds in other_seeds.items()
+    } | {
+        f"This is the mean with {key}, not that with {name}.": np.mean(values)
+        for key, values in all_ways.items() if key != name
+    } | {
+        "The last start is left out.": np.mean(each[:-1] or [0.0]),
+        "The first start is left out.": np.mean(each[1:] or [0.0]),
+    }  # fmt: skip
+    if many == 1:
+        found["maxsteps is not handed on: the episodes last up to 500 steps."] = np.mean(
+            returns_of(case, way, 500)
+        )
+    if name == "freeze":
+        others = {0: "0", since + 1: "`since` + 1", since - 1: "`since` - 1", 100: "100"}
+        found |= {
+            f"The memory is frozen from step {text} on, not from `since` on.":
+            np.mean(returns_of(case, other, maxsteps)) for other, text in others.items()
+        }  # fmt: skip
+    if name == "forget":
+        later = [outcome(case, i, seed + i, f"forget {since}", maxsteps)[0] for i in range(many)]
+        found[
+            "The memory is emptied from step `since` on only: `forget` empties it in each step."
+        ] = np.mean(later)
+    return found
+
+
 @without.check(9)
 def what_memory_is_worth(student: Student):
     for index, since, maxsteps, many in ((21, 30, 80, 1), (17, 40, 130, 3), (18, 25, 90, 3)):
-        rng = rng_of(index)
-        brain = weights(evolved(rng, index % 3))
-        cylinder = rng.uniform((180, 170), (220, 190)).round()
-        places = [(x, 282, 4.2 + rng.uniform(0, 1)) for x in (175, 200, 225)[:many]]
-        places = np.array(places).round(2)
-        seed = int(rng.integers(100_000))
+        case = many, exercise.seed(index), index % 3
+        brain, places, cylinder, seed = trial(*case)
         answer = student.call("memory_test", brain, places, cylinder, seed, since, maxsteps)
         ways = {"keep": "keep", "forget": "forget", "freeze": since}
         for name, value in zip(ways, expect_fields(student.said, answer, *ways), strict=True):
-            rewards = [
-                [
-                    lived(brain, start, cylinder, other, ways[name], maxsteps)["rewards"]
-                    for start, other in zip(places, seeds, strict=True)
-                ]
-                for seeds in (range(seed, seed + many), [seed] * many)
-            ]
-            each = [[float(episode.sum()) for episode in part] for part in rewards]
-            lengths = [[len(episode) for episode in part] for part in rewards]
-            why = f"The returns of these episodes are {each[0]}: take the mean."
-            mistakes = {
-                "All episodes have the same seed.": np.mean(each[1]),
-                "The returns are added up.": np.sum(each[0]),
-                "Only the first start counts.": each[0][0],
-                "Only the last start counts.": each[0][-1],
-                "The best return is taken.": np.max(each[0]),
-                "The worst return is taken.": np.min(each[0]),
-                "The median of the returns is taken.": np.median(each[0]),
-                "These are the steps of the episodes, not their returns.": np.mean(lengths[0]),
-            }
+            each = returns_of(case, ways[name], maxsteps)
+            why = f"The returns of these episodes are {each}: take the mean."
+            mistakes = partial(wrong_means, case, ways, name, maxsteps)
             said = f"memory_test(brain, {many} starts, {cylinder.tolist()}, {seed}, since={since}, "
             said += f"maxsteps={maxsteps}): {name}"
-            expect_close(said, value, np.mean(each[0]), 1e-9, mistakes, lambda why=why: why)
+            expect_close(said, value, np.mean(each), 1e-9, mistakes, lambda why=why: why)
 
 
 # ------------------------------------------------------------------- 6.7
