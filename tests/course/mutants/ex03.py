@@ -650,3 +650,17 @@ def initial_population(popsize, nbiases, nweights, seed):
 def next_population(population, fitness, mutrate, rng):
     good = population[fitness >= np.median(fitness)]
     return np.vstack([good, good + mutrate * rng.standard_normal(good.shape)])
+
+
+# %% squared_rate loses 3.3
+# Squares the mutation rate.
+# says: mutrate is squared
+# -     following[worst] = population[best] + mutrate * noise
+# +     following[worst] = population[best] + mutrate**2 * noise
+
+
+# %% a_single_run_divides_by_zero loses 3.6
+# Divides by zero if there is a single replication.
+# says: 0 for a single replication
+# -         "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
+# +         "deviation": histories.std(axis=0, ddof=1) if many else np.full(histories.shape[1], np.nan),
