@@ -133,12 +133,15 @@ def look_for_causes(failures: list[Failure], student: Student) -> None:
             enough = any(each.certain for each in own) or len({c.request for c in own}) >= INPUTS
             if common and enough:
                 failure.cause, failure.named = common, True
-            elif case.cause in case.named and 2 * sum(case.cause in c.named for c in own) < len(
-                own
-            ):
+            elif case.cause and 2 * sum(_explained(case.cause, c) for c in own) < len(own):
                 continue  # it explains a few of the check's wrong answers by chance
             elif case.certain or len(calls[_DIGITS.sub("", case.cause)]) >= INPUTS:
                 failure.cause, failure.named = case.cause, case.cause in case.named
+
+
+def _explained(cause: str, case: Case) -> bool:
+    """Return whether a sentence explains a case, whatever numbers it has there."""
+    return cause in case.named or _DIGITS.sub("", cause) == _DIGITS.sub("", case.cause)
 
 
 def _common(own: list[Case], cases: list[Case]) -> str:
