@@ -203,8 +203,9 @@ class Expressions:
         for keyword in part.keywords:
             rest = [each for each in part.keywords if each is not keyword]
             yield f"`{keyword.arg}=` is left out in `{name}`.", ast.Call(part.func, part.args, rest)
-            if keyword.arg in ("axis", "dim") and isinstance(keyword.value, ast.Constant):
-                place = ast.Constant(int(keyword.value.value == 0))
+            along = ast.unparse(keyword.value)
+            if keyword.arg in ("axis", "dim") and along in ("-1", "0", "1"):
+                place = ast.Constant(int(along == "0"))
                 other = [*rest, ast.keyword(keyword.arg, place)]
                 yield (
                     f"`{name}` is taken along the other axis.",
