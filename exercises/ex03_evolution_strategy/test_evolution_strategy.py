@@ -96,6 +96,7 @@ def drawn_again(module, *arguments):
 def weights_are_gaussian(student: Student):
     weights = student.call("initial_population", 100, 0, 200, seed=exercise.seed(2))
     weights = expect_array(student.said, weights, (100, 200))
+    expect(bool(np.any(weights)), f"{student.said}: all weights are 0.")
     expect(
         bool(weights.min() < 0 < weights.max()),
         f"{student.said}: all weights have the same sign, but half of Gaussian numbers with mean 0 "
@@ -329,6 +330,7 @@ def noises(mutrate: float) -> dict[float, str]:
 def noise_is_gaussian(student: Student):
     for mutrate in (0.02, 0.3, 1.5):
         step = Step(student, 200, mutrate, 8, max(1, 20 * mutrate))
+        expect_overwritten(step)
         noise = step.noise(step.after) / mutrate
         none = float(np.mean(noise[:, ZEROS:] == 0))
         expect(

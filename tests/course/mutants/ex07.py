@@ -507,3 +507,31 @@ def three_stages(seed):
 # -         env.unwrapped.state = np.array([angle, velocity])
 # +         env.reset(seed=0)
 # +         env.state = np.array([angle, velocity])
+
+
+# %% tells_minus_the_fitness loses 7.5
+# Tells the algorithm minus the fitness, as if it were a loss.
+# says: told minus the fitness
+# -         algorithm.tell(fitness)
+# +         algorithm.tell(-fitness)
+
+
+# %% generations_from_one loses 7.5
+# Counts the generations from 1 when it decides which to keep.
+# says: counted from 1
+# -         if generation % every == 0 or generation == generations - 1:
+# +         if (generation + 1) % every == 0 or generation == generations - 1:
+
+
+# %% angles_without_end loses 7.4
+# The angles leave out their upper end.
+# says: The angles leave out
+# -     angles = np.linspace(-np.pi, np.pi, nangles)
+# +     angles = np.linspace(-np.pi, np.pi, nangles, endpoint=False)
+
+
+# %% stages_in_reverse loses 7.6
+# Returns the last stage first.
+# says: order of the evolution
+# -     return parameters[[0, middle, best]]
+# +     return parameters[[best, middle, 0]]
