@@ -9,7 +9,7 @@ from botschool.grading.declare import diagnosis
 from botschool.grading.declare.checks import Mismatch, Wrong, expect_close
 from botschool.grading.declare.diagnosis import DETECTORS, diagnose
 from botschool.grading.declare.diagnosis.comparison import Comparison
-from botschool.grading.declare.slips import slips
+from botschool.grading.declare.slips import slips, spoiled
 from botschool.grading.run.student import Student
 from tiny_course import submit
 
@@ -375,3 +375,15 @@ def test_a_wrong_number_comes_with_what_the_task_says_about_it():
             np.zeros((2, 2)),
             why=lambda i, j: f"Row {i}, column {j} counts.",
         )
+
+
+def test_a_spoiled_answer_comes_between_one_slip_and_two():
+    table = {"Left out.": np.ones(3), "Left out. Doubled.": np.zeros(3)}
+    changed = {"The argument is reversed.": np.full(3, 7.0)}
+    found = spoiled(table, np.array([1.0, 2.0, 4.0]), changed)
+    texts = list(found)
+    assert texts[:2] == ["Left out.", "The argument is reversed."]
+    assert texts[-1] == "Left out. Doubled."
+    assert found["The answer stands in the opposite order."].tolist() == [4, 2, 1]
+    assert "The answer stands in the opposite order." not in spoiled({}, 3.0)
+    assert spoiled({}, 3.14159)["The answer is rounded to 2 places."] == 3.14

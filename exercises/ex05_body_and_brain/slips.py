@@ -342,6 +342,8 @@ def wrong_corners(p: np.ndarray) -> dict:
     placed = np.stack([begin + x * long + y * thick * 1j for x, y in RECTANGLE], axis=1)
     turned = placed * heading[:, None]
     orders = {
+        "y points downwards here, but belongs upwards.": own * [1, -1],
+        "x points to the left here, but belongs to the right.": own * [-1, 1],
         "The segments are turned around (0, 0) after they are moved: turn each around its own "
         "beginning, then move it.": np.stack([turned.real, turned.imag], axis=2),
         "Four lists of 11 corners are reshaped, which mixes them up: stack them with axis=1.":
@@ -362,6 +364,8 @@ def wrong_corners(p: np.ndarray) -> dict:
             "A heading is cut off, but may go beyond pi.": np.cumsum(bends).clip(-np.pi, np.pi),
             "The heading of a segment has the angles of two segments only: sum up all.":
             bends + np.append(0, bends[:-1]),
+            "Half of a segment's own angle is left out of its heading.":
+            np.cumsum(bends) - bends / 2,
             "The angles are summed up twice.": np.cumsum(np.cumsum(bends)),
             "The headings are converted: np.cos takes radians.": np.radians(np.cumsum(bends)),
             "The headings are in degrees here: np.cos takes radians.":
@@ -722,6 +726,52 @@ def measured(got: np.ndarray, p: np.ndarray, *place: int) -> str:
     return ""
 
 
+def changed(own: Callable, p: np.ndarray) -> dict:
+    """What comes of changed parameters; own: the right function of the parameters."""
+
+    def without(*places: int) -> np.ndarray:
+        return np.where(np.isin(np.arange(BODY), places), 0, p)
+
+    groups = [p[0:22:2], p[1:22:2], p[22:42:2], p[23:42:2], p[42:53], p[53:]]
+    turned = p.copy()
+    turned[0:22:2], turned[1:22:2], turned[22:42:2], turned[23:42:2], turned[42:53], turned[53:] = (
+        group[::-1] for group in groups
+    )
+    first = np.zeros(BODY)
+    first[:22], first[42:] = p[:22], p[42:]
+    other = {
+        "The parameters have lost their signs.": np.abs(p),
+        "The parameters have the opposite signs.": -p,
+        "All parameters are cut off at -1 and 1 first.": cut(p),
+        "All parameters are put through tanh first.": np.tanh(p),
+        "The parameters are rounded first.": p.round(),
+        "The parameters are cut to whole numbers first.": np.trunc(p),
+        "All parameters are all read in the opposite order.": p[::-1],
+        "The torso has parameters like all others: it has those of p = 0 here.": without(
+            0, 1, 42, 53
+        ),
+        "The last segment has parameters like all others: it has those of p = 0 here.": without(
+            20, 21, 52, 63
+        ),
+        "The first joint has parameters like all others: it has those of p = 0 here.": without(
+            22, 23
+        ),
+        "The last joint has parameters like all others: it has those of p = 0 here.": without(
+            40, 41
+        ),
+        "The segments stand in the opposite order.": turned,
+        "All parameters are read one place too late.": np.roll(p, -1),
+        "All parameters are read one place too early.": np.roll(p, 1),
+        "The parameters are divided by their largest amount first.": p / np.abs(p).max(),
+        "The mean of the parameters is subtracted first.": p - p.mean(),
+        "The densities are left out: all have that of p = 0.": without(*range(53, 64)),
+        "The default angles are left out: all are 0.": without(*range(42, 53)),
+        "The lengths are left out: all are 0.8.": without(*range(0, 22, 2)),
+        "The thicknesses are left out: all are 0.2.": without(*range(1, 22, 2)),
+    }
+    return {text: own(parameters) for text, parameters in other.items()}
+
+
 def wrong_parts(brain: np.ndarray, body: np.ndarray, part: slice) -> dict[str, np.ndarray]:
     """What slips make of a part of a transplanted genotype; all have the length of the part."""
     one, other, end = brain[part], body[part], len(brain) - 70
@@ -764,6 +814,11 @@ def wrong_parts(brain: np.ndarray, body: np.ndarray, part: slice) -> dict[str, n
         "The network is that of the body's genotype: brain and body are exchanged.": other,
         "The networks of both genotypes are averaged.": (one + other) / 2,
         "The networks of both genotypes are added.": one + other,
+        **{
+            f"The last {k} numbers of the network come from the body's genotype: the place of the "
+            f"body is too far ahead.": np.append(one[:-k], other[-k:])
+            for k in (1, 2, 3, 4, 5, 6, 10, 35, 64, 70)
+        },
         "The network is all 0.": 0 * one,
     }
 
@@ -780,6 +835,9 @@ def wrong_transplants(brain: np.ndarray, body: np.ndarray) -> dict[str, np.ndarr
         np.append(brain, foreign),
         "The foreign body stands in front of the brain's whole genotype.":
         np.append(foreign, brain),
+        "Two genotypes are returned, but one is asked for.": np.array(
+            [np.concatenate([network, foreign, norm]),
+             np.concatenate([body[:-134], own, body[-70:]])]),
         "This is the body alone.": foreign,
         "This is the brain without any body.": np.append(network, norm),
         "The two whole genotypes stand one after another.": np.append(brain, body),
@@ -874,6 +932,12 @@ def wrong_matrices(
         "The seed that is given is not used: this is what the seed 1 gives.":
         lambda i, j: 1 - seed,
         "The seed is one more than the one that is given.": lambda i, j: 1,
+        "The seed grows by the number of episodes from row to row: all pairs have the same.":
+        lambda i, j: i * episodes,
+        "The seed grows by the number of episodes from pair to pair: all have the same.":
+        lambda i, j: (n * i + j) * episodes,
+        "The seed grows by the number of episodes from column to column: all have the same.":
+        lambda i, j: j * episodes,
     }  # fmt: skip
     anew = {}
     if n == 2:
@@ -1054,6 +1118,51 @@ def wrong_losses(matrix: np.ndarray, key: str) -> dict:
         "The loss is added up over the others: take their mean.":
         ((n - 1) * own - rest.sum(axis=1)),
     }  # fmt: skip
+
+
+def changed_losses(matrix: np.ndarray, key: str) -> dict:
+    """What comes of a changed matrix."""
+    n, own = len(matrix), np.diagonal(matrix)
+    no_last, no_first = np.arange(n) < n - 1, np.arange(n) > 0
+    off = ~np.eye(n, dtype=bool)
+    with np.errstate(all="ignore"):
+        other = {
+            "The matrix is divided by its largest value first.": matrix / matrix.max(),
+            "The matrix is divided by its largest amount first.": matrix / np.abs(matrix).max(),
+            "The matrix is divided by the own returns of the rows first.": matrix / own[:, None],
+            "The matrix is divided by the own returns of the columns first.": matrix / own,
+            "The mean of the matrix is subtracted first.": matrix - matrix.mean(),
+            "The returns have lost their signs.": np.abs(matrix),
+            "The returns are rounded first.": matrix.round(),
+            "Returns below 0 count as 0.": np.maximum(matrix, 0),
+            "Each row is sorted first, but its places belong to bodies.": np.sort(matrix, axis=1),
+            "Each column is sorted first.": np.sort(matrix, axis=0),
+            "The rows are turned around.": matrix[:, ::-1],
+            "Rows and columns are exchanged.": matrix.T,
+        }
+        if n > 2:
+            other["The last walker is left out."] = matrix[:-1, :-1]
+            other["The first walker is left out."] = matrix[1:, 1:]
+        if n > 3:
+            other["Only the first three walkers count: there are n."] = matrix[:3, :3]
+        found = {text: own_loss(each, key) for text, each in other.items()}
+        if key == "foreign":
+            found |= {
+                "There are n (n - 1) foreign places, not always 6.": matrix[off].sum() / 6,
+                "The last row is left out.": matrix[off & no_last[:, None]].mean(),
+                "The first row is left out.": matrix[off & no_first[:, None]].mean(),
+                "The last column is left out.": matrix[off & no_last].mean(),
+                "The first column is left out.": matrix[off & no_first].mean(),
+            }
+        if key in ("brains", "bodies"):
+            table = matrix if key == "brains" else matrix.T
+            rest = table[off].reshape(n, n - 1)
+            found |= {
+                "There are n - 1 others, not always 2.": own - rest.sum(axis=1) / 2,
+                "The loss of all together is given for each: own minus foreign.":
+                0 * own + own.mean() - rest.mean(),
+            }  # fmt: skip
+    return found
 
 
 def reason(matrix: np.ndarray, key: str, *place: int) -> str:

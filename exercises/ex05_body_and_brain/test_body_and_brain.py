@@ -8,7 +8,7 @@ ones of data/genotypes and variations of them that nobody knows before.
 
 import secrets
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import lru_cache, partial
 from pathlib import Path
 
@@ -16,6 +16,8 @@ import numpy as np
 from slips import (
     MISTAKES,
     angles,
+    changed,
+    changed_losses,
     corners,
     lengths,
     limits,
@@ -44,6 +46,7 @@ from botschool.grading import (
     expect_array,
     expect_close,
     expect_fields,
+    spoiled,
 )
 
 exercise = Exercise(
@@ -109,6 +112,10 @@ def asked(student: Student, name: str, questions: np.ndarray) -> Iterator:
         yield from given
 
 
+def all_mistakes(key: str, own: Callable, p: np.ndarray) -> dict:
+    return spoiled(MISTAKES[key](p), own(p), changed(own, p))
+
+
 def expect_decoded(student: Student, name: str, index: int, wanted: dict) -> None:
     """wanted: key -> the grader's function of the parameters."""
     questions = bodies(index)
@@ -116,7 +123,7 @@ def expect_decoded(student: Student, name: str, index: int, wanted: dict) -> Non
         said = said_of(name, p)
         values = expect_fields(said, answer, *wanted)
         for (key, own), value in zip(wanted.items(), values, strict=True):
-            mistakes = partial(MISTAKES[key], p)
+            mistakes = partial(all_mistakes, key, own, p)
             why = partial(origin_of, p, key)
             expect_close(f"{said}: {key}", value, own(p), TOLERANCE, mistakes, why)
 
@@ -177,6 +184,10 @@ AXES = {
 """What is wrong with some shapes of an outline."""
 
 
+def spoiled_corners(p: np.ndarray) -> dict:
+    return spoiled(wrong_corners(p), corners(p), changed(corners, p))
+
+
 def expect_outline(student: Student, questions: np.ndarray) -> None:
     for p, answer in zip(questions, asked(student, "outline", questions), strict=True):
         said = said_of("outline", p)
@@ -186,7 +197,8 @@ def expect_outline(student: Student, questions: np.ndarray) -> None:
             continue
         answer = expect_array(said, answer, (11, 4, 2))
         why = partial(measured, answer, p)
-        expect_close(said, answer, corners(p), TOLERANCE, partial(wrong_corners, p), why)
+        made = partial(spoiled_corners, p)
+        expect_close(said, answer, corners(p), TOLERANCE, made, why)
 
 
 @shape.check(5)
@@ -415,7 +427,7 @@ def leaves_the_files(student: Student):
         expect(
             file is not None,
             f"{trial.said} left no file bestgS{seed}.npy in some/runs"
-            + (f": it is in {where}." if where else "."),
+            + (f": it is in {'the working folder' if where == '.' else where}." if where else "."),
         )
         expect_close(f"{trial.said}: bestgS{seed}.npy", file, wanted)
 
@@ -557,13 +569,17 @@ TIES = [[4.0, 4.0, 1.0], [2.0, -1.0, -1.0], [4.0, 0.0, 3.0]]
 """Returns that are the same as the own one in a row, or in a column."""
 
 
+def spoiled_losses(matrix: np.ndarray, key: str) -> dict:
+    return spoiled(wrong_losses(matrix, key), own_loss(matrix, key), changed_losses(matrix, key))
+
+
 def expect_loss(student: Student, index: int, *keys: str) -> None:
     more = [] if "at home" in keys else [np.array(TIES)]
     for matrix in [*made_up_matrices(index), *more]:
         answer = student.call("loss", matrix)
         values = expect_fields(student.said, answer, *keys)
         for key, value in zip(keys, values, strict=True):
-            wrong = wrong_losses(matrix, key)
+            wrong = partial(spoiled_losses, matrix, key)
             said, why = f"{student.said}: {key}", partial(reason, matrix, key)
             expect_close(said, value, own_loss(matrix, key), TOLERANCE, wrong, why)
 

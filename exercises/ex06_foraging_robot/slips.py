@@ -81,6 +81,14 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         made(kept * memory[0] + np.tanh(taken * net[3])),
         "The forget gate is a factor of the old cells, not of tanh of them.":
         made(kept * np.tanh(memory[0]) + taken * np.tanh(net[3])),
+        "The 1 is added to the new cells, but belongs inside the forget gate's logistic function.":
+        made(squash(net[0]) * memory[0] + 1 + taken * np.tanh(net[3])),
+        "The 1 is added to the new cells, too.": made(cells + 1),
+        "The input gate is applied twice.": made(kept * memory[0] + taken**2 * np.tanh(net[3])),
+        "The forget gate is applied twice.": made(kept**2 * memory[0] + taken * np.tanh(net[3])),
+        "The output gate is applied twice.": made(cells, shown**2 * np.tanh(cells)),
+        "The readout is reshaped, which mixes its weights up: it has a row for each wheel.": (
+            np.tanh(readout.reshape(UNITS, 2).T @ outputs + bias), right[1]),
         "The old cells are not added: only the new candidate is there.": made(
             taken * np.tanh(net[3])),
         "Old cells and candidate are averaged, but belong together as a sum.": made(cells / 2),
@@ -433,6 +441,10 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "The search ends at the last step with a reward, not at the first one.": last,
             "The share of the search is given, not its number of steps.": search / many,
             "A search without end has -1 here, not all the steps.": search if near.any() else -1,
+            "A reward in the first step is overlooked.":
+            int(near[1:].argmax()) + 1 if near[1:].any() else many,
+            "The first step is left out before the first reward is sought.":
+            int(near[1:].argmax()) if near[1:].any() else many,
         }  # fmt: skip
 
     def forward(heading: np.ndarray) -> np.ndarray:
@@ -562,6 +574,10 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "The arena is 400 mm wide: the far walls are elsewhere here.":
             np.minimum(before[:, :2].min(axis=1), 500 - before[:, :2].max(axis=1)) < 72.5,
             "The share is given in per cent.": 100 * (nearest < 72.5),
+            "In Python `&` binds more tightly than `|`: x and y are mixed up here.":
+            (walls[0] < 72.5) | ((walls[2] < 72.5) & (walls[1] < 72.5)) | (walls[3] < 72.5),
+            "Both x and y have to be near a wall: one of them is enough.":
+            ((walls[0] < 72.5) | (walls[2] < 72.5)) & ((walls[1] < 72.5) | (walls[3] < 72.5)),
         },
         "pace": {
             "": length,
@@ -687,7 +703,10 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
         away = np.linalg.norm(np.stack([to_x, to_y]))
         cross = np.sin(bearing - later) * np.hypot(to_x, to_y) / away
         extra = {"All steps are divided by one length: each has a distance of its own (axis=1).":
-                 cross[near].mean() if near.any() else 0.0}  # fmt: skip
+                 cross[near].mean() if near.any() else 0.0,
+                 "Directions and headings are averaged first: take the sine in each step.":
+                 np.sin(np.arctan2(to_y[near].mean(), to_x[near].mean()) - later[near].mean())
+                 if near.any() else 0.0}  # fmt: skip
     elif name == "turning":
         gone = poses[search, 2] - poses[0, 2]
         extra = {
@@ -799,6 +818,8 @@ def wrong_scales(table: np.ndarray) -> dict:
             "differences.": np.sqrt((table**2).mean(axis=0)),
         },
     ) | {
+        "The mean alone is divided, not the difference: brackets are missing.":
+        table - table.mean(axis=0) / table.std(axis=0),
         "The mean is subtracted after the division: subtract it first.":
         table / table.std(axis=0) - table.mean(axis=0),
         "The differences are multiplied by the standard deviation: divide by it.":
@@ -976,6 +997,9 @@ def wrong_families(table: np.ndarray, threshold: float) -> dict:
     other = {
         "The threshold is multiplied by the number of columns.": threshold * many,
         "The threshold is divided by the number of columns.": threshold / many,
+        "The threshold is multiplied by the root of the number of columns.": threshold
+        * np.sqrt(many),
+        "The threshold is divided by the root of the number of columns.": threshold / np.sqrt(many),
         "The square of the distance is compared with the threshold.": np.sqrt(threshold),
         "The distance is compared with the square of the threshold.": threshold**2,
         "Twice the threshold is used.": 2 * threshold,
@@ -1031,6 +1055,48 @@ def wrong_memories(first: np.ndarray, afters: np.ndarray, episode: int) -> dict:
         },
         "This is a memory of ones: an empty memory is 0.": np.ones_like(first),
     }
+
+
+def changed_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str) -> dict:
+    """What comes of changed poses, rewards or places of the cylinder."""
+    late = np.append(rewards[1:], 0)
+    early = np.append(0, rewards[:-1])
+    other = {
+        "x and y of the poses are exchanged.": (poses[:, [1, 0, 2]], rewards, cylinder),
+        "x and y of the cylinder are exchanged.": (poses, rewards, cylinder[::-1]),
+        "The headings are turned into degrees: NumPy takes radians.":
+        (np.column_stack([poses[:, :2], np.degrees(poses[:, 2])]), rewards, cylinder),
+        "The headings are taken for degrees.":
+        (np.column_stack([poses[:, :2], np.radians(poses[:, 2])]), rewards, cylinder),
+        "The headings have the opposite sign.": (poses * [1, 1, -1], rewards, cylinder),
+        "The headings count from the y axis, not from the x axis.":
+        (np.add(poses, [0, 0, np.pi / 2]), rewards, cylinder),
+        "The rewards are one step too early.": (poses, late, cylinder),
+        "The rewards are one step too late.": (poses, early, cylinder),
+        "Steps with a reward are taken for those without, and the reverse.":
+        (poses, 1 - rewards, cylinder),
+        "The poses stand in the opposite order.": (poses[::-1], rewards, cylinder),
+        "Poses and rewards stand in the opposite order.":
+        (poses[::-1], rewards[::-1], cylinder),
+        "The heading of each step is that of the step before.":
+        (np.column_stack([poses[:, :2], poses[[0, *range(len(rewards))], 2]]), rewards, cylinder),
+        "The heading at the start is taken for all steps.":
+        (np.column_stack([poses[:, :2], 0 * poses[:, 2] + poses[0, 2]]), rewards, cylinder),
+        "The cylinder is taken to be in the middle of the arena.": (poses, rewards, [200, 200]),
+        "The cylinder is taken to be at (0, 0).": (poses, rewards, [0, 0]),
+        "The places are rounded first.": (np.column_stack([poses[:, :2].round(), poses[:, 2]]),
+                                          rewards, cylinder),
+        "Millimetres are turned into metres.": (poses * [0.001, 0.001, 1], rewards,
+                                                np.multiply(cylinder, 0.001)),
+        "Millimetres are turned into centimetres.": (poses * [0.1, 0.1, 1], rewards,
+                                                     np.multiply(cylinder, 0.1)),
+    }  # fmt: skip
+    if len(rewards) > 1:
+        other |= {
+            "The first step is left out.": (poses[1:], rewards[1:], cylinder),
+            "The last step is left out.": (poses[:-1], rewards[:-1], cylinder),
+        }
+    return {text: described(*case)[name] for text, case in other.items()}
 
 
 def wrong_reactions(brain: dict, seen: np.ndarray, memories: np.ndarray) -> dict:

@@ -16,6 +16,7 @@ from slips import (
     REMEMBERED,
     UNITS,
     answer_of,
+    changed_described,
     described,
     grid_of,
     grouped,
@@ -40,6 +41,7 @@ from botschool.grading import (
     expect_array,
     expect_close,
     expect_fields,
+    spoiled,
 )
 from botschool.net import Network, NetworkSpec
 
@@ -455,6 +457,10 @@ FEW_STEPS = 6
 """The values of so many steps, at most, are shown one by one."""
 
 
+def spoiled_described(walk: tuple, name: str, right: float) -> dict:
+    return spoiled(wrong_described(*walk, name), right, changed_described(*walk, name))
+
+
 def compare_described(student: Student, walk: tuple, names: tuple) -> None:
     answer = student.call("describe", *walk)
     expected = described(*walk)
@@ -462,7 +468,7 @@ def compare_described(student: Student, walk: tuple, names: tuple) -> None:
     which = f"steps {near}" if near else "no step"
     said = f"describe(poses, rewards, cylinder) ({steps} steps; {which} near the cylinder): "
     for name, value in zip(names, expect_fields(student.said, answer, *names), strict=True):
-        made = partial(wrong_described, *walk, name)
+        made = partial(spoiled_described, walk, name, expected[name])
         why = f"{name}: {MEANT[name][0].lower()}{MEANT[name][1:]}"
         if name in expected["steps"] and steps <= FEW_STEPS:
             each = np.round(np.array(expected["steps"][name], dtype=float), 3).tolist()
@@ -507,6 +513,10 @@ def of_nothing(student: Student):
 groups = exercise.task("6.5", "Families")
 
 
+def spoiled_scales(table: np.ndarray, right: np.ndarray) -> dict:
+    return spoiled(wrong_scales(table), right)
+
+
 @groups.check(4)
 def one_scale(student: Student):
     rng = rng_of(13)
@@ -516,7 +526,7 @@ def one_scale(student: Student):
         )
         expected = (table - table.mean(axis=0)) / table.std(axis=0)
         answer = student.call("standardise", table)
-        made, why = partial(wrong_scales, table), partial(scaled, answer, table)
+        made, why = partial(spoiled_scales, table, expected), partial(scaled, answer, table)
         expect_close("standardise(table)", answer, expected, 1e-5, made, why)
     table[:, 2], expected[:, 2] = 3.5, 0.0
     said = "standardise(table), one column all alike"
@@ -711,6 +721,8 @@ def wrong_means(case: tuple, ways: dict, name: str, maxsteps: int) -> dict:
         "The last start is left out.": np.mean(each[:-1] or [0.0]),
         "The first start is left out.": np.mean(each[1:] or [0.0]),
     }  # fmt: skip
+    shorter = returns_of(case, way, since)
+    found["`since` is handed on as maxsteps: the episodes are too short."] = np.mean(shorter)
     if many == 1:
         found["maxsteps is not handed on: the episodes last up to 500 steps."] = np.mean(
             returns_of(case, way, 500)
@@ -749,6 +761,21 @@ def what_memory_is_worth(student: Student):
 same = exercise.task("6.7", "The same sight, another mind", needs=("6.1",))
 
 
+def spoiled_reactions(brain: dict, seen: np.ndarray, memories: np.ndarray, right: list) -> dict:
+    changed = {
+        "The observation is divided by the number of memories.": seen / len(memories),
+        "The observation is turned around.": seen[::-1],
+        "The observation is put through tanh first.": np.tanh(seen),
+        "The observation is rounded first.": seen.round(),
+        "The mean of the observation stands in each place.": 0 * seen + seen.mean(),
+    }
+    made = {
+        text: [answer_of(brain, other, memory)[0] for memory in memories]
+        for text, other in changed.items()
+    }
+    return spoiled(wrong_reactions(brain, seen, memories), right, made)
+
+
 @same.check(6)
 def reactions_to_one_sight(student: Student):
     rng = rng_of(19)
@@ -757,5 +784,5 @@ def reactions_to_one_sight(student: Student):
         memories = np.array([random_memory(rng) for _ in range(n)])
         answer = student.call("reactions", brain, seen, memories)
         expected = [answer_of(brain, seen, memory)[0] for memory in memories]
-        made = partial(wrong_reactions, brain, seen, memories)
+        made = partial(spoiled_reactions, brain, seen, memories, expected)
         expect_close(student.said, answer, expected, 1e-5, made)

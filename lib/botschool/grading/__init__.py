@@ -12,7 +12,7 @@ from botschool.grading.declare.checks import (
     went_on,
 )
 from botschool.grading.declare.exercise import Exercise, Task
-from botschool.grading.declare.slips import slips
+from botschool.grading.declare.slips import slips, spoiled
 from botschool.grading.run.student import Student
 
 __all__ = [
@@ -28,5 +28,6 @@ __all__ = [
     "expect_fields",
     "show",
     "slips",
+    "spoiled",
     "went_on",
 ]

@@ -30,3 +30,43 @@ def slips(make: Callable[..., Any], most: int = 2, **parts: dict[str, Any]) -> d
                 with suppress(ValueError):  # two slips may not fit together
                     found.setdefault(text, make(**{**right, **wrong}))
     return found
+
+
+def spoiled(
+    table: dict[str, Any], right: Any, changed: dict[str, Any] | None = None
+) -> dict[str, Any]:
+    """Return a table of slips, and what spoils a right answer at its end or its beginning.
+
+    changed: sentence -> the answer to changed arguments. Pairs of slips come last.
+    """
+    answer = np.asarray(right, dtype=np.float64)
+    with np.errstate(all="ignore"):
+        found = {
+            f"The answer is rounded to {k} place{'s' * (k > 1)}.": answer.round(k)
+            for k in (1, 2, 3, 4)
+        } | {
+            "The answer is divided by pi.": answer / np.pi,
+            "The answer is multiplied by pi.": answer * np.pi,
+            "The answer is divided by 2 pi.": answer / (2 * np.pi),
+        }  # fmt: skip
+        if answer.ndim and len(answer) > 2:
+            mean = answer.mean(axis=0)
+            found |= {
+                "The answer stands in the opposite order.": answer[::-1],
+                "The answer is sorted.": np.sort(answer, axis=0),
+                "The answer is divided by its sum.": answer / answer.sum(axis=0),
+                "The answer is divided by its largest value.": answer / answer.max(axis=0),
+                "The mean of the answer is subtracted from it.": answer - mean,
+                "All values are the mean of the answer.": 0 * answer + mean,
+                "All values are the first one of the answer.": 0 * answer + answer[0],
+                "The first value of the answer is 0.":
+                np.append(0 * answer[:1], answer[1:], axis=0),
+                "The last value of the answer is 0.":
+                np.append(answer[:-1], 0 * answer[:1], axis=0),
+                "Each value stands one place too late; the last one comes first.":
+                np.roll(answer, 1, axis=0),
+                "Each value stands one place too early; the first one comes last.":
+                np.roll(answer, -1, axis=0),
+            }  # fmt: skip
+    single = {text: made for text, made in table.items() if ". " not in text}
+    return single | (changed or {}) | found | table
