@@ -729,7 +729,7 @@ def train(seed):
 
 
 # %% motors_get_the_old_speed loses 10.5, 10.7
-# The motors get the speed from before the change.
+# The simulation makes its step with the old target speed: hand the new one over before it.
 # says: this
 # -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
 # -         for wheel, target in ((0, self.speed), (1, -self.speed)):
@@ -953,3 +953,168 @@ def evolve(seed):
 # says: give the class, not an object of it or its name
 # -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
 # +         id="BalanceBotBulletEnv-v0", entry_point="BalanceBotEnv", max_episode_steps=500
+
+# %% divided_by_the_links loses 10.1
+# The centre of mass is divided by the number of links, not by the mass of the robot.
+# says: divided by the number of links
+# -     return {"links": links, "joints": joints, "mass": mass, "centre": (moment / mass).tolist()}
+# +     centre = (moment / len(links)).tolist()
+# +     return {"links": links, "joints": joints, "mass": mass, "centre": centre}
+
+# %% origin_subtracted loses 10.1
+# The origin of a joint is subtracted from the frame of the parent.
+# says: subtracted
+# -         frames[child] = frames[parent] + origin
+# +         frames[child] = frames[parent] - origin
+
+# %% position_for_the_angle loses 10.3, 10.7
+# The inclination is taken from the position, which is the first thing that comes back.
+# says: this|Only the inclination
+# -         _, orientation = pybullet.getBasePositionAndOrientation(self.robot, self.client)
+# -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
+# +         position, _ = pybullet.getBasePositionAndOrientation(self.robot, self.client)
+# +         inclination = position[0]
+
+# %% generator_of_its_own loses 10.4
+# Makes a generator of the seed in each reset, so that no seed does not go on from the one before.
+# says: goes on from where it is
+# -         inclination = self.np_random.uniform(-0.3, 0.3)
+# -         pybullet.resetSimulation(physicsClientId=self.client)
+# +         inclination = np.random.default_rng(seed).uniform(-0.3, 0.3)
+# +         pybullet.resetSimulation(physicsClientId=self.client)
+
+# %% degrees_at_the_start loses 10.4, 10.7
+# The inclination is drawn in degrees, from -17 to 17, and used as radians.
+# says: not in degrees|in degrees
+# -         inclination = self.np_random.uniform(-0.3, 0.3)
+# -         pybullet.resetSimulation(physicsClientId=self.client)
+# +         inclination = self.np_random.uniform(-17, 17)
+# +         pybullet.resetSimulation(physicsClientId=self.client)
+
+# %% gravity_upwards loses 10.4, 10.7
+# Gravity is 10 upwards: along z it is -10.
+# says: this|pulls upwards
+# -         pybullet.setGravity(0, 0, -10, physicsClientId=self.client)
+# +         pybullet.setGravity(0, 0, 10, physicsClientId=self.client)
+
+# %% begins_in_the_air loses 10.4, 10.7
+# The base begins 10 cm high.
+# says: this|the height 0.1
+# -             [0, 0, 0.001],
+# +             [0, 0, 0.1],
+
+# %% the_plane_is_the_robot loses 10.4, 10.7
+# Keeps the number of the plane in self.robot.
+# says: which is the plane
+# -         pybullet.loadURDF(PLANE, physicsClientId=self.client)
+# -         self.robot = pybullet.loadURDF(
+# +         self.robot = pybullet.loadURDF(PLANE, physicsClientId=self.client)
+# +         pybullet.loadURDF(
+
+# %% no_info_from_reset loses 10.4, 10.7
+# reset returns the observation alone.
+# says: two things are asked for
+# -         return self.observe(), {}
+# +         return self.observe()
+
+# %% one_motor_only loses 10.5, 10.7
+# Motor 1 gets nothing.
+# says: this|Motor 1 gets no target
+# -         for wheel, target in ((0, self.speed), (1, -self.speed)):
+# +         for wheel, target in ((0, self.speed),):
+
+# %% weak_motors loses 10.5, 10.7
+# The motors get too little force.
+# says: this|turn too slowly
+# -                 targetVelocity=target,
+# +                 targetVelocity=target,
+# +                 force=0.1,
+
+# %% change_of_a_time_step loses 10.5, 10.7
+# The action is multiplied by the time step.
+# says: multiplied by the time step
+# -         change = np.clip(float(action[0]), -1.0, 1.0)
+# +         change = np.clip(float(action[0]), -1.0, 1.0) * TIME_STEP
+
+# %% ten_times_the_price loses 10.6
+# A rad/s costs 0.5, ten times as much as it should.
+# says: costs 0.05, not 0.5|this
+# -         return 1.0 - 0.05 * abs(self.speed)
+# +         return 1.0 - 0.5 * abs(self.speed)
+
+# %% drives_after_the_step loses 10.6, 10.7
+# The simulation makes its step with the old target speed: hand the new one over before it.
+# says: this|drive first
+# -         self.drive(action)
+# -         pybullet.stepSimulation(self.client)
+# +         pybullet.stepSimulation(self.client)
+# +         self.drive(action)
+
+# %% reward_and_end_of_before loses 10.6, 10.7
+# Reward and end are those from before the action and the step.
+# says: this|before the action
+# -         self.drive(action)
+# -         pybullet.stepSimulation(self.client)
+# +         reward, fallen = self.reward(), self.fallen()
+# +         self.drive(action)
+# +         pybullet.stepSimulation(self.client)
+# -         return self.observe(), self.reward(), self.fallen(), False, {}
+# +         return self.observe(), reward, fallen, False, {}
+
+# %% four_values loses 10.6, 10.7
+# step returns four values, as in the old gym.
+# says: 4 values came back
+# -         return self.observe(), self.reward(), self.fallen(), False, {}
+# +         return self.observe(), self.reward(), self.fallen(), {}
+
+# %% another_name loses 10.7
+# Registers another version of the name.
+# says: did not register this name
+# -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
+# +         id="BalanceBotBulletEnv-v1", entry_point=BalanceBotEnv, max_episode_steps=500
+
+# %% package_that_is_not_there loses 10.7
+# Registers the class of the package, which is not installed yet.
+# says: here is no such module
+# -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
+# +         id="BalanceBotBulletEnv-v0",
+# +         entry_point="balance_bot.env:BalanceBotEnv",
+# +         max_episode_steps=500,
+
+# %% module_without_its_package loses 10.8
+# The entry point names the module without its package.
+# says: the module env of the package
+# -     entry_point="balance_bot.env:BalanceBotEnv",
+# +     entry_point="env:BalanceBotEnv",
+
+# %% keeps_the_worst loses 10.9
+# Takes the worst candidates for the best.
+# says: the best candidates that you keep
+# -         centre = population[np.argsort(fitness)[-3:]].mean(axis=0)
+# +         centre = population[np.argsort(fitness)[:3]].mean(axis=0)
+
+# %% returns_the_worst loses 10.9
+# Returns the worst candidate of the last generation.
+# says: return the best
+# -     return centre
+# +     return population[np.argmin(fitness)]
+
+# %% bias_at_the_end loses 10.9
+# Returns the weights first and the bias at the end.
+# says: in another order
+# -     return centre
+# +     return np.roll(centre, -1)
+
+# %% layers_of_the_critic loses 10.10
+# Returns the hidden layers of the critic, with the last layer of the actor.
+# says: the critic's
+# -     return actor_layers(model)
+# +     layers = [*model.policy.mlp_extractor.value_net, model.policy.action_net]
+# +     layers = [layer for layer in layers if hasattr(layer, "weight")]
+# +     return [[each.weight.detach().numpy(), each.bias.detach().numpy()] for each in layers]
+
+# %% trains_too_briefly loses 10.10
+# Trains for two rollouts.
+# says: Learn for longer
+# -     model.learn(16_384)
+# +     model.learn(1_024)
