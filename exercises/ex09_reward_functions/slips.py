@@ -404,6 +404,11 @@ def mistaken_v0(one: dict) -> dict:
         "The costs are negative numbers: the sign is wrong.": {
             key: -wanted[key] for key in ("electricity", "joints_at_limit")
         },
+        "The component is multiplied by the duration of a step: it is a number for each step, "
+        "however long that lasts.": {
+            key: wanted[key] * one["duration"]
+            for key in ("alive", "electricity", "joints_at_limit")
+        },
         "The fallen pay for this, too.": {
             key: np.where(fallen, 0.0, wanted[key]) for key in ("electricity", "joints_at_limit")
         },
@@ -702,6 +707,9 @@ def mistaken_gait(one: dict) -> dict:
              share(alive, alive + max(progress.sum(), 0))),
             ("Steps backwards are left out; here they are subtracted.",
              share(alive, alive + progress.sum())),
+            ("Steps backwards are left out; here they are subtracted, so that the income may be "
+             "below 0.",
+             share(alive, max(alive + progress.sum(), 0))),
             ("Steps backwards are left out; here their size is added.",
              share(alive, alive + np.abs(progress).sum())),
             ("Speeds are added up, not metres.", share(alive, alive + moved * one["duration"])),

@@ -37,6 +37,7 @@ from slips import (
 from botschool.grading import (
     Exercise,
     Student,
+    Wrong,
     expect,
     expect_array,
     expect_close,
@@ -409,7 +410,15 @@ def same(found, name: str, wanted: np.ndarray) -> bool:
 
 def compares_one(student: Student, runner, genotypes: dict, index: int, episodes: int) -> None:
     seed = exercise.seed(index) % 100_000
-    answer = student.call("compare", "PlanarHalfCheetah", genotypes, seed, episodes)
+    try:
+        answer = student.call("compare", "PlanarHalfCheetah", genotypes, seed, episodes)
+    except Wrong as error:
+        if "genotype has shape" not in str(error):
+            raise
+        raise Wrong(
+            f"{error}\n  The genotypes are those of the `robot` that is given: make its runner, "
+            "and record a whole row of them."
+        ) from error
     robots = " and ".join(f"{len(rows)} of {key}" for key, rows in genotypes.items())
     said = f"compare('PlanarHalfCheetah', genotypes of robots, {robots}, "
     said = student.said = f"{said}seed={seed}, episodes={episodes})"

@@ -732,3 +732,25 @@ def planar_v0(trajectory):
 # +         means = []
 # +         for i in range(episodes):
 # +             gaits = [gait(runner.record(genotype, seed + i)) for genotype in rows]
+
+
+# %% backwards_leaves_no_income loses 9.5
+# Steps backwards are subtracted from the sum, so that a robot that goes back has no income.
+# says: Steps backwards are left out
+# -     alive, moved = (float(np.maximum(parts[key], 0).sum()) for key in ("alive", "progress"))
+# +     alive, moved = (float(parts[key].sum()) for key in ("alive", "progress"))
+
+
+# %% electricity_by_time loses 9.3
+# The electricity is multiplied by the duration of a step.
+# says: multiplied by the duration
+# -         "electricity": electricity(robot, trajectory["actions"], trajectory["speeds"]),
+# +         "electricity": trajectory["duration"]
+# +         * electricity(robot, trajectory["actions"], trajectory["speeds"]),
+
+
+# %% recorded_as_hoppers loses 9.6
+# All robots are recorded as hoppers, whatever robot is given.
+# says: the `robot` that is given
+# -     runner, table = Runner(f"{robot}-v5"), {}
+# +     runner, table = Runner("PlanarHopper-v5"), {}
