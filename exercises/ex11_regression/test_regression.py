@@ -407,12 +407,13 @@ def watched(module, name, arguments, stuck):
     leap, five times as long as all steps before it, begins a new walk.
 
     stuck: how many of the first networks that it makes begin with hidden neurons that are all
-    alike, and so stay alike for ever: they learn no more than a single one.
+    alike, and so stay alike for ever: they learn no more than a single one. Of `learn` also how
+    many of its networks began with the weights that an earlier one had from torch.
     """
     import numpy
     import torch
 
-    gradients, made, walks = 0, 0, {}
+    gradients, made, walks, beginnings, repeated = 0, 0, {}, [], 0
 
     def note(values):
         """values: the parameters as they are now; a walk keeps its start, its end and its steps."""
@@ -453,9 +454,14 @@ def watched(module, name, arguments, stuck):
         return counted
 
     def begin(self, *arguments, **options):
-        nonlocal made
+        nonlocal made, repeated
         initialise(self, *arguments, **options)
         made += 1
+        if made <= 20:
+            first = [numpy.ravel(each.detach().numpy().copy()) for each in self.parameters()]
+            first = numpy.concatenate([*first, []])
+            repeated += any(numpy.array_equal(first, each) for each in beginnings)
+            beginnings.append(first)
         if made <= stuck:
             with torch.no_grad():
                 for parameter in self.parameters():
@@ -487,6 +493,8 @@ def watched(module, name, arguments, stuck):
             if not trained or away <= trained[0]:
                 come = float(numpy.linalg.norm(end - walk["start"]))
                 trained = [away, walk["longest"], come, float(numpy.linalg.norm(end))]
+    if name == "learn":
+        more = [repeated]
     return [parameters, [gradients, *trained], *(numpy.asarray(each) for each in more)]
 
 
@@ -514,8 +522,8 @@ def compare_corners(
     said = f"learn(inputs {corners.shape}, targets {show(targets.ravel())}, {hiddens}, {seed})"
     arguments = [corners, targets, hiddens, seed]
     answer = student.run(watched, "learn", arguments, stuck, said=said)
-    expect(isinstance(answer, list) and len(answer) == 2, f"{said} must return a Network.")
-    parameters, gradients = answer
+    expect(isinstance(answer, list) and len(answer) == 3, f"{said} must return a Network.")
+    parameters, gradients, repeated = answer
     expect(isinstance(parameters, list) and len(parameters) == 4, f"{said}: no Network came back.")
     shapes = ((hiddens, corners.shape[1]), (hiddens,), (1, hiddens), (1,))
     parameters = [
@@ -529,6 +537,11 @@ def compare_corners(
         wrong <= 0.05,
         f"{said}: the outputs are {show(outputs.ravel())}, one of them {wrong:.3f} away from its "
         f"target, but 0.05 is allowed.{because if stuck else ''}",
+    )
+    expect(
+        not np.any(repeated),
+        f"{said}: a network that replaces a stuck one begins with the same weights as one before, "
+        "and so it may get stuck for ever. Set torch's seed once, before the first network.",
     )
     expect_trained(said, gradients)
 

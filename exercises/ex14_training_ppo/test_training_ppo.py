@@ -11,6 +11,7 @@ import itertools
 import os
 import tempfile
 import zipfile
+from collections import Counter
 from fractions import Fraction
 from pathlib import Path
 
@@ -105,6 +106,11 @@ def evidence(student: Student, record: dict, variant: str):
     expect(isinstance(place, str), f"{student.said}: folder is {show(place)}, but text is needed.")
     place = os.path.normpath(place)
     expect(
+        place != os.path.join("trainings", variant),
+        f"{student.said}: the folder of a training of {variant!r} is {show(place)}, which is that "
+        "of the whole variation. Each training has one of its own in it: `str(run.path)`.",
+    )
+    expect(
         place.startswith(os.path.join("trainings", variant) + os.sep),
         f"{student.said}: the folder of a training of {variant!r} is {show(place)}, but should lie "
         f"in trainings/{variant}.",
@@ -173,6 +179,23 @@ def expect_same_numbers(said: str, found, reference) -> None:
         expect(same, f"{said} is not what PPO gives with these settings and this seed.")
 
 
+def mistaken_return(returns: np.ndarray) -> dict:
+    """What else a student may take for the mean return of the last post-evaluation."""
+    means = returns.mean(axis=1)
+    best = int(means.argmax())
+    which = "the first and best" if best == 0 else "the best"
+    mistakes = {f"It is {which} of the post-evaluations: the last one is asked for.": means.max()}
+    if best:
+        mistakes["It is the first of the post-evaluations: the last one is asked for."] = means[0]
+    return mistakes | {
+        "It is the mean of all post-evaluations: the last one is asked for.": means.mean(),
+        "It is a single episode: the mean of the last post-evaluation is asked for.": returns[
+            -1, -1
+        ],
+        "It is the best episode: the mean of the last post-evaluation is asked for.": returns.max(),
+    }
+
+
 @varying.check(6)
 def one_training(student: Student):
     rate = rate_of(1)
@@ -180,13 +203,7 @@ def one_training(student: Student):
     (record,) = varied(student, "Pendulum-v1", {"only": rate}, [2])
     found, said = expect_training(student, record, "Pendulum-v1", "only", rate, 2)
     expect_same_numbers(said, found, reference)
-    means = reference.returns.mean(axis=1)
-    mistakes = {
-        "It is the best of the post-evaluations: the last one is asked for.": means.max(),
-        "It is the first of the post-evaluations: the last one is asked for.": means[0],
-        "It is the mean of all post-evaluations: the last one is asked for.": means.mean(),
-    }
-    got = record["return"]
+    got, mistakes = record["return"], mistaken_return(reference.returns)
     expect_close(f"{student.said}: return", got, reference.last, CLOSE, mistakes)
 
 
@@ -200,14 +217,18 @@ def every_variation_with_every_seed(student: Student):
     expect(len(places) == len(answer), f"{student.said}: two trainings have the same folder.")
     for variant, index in itertools.product(rates, seeds):
         key = variant, seed_of(index)
-        expect(key in records, f"{student.said}: no training of {key[0]!r} with seed {key[1]}.")
+        expect(
+            key in records,
+            f"{student.said}: no training of {key[0]!r} with seed {key[1]}: the dicts name the "
+            f"variants and seeds {show(list(records), 300)}.",
+        )
         found, said = expect_training(
             student, records[key], "CartPole-v1", variant, rates[variant], index
         )
         if (variant, index) == ("varied", 5):
             expect_same_numbers(said, found, reference)
-        means = found.returns.mean(axis=1)
-        expect_close(f"{student.said}: return", records[key]["return"], means[-1], CLOSE)
+        got, mistakes = records[key]["return"], mistaken_return(found.returns)
+        expect_close(f"{student.said}: return", got, found.last, CLOSE, mistakes)
 
 
 # ------------------------------------------------------------------- 14.2
@@ -356,7 +377,13 @@ def last_and_best(student: Student):
     for index, means in ((30, None), (31, None), (32, None), (37, below)):
         steps, returns = drawn_evaluations(index, means)
         last, best = measured(student, steps, returns, 100.0, "last", "best")
-        expect_close(f"{student.said}: last", last, returns[-1].mean(), CLOSE)
+        mistakes = {
+            "It is the mean of the last column: a row of returns is a post-evaluation.": np.mean(
+                returns[:, -1]
+            ),
+            "It is the last episode, but the mean of the last row is asked for.": returns[-1, -1],
+        }
+        expect_close(f"{student.said}: last", last, returns[-1].mean(), CLOSE, mistakes)
         wanted = max(row.mean() for row in returns)
         mistakes = {"It is the best episode, but the best mean is asked for.": returns.max()}
         expect_close(f"{student.said}: best", best, wanted, CLOSE, mistakes)
@@ -406,7 +433,8 @@ def the_goal_itself_is_enough(student: Student):
     returns = np.array([[90.0, 80.0], [100.0, 100.0], [75.0, 125.0], [110.0, 100.0]])
     (solved,) = measured(student, steps, returns, 100.0, "solved")
     expect(solved is not None, f"{student.said}: solved is None, but 250 was expected.")
-    expect_close(f"{student.said}: solved", solved, 250, CLOSE)
+    mistakes = {"A mean return that equals the goal reaches it, too: at least the goal.": 700}
+    expect_close(f"{student.said}: solved", solved, 250, CLOSE, mistakes)
 
 
 # ------------------------------------------------------------------- 14.4
@@ -430,6 +458,7 @@ def compare_table(student: Student, runs: list[dict], baseline: str, *keys: str)
         if run["seed"] not in results.setdefault(run["variant"], {}):
             results[run["variant"]][run["seed"]] = Fraction(run["return"])
     means = {name: sum(found.values()) / len(found) for name, found in results.items()}
+    all_runs = Counter(run["variant"] for run in runs)
     order = sorted(means, key=lambda name: -means[name])
     answer = student.call("table_of", runs, baseline)
     student.said = f"table_of(<{len(runs)} runs>, {baseline!r})"
@@ -452,6 +481,7 @@ def compare_table(student: Student, runs: list[dict], baseline: str, *keys: str)
             else:
                 mistakes = {
                     "The deviation is divided by n instead of n - 1 (ddof=1).": np.std(values),
+                    "Several runs with the same seed count as one.": all_runs[name],
                     "The gain is that over the worst variation, not over the baseline.": float(
                         means[name] - min(means.values())
                     ),
@@ -495,7 +525,7 @@ def compare_chance(student: Student, first: list[float], second: list[float]) ->
     apart = [part / n - (total - part) / m for part in ways]
     hits = sum(abs(each) >= observed for each in apart)
     mistakes = {
-        "Only differences that are greater are counted: equal ones count, too.": sum(
+        "Ways with the same difference count, too, such as the one that really was.": sum(
             abs(each) > observed for each in apart
         ) / len(ways),
         "Only differences in one direction are counted.": sum(
@@ -504,6 +534,7 @@ def compare_chance(student: Student, first: list[float], second: list[float]) ->
         "Only differences in the other direction are counted.": sum(
             -each >= observed for each in apart
         ) / len(ways),
+        "The way in which it really was counts, too.": (hits - 1) / len(ways),
     }  # fmt: skip
     answer = student.call("chance_of", first, second)
     student.said = f"chance_of({first}, {second})"
@@ -653,10 +684,15 @@ def expect_no_sign_at_limits(student: Student, level: float) -> None:
     student.said = f"warning_signs(<indicators that are {level} on average>, 3000, <18 signs>)"
     expect(isinstance(answer, list), f"{student.said} must return a list, not {show(answer)}.")
     for name, (_, side, limit) in chosen.items():
+        why = "."
+        if name.startswith("early"):
+            why = ", but the last third holds nothing."
+        elif limit == level:
+            why = ": a mean that equals the limit gives no sign."
         expect(
             (name in answer) == (name in wanted),
             f"{student.said} {'names' if name in answer else 'leaves out'} a sign {side} {limit}"
-            + (", but the last third holds nothing." if name.startswith("early") else "."),
+            f"{why}",
         )
     expect(answer == wanted, f"{student.said} is not in the order of the signs.")
 
@@ -690,10 +726,14 @@ def compare_ranks(student: Student, first: np.ndarray, second: np.ndarray) -> No
         student.said = f"rank_correlation({first.tolist()}, {second.tolist()})"
     mistakes = {}
     if not alike:
-        places = [np.argsort(np.argsort(each, kind="stable")) for each in (first, second)]
+        orders = [np.argsort(each, kind="stable") for each in (first, second)]
+        places = [np.argsort(each) for each in orders]
         mistakes = {
             "The numbers are correlated, not their ranks.": np.corrcoef(first, second)[0, 1],
             "Equal numbers are to share a rank.": np.corrcoef(*places)[0, 1],
+            "These are no ranks: np.argsort says where the smallest number stands, and so on.": (
+                np.corrcoef(*orders)[0, 1]
+            ),
         }
     expect_close(student.said, answer, wanted, CLOSE, mistakes)
 

@@ -749,3 +749,27 @@ def learn(inputs, targets, hiddens, seed):
 # -             loss.backward()
 # +             loss = nn.functional.mse_loss(network(inputs[batch]), targets[np.sort(batch)])
 # +             loss.backward()
+
+
+# %% logistic_twice loses 11.1
+# The features go through the logistic function once more on their way to the outputs.
+# says: this
+# -         return self.output(self.features(patterns))
+# +         return self.output(torch.sigmoid(self.features(patterns)))
+
+
+# %% slope_at_the_activations loses 11.2
+# The slope is computed at the activations instead of the net inputs: sigma(h) (1 - sigma(h)).
+# says: this
+# -     d1 = d2 @ w2 * hidden * (1 - hidden)
+# +     again = 1 / (1 + np.exp(-hidden))
+# +     d1 = d2 @ w2 * again * (1 - again)
+
+
+# %% always_the_same_network loses 11.5
+# Each new network has the weights of the first one, since torch's seed is set again.
+# says: begins with the same weights as one before
+# -     torch.manual_seed(seed)
+# -     while True:
+# +     while True:
+# +         torch.manual_seed(seed)

@@ -770,3 +770,19 @@ def responses(activations, observations):
 def entropy_of_choices(scores):
     shares = np.abs(scores) / np.abs(scores).sum(axis=1, keepdims=True)
     return -(shares * np.log(shares)).sum(axis=1)
+
+
+# %% all_layers_after_the_first loses 13.7
+# Each layer gets the activations of the first one instead of those of the layer before.
+# says: Layer 3 gets the activations of layer 1
+# -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
+# -         activations.append(observations)
+# +         before = activations[0] if activations else observations
+# +         activations.append(np.tanh(before @ np.asarray(weights).T + biases))
+
+
+# %% a_single_rollout loses 13.8
+# Collects one rollout, however many steps are asked for.
+# says: this
+# -     while ppo.steps < steps:
+# +     if ppo.steps < steps:

@@ -775,3 +775,59 @@ def within_variants(numbers, variants):
 # +     n, m = len(first), len(second)
 # +     observed = abs(np.mean(first) - np.mean(second))
 # +     n, m = (n + m) // 2, n + m - (n + m) // 2
+
+
+# %% variations_folder_in_the_record loses 14.1
+# The record holds the folder of the variation, and not that of the training.
+# says: which is that of the whole variation
+# -                 {"variant": name, "seed": seed, "return": result, "folder": str(run.path)}
+# +                 {"variant": name, "seed": seed, "return": result, "folder": f"{folder}/{name}"}
+
+
+# %% time_of_day_for_steps loses 14.2
+# Takes the time of day at which a value was logged for its steps.
+# says: this
+# -             "steps": np.array([entry.step for entry in entries]),
+# +             "steps": np.array([entry.wall_time for entry in entries]),
+
+
+# %% last_of_the_episodes loses 14.3
+# Takes the mean over the post-evaluations of the last episode, not over the last post-evaluation.
+# says: a row of returns is a post-evaluation
+# -         "last": float(means[-1]),
+# +         "last": float(np.mean(returns, axis=0)[-1]),
+
+
+# %% repeated_runs_counted loses 14.4
+# Counts runs that were repeated with the same seed.
+# says: Several runs with the same seed count as one
+# -                 "runs": len(values),
+# +                 "runs": sum(run["variant"] == variant for run in runs),
+
+
+# %% without_the_real_way loses 14.5
+# Leaves out the way in which it really was.
+# says: this
+# -     return float(np.mean(differences >= observed - 1e-9))
+# +     return float((np.sum(differences >= observed - 1e-9) - 1) / len(differences))
+
+
+# %% last_value_for_the_mean loses 14.6
+# A sign looks at the last value, not at the mean of the last third.
+# says: this
+# -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
+# +         late = logged["values"][-1] if len(logged["values"]) else None
+
+
+# %% limit_gives_a_sign loses 14.6
+# A mean that equals the limit gives a sign.
+# says: equals the limit gives no sign
+# -         if late is not None and (late > limit if side == "above" else late < limit):
+# +         if late is not None and (late >= limit if side == "above" else late <= limit):
+
+
+# %% argsort_for_ranks loses 14.7
+# Takes the order of the numbers for their ranks.
+# says: np.argsort says where the smallest number stands
+# -         ranks = smaller + (equal + 1) / 2
+# +         ranks = np.argsort(numbers) + 1.0 + 0 * (smaller + equal)
