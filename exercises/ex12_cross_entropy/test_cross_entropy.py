@@ -74,6 +74,13 @@ def compare_softmax(student: Student, scores: np.ndarray) -> None:
     if scores.size <= 6:
         student.said = f"softmax({scores.tolist()})"
     powers = np.exp(scores - scores.max())
+    lost = powers.sum(axis=-1) == 0
+    if isinstance(answer, np.ndarray) and answer.shape == scores.shape and np.any(lost):
+        expect(
+            answer.dtype.kind != "f" or not np.array_equal(np.isnan(answer).all(axis=-1), lost),
+            f"{student.said}: the rows are NaN of which all scores are far below the largest one "
+            "of all steps. Each row has its own largest score (axis=-1).",
+        )
     mistakes = {
         "One sum is taken over all steps, but each row has its own (axis=-1).": powers
         / powers.sum()
@@ -119,6 +126,17 @@ def chosen(module, probabilities, seed, times):
     return [module.choose(probabilities, rng) for _ in range(times)]
 
 
+def chosen_at(module, probabilities, dart):
+    """The action that the student's function draws when this is the random number."""
+    import numpy
+
+    class Dart(numpy.random.Generator):
+        def random(self, size=None, *_arguments, **_options):
+            return dart if size is None else numpy.full(size, dart)
+
+    return module.choose(probabilities, Dart(numpy.random.PCG64(1)))
+
+
 def compare_choices(student: Student, index: int, shares: np.ndarray, times: int = 200) -> None:
     seed = exercise.seed(index)
     shares = shares / shares.sum()
@@ -158,6 +176,15 @@ def unlikely_and_certain_actions(student: Student):
     compare_choices(student, 14, np.array([0.0, 1.0, 0.0]), 30)
     compare_choices(student, 15, np.array([0.0, 0.3, 0.0, 0.7]), 60)
     compare_choices(student, 16, np.array([1.0]), 5)
+    shares, most = np.full(10, 0.1), 1 - 2.0**-53
+    said = f"choose({show(shares)}, rng)"
+    got = student.run(chosen_at, shares, most, said=said)
+    expect(
+        type(got) is int and got == 9,
+        f"{said} returned {show(got)} when rng.random() gave {most!r}, the largest number that it "
+        "gives, but 9 was expected: by rounding the sum of the probabilities is not greater than "
+        "that, and the last action owns the rest of the ruler.",
+    )
     seed = exercise.seed(17)
     dart = float(np.random.default_rng(seed).random())
     said = f"choose([{dart:.4f}, {1 - dart:.4f}], rng)"
@@ -224,24 +251,36 @@ def replay(student: Student, environment: str, index: int, maxsteps: int, shift:
                 break
     values = fields(said, answer, *wanted)
     answers = dict(zip(wanted, values, strict=True))
-    return {"said": said, **answers, "wanted": wanted, "ends": ends}
+    return {"said": said, **answers, "wanted": wanted, "ends": ends, "last": observation}
 
 
 def expect_steps(found: dict, key: str) -> None:
     wanted, value = len(found["wanted"][key]), found[key]
     steps = len(value) if isinstance(value, (list, np.ndarray)) else 0
+    why = ""
+    if np.shape(value)[1:] == np.shape(found["wanted"][key])[1:] and steps:
+        first = np.array(found["wanted"][key])[: min(2, steps)]
+        if not np.allclose(np.array(value[: len(first)], dtype=float), first, atol=1e-4):
+            if key == "observations":
+                why = "It is another episode: does reset get the seed?"
+        elif steps > wanted:
+            why = went_on(*found["ends"])
     expect(
         steps == wanted,
         f"{found['said']}: {key} has {steps} rows, but the episode has {wanted} steps."
-        f"\n  {went_on(*found['ends']) if steps > wanted else ''}".rstrip(),
+        f"\n  {why}".rstrip(),
     )
 
 
 def expect_episode(found: dict, key: str) -> None:
     if key != "return":
         expect_steps(found, key)
-    wanted = np.array(found["wanted"][key])
-    expect_close(f"{found['said']}: {key}", found[key], wanted, SINGLE)
+    wanted, mistakes = np.array(found["wanted"][key]), {}
+    if key == "observations":
+        mistakes["What was seen after each step is recorded, not what was seen before it."] = (
+            np.array([*wanted[1:], found["last"]])
+        )
+    expect_close(f"{found['said']}: {key}", found[key], wanted, SINGLE, mistakes)
 
 
 ORDINARY = (("CartPole-v1", 0.0), ("botschool/PushedCartPole-v0", 0.15), ("CartPole-v1", 0.0))
@@ -926,8 +965,8 @@ def progress(played: object) -> str:
     if last < 2 * first:
         return (
             f"{text} {last:.0f}: it has hardly learnt. Do the episodes come from the network as it "
-            "is after each update, does the elite hold the best only, is the learning rate large "
-            "enough?"
+            "is after each update, are their actions drawn at random, does the elite hold the best "
+            "only, is the learning rate large enough?"
         )
     if last < 150:
         return f"{text} {last:.0f}: it learns, but too little, or ends too soon."

@@ -732,3 +732,30 @@ def choose(probabilities, rng):
 # says: begins its episodes with the same seeds
 # -         first = seed + iteration * starts
 # +         first = iteration * starts
+
+
+# %% nothing_for_the_rest_of_the_ruler loses 12.2
+# Gives action 0 where rounding leaves a gap between the last sum and the dart.
+# says: the last action owns the rest of the ruler
+# -     return int(np.argmax(beyond)) if beyond.any() else len(probabilities) - 1
+# +     return int(np.argmax(beyond))
+
+
+# %% one_largest_score_for_all_steps loses 12.1
+# Subtracts the largest score of all steps from each of them, so that small ones become 0 / 0.
+# says: Each row has its own largest score
+# -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
+# +     powers = np.exp(scores - scores.max())
+
+
+# %% action_after_the_right_one loses 12.2
+# Takes the action after the one on which the dart lands.
+# says: this
+# -     return int(np.argmax(beyond)) if beyond.any() else len(probabilities) - 1
+# +     return min(int(np.argmax(beyond)) + 1, len(probabilities) - 1)
+
+
+# %% actions_always_whole loses 12.6
+# Actions of any kind become whole numbers of int64.
+# -     wanted = torch.as_tensor(np.asarray(actions), dtype=torch.int64 if whole else torch.float32)
+# +     wanted = torch.as_tensor(np.asarray(actions), dtype=torch.int64)
