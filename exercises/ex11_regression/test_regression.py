@@ -718,8 +718,8 @@ def measured(parameters: list, normalised, targets, answers, others) -> str:
     if not own.min() >= 0.9:
         return (
             f"On its own patterns it explains {shown(own)} %: with {many} hidden neurons, it has "
-            "not learnt them yet. Look at the losses: more epochs, a larger learning rate, "
-            "smaller minibatches or more neurons?"
+            "not learnt them yet. Does it train on the normalised patterns? If so, look at the "
+            "losses: more epochs, a larger learning rate, smaller minibatches or more neurons?"
         )
     return (
         f"On its own patterns it explains {shown(own)} %: with {many} hidden neurons, it has "
