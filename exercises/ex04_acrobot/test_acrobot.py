@@ -119,9 +119,23 @@ def expect_decoded(student: Student, index: int, keys: tuple[str, str], columns:
     for position, key in enumerate(keys):
         said = [f"decode({shown(observation)}): {key}" for observation in observations]
         other = f"This is {keys[1 - position]}: are the two exchanged?"
+        wanted = states[:, columns][:, position]
         mistakes = {other: np.round(states[:, columns][:, 1 - position], 3)}
+        if "angle" in key:
+            turned = "The angles go from 0 to 2 pi, but from -pi to pi is asked for."
+            mistakes |= {
+                turned: np.round(wanted % (2 * np.pi), 3),
+                "These are degrees, but radians are asked for.": np.round(np.degrees(wanted), 3),
+                "The arc cosine loses the sign.": np.round(np.abs(wanted), 3),
+                "arctan(sine / cosine) knows half of the circle only.": np.round(
+                    np.arctan(np.tan(wanted)), 3
+                ),
+                "The arc sine knows half of the circle only.": np.round(
+                    np.arcsin(np.sin(wanted)), 3
+                ),
+            }
         values = [values[position] for values in given]
-        expect_near(said, values, states[:, columns][:, position], mistakes)
+        expect_near(said, values, wanted, mistakes)
 
 
 @observation_task.check(9)
@@ -138,11 +152,15 @@ def speeds(student: Student):
 rules = exercise.task("4.2", "What Acrobot does, and what for", needs=("4.1",))
 
 
+TORQUES = "The actions 0, 1 and 2 put a torque of -1, 0 and +1 on the joint."
+
+
 @rules.check(4)
 def torque(student: Student):
     for action in (2, 0, 1, 2):
         value = number(f"torque({action})", student.call("torque", action))
-        expect_close(f"torque({action})", value, (-1.0, 0.0, 1.0)[action])
+        wanted = (-1.0, 0.0, 1.0)[action]
+        expect_close(f"torque({action})", value, wanted, why=lambda: TORQUES)
 
 
 @rules.check(7)
@@ -185,7 +203,7 @@ def reward(student: Student):
         expect(
             number(said, value) == wanted,
             f"{said} returned {value:g}, but Gymnasium gives {wanted:g}: the free end is at "
-            f"{height_of(state):.2f}.",
+            f"{height_of(state):.2f}, the line at 1.",
         )
     for side in (1.0, -1.0):
         value = student.call("reward", np.array([0, side, 0, side, 0, 0], dtype=np.float32))

@@ -292,10 +292,12 @@ def mistaken_means(centre, d, m, v, t, stepsize) -> dict:
             + 0.001 * d**2
             if name == "m"
             else 0.9 * m + 0.1 * d,
-            "The corrected value is returned: correct it for this step only.": (
-                keep * old + (1 - keep) * new
-            )
-            / (1 - keep**t),
+            (
+                "The corrected value is returned: correct it for this step only."
+                if t > 1
+                else f"Either the corrected value is returned, or the factor {1 - keep:.3g} of "
+                f"{what} is left out."
+            ): (keep * old + (1 - keep) * new) / (1 - keep**t),
             f"The old {name} is returned: return the new one.": old,
             **{
                 f"The new {name} is {keep} times the old one, not {other:.4g} times.": other * old
@@ -334,7 +336,7 @@ def mistaken_step(centre, d, m, v, t, stepsize) -> dict:
         return 1 - 0.9**t, 1 - 0.999**t
 
     first, second = shares(t)
-    return slips(
+    found = slips(
         made,
         shares={
             "": (first, second),
@@ -389,6 +391,8 @@ def mistaken_step(centre, d, m, v, t, stepsize) -> dict:
             "The step is divided by t: stepsize stays the same.": stepsize / t,
         },
     )  # fmt: skip
+    # where nothing moves, many slips look alike
+    return {text: each for text, each in found.items() if not np.allclose(each, centre, 1e-5)}
 
 
 DRAWS = {
