@@ -189,7 +189,9 @@ def why_fallen(parameters: np.ndarray, steps: list[int], balances) -> str:
         f"The episodes in your evolution lasted {first:.0f} steps at first and {last:.0f} at last, "
         "on average."
     )
-    good = steps.count(500)
+    good, longest = steps.count(500), max(steps)
+    if longest < 500 and 3 * steps.count(longest) > len(steps):
+        return f"{course} None lasted for more than {longest}: is maxsteps 500?"
     if last < 0.8 * first or max(steps[-len(steps) // 3 :]) < max(steps) / 2:
         return f"{course} They are to become longer: is it the best candidates that you keep?"
     if good == 0:

@@ -216,7 +216,8 @@ def on_stage(module, urdf, call, scenes):
                 return f"sets self.robot to {env.robot}, which is {which}: the robot is another."
             for _ in range(30):
                 pybullet.stepSimulation(env.client)
-            reports.append([*report, seen()])
+            there = pybullet.getBasePositionAndOrientation(env.robot, env.client)[0]
+            reports.append([*report, seen(), there[2]])
             env.speed = 7.0
         return reports
     for inclination, others, turning, speed, actions in scenes:
@@ -510,7 +511,7 @@ GOES_ON = (
 def goes_on_without_seed(student: Student):
     seeds = [exercise.seed(22), "no seed", "no seed", 0, "no seed"]
     for said, report, inclination in after_resets(student, 22, seeds):
-        observation, _, speed, info, _, _ = report
+        observation, _, speed, info = report[:4]
         expect_close(
             f"{said} after another episode: observation",
             observation[0],
@@ -545,10 +546,11 @@ def makes_the_world(student: Student):
             with World(begins, **changes) as world:
                 for _ in range(30):
                     world.act(None)
-                return world.seen()[:2]
+                return [*world.seen()[:2], world.height()]
 
-        cause = why_world(seen, answer[:2])
-        if np.allclose(answer[:2], seen(), atol=2e-3):
+        found = [*answer[:2], report[6]]
+        cause = why_world(seen, found)
+        if np.allclose(found, seen(), atol=2e-3):
             cause = "This follows from its first inclination: mend that first."
         raise Wrong(
             f"{said}: 30 steps later, without motors, inclination and angular velocity are "
@@ -947,7 +949,9 @@ def says_what_it_needs(student: Student):
             f"{said}: the dependencies must name {package}.",
         )
     tool = content.get("tool", {}).get("setuptools", {})
-    packages, data = expect_fields(f"{said}: [tool.setuptools]", tool, "packages", "package-data")
+    (packages,) = expect_fields(f"{said}: [tool.setuptools]", tool, "packages")
+    expect("package-data" in tool, f"{said}: [tool.setuptools] is without 'package-data'.")
+    data = tool["package-data"]
     expect(packages == ["balance_bot"], f"{said}: packages is {show(packages)}.")
     patterns = data.get("balance_bot") if isinstance(data, dict) else None
     expect(
