@@ -893,9 +893,12 @@ def imported(module, init, numbers):
     early = "balance_bot.env" in sys.modules
     spec = gymnasium.registry.get("BalanceBotBulletEnv-v0")
     if spec is not None and isinstance(spec.entry_point, str):
-        module = spec.entry_point.partition(":")[0]
-        found = importlib.util.find_spec(module) if module.split(".")[0] == "balance_bot" else None
-        if ":" not in spec.entry_point or found is None:
+        module, colon, _ = spec.entry_point.partition(":")
+        try:
+            found = module.startswith("balance_bot") and importlib.util.find_spec(module)
+        except ModuleNotFoundError:
+            found = None
+        if not colon or not found:
             return spec.entry_point
     env = gymnasium.make("BalanceBotBulletEnv-v0", disable_env_checker=True)
     seen = [env.reset()[0][0]]
