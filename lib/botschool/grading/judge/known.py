@@ -32,7 +32,7 @@ from botschool.sandbox import ForkServer
 from botschool.sandbox.protocol import pack, unpack
 
 TOLD = "Your code answers exactly as with this known mistake:"
-VARIED = "Your code answers exactly as ours does with this slip:"
+VARIED = "Your code answers exactly as ours does with this slip, or with one of the same effect:"
 """Words before the sentence on a known mistake, and before the sentence on a slip."""
 SECONDS = 3.0
 """Processor seconds for all slips of a task; known mistakes, which are few, have twice as many."""
