@@ -2,6 +2,7 @@
 
 import tempfile
 from collections.abc import Callable
+from functools import cache, partial
 from itertools import permutations
 from pathlib import Path
 
@@ -864,20 +865,22 @@ def other_places(genotype: np.ndarray) -> dict[str, np.ndarray]:
     }  # fmt: skip
 
 
-def own_returns(
-    text: str, walkers: np.ndarray, seed: int, episodes: int, other: Callable = lambda i, j: 0
+def pair_returns(
+    text: str, walkers: np.ndarray, episodes: int, i: int, j: int, seed: int
 ) -> np.ndarray:
-    """The return of each brain in each body in each episode; other: what slips add to the seed."""
-    n = len(walkers)
-    returns = np.zeros((n, n, episodes))
+    """The return of brain i in body j in each episode."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "trial.ini"
         file.write_text(text)
-        for i, j in np.ndindex(n, n):
-            parts = walkers[i, :-134], walkers[j, -134:-70], walkers[i, -70:]
-            robot = SavedRobot(file, np.concatenate(parts))
-            returns[i, j] = robot.evaluate(seed + other(i, j), episodes)
-    return returns
+        parts = walkers[i, :-134], walkers[j, -134:-70], walkers[i, -70:]
+        return SavedRobot(file, np.concatenate(parts)).evaluate(seed, episodes)
+
+
+def own_returns(text: str, walkers: np.ndarray, seed: int, episodes: int) -> np.ndarray:
+    """The return of each brain in each body in each episode."""
+    each = range(len(walkers))
+    return np.array([[pair_returns(text, walkers, episodes, i, j, seed) for j in each]
+                     for i in each])  # fmt: skip
 
 
 @np.errstate(all="ignore")
@@ -939,23 +942,23 @@ def wrong_matrices(
         "The seed grows by the number of episodes from column to column: all have the same.":
         lambda i, j: j * episodes,
     }  # fmt: skip
-    anew = {}
+    made: dict[str, np.ndarray] = {}
     if n == 2:
-        each = [own_returns(text, walkers, seed + k, 1) for k in range(episodes)]
-        anew = {
-            "Each episode has a seed of its own: `evaluate` gets the seed once, and all episodes.":
-            np.concatenate(each, axis=2),
-            "Seed and number of episodes are exchanged.":
-            own_returns(text, walkers, episodes, min(seed, 100)),
-            "One episode more than asked for is evaluated.":
-            own_returns(text, walkers, seed, episodes + 1),
-        }  # fmt: skip
+        evaluated = cache(partial(pair_returns, text, walkers, episodes))
+
+        def with_seeds(other: Callable) -> np.ndarray:
+            pairs = [[evaluated(i, j, seed + other(i, j)) for j in range(n)] for i in range(n)]
+            return np.array(pairs)
+
+        made = {said: with_seeds(other) for said, other in seeds.items()}
+        said = (
+            "Each episode has a seed of its own: `evaluate` gets the seed once, and all episodes."
+        )
+        first = [with_seeds(lambda i, j, k=k: k)[:, :, :1] for k in range(episodes)]
+        made[said] = np.concatenate(first, axis=2)
     return slips(
         lambda returns, rows, summary: rows(summary(returns)),
-        returns={"": returns} | {
-            said: own_returns(text, walkers, seed, episodes, other)
-            for said, other in seeds.items() if n == 2
-        } | anew,
+        returns={"": returns} | made,
         rows=rows,
         summary={
             "": lambda r: r.mean(axis=2),

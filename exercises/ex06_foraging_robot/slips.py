@@ -1054,6 +1054,7 @@ def wrong_memories(first: np.ndarray, afters: np.ndarray, episode: int) -> dict:
             for what in ("cells", "outputs")
         },
         "This is a memory of ones: an empty memory is 0.": np.ones_like(first),
+        "A memory has two rows, the cells and the outputs: this is one row.": np.zeros(UNITS),
     }
 
 
