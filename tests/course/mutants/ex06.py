@@ -486,7 +486,7 @@ def forget(step, before, after):
 
 # %% own_memory_for_all loses 6.1
 # Goes on with a memory that it keeps itself, whatever memory is given.
-# says: something kept from call to call
+# says: something that stays from call to call
 _think, _own = think, []
 
 
@@ -526,7 +526,7 @@ def think(brain, observation, memory):
 
 # %% memory_of_the_last_episode loses 6.2
 # Goes on with the memory of the episode before instead of 0.
-# says: kept from call to call
+# says: stays from call to call
 # -     memory = np.zeros((2, UNITS))
 # -     poses, steps = [arena.robots[0].copy()], []
 # +     memory = _LAST[-1]

@@ -922,7 +922,7 @@ def descent(gradient, centre, wdecay):
 
 # %% counts_its_own_steps loses 8.5
 # Counts its calls instead of using t.
-# says: kept from call to call
+# says: stays from call to call
 _steps = 0
 
 
