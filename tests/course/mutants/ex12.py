@@ -354,12 +354,6 @@ def gaussian_loss(means, log_deviation, actions):
     return -normal.log_prob(actions).sum(1).mean()
 
 
-# %% largest_score_of_all_steps loses 12.1
-# Subtracts the largest score of all steps, so that steps with small scores divide 0 by 0.
-# -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
-# +     powers = np.exp(scores - scores.max())
-
-
 # %% absolute_scores loses 12.1
 # Scores count by their absolute value: bad actions are as probable as good ones.
 # says: this

@@ -805,7 +805,7 @@ def within_variants(numbers, variants):
 # +                 "runs": sum(run["variant"] == variant for run in runs),
 
 
-# %% without_the_real_way loses 14.5
+# %% one_way_less_in_the_sum loses 14.5
 # Leaves out the way in which it really was.
 # says: this
 # -     return float(np.mean(differences >= observed - 1e-9))
