@@ -111,7 +111,6 @@ def test_margins_are_stated(number):
         assert STOCHASTIC.search(docstring), "state the margin over 20 seeds"
 
 
-@pytest.mark.course
 @for_each_exercise
 def test_there_are_mutants(number):
     own = [case for case in MUTANTS if case.number == number]
