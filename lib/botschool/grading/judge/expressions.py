@@ -75,16 +75,24 @@ class Edit:
 class Expressions:
     """The slips of a function's expressions."""
 
-    def __init__(self, public: set[str], parameters: list[str]) -> None:
-        """Take the words of the task's text, and the names of the function's parameters."""
-        self._public = public
+    def __init__(self, public: str, parameters: list[str], own: bool) -> None:
+        """Take the task's text, the names of the function's parameters, and whose function it is.
+
+        own: whether the function is our solution's; formulas with numbers in other styles are
+        riddles unless the text has them.
+        """
+        self._public = set(re.findall(r"\w+", public))
+        self._squeezed = "" if own else "".join(public.split())
+        self._own = own
         self.parameters = parameters
 
     def quoted(self, node: ast.AST) -> str:
-        """Return a part of our solution as it stands if the task's text says all its words."""
+        """Return a part of a solution as it stands if the task's text says all its words."""
         text = ast.unparse(node)
         words = re.findall(r"[^\W\d]\w*|\d[\w.]*", text)
         if len(text) > _LONGEST or not words or any(w not in self._public for w in words):
+            return ""
+        if not self._own and _with_number(node) and "".join(text.split()) not in self._squeezed:
             return ""
         return f" `{text.strip('()') if isinstance(node, ast.Tuple) else text}`"
 
@@ -381,6 +389,12 @@ def colon(quoted: str) -> str:
 
 def in_(quoted: str) -> str:
     return f" in{quoted}" if quoted else ""
+
+
+def _with_number(node: ast.AST) -> bool:
+    """Return whether a part computes something with a number."""
+    parts = [each for each in ast.walk(node) if isinstance(each, ast.BinOp)]
+    return any(isinstance(each, ast.Constant) for part in parts for each in ast.walk(part))
 
 
 def _is_key(node: ast.expr) -> bool:

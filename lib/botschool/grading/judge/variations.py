@@ -69,7 +69,7 @@ def variations(solution: str, task: str, styles: Iterable[str] = ()) -> Iterator
     styles: right solutions in other styles, whose functions are then varied, too. A vague sentence
     is not said of them if it is true of our solution, with another answer.
     """
-    public = set(re.findall(r"\w+", _REGION.sub("", solution)))
+    public = _REGION.sub("", solution)
     done, said = {solution}, set[str]()
     for text in (solution, *styles):
         for each in _of_one(text, task, public, done, own=text is solution):
@@ -79,9 +79,7 @@ def variations(solution: str, task: str, styles: Iterable[str] = ()) -> Iterator
                 yield each
 
 
-def _of_one(
-    text: str, task: str, public: set[str], done: set[str], own: bool
-) -> Iterator[Variation]:
+def _of_one(text: str, task: str, public: str, done: set[str], own: bool) -> Iterator[Variation]:
     """Yield the slips in one solution, unless they are done.
 
     own: whether it is our solution, and not one in another style, whose variables nobody knows.
@@ -154,9 +152,7 @@ def _made(
 class _Slips:
     """The slips of a function: sentences with edits."""
 
-    def __init__(
-        self, public: set[str], regions: list[range], function: ast.AST, own: bool
-    ) -> None:
+    def __init__(self, public: str, regions: list[range], function: ast.AST, own: bool) -> None:
         self._own = own
         self._regions = regions
         self._function = function
@@ -167,7 +163,7 @@ class _Slips:
             for arg in (*node.args.args, *node.args.kwonlyargs)
             if arg.arg != "self"
         ]
-        self._parts = Expressions(public, parameters)
+        self._parts = Expressions(public, parameters, own)
 
     def all(self) -> Iterator[tuple[str, str, list[Edit]]]:
         """Yield all slips as (sentence, place, edits); slips of numbers come last: many fit."""
