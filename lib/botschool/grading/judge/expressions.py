@@ -242,16 +242,15 @@ class Expressions:
                 yield LAST, last
             for more, word in ((1, "more"), (-1, "less")):
                 end = " (off by one)" if abs(value) < 4 else ""
+                used = colon(said) or f": {value + more} is used"
                 yield (
-                    f"A number is one {word} than it should be{end}{colon(said)}.",
+                    f"A number is one {word} than it should be{end}{used}.",
                     ast.Constant(value + more),
                 )
         elif isinstance(value, float) and value:
             for factor, word in ((2.0, "twice"), (0.5, "half of"), (-1.0, "minus")):
-                yield (
-                    f"A number is {word} what it should be{colon(said)}.",
-                    ast.Constant(factor * value),
-                )
+                used = colon(said) or f": {factor * value:g} is used"
+                yield f"A number is {word} what it should be{used}.", ast.Constant(factor * value)
 
     def _containers(self, part: ast.expr) -> Iterator[tuple[str, ast.expr]]:
         if isinstance(part, ast.Dict):
@@ -321,7 +320,9 @@ class Expressions:
                 what = f"`{signs[0]}` stands where `{signs[1]}` belongs"
                 if {*signs} == {"+", "-"}:  # in a bracket with a minus sign it is the other one
                     what = "`+` and `-` are taken for each other"
-                yield f"{what}{in_(self.quoted(part))}.", Edit(part, "op", None, other())
+                where = in_(self.quoted(part))
+                if where or {*signs} != {"+", "*"}:  # of all slips that one is told by its place
+                    yield f"{what}{where}.", Edit(part, "op", None, other())
         elif isinstance(part, ast.BoolOp):
             other = ast.Or if isinstance(part.op, ast.And) else ast.And
             words = ("or", "and") if other is ast.Or else ("and", "or")

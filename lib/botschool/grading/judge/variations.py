@@ -31,7 +31,8 @@ _SKIPPED = {
     (ast.AnnAssign, "annotation"),
 }  # fmt: skip
 """Fields of nodes that hold no steps."""
-_QUOTED = re.compile(r":? `[^`]*`(?: in `[^`]*`)?(?=\.$)| in `[^`]*`(?=\.$)")
+_USED = r": \S+ is used"
+_QUOTED = re.compile(rf":? `[^`]*`(?: in `[^`]*`)?(?=\.$)| in `[^`]*`(?=\.$)|{_USED}(?=\.$)")
 """What a sentence quotes at its end: it differs where the same slip is made in several places."""
 _CLEAR = ("sign", "wrong way round", "a loop", "not reversed", "counting", "matrix")
 """Words of sentences that need no quotation."""
@@ -59,6 +60,7 @@ class Variation:
 
 def is_vague(what: str) -> bool:
     """Return whether a sentence names neither a place nor a clear mistake."""
+    what = re.sub(_USED, "", what)
     named = "`" in what or bool(re.search(r"\d", what))
     return not named and not any(clear in what.lower() for clear in _CLEAR)
 

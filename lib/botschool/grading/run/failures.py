@@ -62,9 +62,14 @@ _ADVICE = (
     ),
     (r"'NoneType'", "Something is None here: print each part of the line."),
     (
-        r"too many values to unpack|not enough values to unpack",
+        r"values to unpack(?s:.*)\.(reset|step)\(",
         "In Gymnasium reset returns (observation, info), and step returns (observation, reward, "
         "terminated, truncated, info).",
+    ),
+    (
+        r"values to unpack",
+        "What stands on the right side of this line has another length than the names on the left "
+        "side: print it. An array of shape (n, m) is unpacked along its first axis.",
     ),
     (
         r"for .*: 'list' and|bad operand type for unary .*'list'|multiply sequence by non-int",
@@ -84,7 +89,7 @@ _ADVICE = (
         "The parts of an array must have the same length: print the length of each.",
     ),
 )
-"""Patterns of exceptions' messages -> what they usually mean to a beginner."""
+"""Patterns of exceptions' messages and lines -> what they usually mean to a beginner."""
 
 
 class SourceLines:
@@ -165,7 +170,8 @@ def explained(answer: dict[str, Any], said: str, source: SourceLines) -> Wrong:
         )
     colon = f": {text}" if text else ""
     # drop the line if it is the grader's own
-    means = [advice for pattern, advice in _ADVICE if place and re.search(pattern, text)][:1]
+    told = f"{text} {place}"
+    means = [advice for pattern, advice in _ADVICE if place and re.search(pattern, told)][:1]
     below = place + "".join(f"\n  {advice}" for advice in means)
     return Wrong(f"{said} raised {name}{colon}{_suggested(near, text)}{below}")
 
