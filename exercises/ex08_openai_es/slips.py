@@ -602,6 +602,7 @@ def mistaken_places(curve: np.ndarray) -> dict:
     falls = np.maximum.accumulate(curve) - curve
     bottom = int(np.argmax(falls))
     peak, last = int(np.argmax(curve[: bottom + 1])), len(curve) - 1
+    later = last - int(np.argmax(falls[::-1])) if falls.any() else 0
     return {
         "The peak is the highest value up to the bottom, not of the whole curve.":
         {"peak": int(np.argmax(curve)), "bottom": bottom},
@@ -616,6 +617,8 @@ def mistaken_places(curve: np.ndarray) -> dict:
         {"peak": bottom - int(np.argmax(curve[bottom::-1])), "bottom": bottom},
         "Of equal falls the first one counts, not the last one.":
         {"peak": peak, "bottom": last - int(np.argmax(falls[::-1]))},
+        "Of equal falls the first one counts, with its peak, not the last one.":
+        {"peak": int(np.argmax(curve[: later + 1])), "bottom": later},
         "Peak and bottom are exchanged.": {"peak": bottom, "bottom": peak},
         "Indices count from 0.": {"peak": peak + 1, "bottom": bottom + 1},
         "Peak and bottom are indices, not the values there.":

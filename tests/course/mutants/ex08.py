@@ -1349,3 +1349,10 @@ def smooth(curve, width):
 # says: fitness is to rise
 # -         return robot.evaluate(candidates, seed, episodes=10)
 # +         return -robot.evaluate(candidates, seed, episodes=10)
+
+
+# %% last_fall_with_its_peak loses 8.7
+# Of equal falls the last one counts, and its peak; a curve that never falls is right.
+# says: with its peak
+# -     bottom = int(np.argmax(falls))
+# +     bottom = len(falls) - 1 - int(np.argmax(falls[::-1])) if falls.any() else 0
