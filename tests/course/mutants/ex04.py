@@ -413,3 +413,17 @@ def curves(stats, column, budgets):
 # says: this
 # -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
 # +             row[kind] = float(robot.evaluate(test_seed + (kind == "bestg"), episodes).mean())
+
+
+# %% second_angle_put_back loses 4.1
+# The second angle counts from straight down, between -pi and pi.
+# says: counted from straight down \(between
+# -         "angle2": float(np.arctan2(sin2, cos2)),
+# +         "angle2": float(np.arctan2(sin1 * cos2 + cos1 * sin2, cos1 * cos2 - sin1 * sin2)),
+
+
+# %% average_fitness_of_the_end loses 4.3
+# Returns the average fitness of the last generation, read from the file.
+# says: average fitness of the last
+# -         fitness[seed] = float(run.record.bestg_fitness)
+# +         fitness[seed] = float(np.load(Path(folder) / f"statS{seed}.npy")[-2])
