@@ -61,6 +61,16 @@ def probe(module, observed, acted, maxsteps):
     return module.describe(name)
 
 
+def why_limits(got: np.ndarray, wanted: np.ndarray, high: np.ndarray) -> str:
+    """What is wrong with limits; high: those of the other side."""
+    if np.allclose(got, -high):
+        return "\n  It is minus the other limit, but each number has two limits of its own."
+    exact = wanted.astype(np.float64)
+    if any(np.array_equal(got, np.round(exact, places)) for places in range(5)):
+        return "\n  These are rounded limits: give them as they are."
+    return ""
+
+
 def expect_space(said: str, got: object, space: gymnasium.Space) -> None:
     if isinstance(space, gymnasium.spaces.Discrete):
         kind, choices, first = expect_fields(said, got, "kind", "choices", "first")
@@ -78,14 +88,13 @@ def expect_space(said: str, got: object, space: gymnasium.Space) -> None:
             "needed.",
         )
         fit = all(type(bound) in (int, float) for bound in bounds)
-        why = ""
-        if fit and np.allclose(bounds, -(space.high if name == "low" else space.low).ravel()):
-            why = "\n  It is minus the other limit, but each number has two limits of its own."
-        expect(
-            fit and np.allclose(bounds, wanted.ravel(), rtol=1e-6, atol=0),
-            f"{said}: {name} is {show(bounds)}, but {show(wanted.ravel().tolist())} was expected."
-            f"{why}",
-        )
+        if not fit or not np.allclose(bounds, wanted.ravel(), rtol=1e-6, atol=0):
+            opposite = (space.high if name == "low" else space.low).ravel()
+            why = why_limits(np.array(bounds), wanted.ravel(), opposite) if fit else ""
+            raise Wrong(
+                f"{said}: {name} is {show(bounds)}, but {show(wanted.ravel().tolist())} was "
+                f"expected.{why}"
+            )
 
 
 def probed(student: Student, index: int):
@@ -449,17 +458,23 @@ def knows_both_limits(student: Student):
 
 @cartpole.check(6)
 def gives_the_rewards_of_gymnasium(student: Student):
-    observations, actions, rewards, _ = cartpole_steps(22)
+    observations, actions, rewards, over = cartpole_steps(22)
     got = student.run(
         answers, "cartpole_reward", observations, actions, said="cartpole_reward(observation, ...)"
     )
     got = single_numbers(student.said, got, len(rewards))
+    falls = np.append(over[1:], False) & ~over
+    mistakes = {
+        "In this step the pole falls, or the cart leaves. But what counts is the state in which a "
+        "step begins.": np.where(falls, 0.0, rewards),
+    }
     for observation, value, wanted in zip(observations, got, rewards, strict=True):
-        expect(
-            abs(value - wanted) < 1e-6,
-            f"cartpole_reward({show(observation)}, ...) returned {value:g}, but Gymnasium gave "
-            f"{wanted:g} for a step that began so.",
-        )
+        if abs(value - wanted) >= 1e-6:
+            raise Mismatch(
+                f"cartpole_reward({show(observation)}, ...) returned {value:g}, but Gymnasium gave "
+                f"{wanted:g} for a step that began so.",
+                got, rewards, mistakes,
+            )  # fmt: skip
     near = [[2.4, 0, 0, 0], [-2.4, 0, 0, 0], [2.4001, 0, 0, 0], [0, 0, -0.20955, 0], [-3, 0, 0, 0]]
     for observation, wanted in zip(near, (1, 1, 0, 0, 0), strict=True):
         said = f"cartpole_reward({observation}, 1)"
@@ -504,6 +519,11 @@ def expect_rewards(student: Student, index: int, torque) -> None:
     def reward_of(angle, torque=torque, speed=speed):
         return np.round(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2), 4)
 
+    angle, given = np.arctan2(sine, cosine), torque.clip(-2, 2)
+    faster = (speed + 0.05 * (15 * sine + 3 * given)).clip(-8, 8)
+    # the torque that the student's cost has, if angle and speed are right
+    used = np.sqrt(np.maximum(0, -(got + angle**2 + 0.1 * speed**2)) / 0.001)
+    limit = used.max()
     mistakes = {
         "The angle is one of half of the circle, as arctan(sin / cos) or arcsin give it: see "
         "np.arctan2.": reward_of(np.arctan(sine / cosine)),
@@ -523,7 +543,18 @@ def expect_rewards(student: Student, index: int, torque) -> None:
         "The angular speed is left out.": reward_of(
             np.arctan2(sine, cosine), torque.clip(-2, 2), 0.0
         ),
+        "The speed is that at the end of the step, but that at its beginning counts.": reward_of(
+            angle, given, faster
+        ),
+        "Angle and speed are those at the end of the step, but those at its beginning count.": (
+            reward_of((angle + 0.05 * faster + np.pi) % (2 * np.pi) - np.pi, given, faster)
+        ),
     }
+    small = np.abs(torque) < 1  # without them, another factor of the torque would look alike
+    if small.any() and 0.05 < limit < np.abs(torque).max() - 0.05:
+        mistakes[f"The torque is cut to -{limit:.3g} and {limit:.3g}, but the motor gives 2."] = (
+            reward_of(angle, torque.clip(-limit, limit))
+        )
     for observation, action, value, wanted in zip(observations, actions, got, rewards, strict=True):
         if abs(value - wanted) >= 1e-4 * (1 + abs(wanted)):
             raise Mismatch(
@@ -626,24 +657,40 @@ def pushes_to_where_the_pole_falls(student: Student):
         )
 
 
+def looked_at(student: Student) -> str:
+    """Which numbers of the observation change the student's action."""
+    rng = np.random.default_rng(exercise.seed(43))
+    observations, others = rng.normal(size=(2, 200, 4)) * (1, 1, 0.05, 0.3)
+    actions, found = actions_for(student, observations), []
+    names = ("the cart's position", "the cart's speed", "the angle", "the angle's speed")
+    for number, name in enumerate(names):
+        changed = observations.copy()
+        changed[:, number] = others[:, number]
+        if actions_for(student, changed) != actions:
+            found.append(f"{name} ([{number}])")
+    if not found:
+        return "Your rule always gives the same action."
+    return f"Your rule looks at {' and '.join(found)}."
+
+
 @balancing.check(6)
 def balances_for_half_of_the_time(student: Student):
-    mean = mean_steps(student)
-    expect(
-        mean >= 100,
-        f"{student.said}: the pole stays up for {mean:.1f} steps on average over {EPISODES} "
-        "episodes; 100 give points, 195 full marks.",
-    )
+    mean, said = mean_steps(student), student.said
+    if mean < 100:
+        raise Wrong(
+            f"{said}: the pole stays up for {mean:.1f} steps on average over {EPISODES} episodes; "
+            f"100 give points, 195 full marks. {looked_at(student)}"
+        )
 
 
 @balancing.check(8)
 def balances(student: Student):
-    mean = mean_steps(student)
-    expect(
-        mean >= 195,
-        f"{student.said}: the pole stays up for {mean:.1f} steps on average over {EPISODES} "
-        "episodes, but 195 of 200 are asked for.",
-    )
+    mean, said = mean_steps(student), student.said
+    if mean < 195:
+        raise Wrong(
+            f"{said}: the pole stays up for {mean:.1f} steps on average over {EPISODES} episodes, "
+            f"but 195 of 200 are asked for. {looked_at(student)}"
+        )
 
 
 # ------------------------------------------------------------------- 1.6

@@ -128,7 +128,7 @@ def weights_are_gaussian(student: Student):
         weights = network[key]
         near = (each for each in DEVIATIONS if abs(weights.std() / each - 1) < 0.02)
         why = DEVIATIONS.get(next(near, 0.0), "") if abs(weights.mean()) < 0.005 else ""
-        if abs(weights.mean() - 0.1) < 0.03:
+        if abs(weights.mean() - 0.1) < 0.03 * weights.std():
             why = "0.1 is the standard deviation, not the mean."
         expect(
             abs(weights.mean()) < 0.005 and abs(weights.std() - 0.1) < 0.004,

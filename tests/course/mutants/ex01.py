@@ -565,3 +565,64 @@ def balance(observation):
 # -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
 # +     position, _, _, angle = observation
 # +     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
+
+
+# %% limits_with_two_places loses 1.1
+# Rounds the limits to two places.
+# says: These are rounded limits
+# -         low, high = space.low.ravel().tolist(), space.high.ravel().tolist()
+# +         low, high = np.round([space.low.ravel(), space.high.ravel()], 2).tolist()
+
+
+# %% limits_of_the_observations loses 1.1
+# Gives the limits of the observations for the actions.
+# says: this
+_describe = describe
+
+
+def describe(environment_id):
+    description = _describe(environment_id)
+    observed, acted = description["observation"], description["action"]
+    if observed["kind"] == acted["kind"] == "Box":
+        acted |= {side: (observed[side] * 9)[: acted["size"]] for side in ("low", "high")}
+    return description
+
+
+# %% fall_costs_its_step loses 1.3
+# Gives 0 to the step in which the pole falls, by looking one step ahead.
+# says: the state in which a step begins
+# -     return 0.0 if fallen(observation) else 1.0
+# +     position, speed, angle, turning = observation
+# +     ahead = np.array([position + 0.02 * speed, speed, angle + 0.02 * turning, turning])
+# +     return 0.0 if fallen(ahead) else 1.0
+
+
+# %% speed_after_the_step loses 1.4
+# Moves the rod first, and pays for its new speed.
+# says: that at its beginning counts
+# -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
+# +     speed = np.clip(speed + 0.05 * (15 * np.sin(angle) + 3 * torque), -8, 8)
+# +     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
+
+
+# %% state_after_the_step loses 1.4
+# Moves the rod first, and pays for its new angle and speed.
+# says: those at its beginning count
+# -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
+# +     speed = np.clip(speed + 0.05 * (15 * np.sin(angle) + 3 * torque), -8, 8)
+# +     angle = (angle + 0.05 * speed + np.pi) % (2 * np.pi) - np.pi
+# +     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
+
+
+# %% cut_at_one loses 1.4
+# Cuts the torque at 1, though the motor gives 2.
+# says: The torque is cut to -1 and 1
+# -     torque = np.clip(float(action[0]), -2.0, 2.0)
+# +     torque = np.clip(float(action[0]), -1.0, 1.0)
+
+
+# %% speed_of_the_cart loses 1.5
+# Looks ahead with the speed of the cart, not with that of the angle.
+# says: looks at the cart's speed
+# -     _, _, angle, speed = observation
+# +     _, speed, angle, _ = observation
