@@ -508,7 +508,22 @@ class Evolved:
         expect_close(
             f"{self.said}: best (the highest fitness was met in generation {best})",
             self.run["best"], winner, 1e-6, mistakes,
+            lambda *_: self._origin(told, best, place, last),
         )  # fmt: skip
+
+    def _origin(self, told: np.ndarray, best: int, place: int, last: np.ndarray) -> str:
+        """Where an individual occurs that is not the best: row `place` of generation `best`."""
+        for g in (best, *range(len(self.populations))):
+            rows = np.flatnonzero(np.isclose(self.populations[g], told, rtol=1e-5).all(axis=1))
+            if len(rows) and g == best:
+                return (
+                    f"This is row {rows[0]} of generation {g}, but row {place} is the best there."
+                )
+            if len(rows):
+                return f"This is row {rows[0]} of generation {g}."
+        if np.isclose(last, told, rtol=1e-5).all(axis=1).any():
+            return "This is a row of the last population, which was not evaluated."
+        return "No individual that was evaluated has these parameters."
 
     def expect_lineage(self) -> None:
         """From each population to the next: the better half kept, the others variations of it."""

@@ -664,3 +664,14 @@ def next_population(population, fitness, mutrate, rng):
 # says: 0 for a single replication
 # -         "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
 # +         "deviation": histories.std(axis=0, ddof=1) if many else np.full(histories.shape[1], np.nan),
+
+
+# %% best_from_the_last_row loses 3.4
+# Takes the last row of the following population for the best individual.
+# says: This is row \d+ of generation
+# -         if fitness[winner] > best_fitness:
+# -             best, best_fitness = population[winner].copy(), float(fitness[winner])
+# -         population = next_population(population, fitness, mutrate, rng)
+# +         population = next_population(population, fitness, mutrate, rng)
+# +         if fitness[winner] > best_fitness:
+# +             best, best_fitness = population[-1].copy(), float(fitness[winner])
