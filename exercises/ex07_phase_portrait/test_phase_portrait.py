@@ -249,6 +249,39 @@ def stepped(module, gains, states):
     return module.next_states(controller, states)
 
 
+def seen_by(module, states):
+    """What a controller without effect is given in each state but the first."""
+    import numpy
+
+    seen = []
+
+    def controller(observation):
+        seen.append(numpy.array(observation, dtype=float))
+        return numpy.zeros(1)
+
+    answer = module.next_states(controller, states)
+    return [numpy.array(seen[1:]), answer]
+
+
+def wrongly_seen(student: Student, states: np.ndarray) -> str:
+    """What the controller is given if it is not the observation of the state; "" if it is."""
+    try:
+        seen, after = student.run(seen_by, states, said="next_states(controller, states)")
+        seen = expect_array("observations", seen, (len(states) - 1, 3))
+        after = expect_array("states", after, states.shape)
+    except (Wrong, ValueError, TypeError):  # it is asked more or less often
+        return ""
+    wanted = observed(states)[1:]
+    wrong = ~np.isclose(seen, wanted, atol=1e-4).all(axis=1)
+    if not wrong.any():
+        return ""
+    i = int(wrong.argmax())
+    text = f"In state {i + 1} the controller was given {show(seen[i])}"
+    if np.allclose(seen, observed(after)[:-1], atol=1e-4):
+        return f"{text}: this is what the step before led to, not the state that was put in."
+    return f"{text}, but the observation of this state is {show(wanted[i])}."
+
+
 def one_step(gains: np.ndarray, states: np.ndarray) -> np.ndarray:
     env = gymnasium.make("Pendulum-v1")
     env.reset(seed=0)
@@ -274,10 +307,15 @@ def pendulum_with_controller(student: Student):
     for index, n in ((13, 4), (14, 300)):
         gains = np.random.default_rng(exercise.seed(index)).uniform(-1, 1, 3)
         states = random_states(index + 2, n)
-        answer = student.run(
-            stepped, gains, states, said=f"next_states(controller, states), {n} states"
-        )
-        expect_states(student.said, answer, one_step(gains, states))
+        said = f"next_states(controller, states), {n} states"
+        answer = student.run(stepped, gains, states, said=said)
+        try:
+            expect_states(said, answer, one_step(gains, states))
+        except Wrong as error:
+            if why := wrongly_seen(student, states):
+                raise Wrong(f"{error}\n  {why}") from error
+            student.run(stepped, gains, states, said=said)  # for a second look at this call
+            raise
 
 
 # ------------------------------------------------------------------- 7.5

@@ -535,3 +535,25 @@ def three_stages(seed):
 # says: order of the evolution
 # -     return parameters[[0, middle, best]]
 # +     return parameters[[best, middle, 0]]
+
+
+# %% observation_of_another_reset loses 7.4
+# The controller sees what the environment observed last, at first that of a reset without a seed.
+# says: what the step before led to
+# -     env.reset()
+# -     following = []
+# +     observation, _ = env.reset()
+# +     following = []
+# -         seen = np.array([np.cos(angle), np.sin(angle), velocity], dtype=np.float32)
+# -         observation, *_ = env.step(controller(seen))
+# +         observation, *_ = env.step(controller(observation))
+
+
+# %% columns_for_rows loses 7.1
+# Takes the rows of many observations for cosines, sines and velocities.
+# says: unpacked along its first axis
+# -     observation = np.asarray(observation, dtype=float)
+# -     angle = np.arctan2(observation[..., 1], observation[..., 0])
+# -     return np.stack([angle, observation[..., 2]], axis=-1)
+# +     cosine, sine, velocity = observation
+# +     return np.array([np.arctan2(sine, cosine), velocity])
