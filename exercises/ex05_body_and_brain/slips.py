@@ -104,6 +104,9 @@ def wrong_sizes(p: np.ndarray, first: int, nominal: float) -> dict:
             "The function is tanh, not sine.": lambda q: nominal * (1 + 0.9 * np.sin(q)),
             "The function is tanh, not the logistic function.":
             lambda q: nominal * (1 + 0.9 / (1 + np.exp(-q))),
+            "2 / (1 + exp(-p)) - 1 is tanh(p / 2), not tanh p.":
+            lambda q: nominal * (1 + 0.9 * np.tanh(q / 2)),
+            "tanh is that of p itself, not of 2 p.": lambda q: nominal * (1 + 0.9 * np.tanh(2 * q)),
             "tanh lies between -1 and 1: its sign is lost here.":
             lambda q: nominal * (1 + 0.9 * np.abs(np.tanh(q))),
             "1 and 0.9 are exchanged.": lambda q: nominal * (0.9 + np.tanh(q)),
@@ -255,9 +258,11 @@ def wrong_limits(p: np.ndarray, name: str) -> dict:
         ordered = np.sort(np.abs([one, other]), axis=0)
         return ordered[0 if low else 1]
 
-    def by_amount(one, other):
-        first = np.abs(one) < np.abs(other)
-        return np.where(first == low, one, other)
+    def by_amount(one, other, last=False):
+        """last: take the second one of equal amounts."""
+        smaller = np.abs(one) < np.abs(other) if low else np.abs(one) > np.abs(other)
+        equal = np.abs(one) == np.abs(other)
+        return np.where(smaller | (equal & (not last)), one, other)
 
     def paired(one, other):
         return np.sort(np.ravel([one, other], order="F")).reshape(10, 2)[:, 0 if low else 1]
@@ -286,6 +291,8 @@ def wrong_limits(p: np.ndarray, name: str) -> dict:
             "Lower and upper limits are exchanged.": far,
             "The amounts of the limits are compared: the smaller one is the more negative one.":
             by_amount,
+            "The amounts of the limits are compared, but the smaller one is the more negative one.":
+            partial(by_amount, last=True),
             "A limit is taken without its sign: both can lie on one side of the default angle.":
             lambda one, other: (-1 if low else 1) * np.abs(pick(one, other)),
             "Limits are taken without their signs.": amounts,
@@ -881,6 +888,17 @@ def own_returns(text: str, walkers: np.ndarray, seed: int, episodes: int) -> np.
     each = range(len(walkers))
     return np.array([[pair_returns(text, walkers, episodes, i, j, seed) for j in each]
                      for i in each])  # fmt: skip
+
+
+def other_seed(
+    got: float, text: str, walkers: np.ndarray, seed: int, episodes: int, i: int, j: int
+) -> str:
+    """Say with which other seed brain i in body j has this mean return, "" if with none."""
+    for other in (*range(seed + 1, seed + 13), *range(max(seed - 12, 0), seed), 0, 1, 2, 3):
+        mean = pair_returns(text, walkers, episodes, i, j, other).mean()
+        if abs(got - mean) < 1e-5 * max(1, abs(mean)):
+            return f" Your number is that of the seed {other}: all pairs have the seed {seed}."
+    return ""
 
 
 @np.errstate(all="ignore")

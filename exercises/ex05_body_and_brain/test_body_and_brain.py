@@ -25,6 +25,7 @@ from slips import (
     measured,
     origin_of,
     other_places,
+    other_seed,
     own_loss,
     own_returns,
     reason,
@@ -370,6 +371,10 @@ class Trial:
             return np.array([own_run(self.text, seed, steps)[kind] for seed in seeds])
 
         seeds, steps = self.seeds, self.steps
+        each_ran = all(self.places.get(str(seed)) for seed in seeds)
+        rows = "All rows hold the genotype of the {} run: keep each one in its own row."
+        begun = "Each run begins with the seed of the {} one."
+        first, last = ((rows if each_ran else begun).format(which) for which in ("first", "last"))
         return {
             "These genotypes have the best fitness, not the best post-evaluated fitness.": runs(
                 seeds, steps, 1
@@ -394,10 +399,8 @@ class Trial:
             "The seed 0 is a seed like any other: another one is used in its place.": runs(
                 [seed or 1 for seed in seeds], steps
             ),
-            "Each run begins with the seed of the first one.": runs([seeds[0]] * 2, steps),
-            "All rows hold the genotype of the last run: keep each one in its own row.": runs(
-                [seeds[1]] * 2, steps
-            ),
+            first: runs([seeds[0]] * 2, steps),
+            last: runs([seeds[1]] * 2, steps),
             "The place in the list is added to each seed.": runs([seeds[0], seeds[1] + 1], steps),
             "One is added to each seed.": runs([seed + 1 for seed in seeds], steps),
             "The seeds count on from the first one: take each from the list.": runs(
@@ -536,7 +539,8 @@ def expect_matrix(
 
     def why(i: int, j: int) -> str:
         each = returns[i, j].round(3).tolist()
-        return f"Brain {i} in body {j} has these returns: {each}. [{i}, {j}] is their mean."
+        known = f"Brain {i} in body {j} has these returns: {each}. [{i}, {j}] is their mean."
+        return known + other_seed(np.asarray(matrix)[i, j], text, walkers, seed, episodes, i, j)
 
     expect_close(said, matrix, returns.mean(axis=2), TOLERANCE, made, why)
 
