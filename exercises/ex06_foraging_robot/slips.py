@@ -71,7 +71,19 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         cells = squash(net[0] + 1) * memory[0] + squash(net[1]) * np.tanh(net[3])
         return made(cells, squash(net[2]) * np.tanh(cells))
 
+    def unit_by_unit(seen: int) -> tuple:
+        """The units one after another, each with what is new in this row of the memory."""
+        new = memory.copy()
+        for unit in range(UNITS):
+            known = np.append(observation, new[seen])
+            forget, enter, leave, candidate = gates[:, unit] @ known
+            cell = squash(forget + 1) * memory[0, unit] + squash(enter) * np.tanh(candidate)
+            new[:, unit] = cell, squash(leave) * np.tanh(cell)
+        return np.tanh(bias + readout @ new[1]), new
+
     more = {
+        "The units are computed one after another, and each one sees the new outputs of those "
+        "before it: all see the outputs of the step before.": unit_by_unit(1),
         "The forget gate is used for the candidate and the input gate for the old cells.":
         made(taken * memory[0] + kept * np.tanh(net[3])),
         "The new cells are kept after tanh: tanh belongs to the outputs alone.":
@@ -677,11 +689,16 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
 
     if name == "pace":
         spots = after[near, :2]
-        hops = np.hypot(*np.diff(spots, axis=0).T) if len(spots) > 1 else np.zeros(1)
+        hops, starts = (
+            np.hypot(*np.diff(places[near, :2], axis=0).T) if near.sum() > 1 else np.zeros(1)
+            for places in (after, before)
+        )
         many_near = max(int(near.sum()), 1)
         extra = {
             "These are the ways from one place with a reward to the next such place: take "
             "each step from its own beginning to its end.": hops.mean(),
+            "These are the ways from the beginning of one step with a reward to the beginning of "
+            "the next such step: take each step from its own beginning to its end.": starts.mean(),
             "The ways are added up with their directions, so they cancel out: take each length.":
             np.hypot(dx[near].sum(), dy[near].sum()) / many_near,
             "The root is taken of the mean of the squares: take the mean of the lengths.":

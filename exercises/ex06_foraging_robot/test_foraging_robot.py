@@ -101,6 +101,7 @@ def lived(brain: dict, start, cylinder, seed: int, way, maxsteps: int, slip: str
     if slip != "sense":
         arena.sense()
     memory, rows = np.ones((2, UNITS)) if slip == "ones" else np.zeros((2, UNITS)), []
+    begun = earlier = made = memory
     poses, last = [arena.robots[0].copy()], np.zeros(2)
     while not arena.done:
         seen = arena.observation.copy()
@@ -137,7 +138,11 @@ def lived(brain: dict, start, cylinder, seed: int, way, maxsteps: int, slip: str
             "exchanged": (after, memory),
             "after twice": (after, after),
             "before twice": (memory, memory),
+            "begun": (begun, after),
+            "earlier": (earlier, after),
+            "made": (made, after),
         }.get(slip, (memory, after))
+        earlier, made = memory, after
         memory = after if slip == "not asked" else remembered(way, step, one, other)
         if (slip == "found" and reward > 0) or (slip == "lost" and reward == 0 and len(rows) > 1):
             break
@@ -168,6 +173,11 @@ SLIPS = {
     "exchanged": "`remember` gets the memory after the step first: before comes before after.",
     "after twice": "`remember` gets the memory after the step twice: it needs the one before, too.",
     "before twice": "`remember` gets the memory before the step twice, but needs that after it.",
+    "begun": "`remember` gets the memory of the episode's beginning as `before` in each step.",
+    "earlier": "`remember` gets the memory before the last step as `before`, not that before this "
+    "one.",
+    "made": "`remember` gets as `before` what `think` made in the last step: it needs what "
+    "`remember` returned there.",
     "not asked": "What `remember` returns is not used.",
     "found": "The episode ends with the first reward: it goes on.",
     "lost": "The episode ends with a step without a reward: it goes on.",
