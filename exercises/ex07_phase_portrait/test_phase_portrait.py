@@ -678,7 +678,8 @@ def places(student: Student, drawings: list[tuple[list, list]]) -> list[tuple[fl
         (height, width), (rows, columns) = different.shape, np.nonzero(different > VISIBLE)
         expect(
             len(rows) > 20,
-            f"{student.said}: other arrows give the same picture, so they are not drawn.",
+            f"{student.said}: other arrows give the same picture: they are not drawn, or they lie "
+            "outside of the axes.",
         )
         expect(
             len(rows) < 0.2 * height * width,
@@ -705,14 +706,25 @@ def expect_fixed_axes(student: Student, found: list[tuple[float, float]]) -> Non
     """Arrows around STATES were found where axes from -pi to pi and -8 to 8 put them."""
     states, places = np.array(STATES), np.array(found)
     for name, values, spots in zip(("angles", "velocities"), states.T, places.T, strict=True):
-        middle, span = spots[1] - spots[0], spots[2] - spots[0]
-        share = (values[1] - values[0]) / (values[2] - values[0])
-        expect(
-            bool(span > 0.3 and abs(middle / span - share) < 0.06),
-            f"{student.said}: arrows at the {name} {', '.join(map(str, values))} were found at "
-            f"{', '.join(f'{100 * x:.0f} %' for x in spots)} of the picture. Does each panel "
-            "show -pi to pi and -8 to 8, whatever is drawn?",
+        why = (
+            "Does each panel show -pi to pi and -8 to 8, whatever is drawn, and does each arrow "
+            "begin in its state and end in the next one?"
         )
+        if spread(spots[::-1], values[::-1]):
+            side = "upwards" if name == "velocities" else "from left to right"
+            why = f"The axis points the other way: the {name} are to grow {side}."
+        expect(
+            spread(spots, values),
+            f"{student.said}: arrows at the {name} {', '.join(map(str, values))} were found at "
+            f"{', '.join(f'{100 * x:.0f} %' for x in spots)} of the picture. {why}",
+        )
+
+
+def spread(spots: np.ndarray, values: np.ndarray) -> bool:
+    """Whether three spots of a picture lie as three values do, from the first to the last."""
+    middle, span = spots[1] - spots[0], spots[2] - spots[0]
+    share = (values[1] - values[0]) / (values[2] - values[0])
+    return bool(span > 0.3 and abs(middle / span - share) < 0.06)
 
 
 @picture.check(3)
@@ -720,7 +732,7 @@ def one_panel_for_each(student: Student):
     three = [CENTRE] * 3
     plain = pixels_of(student, three, three)
     states = [state[1] for state in STATES]
-    share = (states[1] - states[0]) / (states[2] - states[0])
+    alone = [CENTRE, around(*STATES[1]), CENTRE]
     for what in ("paths", "fields"):
         arrows = [around(*at) for at in STATES]
         drawing = (three, arrows) if what == "paths" else (arrows, three)
@@ -731,22 +743,35 @@ def one_panel_for_each(student: Student):
             expect(
                 len(rows) > 20,
                 f"{student.said}: other arrows in {what}[{k}] give the same picture in the "
-                f"{PLACES[k]} third, so they are not drawn there.",
+                f"{PLACES[k]} third: they are not drawn there, or they lie outside of the axes.",
             )
             low, middle, high = np.percentile(rows, [5, 50, 95]) / len(third)
-            expect(
-                bool(high - low < 0.25),
-                f"{student.said}: the {PLACES[k]} third of the picture shows the arrows of more "
-                f"than {what}[{k}]: panel i shows {what}[i], all of it, and no other.",
-            )
+            if high - low >= 0.25:
+                drawing = (three, alone) if what == "paths" else (alone, three)
+                one = np.array_split(difference(pixels_of(student, *drawing), plain), 3, axis=1)
+                why = "Each arrow is as long as its change, in axes from -pi to pi and -8 to 8."
+                if (one[0] > VISIBLE).any() or (one[2] > VISIBLE).any():
+                    why = (
+                        f"Panel i shows {what}[i] and no other, and its axes go from -pi to pi and "
+                        "from -8 to 8, whatever is drawn."
+                    )
+                raise Wrong(
+                    f"{student.said}: in the {PLACES[k]} third of the picture, the few arrows of "
+                    f"{what}[{k}], all near the velocity {states[k]:g}, cover "
+                    f"{100 * (high - low):.0f} % of the height. {why}"
+                )
             found.append(float(1 - middle))
-        span = found[2] - found[0]
+        why = f"Panel i shows {what}[i]."
+        if spread(np.array(found)[::-1], states[::-1]):
+            why = "The axis points the other way: the velocities are to grow upwards."
+        elif found[0] < found[1] < found[2]:  # in the right order, at wrong distances
+            why = "Each panel shows -8 to 8, and each arrow ends in the next state."
         expect(
-            bool(span > 0.3 and abs((found[1] - found[0]) / span - share) < 0.06),
+            spread(found, states),
             f"{student.said}: {what}[0], {what}[1] and {what}[2] with arrows at the velocities "
             f"{', '.join(map(str, states))} should be in the left, the middle and the right third "
             f"of the picture, but there the arrows are {', '.join(map('{:.0%}'.format, found))} "
-            f"from below. Panel i shows {what}[i].",
+            f"from below. {why}",
         )
     titles_stand_above(student, plain)
     path_lies_above(student)
@@ -792,6 +817,59 @@ ARROWS = np.array(
 """In different quarters of the state space, in different directions."""
 
 
+LIMITS = np.array([np.pi, 8.0])
+
+
+def fitted(extent: np.ndarray, begins: np.ndarray, ends: np.ndarray) -> list[np.ndarray]:
+    """For x and y: the line that leads from states to pixels if arrows are drawn so.
+
+    extent: the smallest and the largest x and y of each arrow's pixels.
+    """
+    wanted = np.stack([np.minimum(begins, ends), np.maximum(begins, ends)], axis=1)
+    return [np.polyfit(wanted[..., i].ravel(), extent[..., i].ravel(), 1) for i in (0, 1)]
+
+
+def misfits(extent: np.ndarray, begins: np.ndarray, ends: np.ndarray, sizes) -> list[float]:
+    """For x and y: how far, as a share of the picture, the arrows are from being drawn so."""
+    wanted = np.stack([np.minimum(begins, ends), np.maximum(begins, ends)], axis=1)
+    found = []
+    for i, (line, size) in enumerate(zip(fitted(extent, begins, ends), sizes, strict=True)):
+        off = np.abs(np.polyval(line, wanted[..., i]) - extent[..., i]).max() / size
+        found.append(float(off) if line[0] > 0 else np.inf)
+    return found
+
+
+def within_axes(begins: np.ndarray, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The parts of arrows that axes from -pi to pi and -8 to 8 show."""
+    way = ends - begins
+    with np.errstate(divide="ignore"):
+        sides = np.stack([(-LIMITS - begins) / way, (LIMITS - begins) / way])
+    first = sides.min(axis=0).max(axis=1).clip(0, 1)[:, None]
+    last = sides.max(axis=0).min(axis=1).clip(0, 1)[:, None]
+    return begins + first * way, begins + last * way
+
+
+def drawn_otherwise(extent: np.ndarray, sizes) -> str:
+    """How arrows are drawn that do not go to the next state, or ""."""
+    states, changes = ARROWS[:, :2], ARROWS[:, 2:]
+    ways = {
+        "They are as long as the numbers of the next state: an arrow is as long as the change.": (
+            states, 2 * states + changes
+        ),
+        "They end where the change itself would be a state.": (states, changes),
+        "They end in their state, but should begin there.": (states - changes, states),
+        "Their middle is in their state, but they should begin there.": (
+            states - changes / 2, states + changes / 2
+        ),
+        "They point the other way: the changes are to be added.": (states, states - changes),
+    }  # fmt: skip
+    off = {text: max(misfits(extent, *within_axes(*ends), sizes)) for text, ends in ways.items()}
+    exchanged = (states[:, ::-1], (states + changes)[:, ::-1])
+    off["Angles and velocities are exchanged."] = max(misfits(extent, *exchanged, sizes))
+    best = min(off, key=lambda text: off[text])
+    return f"\n  {best}" if off[best] < 0.05 else ""
+
+
 def drawn_arrows(different: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
     """(points, weights) of what each picture shows alone; x and y in pixels, y upwards."""
     found = []
@@ -821,22 +899,20 @@ def arrows_point_to_the_next_state(student: Student):
         shape, found = different.shape[1:], drawn_arrows(different)
         expect(
             all(len(points) > 5 for points, _ in found),
-            f"{student.said}: a single arrow of a {what} is not drawn.",
+            f"{student.said}: a single arrow of a {what} is not drawn, or lies outside of the "
+            "axes.",
         )
         begins, ends = ARROWS[:, :2], ARROWS[:, :2] + ARROWS[:, 2:]
         extent = np.array([[points.min(axis=0), points.max(axis=0)] for points, _ in found])
-        wanted = np.stack([np.minimum(begins, ends), np.maximum(begins, ends)], axis=1)
-        scales = []
-        for axis, size in ((0, shape[1]), (1, shape[0])):
-            scale = np.polyfit(wanted[..., axis].ravel(), extent[..., axis].ravel(), 1)
-            off = np.abs(np.polyval(scale, wanted[..., axis]) - extent[..., axis]).max() / size
-            expect(
-                bool(scale[0] > 0 and off < 0.05),
+        off = max(misfits(extent, begins, ends, shape[::-1]))
+        if off >= 0.05:
+            far = f"up to {100 * off:.0f} % of the picture away" if off < 1 else "elsewhere"
+            raise Wrong(
                 f"{student.said}: the arrows of a {what} do not go from their state to the next "
-                f"one, but begin or end up to {100 * off:.0f} % of the picture away: draw them in "
-                "the units of the axes, each as long as its change.",
+                f"one, but begin or end {far}: draw them in the units of the axes, each as long as "
+                f"its change.{drawn_otherwise(extent, shape[::-1])}"
             )
-            scales.append(scale)
+        scales = fitted(extent, begins, ends)
         places = [
             np.stack(
                 [np.polyval(scale, side[:, axis]) for axis, scale in enumerate(scales)], axis=1

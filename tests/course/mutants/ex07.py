@@ -557,3 +557,45 @@ def three_stages(seed):
 # -     return np.stack([angle, observation[..., 2]], axis=-1)
 # +     cosine, sine, velocity = observation
 # +     return np.array([np.arctan2(sine, cosine), velocity])
+
+
+# %% next_states_for_the_changes loses 7.7
+# Gives quiver the next states where it wants the changes.
+# says: as long as the numbers of the next state
+# -         axes.quiver(*field.T, color="#a8b4c0", width=0.0035, **exact)
+# -         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
+# +         field, path = (np.hstack([a[:, :2], a[:, :2] + a[:, 2:]]) for a in (field, path))
+# +         axes.quiver(*field.T, color="#a8b4c0", width=0.0035, **exact)
+# +         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
+
+
+# %% velocities_downwards loses 7.7
+# The axis of the velocities points down.
+# says: the velocities are to grow upwards
+# -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
+# +         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(8, -8))
+
+
+# %% middle_of_the_arrow_in_its_state loses 7.7
+# Puts the middle of each arrow into its state.
+# says: Their middle is in their state
+# -     exact = {"angles": "xy", "scale_units": "xy", "scale": 1}
+# +     exact = {"angles": "xy", "scale_units": "xy", "scale": 1, "pivot": "mid"}
+
+
+# %% length_of_its_own loses 7.7
+# Lets matplotlib choose the length of the arrows.
+# says: Each arrow is as long as its change
+# -     exact = {"angles": "xy", "scale_units": "xy", "scale": 1}
+# +     exact = {"angles": "xy"}
+
+
+# %% angles_upwards loses 7.7
+# Exchanges angles and velocities.
+# says: Angles and velocities are exchanged
+# -         axes.quiver(*field.T, color="#a8b4c0", width=0.0035, **exact)
+# -         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
+# -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
+# +         axes.quiver(*field[:, [1, 0, 3, 2]].T, color="#a8b4c0", width=0.0035, **exact)
+# +         axes.quiver(*path[:, [1, 0, 3, 2]].T, color="#d55e00", width=0.005, **exact)
+# +         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-8, 8), ylim=(-np.pi, np.pi))
