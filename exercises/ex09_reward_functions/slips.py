@@ -307,7 +307,8 @@ def mistaken_electricity(one: dict) -> dict:
             "The squared action is not multiplied by the 2 of the work.": (2.0, 0.2),
             "The factors 2 and 0.1 are exchanged: 2 belongs to the work.": (0.1, 2.0),
             "The squared action is subtracted from the cost: both parts are costs.": (2.0, -0.1),
-            "The 0.1 multiplies the work, too.": (0.2, 0.1),
+            "The work is a tenth of what it is: 0.1 belongs to the squared action alone, and the "
+            "speeds stay in their units.": (0.2, 0.1),
         },
         factors={
             "": (4.25, 4.25) if humanoid else (1.0, 1.0),
@@ -383,6 +384,21 @@ def mistaken_limits(positions: np.ndarray) -> dict:
             "A joint at its limit costs 0.1, not 0.01.": -0.01,
         },
     )  # fmt: skip
+
+
+def mistaken_components(one: dict) -> dict:
+    """What mistakes make of the components, in `components_v0` or in the functions of before."""
+    found = mistaken_v0(one)
+    written_anew = {
+        "electricity": mistaken_electricity(one),
+        "joints_at_limit": mistaken_limits(one["positions"]),
+        "alive": mistaken_bonus(one),
+        "progress": mistaken_progress(one["distance"], one["duration"]),
+    }
+    for key, made in written_anew.items():
+        for text, value in made.items():
+            found[text] = {key: value, **found.get(text, {})}
+    return found
 
 
 def mistaken_v0(one: dict) -> dict:

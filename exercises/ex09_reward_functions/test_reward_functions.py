@@ -18,13 +18,13 @@ from slips import (
     expected_v0,
     expected_v5,
     mistaken_bonus,
+    mistaken_components,
     mistaken_electricity,
     mistaken_falls,
     mistaken_gait,
     mistaken_limits,
     mistaken_means,
     mistaken_progress,
-    mistaken_v0,
     mistaken_v5,
     why_at_limit,
     why_electricity,
@@ -107,14 +107,20 @@ def compare_fields(
     answer,
     wanted: dict,
     tolerance: float = 1e-9,
-    mistakes: dict | None = None,
+    mistakes: dict | Callable[[], dict] | None = None,
     why: dict[str, Callable[[int], str]] | None = None,
 ) -> None:
     """mistakes: what they make of the fields, each a dict, by sentence; why: see expect_close."""
+
+    @cache
+    def made(key: str) -> dict:
+        all_of_them = mistakes() if callable(mistakes) else mistakes or {}
+        return {text: each[key] for text, each in all_of_them.items() if key in each}
+
     values = expect_fields(said, answer, *wanted)
     for (key, value), got in zip(wanted.items(), values, strict=True):
-        made = {text: each[key] for text, each in (mistakes or {}).items() if key in each}
-        expect_close(f"{said}: {key}", got, value, tolerance, made, (why or {}).get(key))
+        of_key = partial(made, key)
+        expect_close(f"{said}: {key}", got, value, tolerance, of_key, (why or {}).get(key))
 
 
 def expect_no_other(said: str, answer: dict, wanted: dict) -> None:
@@ -205,7 +211,7 @@ def rebuilds_version_0(student: Student):
         one = made_up(robot, 20 + i)
         answer, wanted = call_v0(student, one), expected_v0(one)
         why = {"alive": partial(why_standing, one), "joints_at_limit": partial(why_at_limit, one)}
-        compare_fields(student.said, answer, wanted, 1e-7, mistaken_v0(one), why)
+        compare_fields(student.said, answer, wanted, 1e-7, partial(mistaken_components, one), why)
         expect_no_other(student.said, answer, wanted)
 
     one = made_up("Ant", 25, 6) | {"duration": 0.03}
@@ -213,7 +219,7 @@ def rebuilds_version_0(student: Student):
     answer = student.call("components_v0", one)
     student.said = said
     why = {"alive": partial(why_standing, one), "joints_at_limit": partial(why_at_limit, one)}
-    compare_fields(said, answer, expected_v0(one), 1e-7, mistaken_v0(one), why)
+    compare_fields(said, answer, expected_v0(one), 1e-7, partial(mistaken_components, one), why)
 
 
 @standard.check(5)
