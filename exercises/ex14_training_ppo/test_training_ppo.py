@@ -13,6 +13,7 @@ import tempfile
 import zipfile
 from collections import Counter
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +28,7 @@ from botschool.grading import (
     expect_close,
     expect_fields,
     show,
+    slips,
 )
 
 exercise = Exercise(
@@ -451,6 +453,52 @@ def drawn_runs(index: int, sizes: dict[str, int]) -> list[dict]:
     return [runs[i] for i in rng.permutation(len(runs))]
 
 
+def mistaken_deviation(values: np.ndarray) -> dict:
+    """What mistakes make of the deviation of more than one value."""
+    sample = values.std(ddof=1)
+    return {
+        "The deviation is divided by n instead of n - 1 (ddof=1).": values.std(),
+        "This is the variance: the deviation is its root.": sample**2,
+        "This is the variance, divided by n: the deviation is a root, and divides by n - 1.": (
+            values.var()
+        ),
+        "This is the standard error of the mean: the deviation is not divided by the root of n.": (
+            sample / np.sqrt(len(values))
+        ),
+        "This is the range, highest minus lowest.": np.ptp(values),
+    }
+
+
+def mistaken_gain(name: str, means: dict, baseline: str) -> dict:
+    """What mistakes make of the gain."""
+    every = [float(mean) for mean in means.values()]
+    return slips(
+        lambda base, apart: apart(float(means[name]), base),
+        base={
+            "": float(means[baseline]),
+            "The gain is that over the best variation, not over the baseline.": max(every),
+            "The gain is that over the worst variation, not over the baseline.": min(every),
+            "The gain is that over the first variation, not over the baseline.": every[0],
+            "The gain is that over the mean of all variations, not over the baseline.": np.mean(
+                every
+            ),
+        },
+        apart={
+            "": lambda mean, base: mean - base,
+            "The gain is turned around: it is the mean minus that of the baseline.":
+            lambda mean, base: base - mean,
+            "The gain is divided by the mean of the baseline: a difference is asked for, no share.":
+            lambda mean, base: (mean - base) / base,
+            "The gain is a percentage: a difference is asked for.":
+            lambda mean, base: 100 * (mean - base) / base,
+            "The gain is a quotient of means: a difference is asked for.":
+            lambda mean, base: mean / base,
+            "The gain is never negative here: a variation may be worse than the baseline.":
+            lambda mean, base: abs(mean - base),
+        },
+    )  # fmt: skip
+
+
 def compare_table(student: Student, runs: list[dict], baseline: str, *keys: str) -> None:
     """Compares the rows in their order; what counts is the first run of a variant and seed."""
     results: dict[str, dict] = {}
@@ -479,13 +527,11 @@ def compare_table(student: Student, runs: list[dict], baseline: str, *keys: str)
                 sentence = f"{said}: deviation of a single run is {show(value)} instead of None."
                 expect(value is None, sentence)
             else:
-                mistakes = {
-                    "The deviation is divided by n instead of n - 1 (ddof=1).": np.std(values),
-                    "Several runs with the same seed count as one.": all_runs[name],
-                    "The gain is that over the worst variation, not over the baseline.": float(
-                        means[name] - min(means.values())
-                    ),
-                }
+                mistakes = {"Several runs with the same seed count as one.": all_runs[name]}
+                if key == "deviation":
+                    mistakes = mistaken_deviation(values)
+                if key == "gain":
+                    mistakes = mistaken_gain(name, means, baseline)
                 expect_close(f"{said}: {key}", value, wanted[key], CLOSE, mistakes)
 
 
@@ -718,6 +764,32 @@ def ranks(numbers: np.ndarray) -> np.ndarray:
     return np.array([np.flatnonzero(order == number).mean() for number in numbers])
 
 
+EQUAL = (
+    "Equal numbers are to share the mean of their ranks: each has a rank of its own here, or the "
+)
+EQUAL += "lowest or highest of theirs."
+
+
+def unshared(first: np.ndarray, second: np.ndarray, answer: object) -> float:
+    """The correlation by another rule for the ranks of equal numbers: the one that fits, if any."""
+
+    def highest(numbers: np.ndarray) -> np.ndarray:
+        return (numbers[:, None] >= numbers).sum(axis=1)
+
+    rules = [
+        lambda numbers: np.argsort(np.argsort(numbers, kind="stable")),
+        lambda numbers: np.argsort(np.argsort(numbers)),
+        lambda numbers: -np.argsort(np.argsort(-numbers, kind="stable")),
+        lambda numbers: -np.argsort(np.argsort(-numbers)),
+        lambda numbers: -highest(-numbers),  # the lowest of their ranks
+        highest,
+        lambda numbers: np.unique(numbers, return_inverse=True)[1],  # no gap after equal ones
+    ]
+    made = [np.corrcoef(rule(first), rule(second))[0, 1] for rule in rules]
+    near = np.isclose(made, answer) if isinstance(answer, float) else np.zeros(len(made), bool)
+    return made[int(near.argmax())]
+
+
 def compare_ranks(student: Student, first: np.ndarray, second: np.ndarray) -> None:
     alike = len(set(first.tolist())) == 1 or len(set(second.tolist())) == 1
     wanted = 0.0 if alike else np.corrcoef(ranks(first), ranks(second))[0, 1]
@@ -727,10 +799,9 @@ def compare_ranks(student: Student, first: np.ndarray, second: np.ndarray) -> No
     mistakes = {}
     if not alike:
         orders = [np.argsort(each, kind="stable") for each in (first, second)]
-        places = [np.argsort(each) for each in orders]
         mistakes = {
             "The numbers are correlated, not their ranks.": np.corrcoef(first, second)[0, 1],
-            "Equal numbers are to share a rank.": np.corrcoef(*places)[0, 1],
+            EQUAL: unshared(first, second, answer),
             "These are no ranks: np.argsort says where the smallest number stands, and so on.": (
                 np.corrcoef(*orders)[0, 1]
             ),
@@ -756,6 +827,40 @@ def equal_numbers(student: Student):
     compare_ranks(student, rng.normal(size=6).round(2), np.full(6, -0.7))
 
 
+def mistaken_within(numbers: np.ndarray, which: np.ndarray) -> dict:
+    """What mistakes make of the numbers minus the means of their variants; which: their kinds."""
+    kinds = np.unique(which)
+    right = {kind: numbers[which == kind].mean() for kind in kinds}
+    own, many = np.array([right[kind] for kind in which]), len(numbers)
+    spread = {kind: np.ptp(numbers[which == kind]) > 1e-9 for kind in kinds}
+
+    def over(size) -> np.ndarray:
+        by = [size(numbers[which == k]) if spread[k] else 1.0 for k in which]
+        return (numbers - own) / np.array(by)
+
+    return {
+        "The mean of all trainings is subtracted, not that of the variant.": numbers
+        - numbers.mean(),
+        "The mean of the variant is subtracted, and then divided by its deviation, too: subtract "
+        "only.": over(np.std),
+        "The mean of the variant is subtracted, and then divided by its deviation (n - 1), too: "
+        "subtract only.": over(lambda own: np.std(own, ddof=1)),
+        "The mean of the variant is subtracted, and then divided by its range, too: subtract "
+        "only.": over(np.ptp),
+        "The numbers are divided by the mean of the variant: subtract it.": numbers / own,
+        "The difference is divided by the mean of the variant, too: subtract only.": numbers / own
+        - 1,
+        "The median of the variant is subtracted, not its mean.": numbers
+        - np.array([np.median(numbers[which == kind]) for kind in which]),
+        "The sign is wrong: each number minus the mean.": own - numbers,
+        "The mean of the whole is added again: only subtract.": numbers - own + numbers.mean(),
+        "The sum over the variant is divided by the number of all trainings.": numbers
+        - np.array([numbers[which == kind].sum() / many for kind in which]),
+        "The mean is taken over the means of the variants, not over the own variant.": numbers
+        - np.mean(list(right.values())),
+    }
+
+
 @relating.check(4)
 def inside_variants(student: Student):
     for index, kinds in ((84, 2), (85, 4)):
@@ -769,10 +874,7 @@ def inside_variants(student: Student):
         names = [f"variant {kind}" for kind in which]
         answer = student.call("within_variants", numbers, names)
         got = expect_array(student.said, answer, numbers.shape)
-        mistakes = {
-            "The mean of all trainings is subtracted, not that of the variant.": numbers
-            - numbers.mean()
-        }
+        mistakes = partial(mistaken_within, numbers, which)
         expect_close(student.said, got, wanted, CLOSE, mistakes)
         expect(
             len(set(got[which == 0].tolist())) == 1 and np.array_equal(got, np.round(got, 9)),
@@ -827,6 +929,75 @@ def curve_of_a_training(student: Student):
         expect_curve(student, {f"{place}/evaluations.npz": content}, place, wanted)
 
 
+def mistaken_steps(curves: list[dict], points: int) -> dict:
+    """What mistakes make of the steps at which curves are compared."""
+    first, last = (np.array([curve["steps"][i] for curve in curves]) for i in (0, -1))
+    return slips(
+        lambda start, end, spaced: spaced(start, end),
+        start={
+            "": first.max(),
+            "The steps begin where the first of all runs has a value: the last one has none there.":
+            first.min(),
+            "The steps begin at 0, where no run has a value.": 0.0,
+            "The steps begin at the mean of the first steps of the runs.": first.mean(),
+            "The steps begin with the first run in the list.": first[0],
+        },
+        end={
+            "": last.min(),
+            "The steps end where the last of all runs ends: others have ended before.": last.max(),
+            "The steps end at the mean of the last steps of the runs.": last.mean(),
+            "The steps end with the first run in the list.": last[0],
+            "The steps end with the last run in the list.": last[-1],
+        },
+        spaced={
+            "": lambda start, end: np.linspace(start, end, points),
+            "The end itself is left out: np.linspace has it.":
+            lambda start, end: np.linspace(start, end, points, endpoint=False),
+            "The beginning itself is left out: np.linspace has it.":
+            lambda start, end: np.linspace(start, end, points + 1)[1:],
+            "The steps are spaced evenly by their logarithms.":
+            lambda start, end: np.geomspace(max(start, 1e-9), end, points),
+            "The steps are rounded to whole numbers.":
+            lambda start, end: np.round(np.linspace(start, end, points)),
+            "The steps are cut to whole numbers.":
+            lambda start, end: np.floor(np.linspace(start, end, points)),
+        },
+    )  # fmt: skip
+
+
+def mistaken_values(group: list[dict], marks: np.ndarray) -> dict:
+    """What mistakes make of the values of a group's runs at these steps."""
+    read = {
+        "A straight line is drawn from value to value, which knows the future: take the last value "
+        "at or before each step.": lambda steps, best, _: np.interp(marks, steps, best),
+        "The next value is taken, which was not there yet: take the last one at or before each "
+        "step.": lambda steps, best, at: best[np.minimum(at + 1, len(best) - 1)],
+        "The value before the last one is taken at each step.": lambda steps, best, at: best[
+            np.maximum(at - 1, 0)
+        ],
+        "The nearest value is taken, which may come later: take the last one at or before each "
+        "step.": lambda steps, best, _: best[np.abs(marks[:, None] - steps).argmin(axis=1)],
+        "The last value of the run is taken at all steps.": lambda steps, best, at: best[
+            0 * at - 1
+        ],
+    }
+    found = {}
+    for text, value in read.items():
+        rows = []
+        for curve in group:
+            steps, best = np.asarray(curve["steps"]), np.asarray(curve["best"])
+            rows.append(value(steps, best, (marks[:, None] >= steps - 1e-9).sum(axis=1) - 1))
+        found[text] = np.array(rows)
+    found["The mean over the runs is taken: each run has a row."] = np.mean(
+        [
+            np.asarray(c["best"])[(marks[:, None] >= c["steps"] - 1e-9).sum(axis=1) - 1]
+            for c in group
+        ],
+        axis=0,
+    )
+    return found
+
+
 @equal.check(5)
 def at_the_same_steps(student: Student):
     rng = generator(92)
@@ -845,10 +1016,14 @@ def at_the_same_steps(student: Student):
         answer = student.call("at_equal_steps", groups, points)
         student.said = f"at_equal_steps({sizes} runs, {points})"
         got = expect_fields(student.said, answer, "steps", *groups)
-        expect_close(f"{student.said}: steps", got[0], marks, CLOSE)
+        mistakes = partial(mistaken_steps, curves, points)
+        expect_close(f"{student.said}: steps", got[0], marks, CLOSE, mistakes)
+        if np.shape(got[0]) != marks.shape or not np.allclose(got[0], marks, CLOSE, CLOSE):
+            continue  # the values at other steps are others
         for (name, group), values in zip(groups.items(), got[1:], strict=True):
             wanted = [
                 [curve["best"][curve["steps"] <= mark + 1e-9][-1] for mark in marks]
                 for curve in group
             ]
-            expect_close(f"{student.said}: {name}", values, np.array(wanted), CLOSE)
+            mistakes = partial(mistaken_values, group, marks)
+            expect_close(f"{student.said}: {name}", values, np.array(wanted), CLOSE, mistakes)
