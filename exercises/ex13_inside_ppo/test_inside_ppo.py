@@ -8,11 +8,12 @@ everything is compared to 1e-6. Nothing here is learnt, so nothing depends on lu
 import copy
 import functools
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from botschool.grading import Exercise, Student, expect, expect_array, expect_close, show
+from botschool.grading import Exercise, Student, expect, expect_array, expect_close, show, slips
 from botschool.grading.declare.libraries import (
     ADVANTAGES,
     ENTROPY,
@@ -123,11 +124,15 @@ def compare_advantages(student: Student, index: int, steps: int, envs: int, **sp
             f"gamma={gamma}, gae_lambda={gae_lambda})"
         )
     mistakes = mistaken(rewards, values, starts, last_values, dones, gamma, gae_lambda)
+    mistakes.pop("")
     expect_close(student.said, answer, buffer.advantages, CLOSE, mistakes)
 
 
+LAMBDA_OF_ONE = "gae_lambda is left out: later TD errors count less by gamma alone."
+
+
 def mistaken(rewards, values, starts, last_values, dones, gamma, gae_lambda) -> dict:
-    """What mistakes make of the advantages."""
+    """What mistakes make of the advantages; "" stands for the right ones."""
 
     def estimated(
         lambda_=gae_lambda, starts=starts, dones=dones, last=last_values, shift=1, leaks=""
@@ -142,7 +147,7 @@ def mistaken(rewards, values, starts, last_values, dones, gamma, gae_lambda) -> 
         return found
 
     return {
-        "gae_lambda is left out: later TD errors count less by gamma alone.": estimated(1.0),
+        LAMBDA_OF_ONE: estimated(1.0),
         "Only the first TD error counts: those of later steps are left out.": estimated(0.0),
         "What comes after the last step (last_values) is left out.": estimated(
             last=0 * last_values
@@ -155,6 +160,7 @@ def mistaken(rewards, values, starts, last_values, dones, gamma, gae_lambda) -> 
         "TD errors leak over ends of episodes: n belongs into the sum of the later ones, too.": (
             estimated(leaks="errors")
         ),
+        "": estimated(),
         "Values leak over ends of episodes: n belongs to the next value, too.": estimated(
             leaks="values"
         ),
@@ -283,21 +289,60 @@ def surrogate_of(given: dict, clip_range: float) -> tuple[float, float]:
 
 def mistaken_losses(given: dict, clip_range: float) -> dict:
     """What mistakes make of the loss."""
-    ratio = np.exp(given["log_prob"] - given["old_log_prob"])
-    cut, raw = np.clip(ratio, 1 - clip_range, 1 + clip_range), given["advantages"]
-    spread = raw.std(ddof=1) if len(raw) > 1 else 1.0
-    normal = (raw - raw.mean()) / (spread + 1e-8) if len(raw) > 1 else raw
-    return {
-        "The advantages are not normalised.": -np.minimum(raw * ratio, raw * cut).mean(),
-        "The advantages of a single step are normalised, which leaves 0 of them.": 0.0 * len(raw),
-        "The ratio is not clipped.": -np.mean(normal * ratio),
-        "The clipped product counts always, instead of the smaller of the two.": -np.mean(
-            normal * cut
-        ),
-        "The larger of the two products counts, instead of the smaller.": -np.mean(
-            np.maximum(normal * ratio, normal * cut)
-        ),
-    }
+    log, old, raw = given["log_prob"], given["old_log_prob"], given["advantages"]
+    single, low, high = len(raw) == 1, 1 - clip_range, 1 + clip_range
+    centred, spread = raw - raw.mean(), 1.0 if single else raw.std(ddof=1)
+
+    def loss(ratio, cut, advantages, taken, whole):
+        first, second = ratio * advantages, cut(ratio) * advantages
+        return whole(taken(first, second))
+
+    return slips(
+        loss,
+        ratio={
+            "": np.exp(log - old),
+            "The ratio is turned around: the probability now is divided by the one before.": np.exp(
+                old - log
+            ),
+            "This is the difference of the logarithms: the ratio is its exponential.": log - old,
+            "The logarithms are divided: the ratio is that of the probabilities.": log / old,
+        },
+        cut={
+            "": lambda ratio: np.clip(ratio, low, high),
+            "The ratio is not clipped.": lambda ratio: ratio,
+            "The logarithm of the ratio is clipped: clip the ratio itself, around 1.":
+            lambda ratio: np.exp(np.clip(log - old, -clip_range, clip_range)),
+            "The ratio is clipped around 0, but it is clipped around 1.":
+            lambda ratio: np.clip(ratio, -clip_range, clip_range),
+            "The ratio is clipped from above only.": lambda ratio: np.minimum(ratio, high),
+            "The ratio is clipped from below only.": lambda ratio: np.maximum(ratio, low),
+            "The lower limit is 1 / (1 + clip_range) here, not 1 - clip_range.":
+            lambda ratio: np.clip(ratio, 1 / high, high),
+        },
+        advantages={
+            "": raw if single else centred / (spread + 1e-8),
+            "The advantages are not normalised.": raw,
+            "The advantages of a single step are normalised, which leaves 0 of them."
+            if single else "The deviation of the advantages divides by N, not by N - 1 (ddof=1).":
+            0.0 * raw if single else centred / (raw.std() + 1e-8),
+            "The mean of the advantages is not subtracted.": raw / (spread + 1e-8),
+            "The advantages are not divided by their deviation.": centred,
+            "The advantages are divided by their variance, not by their deviation.":
+            centred / (spread**2 + 1e-8),
+        },
+        taken={
+            "": np.minimum,
+            "The clipped product counts always, instead of the smaller of the two.":
+            lambda first, second: second,
+            "The larger of the two products counts, instead of the smaller.": np.maximum,
+        },
+        whole={
+            "": lambda products: -products.mean(),
+            "The sign is reversed: the products are to become large, the loss small.":
+            lambda products: products.mean(),
+            "This is the sum over the batch, not the mean.": lambda products: -products.sum(),
+        },
+    )  # fmt: skip
 
 
 @surrogate.check(6)
@@ -306,7 +351,7 @@ def nothing_to_clip(student: Student):
     for index, n in ((20, 2), (21, 50)):
         given = drawn_batch(index, n, 0.01)
         answer = judged_policy(student, given, 0.5)
-        wanted, mistakes = surrogate_of(given, 0.5)[0], mistaken_losses(given, 0.5)
+        wanted, mistakes = surrogate_of(given, 0.5)[0], partial(mistaken_losses, given, 0.5)
         expect_close(f"{student.said}: loss", answer["loss"], wanted, CLOSE, mistakes)
 
 
@@ -316,13 +361,13 @@ def losses_of_stable_baselines(student: Student):
         answer = judged_policy(student, given, chosen["clip_range"])
         wanted, mistakes = (
             logged["policy_gradient_loss"],
-            mistaken_losses(given, chosen["clip_range"]),
+            partial(mistaken_losses, given, chosen["clip_range"]),
         )
         expect_close(f"{student.said}: loss", answer["loss"], wanted, CLOSE, mistakes)
     for index, n in ((22, 5), (23, 300)):
         given = drawn_batch(index, n, 0.6)
         answer = judged_policy(student, given, 0.2)
-        wanted, mistakes = surrogate_of(given, 0.2)[0], mistaken_losses(given, 0.2)
+        wanted, mistakes = surrogate_of(given, 0.2)[0], partial(mistaken_losses, given, 0.2)
         expect_close(f"{student.said}: loss", answer["loss"], wanted, CLOSE, mistakes)
 
 
@@ -358,7 +403,7 @@ def a_batch_of_one_step(student: Student):
     for index in (25, 26):
         given = drawn_batch(index, 1, 0.6)
         answer = judged_policy(student, given, 0.2)
-        wanted, mistakes = surrogate_of(given, 0.2)[0], mistaken_losses(given, 0.2)
+        wanted, mistakes = surrogate_of(given, 0.2)[0], partial(mistaken_losses, given, 0.2)
         expect_close(f"{student.said}: loss", answer["loss"], wanted, CLOSE, mistakes)
 
 
@@ -654,24 +699,32 @@ def looped(module, seed, steps, order, options):
     """Parameters after training by the student's loop, the steps made, and the first samples taken.
 
     These are two arrays: numbers of samples, batch after batch, and how many are in each batch.
+    Last the first rollout as it is when its first batch is taken: its arrays by name.
     """
     import numpy as np
 
     from botschool.course.ppo import ENVIRONMENT, SETTINGS, Pieces
 
+    NAMES = ("rewards", "values", "ended", "last_values", "advantages", "returns")
     settings = SETTINGS | options
     ppo = Pieces(settings.pop("environment", ENVIRONMENT), seed, **settings)
-    taken = []
+    taken, rollouts, first = [], [], {}
+
+    def collect():
+        rollouts.append(Pieces.collect(ppo))
+        return rollouts[-1]
 
     def minibatch(rows=None):
+        for name in NAMES if rollouts and not first else ():
+            first[name] = np.array(getattr(rollouts[0], name), dtype=float)
         if len(taken) < 100:
             taken.append(np.arange(512)[slice(None) if rows is None else rows])
         return Pieces.minibatch(ppo, rows)
 
-    ppo.minibatch = minibatch
+    ppo.minibatch, ppo.collect = minibatch, collect
     module.learn(ppo, steps, order)
     sizes = np.array([len(rows) for rows in taken])
-    return [ppo.parameters.copy(), ppo.steps, np.concatenate([*taken, []]), sizes]
+    return [ppo.parameters.copy(), ppo.steps, np.concatenate([*taken, []]), sizes, first]
 
 
 @functools.cache
@@ -697,7 +750,7 @@ def after_loop(student: Student, seed: int, steps: int, order: int = 700, **opti
     if options:
         said += " with " + ", ".join(f"{key}={value}" for key, value in options.items())
     answer = student.run(looped, seed, steps, order, options, said=said)
-    expect(isinstance(answer, list) and len(answer) == 4, f"{said}: no answer came back.")
+    expect(isinstance(answer, list) and len(answer) == 5, f"{said}: no answer came back.")
     environment = options.get("environment", "")
     size = OUT_OF_TIME["n_steps"] if environment else 512
     n = len(by_reference(1, 1, 1, size, None, environment).parameters)
@@ -711,6 +764,53 @@ def after_loop(student: Student, seed: int, steps: int, order: int = 700, **opti
     return [expect_array(f"{said}: parameters", answer[0], (n,)), *answer[2:]]
 
 
+def of_first_rollout(rollout: object) -> str:
+    """What is wrong with the advantages and returns that the loop wrote into its first rollout."""
+    from botschool.course.ppo import SETTINGS
+    from botschool.rl.native import PPO
+
+    try:
+        one = {name: np.array(values, dtype=float) for name, values in dict(rollout).items()}
+        rewards, values, ended = one["rewards"], one["values"], (one["ended"] > 0).astype(float)
+        last, found, returns = one["last_values"], one["advantages"], one["returns"]
+    except (TypeError, ValueError, KeyError):
+        return ""
+    h = PPO("CartPole-v1", 1, **SETTINGS).hyperparameters
+    starts = np.vstack([np.ones_like(ended[:1]), ended[:-1]])
+    given = (rewards, values, starts, last, ended[-1], h.gamma, h.gae_lambda)
+    made = mistaken(*given)
+    right = made.pop("")
+    said = "\n  Written into the first rollout, before its first batch: "
+    if not np.allclose(found, right, 1e-4, 1e-4):
+        if not found.any():
+            return f"{said}no advantages, they are still 0."
+        fitting = [text for text, each in made.items() if np.allclose(found, each, 1e-4, 1e-4)]
+        fits = f": {fitting[0]}" if fitting else "."
+        return f"{said}advantages that are not those of task 13.1{fits}"
+    after = np.vstack([values[1:], last[None]])
+    wrong = {
+        "zeros.": 0 * right,
+        "the advantages alone: the critic learns advantages plus values.": right,
+        "the values alone: the critic learns advantages plus values.": values,
+        "the rewards: the critic learns advantages plus values.": rewards,
+        "advantages plus rewards: the critic learns advantages plus values.": right + rewards,
+        "advantages minus values: the critic learns their sum.": right - values,
+        "values minus advantages: the critic learns their sum.": values - right,
+        "reward plus gamma times the next value: the critic learns advantages plus values.": (
+            rewards + h.gamma * (1 - ended) * after
+        ),
+        "discounted sums of rewards: the critic learns advantages plus values.": (
+            made[LAMBDA_OF_ONE] + values
+        ),
+    }
+    fitting = [text for text, each in wrong.items() if np.allclose(returns, each, 1e-4, 1e-4)]
+    if fitting:
+        return f"{said}right advantages, and as returns {fitting[0]}"
+    if np.allclose(returns, right + values, 1e-4, 1e-4):
+        return f"{said}right advantages and right returns. So look at epochs, batches and the stop."
+    return f"{said}right advantages, and returns that are not advantages plus values."
+
+
 @looping.check(4)
 def one_batch_an_epoch(student: Student):
     """A batch of all steps has no order, so that the parameters are known."""
@@ -722,7 +822,7 @@ def one_batch_an_epoch(student: Student):
         (512, 6, 0.0005),
     ):
         options = {"n_epochs": epochs, "batch_size": 512, "target_kl": target}
-        got = after_loop(student, seed, steps, **options)[0]
+        got, *_, rollout = after_loop(student, seed, steps, **options)
         right = by_reference(seed, steps, epochs, 512, target).parameters
         begun = by_reference(seed, 0, epochs, 512, target).parameters
         away, moved = np.abs(got - right).max(), np.abs(right - begun).max()
@@ -730,10 +830,11 @@ def one_batch_an_epoch(student: Student):
             away < 0.02 * moved,
             f"{student.said}: the parameters end {away:.3g} away from where they should (they "
             f"move by {moved:.3g} in all). Each rollout needs its advantages and returns, "
-            f"{epochs} epochs, and an early stop where target_kl asks for one.",
+            f"{epochs} epochs, and an early stop where target_kl asks for one."
+            + ("" if away < 0.02 * moved else of_first_rollout(rollout)),
         )
     options = {"n_epochs": 1, "batch_size": 400, "target_kl": None, **OUT_OF_TIME}
-    got = after_loop(student, seed, 400, **options)[0]
+    got, *_, rollout = after_loop(student, seed, 400, **options)
     right = by_reference(seed, 400, 1, 400, None, "Pendulum-v1").parameters
     begun = by_reference(seed, 0, 1, 400, None, "Pendulum-v1").parameters
     expect(
@@ -762,7 +863,7 @@ def the_order_is_new(student: Student):
     """Batches of a part of the steps: the seed decides the order, and epochs differ."""
     seed = exercise.seed(71) % 100_000
     options = {"n_epochs": 2, "batch_size": 128, "target_kl": None}
-    (first, rows, sizes), (again, _, _) = (
+    (first, rows, sizes, _), (again, *_) = (
         after_loop(student, seed, 512, **options) for _ in range(2)
     )
     expect(

@@ -786,3 +786,31 @@ def entropy_of_choices(scores):
 # says: this
 # -     while ppo.steps < steps:
 # +     if ppo.steps < steps:
+
+
+# %% divergences_add_up loses 13.5
+# Adds up the divergences of all batches so far, where each batch is to be judged alone.
+# says: this
+# -             if target_kl is not None and divergence > 1.5 * target_kl:
+# -                 return made
+# -             made += 1
+# +             total = divergence + (total if made else 0.0)
+# +             if target_kl is not None and total > 1.5 * target_kl:
+# +                 return made
+# +             made += 1
+
+
+# %% logarithm_clipped loses 13.2
+# The logarithm of the ratio is clipped to -clip_range ... clip_range, not the ratio around 1.
+# says: this
+# -     clipped = np.clip(ratio, 1 - clip_range, 1 + clip_range)
+# +     clipped = np.exp(np.clip(log_prob - old_log_prob, -clip_range, clip_range))
+
+
+# %% returns_of_one_step loses 13.8
+# The critic learns the reward plus the discounted next value, not advantages plus values.
+# says: as returns reward plus gamma times the next value
+# -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
+# +         following = np.vstack([rollout.values[1:], rollout.last_values[None]])
+# +         rollout.advantages[:] = found
+# +         rollout.returns[:] = rollout.rewards + h.gamma * (1 - ended) * following
