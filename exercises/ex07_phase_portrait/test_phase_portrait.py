@@ -169,6 +169,28 @@ def compare_arrows(student: Student, before: np.ndarray, change: np.ndarray) -> 
             ),
             "The arrows go backwards: it is after minus before.": np.hstack([before, -change]),
         }
+        gap = (after - before)[:, 0]
+        turns = {
+            "The changes of the angle lie between 0 and 2 pi, but the short way is between -pi and "
+            "pi.": gap % (2 * np.pi),
+            "The changes of the angle leap by whole turns: take the short way around.": gap,
+            "The changes of the angle lie between -pi / 2 and pi / 2, but a whole turn is 2 pi.": (
+                (gap + np.pi / 2) % np.pi - np.pi / 2
+            ),
+            "Changes beyond -pi and pi are cut off there, but the short way around goes on.": (
+                gap.clip(-np.pi, np.pi)
+            ),
+            "The changes of the angle have lost their sign.": np.abs(change[:, 0]),
+            "Only changes above pi take the short way, not those below -pi.": np.where(
+                gap > np.pi, change[:, 0], gap
+            ),
+            "Only changes below -pi take the short way, not those above pi.": np.where(
+                gap < -np.pi, change[:, 0], gap
+            ),
+        }
+        mistakes |= {
+            text: np.hstack([before, made[:, None], change[:, 1:]]) for text, made in turns.items()
+        }
         raise Mismatch(
             f"arrows(before, after): from state {show(before[i])} to {show(after[i])} the arrow is "
             f"{show(answer[i])}, but should be {show(expected[i])}.", answer, expected, mistakes,
@@ -224,12 +246,15 @@ def grid_of_states(student: Student):
         answer = student.call("grid", nangles, nvelocities)
         short = np.linspace(-np.pi, np.pi, nangles, endpoint=False)
         low = np.linspace(-8, 8, nvelocities, endpoint=False)
+        turned = np.linspace(0, 2 * np.pi, nangles)
         mistakes = {
             text: [[angle, velocity] for velocity in some for angle in others]
             for text, others, some in (
                 ("The grid leaves out its upper ends: pi and 8 belong to it.", short, low),
                 ("The angles leave out their upper end: pi belongs to them.", short, velocities),
                 ("The velocities leave out their upper end: 8 belongs to them.", angles, low),
+                ("The angles go from 0 to 2 pi, not from -pi to pi.", turned, velocities),
+                ("The angles go from -180 to 180, in degrees.", np.degrees(angles), velocities),
             )
         }
         expect_close(student.said, answer, expected, 1e-6, mistakes)

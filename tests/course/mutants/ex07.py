@@ -599,3 +599,31 @@ def three_stages(seed):
 # +         axes.quiver(*field[:, [1, 0, 3, 2]].T, color="#a8b4c0", width=0.0035, **exact)
 # +         axes.quiver(*path[:, [1, 0, 3, 2]].T, color="#d55e00", width=0.005, **exact)
 # +         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-8, 8), ylim=(-np.pi, np.pi))
+
+
+# %% turns_from_zero loses 7.3
+# Puts the changes of the angle between 0 and 2 pi.
+# says: lie between 0 and 2 pi
+# -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
+# +     change[:, 0] = change[:, 0] % (2 * np.pi)
+
+
+# %% half_turns loses 7.3
+# Takes pi for a whole turn.
+# says: a whole turn is 2 pi
+# -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
+# +     change[:, 0] = (change[:, 0] + np.pi / 2) % np.pi - np.pi / 2
+
+
+# %% changes_cut_off loses 7.3
+# Cuts off changes beyond -pi and pi.
+# says: are cut off there
+# -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
+# +     change[:, 0] = np.clip(change[:, 0], -np.pi, np.pi)
+
+
+# %% angles_from_zero loses 7.4
+# The angles of the grid go from 0 to 2 pi.
+# says: The angles go from 0 to 2 pi
+# -     angles = np.linspace(-np.pi, np.pi, nangles)
+# +     angles = np.linspace(0, 2 * np.pi, nangles)
