@@ -254,11 +254,14 @@ def late_steps(student: Student):
 
 @optimiser.check(2)
 def where_hardly_anything_slopes(student: Student):
-    """d of 0, and so small that the 1e-8 counts: once from nothing, once with a past."""
-    for index, t in ((62, 1), (63, 40)):
+    """d of 0, and so small that the 1e-8 counts: once from nothing, once with a past.
+
+    At t = 1 the square of m, 0.01 times that of d, would look like a v that is corrected by 0.9.
+    """
+    for index, t in ((62, 2), (63, 40)):
         centre, d, m, v, t, stepsize = inputs_of_adam(index, 5, t)
         d = np.array([0.0, 1e-8, -3e-8, 2e-7, 0.0])
-        m, v = (m, v) if t == 1 else (d * 0.5, d**2)
+        m, v = (0 * d, 0 * d) if t == 2 else (d * 0.5, d**2)
         compare_adam(student, [centre, d, m, v, t, stepsize])
 
 
