@@ -2,7 +2,7 @@
 
 import tempfile
 from collections.abc import Callable
-from functools import cache, partial
+from functools import cache, lru_cache, partial
 from itertools import permutations
 from pathlib import Path
 
@@ -184,6 +184,10 @@ def wrong_cuts() -> dict:
         lambda q, scale: cut(scale * q),
         "The parameters are cut off at 0 and 1 instead of -1 and 1.":
         lambda q, scale: scale * q.clip(0, 1),
+        "The parameters are cut off at -0.5 and 0.5 instead of -1 and 1.":
+        lambda q, scale: scale * q.clip(-0.5, 0.5),
+        "The angles reach their largest value at -0.5 and 0.5 already, not at -1 and 1.":
+        lambda q, scale: 2 * scale * q.clip(-0.5, 0.5),
         "The parameters are cut off at the scale, not at -1 and 1.":
         lambda q, scale: scale * q.clip(-scale, scale),
         "The angles are cut off at their largest value, but the parameters are not scaled.":
@@ -367,6 +371,11 @@ def wrong_corners(p: np.ndarray) -> dict:
             "": np.cumsum(bends),
             "An angle is that to the segment before, not that to the ground.": bends,
             "The torso leans by its own default angle: it is left out.": np.cumsum(flat),
+            "The torso's angle turns clockwise here, but is counter-clockwise.":
+            np.cumsum(bends) - 2 * bends[0],
+            "The torso's angle is counted twice in all headings.": np.cumsum(bends) + bends[0],
+            "The torso's angle counts for the torso alone: it is in all headings.":
+            np.append(bends[0], np.cumsum(bends[1:])),
             "A segment's own angle is left out of its heading.": np.cumsum(bends) - bends,
             "The angles turn clockwise here, but are counter-clockwise.": -np.cumsum(bends),
             "A heading is cut off, but may go beyond pi.": np.cumsum(bends).clip(-np.pi, np.pi),
@@ -598,6 +607,8 @@ def wrong_freedom(p: np.ndarray) -> dict:
             "Only joints that move at all are counted: the mean is over all 10.":
             lambda low, high: np.mean((high - low)[high > low]) if (high > low).any() else 0.0,
             "This is the standard deviation of all limits.": lambda low, high: np.std([low, high]),
+            "This is the standard deviation over the joints, not the mean.":
+            lambda low, high: np.std(high - low),
             "The largest amount of the limits is taken for each joint.":
             lambda low, high: np.mean(np.maximum(np.abs(low), np.abs(high))),
             "The limits are added to the default angles and all of them compared.":
@@ -872,15 +883,21 @@ def other_places(genotype: np.ndarray) -> dict[str, np.ndarray]:
     }  # fmt: skip
 
 
+@lru_cache(maxsize=1000)
+def returns_of(text: str, genotype: bytes, seed: int, episodes: int) -> np.ndarray:
+    """The return of a robot in each episode; kept, as checks are repeated to find causes."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "trial.ini"
+        file.write_text(text)
+        return SavedRobot(file, np.frombuffer(genotype)).evaluate(seed, episodes)
+
+
 def pair_returns(
     text: str, walkers: np.ndarray, episodes: int, i: int, j: int, seed: int
 ) -> np.ndarray:
     """The return of brain i in body j in each episode."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "trial.ini"
-        file.write_text(text)
-        parts = walkers[i, :-134], walkers[j, -134:-70], walkers[i, -70:]
-        return SavedRobot(file, np.concatenate(parts)).evaluate(seed, episodes)
+    parts = walkers[i, :-134], walkers[j, -134:-70], walkers[i, -70:]
+    return returns_of(text, np.concatenate(parts).tobytes(), seed, episodes)
 
 
 def own_returns(text: str, walkers: np.ndarray, seed: int, episodes: int) -> np.ndarray:
@@ -894,7 +911,8 @@ def other_seed(
     got: float, text: str, walkers: np.ndarray, seed: int, episodes: int, i: int, j: int
 ) -> str:
     """Say with which other seed brain i in body j has this mean return, "" if with none."""
-    for other in (*range(seed + 1, seed + 13), *range(max(seed - 12, 0), seed), 0, 1, 2, 3):
+    near = (*range(seed + 1, seed + 5), seed + episodes, seed - 1, 0, 1)
+    for other in dict.fromkeys(each for each in near if each >= 0 and each != seed):
         mean = pair_returns(text, walkers, episodes, i, j, other).mean()
         if abs(got - mean) < 1e-5 * max(1, abs(mean)):
             return f" Your number is that of the seed {other}: all pairs have the seed {seed}."
@@ -969,6 +987,15 @@ def wrong_matrices(
             return np.array(pairs)
 
         made = {said: with_seeds(other) for said, other in seeds.items()}
+        made["Each robot is evaluated in one episode more than asked for."] = np.array(
+            [[pair_returns(text, walkers, episodes + 1, i, j, seed) for j in range(n)]
+             for i in range(n)]
+        )  # fmt: skip
+        strangers = np.concatenate([walkers[:, :-70], walkers[::-1, -70:]], axis=1)
+        foreign = np.array([[pair_returns(text, strangers, episodes, i, j, seed)
+                             for j in range(n)] for i in range(n)])  # fmt: skip
+        made["Means and deviations come from the walker that gives the body: they belong to the "
+             "brain."] = np.where(np.eye(n, dtype=bool)[..., None], returns, foreign)  # fmt: skip
         said = (
             "Each episode has a seed of its own: `evaluate` gets the seed once, and all episodes."
         )

@@ -902,3 +902,9 @@ def loss(matrix):
         "bodies": diff.sum(axis=0) / (n - 1),
         "at home": int(np.all(d[:, None] >= matrix, axis=1).sum()),
     }
+
+
+# %% torso_turns_on loses 5.2
+# Cuts the angles of all segments off but the torso's.
+# -         "angles": 3 * np.pi / 4 * np.clip(parameters[42:53], -1, 1),
+# +         "angles": 3 * np.pi / 4 * np.append(parameters[42], np.clip(parameters[43:53], -1, 1)),
