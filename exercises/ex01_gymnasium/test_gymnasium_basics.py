@@ -217,9 +217,11 @@ def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
     seed = seed_of(case)
     report = student.call("random_episode", name, seed=seed, maxsteps=maxsteps)
     reported, actions, *_ = expect_fields(student.said, report, *KEYS)
+    fit = isinstance(actions, (list, np.ndarray))
+    many = f"{len(actions)} actions" if fit and len(actions) > maxsteps else show(actions)
     expect(
-        isinstance(actions, (list, np.ndarray)) and 0 < len(actions) <= maxsteps,
-        f"{student.said}: actions must be a list of 1 to {maxsteps} actions, not {show(actions)}.",
+        fit and 0 < len(actions) <= maxsteps,
+        f"{student.said}: actions must be a list of 1 to {maxsteps} actions, not {many}.",
     )
     with gymnasium.make(name) as env:
         observations, rewards, ends = [env.reset(seed=seed)[0]], [], [False, False]
@@ -550,11 +552,21 @@ def expect_rewards(student: Student, index: int, torque) -> None:
             reward_of((angle + 0.05 * faster + np.pi) % (2 * np.pi) - np.pi, given, faster)
         ),
     }
-    small = np.abs(torque) < 1  # without them, another factor of the torque would look alike
+    small = np.abs(torque) < 1  # without them, a limit and a factor of the torque look alike
     if small.any() and 0.05 < limit < np.abs(torque).max() - 0.05:
         mistakes[f"The torque is cut to -{limit:.3g} and {limit:.3g}, but the motor gives 2."] = (
             reward_of(angle, torque.clip(-limit, limit))
         )
+    if small.any():
+        squares = np.stack([angle, speed, given], axis=1) ** 2
+        factors = np.linalg.lstsq(squares, -got, rcond=None)[0]
+        parts = zip(("angle", "speed", "torque"), factors, (1, 0.1, 0.001), strict=True)
+        wrong = [
+            f"{factor:.3g} times the square of the {name} (not {right:g} times)"
+            for name, factor, right in parts
+            if abs(factor - right) > 1e-3 * right and (name != "torque" or given.any())
+        ]
+        mistakes[f"Your cost has {' and '.join(wrong)}."] = np.round(-squares @ factors, 4)
     for observation, action, value, wanted in zip(observations, actions, got, rewards, strict=True):
         if abs(value - wanted) >= 1e-4 * (1 + abs(wanted)):
             raise Mismatch(

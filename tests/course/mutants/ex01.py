@@ -626,3 +626,16 @@ def describe(environment_id):
 # says: looks at the cart's speed
 # -     _, _, angle, speed = observation
 # +     _, speed, angle, _ = observation
+
+
+# %% factor_of_the_speed_squared loses 1.4
+# Squares the factor of the speed, too.
+# says: 0.01 times the square of the speed
+# -     return float(-(angle**2 + 0.1 * speed**2 + 0.001 * torque**2))
+# +     return float(-(angle**2 + (0.1 * speed) ** 2 + 0.001 * torque**2))
+
+
+# %% deviation_of_the_lengths loses 1.6
+# Gives the standard deviation of the lengths, not of the returns.
+# -                 "deviation": float(np.std(returns, ddof=1)) if episodes > 1 else 0.0,
+# +                 "deviation": float(np.std([len(run["rewards"]) for run in runs], ddof=1)) if episodes > 1 else 0.0,
