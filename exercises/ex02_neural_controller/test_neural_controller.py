@@ -138,6 +138,12 @@ def weights_are_gaussian(student: Student):
         why = DEVIATIONS.get(next(near, 0.0), "") if abs(weights.mean()) < 0.005 else ""
         if abs(weights.mean() - 0.1) < 0.03 * weights.std():
             why = "0.1 is the standard deviation, not the mean."
+        farthest = np.abs(weights).max()
+        if bool(np.all(weights >= 0)):
+            why = "None of them is negative."
+        elif (share := float(np.mean(np.abs(weights) == farthest))) > 0.005:
+            why = f"{100 * share:.0f} % of them are exactly {farthest:.3g} away from 0: Gaussian "
+            why += "numbers have no limits."
         expect(
             abs(weights.mean()) < 0.005 and abs(weights.std() - 0.1) < 0.004,
             f"{student.said}: {key} has mean {weights.mean():.3f} and standard deviation "
@@ -169,6 +175,11 @@ def drawn_again(module, *arguments):
 @drawing.check(3)
 def every_weight_is_drawn_and_the_seed_decides(student: Student):
     one = parameters_of(student, (5, 6, 5), 4)
+    weights = np.concatenate([one["W1"].ravel(), one["W2"].ravel()])
+    expect(
+        len(np.unique(weights)) == len(weights),
+        f"{student.said}: some weights are equal to others, but each must be drawn on its own.",
+    )
     again = parameters_of(student, (5, 6, 5), 4)
     seed = exercise.seed(4) + 1
     said = f"parameters(5, 6, 5, seed={seed})"
@@ -196,11 +207,6 @@ def every_weight_is_drawn_and_the_seed_decides(student: Student):
         kept is True,
         f"{said} gives the changed arrays, so that training one network changes the others: make "
         "new arrays in every call.",
-    )
-    weights = np.concatenate([one["W1"].ravel(), one["W2"].ravel()])
-    expect(
-        len(np.unique(weights)) == len(weights),
-        f"{student.said}: some weights are equal to others, but each must be drawn on its own.",
     )
 
 
@@ -249,6 +255,12 @@ def mistaken_outputs(network: dict, observation: np.ndarray) -> dict:
         "tanh is left out in the hidden neurons.": np.tanh(W2.dot(W1.dot(observation) + b1) + b2),
         "The biases are subtracted, but they are to be added.": np.tanh(
             W2.dot(np.tanh(W1.dot(observation) - b1)) - b2
+        ),
+        "The inputs go through tanh, too, but only the sums of neurons do.": np.tanh(
+            W2.dot(np.tanh(W1.dot(np.tanh(observation)) + b1)) + b2
+        ),
+        "The outputs are shares of 1 (softmax), but each goes through tanh.": (
+            np.exp(W2.dot(hidden) + b2) / np.exp(W2.dot(hidden) + b2).sum()
         ),
         "A neuron's bias is added once for each of its inputs, but it counts once.": np.tanh(
             W2.dot(np.tanh(W1.dot(observation) + len(observation) * b1)) + len(hidden) * b2
@@ -469,6 +481,13 @@ def expect_stretched(student: Student, outputs: np.ndarray, low: np.ndarray, hig
             "The limits of the first number are used for all.": low[0]
             + (each + 1) / 2 * (high[0] - low[0]),
             "The upper limit of the first number is used for all.": each * high[0],
+            "Outputs below 0 are cut off, but they reach from -1 to 1.": low
+            + each.clip(0, 1) * (high - low),
+            "The range goes from its middle by the upper limit, but by half of its width is asked "
+            "for.": (low + high) / 2 + each * high,
+            "The outputs are multiplied by the whole width, but they reach from -1 to 1.": (
+                (low + high) / 2 + each * (high - low)
+            ),
         }
         expect_close(call, action, wanted, 1e-5, mistakes)
 
@@ -521,9 +540,11 @@ def replay(
         answer = student.run(lived, name, network, seed, maxsteps, said=said)
         maxsteps = 200 if maxsteps is None else maxsteps
         actions, total = expect_fields(said, answer, "actions", "return")
+        fit = isinstance(actions, (list, np.ndarray))
+        many = f"{len(actions)} actions" if fit and len(actions) > maxsteps else show(actions)
         expect(
-            isinstance(actions, (list, np.ndarray)) and 0 < len(actions) <= maxsteps,
-            f"{said}: actions must be a list of 1 to {maxsteps} actions, not {show(actions)}.",
+            fit and 0 < len(actions) <= maxsteps,
+            f"{said}: actions must be a list of 1 to {maxsteps} actions, not {many}.",
         )
         shape = len(actions), *env.action_space.shape
         actions = expect_array(f"{said}: actions", actions, shape)
@@ -740,6 +761,9 @@ def expect_batch(student: Student, index: int, sizes: tuple) -> None:
                         outputs_of(network | {"W1": mixed["W1"]}, observations[i])
                     ),
                     "It gets the observation of network 0.": outputs_of(network, observations[0]),
+                    "It gets the sum of all observations, but each network has one of its own.": (
+                        outputs_of(network, observations.sum(axis=0))
+                    ),
                     "It gets the hidden neurons of network 0, with its own second layer.": (
                         upon(network, np.tanh(first["b1"] + first["W1"].dot(observations[0])))
                     ),

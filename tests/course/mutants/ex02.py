@@ -737,3 +737,57 @@ def forward_batch(networks, observations):
 # says: the seeds 0 to 9
 # -     seeds = list(range(seed, seed + 10))
 # +     seeds = list(range(10))
+
+
+# %% weights_cut_off loses 2.1
+# Cuts the weights off at 0.1.
+# says: Gaussian numbers have no limits
+# -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
+# +         "W1": np.clip(0.1 * rng.standard_normal((nhiddens, ninputs)), -0.1, 0.1),
+
+
+# %% weights_without_sign loses 2.1
+# Takes the absolute values of the weights.
+# says: None of them is negative
+# -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
+# +         "W1": 0.1 * np.abs(rng.standard_normal((nhiddens, ninputs))),
+
+
+# %% softmax_outputs loses 2.2
+# Makes shares of 1 of the outputs.
+# says: softmax
+# -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
+# -     return np.tanh(network["W2"] @ hidden + network["b2"])
+# +     hidden = np.tanh(network["W1"] @ observation + network["b1"])
+# +     powers = np.exp(network["W2"] @ hidden + network["b2"])
+# +     return powers / powers.sum()
+
+
+# %% squeezed_inputs loses 2.2
+# Squeezes the inputs, too.
+# says: The inputs go through tanh
+# -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
+# +     hidden = np.tanh(network["W1"] @ np.tanh(observation) + network["b1"])
+
+
+# %% negative_outputs_cut_off loses 2.4
+# Cuts off outputs below 0.
+# says: Outputs below 0 are cut off
+# -     return (low + (outputs + 1) / 2 * (high - low)).astype(action_space.dtype)
+# +     return (low + np.clip(outputs, 0, 1) * (high - low)).astype(action_space.dtype)
+
+
+# %% return_counts_the_steps loses 2.5
+# Counts the steps instead of adding up the rewards.
+# says: this
+# -         actions.append(action)
+# -         total += float(reward)
+# +         actions.append(action)
+# +         total += 1.0
+
+
+# %% divided_by_maxsteps loses 2.6
+# Divides the sum of the returns by maxsteps.
+# says: this
+# -     return float(np.mean(returns))
+# +     return float(np.sum(returns) / maxsteps)
