@@ -266,6 +266,12 @@ def better_half_stays(student: Student):
     for popsize, scale in ((10, 1), (6, 1), (2, 1), (10, 100)):
         step = Step(student, popsize, 0.02, 6, scale)
         better = step.sorted_out(step.after)[0]
+        moved = float(np.std(better - step.better))
+        expect(
+            not 0.5 < moved / 0.02 < 2,
+            f"{step.said}: none of the better half is as it was, but noise with standard deviation "
+            f"{moved:.3f} was added to it. The better half stays; only its copies get noise.",
+        )
         expect_close(f"{step.said}: the better half", better, step.better, 1e-6)
         expect_overwritten(step)
 
