@@ -127,6 +127,12 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
              net[2] * np.tanh((net[0] + 1) * memory[0] + net[1] * np.tanh(net[3]))),
         "The forget gate is not put through the logistic function.":
         made((net[0] + 1) * memory[0] + taken * np.tanh(net[3])),
+        "The logistic function of the forget gate has a minus sign too few or too many.":
+        made(squash(-net[0] - 1) * memory[0] + taken * np.tanh(net[3])),
+        "The logistic function of the input gate has a minus sign too few or too many.":
+        made(kept * memory[0] + squash(-net[1]) * np.tanh(net[3])),
+        "The logistic function of the output gate has a minus sign too few or too many.":
+        made(cells, squash(-net[2]) * np.tanh(cells)),
         "The input gate is not put through the logistic function.":
         made(kept * memory[0] + net[1] * np.tanh(net[3])),
         "The output gate is not put through the logistic function.":
@@ -424,6 +430,9 @@ def described(poses: np.ndarray, rewards: np.ndarray, cylinder) -> dict:
     return {"search": search, **means, "steps": told}
 
 
+NO_REWARD = "Without any reward all steps belong to the search, and none is near."
+
+
 @np.errstate(all="ignore")
 def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str) -> dict:
     """What slips make of a descriptor."""
@@ -433,7 +442,7 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
     last = int(np.flatnonzero(near)[-1]) if near.any() else many
     if name == "search":
         return {
-            "Without any reward, all steps belong to the search.": np.argmax(near),
+            NO_REWARD: np.argmax(near),
             "The first step with a reward is part of the search here.": search + 1,
             "The last step of the search is left out.": search - 1,
             "The search ends at the first reward: later steps without one do not belong to it.":
@@ -547,7 +556,10 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
         },
         "wall": {
             "": nearest < 72.5,
-            "A robot exactly 72.5 mm from a wall is not nearer than 72.5 mm.": nearest <= 72.5,
+            "A robot exactly 72.5 mm from a wall counts as near: it has to be nearer than 72.5 mm.":
+            nearest <= 72.5,
+            **{f"Walls count within {limit} mm of the centre: it is 72.5 mm.": nearest < limit
+               for limit in (25, 30, 40, 50, 55, 60, 65, 70, 75, 80, 90, 99.5, 120, 145, 150)},
             "The end of the step is looked at, not its beginning.":
             np.minimum(after[:, :2], 400 - after[:, :2]).min(axis=1) < 72.5,
             "Only the left and the lower wall are looked at.": walls[:2].min(axis=0) < 72.5,
@@ -665,7 +677,7 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
         "The last step of the search is left out.": steps < search - 1,
         "The first step is left out.": (steps > 0) & (steps < search),
         "These are the steps near the cylinder, not those of the search.": near,
-        "Without any reward, all steps belong to the search.": steps < np.argmax(near),
+        NO_REWARD: steps < np.argmax(near),
     }
     of_near = {
         "": near,
@@ -685,7 +697,7 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
         "The first step is left out.": near & (steps > 0),
         "The last step with a reward is left out.": near & (steps < last),
     }
-    of_near["Without any reward no step is near: all count here."] = rewards == rewards.max()
+    of_near[NO_REWARD] = rewards == rewards.max()
 
     if name == "pace":
         spots = after[near, :2]
@@ -1050,7 +1062,7 @@ def wrong_memories(first: np.ndarray, afters: np.ndarray, episode: int) -> dict:
             if episode
             else {}
         ),
-        "This is the memory at the beginning of the episode.": first,
+        "This is the memory at the beginning of the episode, or always the one before the step.": first,
         "This memory is empty.": 0 * first,
         **{f"This is the memory after step {k}.": each for k, each in enumerate(own)},
         **{

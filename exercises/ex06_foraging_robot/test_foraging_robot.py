@@ -95,9 +95,15 @@ def lived(brain: dict, start, cylinder, seed: int, way, maxsteps: int, slip: str
         start, cylinder = None, None
     arena.reset(seed + (slip == "seed + 1"))
     if start is not None:
-        arena.robots[0] = start
+        x, y, heading = start
+        arena.robots[0] = {
+            "heading 0": (x, y, 0.0),
+            "degrees": (x, y, np.degrees(heading)),
+            "radians": (x, y, np.radians(heading)),
+            "x and y": (y, x, heading),
+        }.get(slip, start)
     if cylinder is not None and slip != "cylinder":
-        arena.objects[0, :2] = cylinder
+        arena.objects[0, :2] = cylinder[::-1] if slip == "cylinder y, x" else cylinder
     if slip != "sense":
         arena.sense()
     memory, rows = np.ones((2, UNITS)) if slip == "ones" else np.zeros((2, UNITS)), []
@@ -122,6 +128,10 @@ def lived(brain: dict, start, cylinder, seed: int, way, maxsteps: int, slip: str
             "wheels": action[::-1],
             "sign": np.sign(action),
             "still": 0 * action,
+            "forwards": np.maximum(action, 0),
+            "amount": np.abs(action),
+            "0 to 1": (action + 1) / 2,
+            "back": -action,
         }.get(slip, action)
         last = action
         reward = arena.step()
@@ -164,6 +174,10 @@ SLIPS = {
     "half": "The wheels get half of the action.",
     "wheels": "The two wheels are exchanged when the action is set.",
     "sign": "The wheels get only the sign of the action.",
+    "forwards": "The wheels get 0 where the action is below 0: they may roll backwards.",
+    "amount": "The wheels get the amount of the action: they may roll backwards.",
+    "0 to 1": "The wheels get numbers from 0 to 1: the action lies between -1 and 1.",
+    "back": "The wheels get the action with the wrong sign.",
     "still": "The wheels get no action: set arena.action before each step.",
     "two steps": "Two steps of the arena are made in each pass: arena.step() is called twice.",
     "two rewards": "Two steps of the arena are made in each pass, and their rewards added.",
@@ -184,6 +198,11 @@ SLIPS = {
     "500": "The episode lasts up to 500 steps, whatever maxsteps is.",
     "seed + 1": "The seed is one more than the one that is given.",
     "ones": "The memory begins with ones, not with zeros.",
+    "heading 0": "The robot starts with the heading 0, not with that of the start.",
+    "degrees": "The heading of the start is turned into degrees: it is in rad, as the arena's.",
+    "radians": "The heading of the start is taken for degrees: it is in rad, as the arena's.",
+    "x and y": "x and y of the start are exchanged.",
+    "cylinder y, x": "x and y of the cylinder are exchanged.",
     "cylinder": "The cylinder stays where the seed has put it.",
     "reset last": "Robot and cylinder are where the seed has put them: reset, then place them.",
     "sense": "The first observation is not renewed after robot and cylinder are placed.",
@@ -411,6 +430,14 @@ def ends_with_a_collision(student: Student):
 starts = exercise.task("6.3", "A grid of starts")
 
 
+GRID = (
+    "x goes from 150 to 250 in {places} even steps, both ends included; it changes faster than y.",
+    "y goes from 270 to 350 in {places} even steps, both ends included; it changes slowest.",
+    "{headings} headings divide the whole turn evenly, from 0; the heading changes fastest.",
+)
+"""What the text says about the columns of a grid."""
+
+
 @starts.check(8)
 def starts_of_a_grid(student: Student):
     rng = rng_of(9)
@@ -421,7 +448,10 @@ def starts_of_a_grid(student: Student):
         for column, name in enumerate(("x", "y", "headings")):
             said = f"{student.said}: column {column}, {name}"
             made = partial(wrong_grids, places, headings, column)
-            expect_close(said, answer[:, column], wanted[:, column], 1e-6, made)
+            why = GRID[column].format(places=places, headings=headings)
+            expect_close(
+                said, answer[:, column], wanted[:, column], 1e-6, made, lambda _, why=why: why
+            )
 
 
 # ------------------------------------------------------------------- 6.4
