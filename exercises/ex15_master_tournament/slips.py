@@ -115,6 +115,8 @@ def mistaken_means(table: np.ndarray) -> dict:
         table.min(axis=(1, 3)),
         "This is the median of all pairs of individuals, not the mean.":
         np.median(table, axis=(1, 3)),
+        "The root is taken of the mean of the squares: take the mean.":
+        np.sqrt((table**2).mean(axis=(1, 3))),
         "This is the median over the predators of their means: take the mean over all.":
         np.median(hunters, axis=1),
         "This is the median over the prey of their means: take the mean over all.":
@@ -141,7 +143,10 @@ SUMMARIES = {
     "The best number is taken, not the mean.": np.max,
     "The worst number is taken, not the mean.": np.min,
     "The median is taken, not the mean.": np.median,
-}
+    "The root is taken of the mean of the squares: take the mean.":
+    lambda row: np.sqrt(np.mean(np.square(row))),
+    "The mean of the squares is taken: take the mean.": lambda row: np.mean(np.square(row)),
+}  # fmt: skip
 """What is made of a row of numbers whose mean is asked for."""
 
 
@@ -415,6 +420,9 @@ def mistaken_cycles(matrix: np.ndarray) -> dict:
         "A draw counts as a match that was won.": np.mean(found(matrix >= matrix.T)),
         "A match is won above one half here: compare it with the return match.": np.mean(
             found(matrix > 0.5)
+        ),
+        "A match is compared with 1 minus the return match, but both numbers are predators'.": (
+            np.mean(found(matrix > 1 - matrix.T))
         ),
         "This is the number of cycles, not their share.": sum(right),
         "Only three neighbouring generations are looked at.": np.mean(neighbours),
@@ -907,6 +915,9 @@ def mistaken_descriptions(poses: np.ndarray) -> dict:
                 along(moved, before[..., 2]) <= 0
             ),
             "The heading of the other robot is taken.": (along(moved, before[:, ::-1, 2]) < 0),
+            "The predator's heading is taken for both robots.": (
+                along(moved, before[:, :1, 2]) < 0
+            ),
             "Movement and heading are compared, but not the short way around.": (
                 abs(np.arctan2(moved[..., 1], moved[..., 0]) - before[..., 2]) > np.pi / 2
             ),
@@ -945,6 +956,10 @@ def mistaken_descriptions(poses: np.ndarray) -> dict:
             )
             < quarter,
             ends: abs(bearings(after)[1]) < quarter,
+            "The predator's heading is taken for both robots.": abs(
+                np.angle(np.exp(1j * (raw + before[..., 2] - before[:, :1, 2])))
+            )
+            < quarter,
         },
         "wall": {
             "": to_wall < 300,
@@ -974,6 +989,8 @@ def mistaken_descriptions(poses: np.ndarray) -> dict:
         "The steps are added up, not averaged.": lambda v: v.sum(axis=0),
         "The median of the steps is taken, not the mean.": lambda v: np.median(v, axis=0),
         "The largest number of the steps is taken, not the mean.": lambda v: v.max(axis=0),
+        "The root is taken of the mean of the squares: take the mean.":
+        lambda v: np.sqrt((v**2).mean(axis=0)),
         "The sum is divided by the number of poses: there is one step fewer.":
         lambda v: v.sum(axis=0) / (len(v) + 1),
         "The first step is left out.": lambda v: v[1:].mean(axis=0) if len(v) > 1 else 0 * v[0],
@@ -987,8 +1004,30 @@ def mistaken_descriptions(poses: np.ndarray) -> dict:
     def told(values: np.ndarray, over) -> np.ndarray:
         return over(np.asarray(values, dtype=float))
 
+    for name, these in other_limits(poses).items():
+        shown[name] |= these
     found = {name: slips(told, values=these, over=over_steps) for name, these in shown.items()}
     return {**found, "distance": mistaken_distances(poses)}
+
+
+def other_limits(poses: np.ndarray) -> dict:
+    """What other limits make of "facing" and "wall"."""
+    before = poses[:-1]
+    to_other = (before[:, ::-1] - before)[..., :2]
+    bearing = np.arctan2(to_other[..., 1], to_other[..., 0]) - before[..., 2]
+    bearing = abs((bearing + np.pi) % (2 * np.pi) - np.pi)
+    to_wall = np.minimum(before[..., :2], 3000 - before[..., :2]).min(axis=2)
+    return {
+        "facing": {
+            f"The other robot counts as faced within {angle} degrees, not 45.": bearing
+            < np.radians(angle)
+            for angle in (15, 20, 30, 40, 50, 60, 75, 120)
+        },
+        "wall": {
+            f"Walls count within {limit} mm here, not within 300 mm.": to_wall < limit
+            for limit in (85, 100, 150, 170, 200, 250, 350, 400, 450, 500, 600, 1000)
+        },
+    }
 
 
 def mistaken_at_limits(poses: np.ndarray) -> dict:
@@ -1004,9 +1043,9 @@ def mistaken_at_limits(poses: np.ndarray) -> dict:
         },
         "facing": {},
         "wall": {
-            "A robot exactly 300 mm from a wall is not nearer than 300 mm.": (to_wall <= 300).mean(
-                axis=0
-            )
+            "A robot exactly 300 mm from a wall counts as near: it has to be nearer than 300 mm.": (
+                to_wall <= 300
+            ).mean(axis=0)
         },
     }
 

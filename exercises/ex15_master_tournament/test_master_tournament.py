@@ -128,7 +128,7 @@ def say_where_it_begins(said: str, poses, expected: np.ndarray) -> None:
     elif still:
         cause = (
             f" There the {who} {'stand' if wrong[step].all() else 'stands'} still: set the wheels "
-            "of both robots before each arena.step()."
+            "of both robots before each arena.step(), and keep the poses after it."
         )
     elif step == 1 and wrong[1].all():
         cause = (
