@@ -62,6 +62,32 @@ def mistaken_mass(masses) -> dict:
     }
 
 
+def mistaken_inclination(angle: float, quaternion) -> dict:
+    """What slips make of the inclination: sentence -> angle."""
+    x, w = quaternion[0], quaternion[3]
+    whole = 2 * np.arccos(np.clip(abs(w), 0, 1))
+    with np.errstate(all="ignore"):
+        return {
+            "The inclination is the first number of the quaternion, which is no angle: see "
+            "getEulerFromQuaternion.": x,
+            "The inclination is twice the first number of the quaternion, which is no angle: see "
+            "getEulerFromQuaternion.": 2 * x,
+            "The inclination is half as large as it is: a quaternion holds sine and cosine of half "
+            "the angle.": np.arcsin(x),
+            "The inclination is half of what it is.": angle / 2,
+            "The inclination is twice as large as it is.": 2 * angle,
+            "The inclination is the angle by which the body is turned in all, not that around x.":
+            whole,
+            "The inclination has the wrong sign.": -angle,
+            "The inclination is never negative here, but the body leans both ways.": abs(angle),
+            "The inclination is in degrees, not in radians.": np.degrees(angle),
+            "The inclination is the sine of the angle.": np.sin(angle),
+            "The inclination is the tangent of the angle.": np.tan(angle),
+            "The inclination is measured from the horizontal, not from the upright.":
+            np.pi / 2 - angle,
+        }  # fmt: skip
+
+
 def mistaken_speed(before: float, action: float, limit: float) -> dict:
     """What slips make of the target speed: sentence -> number; before: the speed before."""
     change = float(np.clip(action, -1, 1))
@@ -75,6 +101,11 @@ def mistaken_speed(before: float, action: float, limit: float) -> dict:
             "The action is multiplied by the time step: it is the change itself.": 0.01 * change,
             "The action is multiplied by FASTEST: it is the change itself.": limit * change,
             "The action is left out.": 0.0,
+            "An action beyond -1 or 1 changes nothing here: it is to be cut to -1 or 1.":
+            action if abs(action) <= 1 else 0.0,
+            "Only the side of the action counts here, as -1 or 1.": float(np.sign(action)),
+            "The action is pressed by tanh: it is to be cut to between -1 and 1.":
+            float(np.tanh(action)),
         },
         cut={
             "": lambda speed: float(np.clip(speed, -limit, limit)),
@@ -83,6 +114,10 @@ def mistaken_speed(before: float, action: float, limit: float) -> dict:
             "The speed is not cut to between -FASTEST and FASTEST.": lambda speed: speed,
             "The speed is cut on the side of FASTEST only.": lambda speed: min(speed, limit),
             "The speed is cut on the side of -FASTEST only.": lambda speed: max(speed, -limit),
+            "The speed stays as it was where the sum is beyond -FASTEST or FASTEST: it is to be "
+            "cut to that limit.": lambda speed: speed if abs(speed) <= limit else before,
+            "The speed becomes 0 where the sum is beyond -FASTEST or FASTEST: it is to be cut to "
+            "that limit.": lambda speed: speed if abs(speed) <= limit else 0.0,
         },
     )  # fmt: skip
 
@@ -116,7 +151,8 @@ WORLDS = {
     "Gravity has the wrong sign: it pulls upwards.": {"gravity": (0, 0, 10)},
     "Gravity pulls along x, but it is to pull along z.": {"gravity": (-10, 0, 0)},
     "Gravity pulls along y, but it is to pull along z.": {"gravity": (0, -10, 0)},
-    "There is no gravity. resetSimulation ends it, so set it after that.": {"gravity": (0, 0, 0)},
+    "There is no gravity: it is to be set in this simulation (physicsClientId), and after "
+    "resetSimulation, which ends it.": {"gravity": (0, 0, 0)},
     "The time step is PyBullet's own: see setTimeStep.": {"time_step": 1 / 240},
     "The time step is 0.1, not TIME_STEP.": {"time_step": 0.1},
     "The time step is 0.001, not TIME_STEP.": {"time_step": 0.001},
@@ -153,8 +189,12 @@ MOTORS = {
     "Motor 1 gets no target velocity.": ((0, 1),),
     "Motor 0 gets no target velocity.": ((1, -1),),
     "No motor gets a target velocity.": (),
-}
-"""Which motor gets how many times the speed, by sentence."""
+    "The motors get the change, not the speed that comes of it.":
+    lambda before, change: ((0, change), (1, -change)),
+    "The motors get the speed from before the action.":
+    lambda before, change: ((0, before), (1, -before)),
+}  # fmt: skip
+"""Which motor gets how many times the speed, by sentence; or a function as in World.act."""
 
 
 def why_motors(make, turns: np.ndarray, wanted: np.ndarray) -> str:
@@ -168,7 +208,10 @@ def why_motors(make, turns: np.ndarray, wanted: np.ndarray) -> str:
     if np.all(np.abs(share) < 0.1):
         return "They hardly turn: each motor needs VELOCITY_CONTROL and a targetVelocity."
     if np.all((share > 0.1) & (share < 0.97)):
-        return "They turn too slowly: the motors have less force than PyBullet's own."
+        return (
+            "They turn too slowly, as with smaller target velocities, or with less force than "
+            "PyBullet's motors have by themselves."
+        )
     return ""
 
 

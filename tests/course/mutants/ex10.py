@@ -1118,3 +1118,41 @@ def evolve(seed):
 # says: Learn for longer
 # -     model.learn(16_384)
 # +     model.learn(1_024)
+
+
+# %% gravity_before_the_world_is_emptied loses 10.4, 10.7
+# There is no gravity: it is left out, or set in another simulation, or before resetSimulation, which ends it.
+# says: this
+# -         pybullet.resetSimulation(physicsClientId=self.client)
+# -         pybullet.setGravity(0, 0, -10, physicsClientId=self.client)
+# +         pybullet.setGravity(0, 0, -10, physicsClientId=self.client)
+# +         pybullet.resetSimulation(physicsClientId=self.client)
+
+
+# %% half_the_angle loses 10.3, 10.7
+# Takes the arc sine of the quaternion's x for the inclination, which is half the angle.
+# says: this
+# -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
+# +         inclination = np.arcsin(orientation[0])
+
+
+# %% sum_beyond_the_limit_is_ignored loses 10.5
+# Where the sum is beyond a limit, the speed stays as it was.
+# says: stays as it was
+# -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
+# +         if abs(self.speed + change) <= FASTEST:
+# +             self.speed = float(self.speed + change)
+
+
+# %% fallen_only_if_it_lies loses 10.6
+# A fall counts only if the body leans by more than a right angle, too.
+# says: the height alone decides
+# -         return position[2] < LOWEST
+# +         return bool(position[2] < LOWEST and abs(self.observe()[0]) > np.pi / 2)
+
+
+# %% list_for_the_package_data loses 10.8
+# package-data is a list of files, without the name of the package that they belong to.
+# says: a table is asked for
+# - package-data = { balance_bot = ["*.urdf"] }
+# + package-data = ["*.urdf"]
