@@ -368,7 +368,7 @@ def any_experiment_in_any_folder(student: Student):
 def other_fitness(values: dict[int, object]) -> str:
     """What the values of all runs are, if the runs' files hold them at another place."""
     lasts = [files_of(ACROBOT, s, 40_000)[f"statS{s}.npy"].reshape(-1, 6)[-1] for s in values]
-    given = [number(f"the fitness of run {seed}", value) for seed, value in values.items()]
+    given = [expect_array(f"the fitness of run {s}", value, ()) for s, value in values.items()]
     others = {
         1: "the best fitness, but the best post-evaluated one is asked for",
         3: "the best fitness of the last generation",
@@ -401,14 +401,13 @@ def tells_the_fitness_of_each_run(student: Student):
         f"{trial.said} returned a dict with the keys {show(keys)}, but the seeds were expected.",
     )
     for seed, value in pairs:
-        try:
-            expect_close(
-                f"{trial.said}: the fitness of run {seed}",
-                value,
-                files_of(ACROBOT, seed, 40_000)["fitness"],
+        said = f"{trial.said}: the fitness of run {seed}"
+        wanted = files_of(ACROBOT, seed, 40_000)["fitness"]
+        got = float(expect_array(said, value, ()))
+        if abs(got - wanted) > 1e-6 * (1 + abs(wanted)):
+            raise Wrong(
+                f"{said} is {got:.6g}, but {wanted:.6g} was expected.{other_fitness(dict(pairs))}"
             )
-        except Mismatch as error:
-            raise Wrong(f"{error}{other_fitness(dict(pairs))}") from error
     again = Trial(student, PENDULUM, "fitness", 4_000, before.seeds)
     again.said += ", whose seeds have files there already, which must be replaced"
     again.expect_files("stat")
