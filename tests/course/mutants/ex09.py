@@ -754,3 +754,14 @@ def planar_v0(trajectory):
 # says: the `robot` that is given
 # -     runner, table = Runner(f"{robot}-v5"), {}
 # +     runner, table = Runner("PlanarHopper-v5"), {}
+
+
+# %% humanoid_pays_for_work_alone loses 9.3
+# A Humanoid pays 4.25 times the work, but not 4.25 times the squared action.
+# says: this|4.25 times the squared action, too
+def components_v0(trajectory, _components=components_v0):
+    parts = _components(trajectory)
+    if trajectory["robot"] == "Humanoid":
+        effort = 0.1 * (trajectory["actions"] ** 2).mean(axis=1)
+        parts["electricity"] = parts["electricity"] + 3.25 * effort
+    return parts

@@ -773,3 +773,35 @@ def learn(inputs, targets, hiddens, seed):
 # -     while True:
 # +     while True:
 # +         torch.manual_seed(seed)
+
+
+# %% mean_error_for_the_largest loses 11.5
+# Stops when the mean squared error is below 0.05, though single outputs are farther away.
+# says: what counts is the distance
+# -                 if (network(inputs) - targets).abs().max() < 0.03:
+# +                 if ((network(inputs) - targets) ** 2).mean() < 0.05:
+
+
+# %% running_mean_of_gradients loses 11.4
+# The gradient enters the running sum weakened by 1 - momentum, from the first step on.
+# says: from the first step on
+def train(network, inputs, targets, epochs, learning_rate, momentum):
+    velocities = [torch.zeros_like(p) for p in network.parameters()]
+    losses = []
+    for _ in range(epochs):
+        loss = ((network(inputs) - targets) ** 2).mean()
+        gradients = torch.autograd.grad(loss, list(network.parameters()))
+        share = 1 - momentum
+        with torch.no_grad():
+            for p, v, g in zip(network.parameters(), velocities, gradients, strict=True):
+                v.mul_(momentum).add_(share * g)
+                p.sub_(learning_rate * v)
+        losses.append(float(loss))
+    return losses
+
+
+# %% tiny_number_added_to_deviations loses 11.6
+# A tiny number is added to the deviations, so that none of them is 0.
+# says: not a tiny number
+# -     deviation = np.where(np.ptp(inputs, axis=0) == 0, 1.0, deviation)
+# +     deviation = deviation + 1e-8
