@@ -1352,7 +1352,7 @@ def smooth(curve, width):
 
 
 # %% last_fall_with_its_peak loses 8.7
-# Of equal falls the last one counts, and its peak; a curve that never falls is right.
+# Of equal falls the last one counts, with its peak.
 # says: with its peak
 # -     bottom = int(np.argmax(falls))
 # +     bottom = len(falls) - 1 - int(np.argmax(falls[::-1])) if falls.any() else 0
