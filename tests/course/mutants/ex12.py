@@ -746,10 +746,40 @@ def choose(probabilities, rng):
 # Takes the action after the one on which the dart lands.
 # says: this
 # -     return int(np.argmax(beyond)) if beyond.any() else len(probabilities) - 1
-# +     return min(int(np.argmax(beyond)) + 1, len(probabilities) - 1)
+# +     return min(int(np.argmax(beyond)) + 1, len(probabilities) - 1) if beyond.any() else len(beyond) - 1
 
 
 # %% actions_always_whole loses 12.6
 # Actions of any kind become whole numbers of int64.
 # -     wanted = torch.as_tensor(np.asarray(actions), dtype=torch.int64 if whole else torch.float32)
 # +     wanted = torch.as_tensor(np.asarray(actions), dtype=torch.int64)
+
+
+# %% mean_subtracted_from_the_scores loses 12.1
+# The mean of the scores is subtracted, not the largest one, so large scores overflow.
+# says: the mean of the scores is subtracted
+# -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
+# +     powers = np.exp(scores - scores.mean(axis=-1, keepdims=True))
+
+
+# %% tiny_number_against_0 loses 12.5
+# A tiny number is added to the probability, which hides how improbable an action is.
+# says: no surprise is larger
+# -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
+# +     return -torch.log(torch.exp(chosen - torch.logsumexp(scores, dim=1)) + 1e-10).mean()
+
+
+# %% one_column_is_whole loses 12.6
+# Actions with a single column are taken for whole numbers, whatever they are.
+# says: this|with actions of torch.float32
+# -     whole = np.issubdtype(np.asarray(actions).dtype, np.integer)
+# +     whole = np.asarray(actions).ndim == 1 or np.shape(actions)[1] == 1
+
+
+# %% acts_as_in_the_beginning loses 12.8
+# The parameters that choose the actions are taken once, before the first iteration.
+# says: the policy that acts stays as it was
+# -     for iteration in range(iterations):
+# -         parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
+# +     parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
+# +     for iteration in range(iterations):
