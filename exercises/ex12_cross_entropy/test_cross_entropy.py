@@ -101,25 +101,24 @@ def overflown(scores: np.ndarray, answer) -> str:
     if np.shape(answer) != scores.shape or np.asarray(answer).dtype.kind != "f":
         return ""
     of_rows = {"axis": -1, "keepdims": True}
-    subtracted = {
-        "nothing": 0.0,
-        "the mean": scores.mean(**of_rows),
-        "the lowest": scores.min(**of_rows),
-        "the median": np.median(scores, **of_rows),
-        "the first": scores[..., :1],
-        "the last": scores[..., -1:],
-        "the sum": scores.sum(**of_rows),
-        "the largest absolute value": np.abs(scores).max(**of_rows),
-    }
-    for what, number in subtracted.items():
+    subtracted = (
+        np.zeros(1),
+        scores.mean(**of_rows),
+        scores.min(**of_rows),
+        np.median(scores, **of_rows),
+        scores[..., :1],
+        scores[..., -1:],
+        scores.sum(**of_rows),
+        np.abs(scores).max(**of_rows),
+    )  # many of them lead to the same NaN
+    for number in subtracted:
         with np.errstate(all="ignore"):
             powers = np.exp(scores - number)
             made = powers / powers.sum(**of_rows)
         if np.isnan(made).any() and np.allclose(answer, made, equal_nan=True):
-            of = "" if what == "nothing" else " of the scores"
             return (
-                f"{what}{of} is subtracted from the scores before e is raised to them. The powers "
-                "are then too large for a number, or all of them are 0."
+                "what is subtracted from the scores is not the largest one of their row, or "
+                "nothing is. The powers are then too large for a number, or all of them are 0."
             )
     return ""
 
@@ -177,7 +176,6 @@ def compare_choices(student: Student, index: int, shares: np.ndarray, times: int
     darts = np.random.default_rng(seed).random(times)
     before = np.cumsum(shares) - shares
     mistakes = {
-        "It is always the most probable action: draw one.": np.full(times, int(shares.argmax())),
         "All actions are equally probable: use the probabilities.": darts * len(shares) // 1,
         "The probabilities are laid down from the last to the first.": len(shares) - 1
         - np.searchsorted(np.cumsum(shares[::-1]), darts, side="right").clip(0, len(shares) - 1),
@@ -185,11 +183,13 @@ def compare_choices(student: Student, index: int, shares: np.ndarray, times: int
         "to it.": np.searchsorted(before, darts, side="right").clip(0, len(shares) - 1),
         "The action is the one before: the first whose sum is greater than u is asked for.":
         np.searchsorted(np.cumsum(shares), darts, side="right").clip(1, len(shares)) - 1,
+        "The probabilities are sorted: the part of action i is to be number i on the ruler.":
+        np.searchsorted(np.cumsum(np.sort(shares)), darts, side="right").clip(0, len(shares) - 1),
         "u is compared with each probability alone, not with the sum up to it.":
         [next((i for i, p in enumerate(shares) if p > u), len(shares) - 1) for u in darts],
     }  # fmt: skip
-    if whole and len(set(answer)) == 1:  # always the same action: many mistakes lead to it
-        mistakes = dict(list(mistakes.items())[:1])
+    if whole and len(set(answer)) == 1:  # many mistakes lead to it
+        mistakes = {"It is the same action each time: draw one.": answer}
     lines = [text for text, made in mistakes.items() if whole and np.array_equal(answer, made)]
     hint = "".join(f" {text}" for text in lines[:1])
     for got in answer:
@@ -205,14 +205,14 @@ def compare_choices(student: Student, index: int, shares: np.ndarray, times: int
 
 @choosing.check(5)
 def where_the_dart_lands(student: Student):
-    compare_choices(student, 11, np.array([0.2, 0.5, 0.3]))
+    compare_choices(student, 11, np.array([0.25, 0.35, 0.1, 0.3]))
     compare_choices(student, 10, np.array([0.5, 0.5]))
     compare_choices(student, 12, generator(13).random(7))
 
 
 @choosing.check(3)
 def unlikely_and_certain_actions(student: Student):
-    compare_choices(student, 15, np.array([0.0, 0.3, 0.0, 0.7]), 60)
+    compare_choices(student, 15, np.array([0.0, 0.3, 0.0, 0.5, 0.2]), 60)
     compare_choices(student, 14, np.array([0.0, 1.0, 0.0]), 30)
     compare_choices(student, 16, np.array([1.0]), 5)
     shares, most = np.full(10, 0.1), 1 - 2.0**-53

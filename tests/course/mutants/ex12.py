@@ -27,7 +27,7 @@ def choose(probabilities, rng):
 
 # %% most_probable_action loses 12.2
 # Takes the most probable action, so that nothing new is ever tried.
-# says: always the most probable action
+# says: this
 def choose(probabilities, rng):
     rng.random()
     return int(np.argmax(probabilities))
@@ -757,7 +757,7 @@ def choose(probabilities, rng):
 
 # %% mean_subtracted_from_the_scores loses 12.1
 # The mean of the scores is subtracted, not the largest one, so large scores overflow.
-# says: the mean of the scores is subtracted
+# says: not the largest one of their row
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.exp(scores - scores.mean(axis=-1, keepdims=True))
 
