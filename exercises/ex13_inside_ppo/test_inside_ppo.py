@@ -335,6 +335,8 @@ def mistaken_losses(given: dict, clip_range: float) -> dict:
             "The clipped product counts always, instead of the smaller of the two.":
             lambda first, second: second,
             "The larger of the two products counts, instead of the smaller.": np.maximum,
+            "The product that is smaller without its sign counts: compare them with their signs.":
+            lambda first, second: np.where(np.abs(first) < np.abs(second), first, second),
         },
         whole={
             "": lambda products: -products.mean(),

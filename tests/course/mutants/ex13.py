@@ -814,3 +814,17 @@ def entropy_of_choices(scores):
 # +         following = np.vstack([rollout.values[1:], rollout.last_values[None]])
 # +         rollout.advantages[:] = found
 # +         rollout.returns[:] = rollout.rewards + h.gamma * (1 - ended) * following
+
+
+# %% whole_epoch_left_out loses 13.5
+# An epoch with a batch that is too far makes no update at all, not even those before that batch.
+# says: this
+# -     for epoch in divergences:
+# -         for divergence in epoch:
+# -             if target_kl is not None and divergence > 1.5 * target_kl:
+# -                 return made
+# -             made += 1
+# +     for epoch in divergences:
+# +         if target_kl is not None and max(epoch) > 1.5 * target_kl:
+# +             return made
+# +         made += len(epoch)
