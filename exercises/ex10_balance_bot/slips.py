@@ -74,6 +74,8 @@ def mistaken_inclination(angle: float, quaternion) -> dict:
             "getEulerFromQuaternion.": 2 * x,
             "The inclination is half as large as it is: a quaternion holds sine and cosine of half "
             "the angle.": np.arcsin(x),
+            "Twice the arc tangent of x by w is the inclination only if the robot turns around x "
+            "alone: see getEulerFromQuaternion.": 2 * np.arctan2(x, w),
             "The inclination is half of what it is.": angle / 2,
             "The inclination is twice as large as it is.": 2 * angle,
             "The inclination is the angle by which the body is turned in all, not that around x.":

@@ -697,7 +697,7 @@ def of_fallen(student: Student) -> str:
 
     A body that leans, and one that has turned over, is as high as one that is upright.
     """
-    heights = [0.05, 0.14, 0.16, 0.3]
+    heights = [0.02, 0.05, 0.08, 0.11, 0.14, 0.16, 0.2, 0.25, 0.3, 0.4]
     said = []
     for lean in (0.0, 0.7, -0.7, 1.7, -3.0):
         scene = (lean, [0.0, 0.0], [0.0, 0.0, 0.0], 5.0, heights)
@@ -707,7 +707,13 @@ def of_fallen(student: Student) -> str:
             "\n  Of bodies at the same height, fallen() says other things if they lean otherwise: "
             "the height alone decides."
         )
-    if said[0] == [True, True, False, False]:
+    low = said[0].count(True)
+    if low not in (0, 5, 10) and said[0] == [True] * low + [False] * (10 - low):
+        return (
+            f"\n  fallen() is True at {heights[low - 1]} m and False at {heights[low]} m, but its "
+            "limit is LOWEST, 0.15 m."
+        )
+    if said[0] == [True] * 5 + [False] * 5:
         return (
             "\n  fallen() itself is right about the height: step is to call it after the "
             "simulation's step, and to return what it says as the third value."
