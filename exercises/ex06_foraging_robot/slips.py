@@ -1062,7 +1062,7 @@ def wrong_memories(first: np.ndarray, afters: np.ndarray, episode: int) -> dict:
             if episode
             else {}
         ),
-        "This is the memory at the beginning of the episode, or always that before the step.": first,
+        "This is the memory at the beginning of the episode, or always the one before.": first,
         "This memory is empty.": 0 * first,
         **{f"This is the memory after step {k}.": each for k, each in enumerate(own)},
         **{
