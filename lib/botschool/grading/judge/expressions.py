@@ -78,10 +78,12 @@ class Expressions:
     def __init__(self, public: str, parameters: list[str], own: bool) -> None:
         """Take the task's text, the names of the function's parameters, and whose function it is.
 
-        own: whether the function is our solution's; formulas with numbers in other styles are
-        riddles unless the text has them.
+        own: whether the function is our solution's. Parts of other styles are riddles: of them,
+        names are quoted only if the text has them as names, and formulas with numbers only if the
+        text has these.
         """
-        self._public = set(re.findall(r"\w+", public))
+        names = public if own else _as_names(public)
+        self._public = set(re.findall(r"\w+", names))
         self._squeezed = "" if own else "".join(public.split())
         self._own = own
         self.parameters = parameters
@@ -390,6 +392,12 @@ def colon(quoted: str) -> str:
 
 def in_(quoted: str) -> str:
     return f" in{quoted}" if quoted else ""
+
+
+def _as_names(public: str) -> str:
+    """Return the code of a text, and what its sentences quote."""
+    code = re.sub(r'""".*?"""|^ *#[^\n]*', "", public, flags=re.S | re.M)
+    return " ".join([code, *re.findall(r"`([^`\n]+)`", public)])
 
 
 def _with_number(node: ast.AST) -> bool:

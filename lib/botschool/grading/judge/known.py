@@ -223,7 +223,8 @@ def _clearest(slips: Iterator[Variation]) -> Variation | None:
 def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterator[Variation]:
     """Yield the slips that explain a submission's answers: in our solution, then in others."""
     telling = [call for call in calls if distance(call.got, call.ours) > TIE and not call.slow]
-    if all(counts(call.got) for call in telling) and len(telling) < COUNTS:
+    few = all(counts(call.got) for call in telling)
+    if few and len(telling) < COUNTS:
         return
     styles = [text for text in known.styles() if _imports_little(text, known.solution)]
     slips = variations(known.solution, task.id, styles)
@@ -232,7 +233,7 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
         texts = [each.text for each in batch]
         near = _near(ours, texts, _telling(calls), SLIP_SECONDS, "slips in our solution")
         for slip, fitting in zip(batch, near, strict=True):
-            if fitting and _explains(ours, slip.text, calls):
+            if fitting and not (few and slip.near) and _explains(ours, slip.text, calls):
                 yield slip
 
 

@@ -57,6 +57,11 @@ class Variation:
     def vague(self) -> bool:
         return is_vague(self.what)
 
+    @property
+    def near(self) -> bool:
+        """Return whether a number is a little larger or smaller, as others would be, too."""
+        return "number is one" in self.what
+
 
 def is_vague(what: str) -> bool:
     """Return whether a sentence names neither a place nor a clear mistake."""
@@ -117,8 +122,16 @@ def _of_one(text: str, task: str, public: str, done: set[str], own: bool) -> Ite
                 found.setdefault((what, place or str(edits[0].line)), []).append(edits[0])
         several += [(function, where + what, edits) for (what, _), edits in found.items()]
     for function, what, edits in several:
-        if len(edits) > 1:
+        if len(edits) > 1 and _everywhere(what):
             yield from _made(lines, function, what, edits, done, own)
+
+
+def _everywhere(what: str) -> bool:
+    """Return whether somebody who makes a slip may make it in all places, and understand this.
+
+    Signs that are reversed in several places may have the effect of any other mistake.
+    """
+    return not is_vague(what) and "sign" not in what
 
 
 def _hidden(edit: Edit, what: str) -> bool:
