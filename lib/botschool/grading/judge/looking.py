@@ -15,7 +15,7 @@ import numpy as np
 
 from botschool.grading.declare.checks import Mismatch, NotDone, Wrong, keeping
 from botschool.grading.declare.diagnosis import diagnose, fitting
-from botschool.grading.declare.diagnosis.comparison import Comparison
+from botschool.grading.declare.diagnosis.comparison import Comparison, alike
 from botschool.grading.declare.values import show
 from botschool.grading.run.student import Student
 from botschool.sandbox.protocol import pack
@@ -24,6 +24,8 @@ MAX_SECONDS = 0.5
 """Largest processor time, in seconds, of a check whose call is repeated."""
 MAX_CASES = 50
 """Wrong answers of a task to look at."""
+MAX_RIGHT = 4
+"""Right answers of a check that a sentence on its wrong ones must not contradict."""
 INPUTS = 2
 """Different calls that must show the same cause before it is reported."""
 MANY = 5
@@ -119,7 +121,8 @@ def look_for_causes(failures: list[Failure], student: Student) -> None:
     Also add the cause: a sentence of the check that explains all its wrong answers, or a sentence
     found for two different calls. student: the submission in a new child; its time does not count.
     """
-    cases = _cases([each.check for each in failures if each.quick and each.check], student)
+    checks = [each.check for each in failures if each.quick and each.check]
+    cases, right = _cases(checks, student)
     calls: dict[str, set[bytes]] = {}
     for case in cases:
         calls.setdefault(_DIGITS.sub("", case.cause), set()).add(case.request)
@@ -129,12 +132,15 @@ def look_for_causes(failures: list[Failure], student: Student) -> None:
             failure.text, failure.direct = case.text, case.direct
             failure.shown = bool(case.pasted) and case.pasted in case.text
             failure.pasted = "" if failure.shown else case.pasted
-            common = _common(own, cases)
+            right_ones = right.get(failure.check, [])
+            common = _common(own, cases, right_ones)
             enough = any(each.certain for each in own) or len({c.request for c in own}) >= INPUTS
             if common and enough:
                 failure.cause, failure.named = common, True
             elif case.cause and 2 * sum(_explained(case.cause, c) for c in own) < len(own):
                 continue  # it explains a few of the check's wrong answers by chance
+            elif _contradicted(case.cause, right_ones):
+                continue
             elif case.certain or len(calls[_DIGITS.sub("", case.cause)]) >= INPUTS:
                 failure.cause, failure.named = case.cause, case.cause in case.named
 
@@ -144,11 +150,22 @@ def _explained(cause: str, case: Case) -> bool:
     return cause in case.named or _DIGITS.sub("", cause) == _DIGITS.sub("", case.cause)
 
 
-def _common(own: list[Case], cases: list[Case]) -> str:
+def _contradicted(text: str, right: list[Mismatch]) -> bool:
+    """Return whether a mistake would have changed answers of the same check that are right."""
+    try:
+        with processor_time_limit(MAX_SECONDS):
+            return any(
+                text in each.mistakes and not alike(each.got, each.mistakes[text]) for each in right
+            )
+    except TookTooLong:
+        return False
+
+
+def _common(own: list[Case], cases: list[Case], right: list[Mismatch]) -> str:
     """Return a sentence of a check that explains all its wrong answers, or "".
 
-    own: the check's cases. Of several sentences, the one that explains most of all cases comes
-    first.
+    own: the check's cases. right: its right answers, which a sentence must not contradict. Of
+    several sentences, the one that explains most of all cases comes first.
     """
     said = [{_DIGITS.sub("", text) for text in case.named} for case in cases]
     mine = [names for case, names in zip(cases, said, strict=True) if case.check is own[0].check]
@@ -159,7 +176,8 @@ def _common(own: list[Case], cases: list[Case]) -> str:
     fit = [text for text in own[0].named if all(text in case.named for case in own)]
     if not fit:  # a number in the sentence may follow from the case
         fit = [text for text in own[0].named if all(_DIGITS.sub("", text) in each for each in mine)]
-    return max(fit, key=explained, default="")
+    best_first = sorted(fit, key=explained, reverse=True)
+    return next((text for text in best_first if not _contradicted(text, right)), "")
 
 
 def _certain(got: np.ndarray, wanted: np.ndarray) -> bool:
@@ -169,8 +187,12 @@ def _certain(got: np.ndarray, wanted: np.ndarray) -> bool:
     return got.shape == wanted.shape and np.sum(got != wanted) >= MANY and len(np.unique(got)) > 1
 
 
-def _cases(checks: list[Check], student: Student) -> list[Case]:
+def _cases(
+    checks: list[Check], student: Student
+) -> tuple[list[Case], dict[Check | None, list[Mismatch]]]:
+    """Return the wrong answers in checks, and a few right ones of each check."""
     found: list[Case] = []
+    right: dict[Check | None, list[Mismatch]] = {check: [] for check in checks}
 
     def keep(error: Mismatch) -> None:
         options = student.request.get("options", {}).values()
@@ -189,7 +211,7 @@ def _cases(checks: list[Check], student: Student) -> list[Case]:
         for check in checks:
             before = len(found)
             try:
-                with processor_time_limit(MAX_SECONDS), keeping(keep):
+                with processor_time_limit(MAX_SECONDS), keeping(keep, right[check].append):
                     check(student)
             except TookTooLong:
                 continue
@@ -200,8 +222,8 @@ def _cases(checks: list[Check], student: Student) -> list[Case]:
                 if len(found) == before and not isinstance(error, Wrong):
                     raise
     except Exception:  # a fault of the machine: it will appear again, or does not matter here
-        return []
-    return found
+        return [], {}
+    return found, {check: few[:MAX_RIGHT] for check, few in right.items()}
 
 
 def looked_at_again(failure: Failure, student: Student, ours: Callable[[], Student]) -> str:
