@@ -2,12 +2,12 @@
 
 What tasks 11.5 and 11.8 train must have been trained: whenever a gradient is computed, the grader
 notes the parameters, and many small steps must lead from a start to those that are returned. In one
-check of task 11.5 the first networks are stuck.
-
-Stochastic checks (seeds of the grader's). Task 11.5, every output within 0.05 of its target: the
+check of task 11.5 the first networks are check of task 11.5 the first networks are stuck.
+ checks (seeds of the grader's). Task 11.5, every output within 0.05 of its target: the
 solution goes on until all are within 0.03. Task 11.8, at least 90 % of the variance explained on
-500 patterns that the submission has not seen: over 20 seeds, with three training sets each, the
-solution explains 93.5 % or more (half of the time, more than 99.7 %), a margin of 3.5 %.
+500 patterns that the submission has not seen, of which 85 % are enough: over 20 seeds, with three
+training sets each, the solution explains 93.5 % or more (half of the time, more than 99.7 %), a
+margin of 8.5 %; another right answer had 89.97 % once in 60.
 """
 
 import itertools
@@ -282,7 +282,7 @@ def what_torch_has_found(student: Student):
             expect_close(f"{said}: {key}", before, right, 1e-6)
             got = expect_array(f"{said}: {key}", value, right.shape)
             expect(
-                bool(np.allclose(got, factor * before, rtol=1e-6, atol=1e-8)),
+                bool(np.abs(got - factor * before).max() <= 1e-5 * np.abs(factor * right).max()),
                 f"{said}: {key} is not what torch's backward() has computed: the grader made torch "
                 f"multiply all gradients by {factor:g}, and {key} is not multiplied by it.",
             )
@@ -432,7 +432,7 @@ corners = exercise.task("11.5", "Exclusive or", seconds=60, needs=("11.1", "11.4
 
 GRADIENTS = 30
 """That a training must have computed at least; the solution computes 300 before its first look."""
-COME = 0.3
+COME = 0.15
 """How far, as a share of the size of the last weights, a training comes from its start at least."""
 
 
@@ -795,6 +795,10 @@ def measured(parameters: list, normalised, targets, answers, others) -> str:
     )
 
 
+LEAST = 0.85
+"""Share of the variance that counts as the text's 90 %: honest trainings may end just below."""
+
+
 def compare_fit(student: Student, index: int, n: int, units, function) -> None:
     """Trains on n patterns, judges on 500 others. units: (offset, scale) of each input."""
     rng = generator(index)
@@ -819,7 +823,7 @@ def compare_fit(student: Student, index: int, n: int, units, function) -> None:
     answers = outputs_of(parameters, (inputs[n:] - mean) / deviation)
     explained = 1 - ((answers - targets[n:]) ** 2).mean(axis=0) / targets[n:].var(axis=0)
     expect(
-        bool(explained.min() >= 0.9),
+        bool(explained.min() >= LEAST),
         f"{said}: on 500 other patterns the network explains {shown(explained)} % of the variance "
         "of the targets, but 90 % is asked for. "
         + measured(parameters, (inputs[:n] - mean) / deviation, targets[:n], answers, targets[n:]),
