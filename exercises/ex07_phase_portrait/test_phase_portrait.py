@@ -4,7 +4,7 @@ Stochastic check (task 7.6; the mean return over 100 episodes that the submissio
 a robot whose parameters count with gains drawn in secret): the first stage below -900, the last at
 least -400, the middle one 100 or more away from both. The margin over 20 seeds, each with gains of
 its own: the solution's first stages reach -1273 to -1138, the middle ones -739 to -638 (at least
-421 away from the others), the last ones -191 to -139. Of 150 others, 3 ended below -400: so it is
+421 away from the others), the last ones -191 to -139. Of 300 others, 3 ended below -400: so it is
 enough if the last stage of one of two seeds holds the pendulum.
 """
 
@@ -569,7 +569,7 @@ def last_stage_holds_the_pendulum(student: Student):
 
     try:
         expect_stages(student, fault)
-    except Wrong:  # one evolution in fifty never gets there
+    except Wrong:  # one evolution in a hundred never gets there
         if fault(returns_of(student, secret_gains(), other=True)):
             raise
 
