@@ -106,6 +106,7 @@ CASES = {
     "degrees": (lambda r: (np.degrees(w := line(r)), w), "These are degrees"),
     "radians": (lambda r: (np.radians(w := line(r)), w), "These are radians"),
     "turns": (lambda r: ((w := line(r)) + [0, 2 * np.pi, 0, 0, 0, 0], w), "whole turns"),
+    "half turns": (lambda r: ((w := line(r, 3)) + [np.pi, 0, -np.pi], w), "half turns"),
     "twice": (lambda r: (2 * (w := line(r)), w), "twice"),
     "twice a number": (lambda r: (2 * (w := r.normal()), w), "twice"),
     "half": (lambda r: ((w := table(r)) / 2, w), "half of"),

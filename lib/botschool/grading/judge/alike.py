@@ -44,12 +44,12 @@ def weight(got: Any, made: Any, ours: Any) -> float:
     return 0.5 if choices else 1.0
 
 
-def counts(answer: Any) -> bool:
-    """Return whether an answer holds nothing but a few small whole numbers."""
+def counts(answer: Any, most: int = 15) -> bool:
+    """Return whether an answer holds nothing but a few small whole numbers, `most` at most."""
     leaves = [leaf for _, leaf in _leaves(answer) or [] if isinstance(leaf, np.ndarray)]
     many = sum(leaf.size for leaf in leaves)
     with np.errstate(invalid="ignore"):
-        return many < 16 and all(
+        return many <= most and all(
             bool(((leaf == np.round(leaf)) & (np.abs(leaf) < 100)).all()) for leaf in leaves
         )
 

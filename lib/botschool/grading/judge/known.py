@@ -50,6 +50,8 @@ INPUTS, COUNTS = 2, 4
 """Smallest number of different calls that must point to a mistake; the second is for slips if all
 answers are small whole numbers.
 """
+MANY = 1000
+"""So many whole numbers do not tell whether a limit is just the one that a slip makes of it."""
 NOT_DONE = ("NotImplementedError", "Missing")
 """Exceptions of functions that are not done yet."""
 Check = Callable[[Student], None]
@@ -223,9 +225,9 @@ def _clearest(slips: Iterator[Variation]) -> Variation | None:
 def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterator[Variation]:
     """Yield the slips that explain a submission's answers: in our solution, then in others."""
     telling = [call for call in calls if distance(call.got, call.ours) > TIE and not call.slow]
-    few = all(counts(call.got) for call in telling)
-    if few and len(telling) < COUNTS:
+    if all(counts(call.got) for call in telling) and len(telling) < COUNTS:
         return
+    whole = all(counts(call.got, MANY) for call in telling)
     styles = [text for text in known.styles() if _imports_little(text, known.solution)]
     slips = variations(known.solution, task.id, styles)
     end = ours.seconds_left - SECONDS
@@ -233,7 +235,7 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
         texts = [each.text for each in batch]
         near = _near(ours, texts, _telling(calls), SLIP_SECONDS, "slips in our solution")
         for slip, fitting in zip(batch, near, strict=True):
-            if fitting and not (few and slip.near) and _explains(ours, slip.text, calls):
+            if fitting and not (whole and slip.near) and _explains(ours, slip.text, calls):
                 yield slip
 
 

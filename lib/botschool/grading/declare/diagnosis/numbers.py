@@ -54,13 +54,19 @@ def degrees(c: Comparison) -> str | None:
 
 
 @detector
-def whole_turns(c: Comparison) -> str | None:
+def turns(c: Comparison) -> str | None:
     if c.got.shape != c.wanted.shape:
         return None
-    turns = (c.got - c.wanted) / (2 * np.pi)
-    if np.any(np.abs(turns) > 0.5) and np.allclose(turns, np.round(turns), rtol=0, atol=1e-6):
-        return "Right except for whole turns of 2 pi: in which range must the angle be?"
-    return None
+    halves = (c.got - c.wanted) / np.pi
+    if np.all(np.abs(halves) < 0.5) or not np.allclose(halves, np.round(halves), rtol=0, atol=1e-6):
+        return None
+    if np.any(np.round(halves) % 2):
+        return (
+            "Right except for half turns (pi): does the angle count from the opposite direction, "
+            "or is it the arctan of a quotient, which cannot tell opposite directions apart "
+            "(arctan2 can)?"
+        )
+    return "Right except for whole turns of 2 pi: in which range must the angle be?"
 
 
 @detector
