@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -19,6 +20,7 @@ class Wrong(Exception):
     """A check failed; the message is the sentence that the learner reads."""
 
 
+_NUMBER = re.compile(r"[-+]?\d[\d.e+-]*")
 Mistakes = dict[str, Any] | Callable[[], dict[str, Any]]
 """Sentence -> the answer that this mistake leads to, or a function that returns this."""
 
@@ -32,9 +34,17 @@ class Mismatch(Wrong):
         got: np.ndarray,
         wanted: np.ndarray,
         mistakes: Mistakes | None = None,
+        said: str = "",
     ) -> None:
+        """said: the call and the part of its answer, with which the sentence begins."""
         super().__init__(sentence)
-        self.got, self.wanted, self._mistakes = got, wanted, mistakes or {}
+        self.got, self.wanted, self._mistakes, self._said = got, wanted, mistakes or {}, said
+
+    @property
+    def part(self) -> tuple[str, str]:
+        """Return the name of the function and of the part of its answer, without numbers."""
+        name, _, part = _NUMBER.sub("", self._said).partition("(")
+        return name, part.rpartition("): ")[2] if "): " in part else ""
 
     @cached_property
     def mistakes(self) -> dict[str, Any]:
@@ -118,7 +128,7 @@ def expect_close(
     wanted = np.asarray(expected, dtype=np.float64)
     array = _array(said, value, wanted.shape)
     if array.shape != wanted.shape:
-        _found(Mismatch(_but(said, value, wanted.shape), array, wanted, mistakes))
+        _found(Mismatch(_but(said, value, wanted.shape), array, wanted, mistakes, said))
         return
     got = expect_array(said, value, wanted.shape)
     close = np.abs(got - wanted) <= _allowed(got, wanted, tolerance)
@@ -128,9 +138,11 @@ def expect_close(
             place = np.unravel_index(int(np.argmin(close)), close.shape)
             reason = why(*map(int, place))
             sentence += f"\n  {reason}" if reason else ""
-        _found(Mismatch(sentence, got, wanted, mistakes))
+        _found(Mismatch(sentence, got, wanted, mistakes, said))
     elif isinstance(mistakes, (dict, partial)) and (kept := _keep.get()):
-        kept[1](Mismatch("", got, wanted, mistakes))  # a lambda may be of another case by then
+        kept[1](
+            Mismatch("", got, wanted, mistakes, said)
+        )  # a lambda may be of another case by then
 
 
 def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:

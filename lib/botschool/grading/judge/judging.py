@@ -134,7 +134,8 @@ def _grade_task(
                     if each.answered and each.check not in cheap
                 ]
                 told = known_mistake(task, cheap, known, again, file.name, server, slow)
-                look_for_causes(failures, again)
+                wrong = [failure.check for failure in failures]
+                look_for_causes(failures, [c for c in cheap if c not in wrong], again)
                 if told.startswith(VARIED) and any(failure.named for failure in failures):
                     told = ""  # the check's own sentence is written for the task
             causes: set[str] = set()

@@ -25,7 +25,7 @@ MAX_SECONDS = 0.5
 MAX_CASES = 50
 """Wrong answers of a task to look at."""
 MAX_RIGHT = 4
-"""Right answers of a check that a sentence on its wrong ones must not contradict."""
+"""Right answers of a check, for each part, that a sentence on wrong ones must not contradict."""
 INPUTS = 2
 """Different calls that must show the same cause before it is reported."""
 MANY = 5
@@ -113,16 +113,20 @@ class Case:
     direct: dict[str, Any]
     certain: bool
     """Whether one case is enough: the check itself names the mistake, with many numbers."""
+    part: tuple[str, str]
+    """As in Mismatch."""
 
 
-def look_for_causes(failures: list[Failure], student: Student) -> None:
+def look_for_causes(failures: list[Failure], passed: list[Check], student: Student) -> None:
     """Run quick checks again to their end, and add to each failure its smallest case.
 
     Also add the cause: a sentence of the check that explains all its wrong answers, or a sentence
-    found for two different calls. student: the submission in a new child; its time does not count.
+    found for two different calls. It must not contradict right answers, also those of the quick
+    checks that have passed. student: the submission in a new child; its time does not count.
     """
-    checks = [each.check for each in failures if each.quick and each.check]
-    cases, right = _cases(checks, student)
+    cases, right = _cases([e.check for e in failures if e.quick and e.check], student)
+    if any(case.named for case in cases):
+        right += _cases(passed, student)[1]
     calls: dict[str, set[bytes]] = {}
     for case in cases:
         calls.setdefault(_DIGITS.sub("", case.cause), set()).add(case.request)
@@ -132,14 +136,14 @@ def look_for_causes(failures: list[Failure], student: Student) -> None:
             failure.text, failure.direct = case.text, case.direct
             failure.shown = bool(case.pasted) and case.pasted in case.text
             failure.pasted = "" if failure.shown else case.pasted
-            right_ones = right.get(failure.check, [])
-            common = _common(own, cases, right_ones)
+            alike_ones = [each for each in right if each.part == case.part]
+            common = _common(own, cases, alike_ones)
             enough = any(each.certain for each in own) or len({c.request for c in own}) >= INPUTS
             if common and enough:
                 failure.cause, failure.named = common, True
             elif case.cause and 2 * sum(_explained(case.cause, c) for c in own) < len(own):
                 continue  # it explains a few of the check's wrong answers by chance
-            elif _contradicted(case.cause, right_ones):
+            elif _contradicted(case.cause, alike_ones):
                 continue
             elif case.certain or len(calls[_DIGITS.sub("", case.cause)]) >= INPUTS:
                 failure.cause, failure.named = case.cause, case.cause in case.named
@@ -151,7 +155,7 @@ def _explained(cause: str, case: Case) -> bool:
 
 
 def _contradicted(text: str, right: list[Mismatch]) -> bool:
-    """Return whether a mistake would have changed answers of the same check that are right."""
+    """Return whether a mistake would have changed answers that are right."""
     try:
         with processor_time_limit(MAX_SECONDS):
             return any(
@@ -164,8 +168,8 @@ def _contradicted(text: str, right: list[Mismatch]) -> bool:
 def _common(own: list[Case], cases: list[Case], right: list[Mismatch]) -> str:
     """Return a sentence of a check that explains all its wrong answers, or "".
 
-    own: the check's cases. right: its right answers, which a sentence must not contradict. Of
-    several sentences, the one that explains most of all cases comes first.
+    own: the check's cases. right: right answers that a sentence must not contradict. Of several
+    sentences, the one that explains most of all cases comes first.
     """
     said = [{_DIGITS.sub("", text) for text in case.named} for case in cases]
     mine = [names for case, names in zip(cases, said, strict=True) if case.check is own[0].check]
@@ -187,12 +191,10 @@ def _certain(got: np.ndarray, wanted: np.ndarray) -> bool:
     return got.shape == wanted.shape and np.sum(got != wanted) >= MANY and len(np.unique(got)) > 1
 
 
-def _cases(
-    checks: list[Check], student: Student
-) -> tuple[list[Case], dict[Check | None, list[Mismatch]]]:
+def _cases(checks: list[Check], student: Student) -> tuple[list[Case], list[Mismatch]]:
     """Return the wrong answers in checks, and a few right ones of each check."""
     found: list[Case] = []
-    right: dict[Check | None, list[Mismatch]] = {check: [] for check in checks}
+    right: list[Mismatch] = []
 
     def keep(error: Mismatch) -> None:
         options = student.request.get("options", {}).values()
@@ -205,13 +207,21 @@ def _cases(
             if _of_another(text, direct):
                 pasted, direct = "", {}
             named = fitting(error.got, error.wanted, error.mistakes)
-            found.append(Case(check, text, request, pasted, cause, named, direct, certain))
+            part = error.part
+            found.append(Case(check, text, request, pasted, cause, named, direct, certain, part))
 
     try:
         for check in checks:
             before = len(found)
+            many = dict[tuple[str, str], int]()
+
+            def keep_right(answer: Mismatch, many: dict[tuple[str, str], int] = many) -> None:
+                many[answer.part] = many.get(answer.part, 0) + 1
+                if many[answer.part] <= MAX_RIGHT:
+                    right.append(answer)
+
             try:
-                with processor_time_limit(MAX_SECONDS), keeping(keep, right[check].append):
+                with processor_time_limit(MAX_SECONDS), keeping(keep, keep_right):
                     check(student)
             except TookTooLong:
                 continue
@@ -222,8 +232,8 @@ def _cases(
                 if len(found) == before and not isinstance(error, Wrong):
                     raise
     except Exception:  # a fault of the machine: it will appear again, or does not matter here
-        return [], {}
-    return found, {check: few[:MAX_RIGHT] for check, few in right.items()}
+        return [], []
+    return found, right
 
 
 def looked_at_again(failure: Failure, student: Student, ours: Callable[[], Student]) -> str:
