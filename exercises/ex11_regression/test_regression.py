@@ -716,6 +716,10 @@ def column_that_never_changes(student: Student):
     inputs[:, 0] = round(float(rng.uniform(900, 1000)), 3)
     deviation[0] = 1.0
     compare_normalised(student, inputs, deviation)
+    # a column of a small unit does change
+    inputs[:, 1] *= 1e-6
+    deviation[1] = inputs[:, 1].std()
+    compare_normalised(student, inputs, deviation)
 
 
 # ------------------------------------------------------------------- 11.7
