@@ -7,7 +7,8 @@ the grader has changed, and the gradients that it takes and the calls of its los
 Stochastic checks (task 12.8; a seed of the grader's, without chance, the mean over 50 episodes that
 the submission has not seen): CartPole-v1 and botschool/PushedCartPole-v0 need at least 180 of 200
 steps. Over 20 seeds the solution reaches 198.1 to 200.0 in the first and 193.4 to 200.0 in the
-second (margins 18.1 and 13.4 steps).
+second (margins 18.1 and 13.4 steps). Two other right answers reached 126 and 147 in the second,
+each once in 20 times: who reaches 100 has a second seed.
 """
 
 import functools
@@ -1086,7 +1087,8 @@ def progress(played: object, noise: object, iterations: int) -> str:
     return f"{text} {last:.0f}: it had learnt. Are the parameters returned those of the end?"
 
 
-def expect_balanced(student: Student, environment: str, index: int) -> None:
+def expect_balanced(student: Student, environment: str, index: int, second: bool = False) -> None:
+    """second: whether another seed has already led to a policy that balances for a while."""
     with gymnasium.make(environment) as env:
         discrete = isinstance(env.action_space, gymnasium.spaces.Discrete)
     seed, rng = exercise.seed(index) % 100_000, generator(index + 50)
@@ -1123,6 +1125,9 @@ def expect_balanced(student: Student, environment: str, index: int) -> None:
         "learn in, where the grader has changed the signs of what is observed or done. So it was "
         "not learnt there: train anew, in what gymnasium.make gives.",
     )
+    if 100 <= mean < 180 and not second:
+        expect_balanced(student, environment, index + 10, second=True)
+        return
     expect(
         mean >= 180,
         f"{said}: without chance, the policy keeps the pole up for {mean:.1f} steps on "
