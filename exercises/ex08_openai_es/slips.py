@@ -105,7 +105,9 @@ def mistaken_utilities(fitness) -> dict:
     }  # fmt: skip
     spread = fitness - fitness.min()
     return {
-        "All get 0, but equals have ranks of their own, even if all are equal.": 0 * fitness,
+        "All get 0 where all are equal, but equals have ranks of their own.":
+        0 * fitness if spread.max() == 0 else ranked(fitness),
+        "All get 0.": 0 * fitness,
         "The fitness is standardised: its size is not to count, only its ranks.":
         (fitness - fitness.mean()) / (fitness.std() or 1),
     } | slips(
