@@ -35,10 +35,15 @@ class Mismatch(Wrong):
         wanted: np.ndarray,
         mistakes: Mistakes | None = None,
         said: str = "",
+        right: bool = False,
     ) -> None:
-        """said: the call and the part of its answer, with which the sentence begins."""
+        """said: the call and the part of its answer. right: whether the answer is right after all.
+
+        A right answer shows which mistakes the submission has not made.
+        """
         super().__init__(sentence)
-        self.got, self.wanted, self._mistakes, self._said = got, wanted, mistakes or {}, said
+        self.got, self.wanted, self._mistakes = got, wanted, mistakes or {}
+        self._said, self.right = said, right
 
     @property
     def part(self) -> tuple[str, str]:
@@ -53,16 +58,16 @@ class Mismatch(Wrong):
 
 
 Keep = Callable[[Mismatch], None]
-_keep: ContextVar[tuple[Keep, Keep] | None] = ContextVar("keep", default=None)
+_keep: ContextVar[Keep | None] = ContextVar("keep", default=None)
 
 
 @contextmanager
-def keeping(keep: Keep, right: Keep) -> Iterator[None]:
+def keeping(keep: Keep) -> Iterator[None]:
     """Let a check continue after a wrong answer within the block; pass each one to `keep`.
 
-    right: gets the right answers for which the check has mistakes, in the form of wrong ones.
+    It also gets right answers for which the check has mistakes, with `right` set.
     """
-    token = _keep.set((keep, right))
+    token = _keep.set(keep)
     try:
         yield
     finally:
@@ -70,10 +75,11 @@ def keeping(keep: Keep, right: Keep) -> Iterator[None]:
 
 
 def _found(mismatch: Mismatch) -> None:
-    """Raise the mismatch, or keep it."""
-    if (kept := _keep.get()) is None:
+    """Keep a mismatch, or raise it unless it is right."""
+    if (keep := _keep.get()) is not None:
+        keep(mismatch)
+    elif not mismatch.right:
         raise mismatch
-    kept[0](mismatch)
 
 
 class NotDone(Wrong):
@@ -139,10 +145,8 @@ def expect_close(
             reason = why(*map(int, place))
             sentence += f"\n  {reason}" if reason else ""
         _found(Mismatch(sentence, got, wanted, mistakes, said))
-    elif isinstance(mistakes, (dict, partial)) and (kept := _keep.get()):
-        kept[1](
-            Mismatch("", got, wanted, mistakes, said)
-        )  # a lambda may be of another case by then
+    elif isinstance(mistakes, (dict, partial)):  # a lambda may be of another case later
+        _found(Mismatch("", got, wanted, mistakes, said, right=True))
 
 
 def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:

@@ -44,7 +44,7 @@ def weight(got: Any, made: Any, ours: Any) -> float:
     return 0.5 if choices else 1.0
 
 
-def counts(answer: Any, most: int = 15) -> bool:
+def counts(answer: Any, most: float = 15) -> bool:
     """Return whether an answer holds nothing but a few small whole numbers, `most` at most."""
     leaves = [leaf for _, leaf in _leaves(answer) or [] if isinstance(leaf, np.ndarray)]
     many = sum(leaf.size for leaf in leaves)

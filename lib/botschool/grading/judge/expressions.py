@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-_LONGEST = 40
-"""Characters of a part that a sentence quotes."""
+from botschool.grading.judge.sentences import Quotes, colon, in_, used
+
 _BOUNDARY: dict[type, type] = {
     ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt
 }  # fmt: skip
@@ -75,34 +74,10 @@ class Edit:
 class Expressions:
     """The slips of a function's expressions."""
 
-    def __init__(self, public: str, parameters: list[str], own: bool) -> None:
-        """Take the task's text, the names of the function's parameters, and whose function it is.
-
-        own: whether the function is our solution's. Parts of other styles are riddles: of them,
-        names are quoted only if the text has them as names, and formulas with numbers only if the
-        text has these.
-        """
-        names = public if own else _as_names(public)
-        self._public = set(re.findall(r"\w+", names))
-        self._squeezed = "" if own else "".join(public.split())
-        self._own = own
+    def __init__(self, quotes: Quotes, parameters: list[str]) -> None:
+        """Take what sentences may quote, and the names of the function's parameters."""
+        self.quoted, self.about = quotes.quoted, quotes.about
         self.parameters = parameters
-
-    def quoted(self, node: ast.AST) -> str:
-        """Return a part of a solution as it stands if the task's text says all its words."""
-        text = ast.unparse(node)
-        words = re.findall(r"[^\W\d]\w*|\d[\w.]*", text)
-        if len(text) > _LONGEST or not words or any(w not in self._public for w in words):
-            return ""
-        if not self._own and _with_number(node) and "".join(text.split()) not in self._squeezed:
-            return ""
-        return f" `{text.strip('()') if isinstance(node, ast.Tuple) else text}`"
-
-    def about(self, test: ast.expr) -> str:
-        """Return a condition, or else its longest name with a dot that the text has."""
-        names = [self.quoted(each) for each in ast.walk(test) if isinstance(each, ast.Attribute)]
-        longest = max(names, key=len, default="")
-        return self.quoted(test) or (f" that asks for{longest}" if longest else "")
 
     def _named(self, node: ast.expr) -> str:
         """Return the name of a called function."""
@@ -244,15 +219,15 @@ class Expressions:
                 yield LAST, last
             for more, word in ((1, "more"), (-1, "less")):
                 end = " (off by one)" if abs(value) < 4 else ""
-                used = colon(said) or f": {value + more} is used"
+                shown = colon(said) or used(value + more)
                 yield (
-                    f"A number is one {word} than it should be{end}{used}.",
+                    f"A number is one {word} than it should be{end}{shown}.",
                     ast.Constant(value + more),
                 )
         elif isinstance(value, float) and value:
             for factor, word in ((2.0, "twice"), (0.5, "half of"), (-1.0, "minus")):
-                used = colon(said) or f": {factor * value:g} is used"
-                yield f"A number is {word} what it should be{used}.", ast.Constant(factor * value)
+                shown = colon(said) or used(factor * value)
+                yield f"A number is {word} what it should be{shown}.", ast.Constant(factor * value)
 
     def _containers(self, part: ast.expr) -> Iterator[tuple[str, ast.expr]]:
         if isinstance(part, ast.Dict):
@@ -384,26 +359,6 @@ class Expressions:
             yield first, ast.Subscript(sliced, ast.Slice(ast.Constant(1)), ast.Load())
             yield last, ast.Subscript(sliced, ast.Slice(None, ast.Constant(-1)), ast.Load())
             yield "A loop goes in the wrong order.", _of("reversed", sliced)
-
-
-def colon(quoted: str) -> str:
-    return f":{quoted}" if quoted else ""
-
-
-def in_(quoted: str) -> str:
-    return f" in{quoted}" if quoted else ""
-
-
-def _as_names(public: str) -> str:
-    """Return the code of a text, and what its sentences quote."""
-    code = re.sub(r'""".*?"""|^ *#[^\n]*', "", public, flags=re.S | re.M)
-    return " ".join([code, *re.findall(r"`([^`\n]+)`", public)])
-
-
-def _with_number(node: ast.AST) -> bool:
-    """Return whether a part computes something with a number."""
-    parts = [each for each in ast.walk(node) if isinstance(each, ast.BinOp)]
-    return any(isinstance(each, ast.Constant) for part in parts for each in ast.walk(part))
 
 
 def _is_key(node: ast.expr) -> bool:

@@ -26,8 +26,8 @@ from botschool.grading.judge.looking import (
     looked_at_again,
     processor_time_limit,
 )
+from botschool.grading.judge.sentences import is_vague
 from botschool.grading.judge.smallest import smallest_case
-from botschool.grading.judge.variations import is_vague
 from botschool.grading.run.confined import MachineFault, machine_fault
 from botschool.grading.run.failures import Origin
 from botschool.grading.run.student import Student
@@ -134,8 +134,8 @@ def _grade_task(
                     if each.answered and each.check not in cheap
                 ]
                 told = known_mistake(task, cheap, known, again, file.name, server, slow)
-                wrong = [failure.check for failure in failures]
-                look_for_causes(failures, [c for c in cheap if c not in wrong], again)
+                passed = [each for each in cheap if each not in [f.check for f in failures]]
+                look_for_causes(failures, passed, again)
                 if told.startswith(VARIED) and any(failure.named for failure in failures):
                     told = ""  # the check's own sentence is written for the task
             causes: set[str] = set()

@@ -11,6 +11,7 @@ one slip.
 
 from __future__ import annotations
 
+import math
 import re
 import sys
 import tempfile
@@ -50,8 +51,6 @@ INPUTS, COUNTS = 2, 4
 """Smallest number of different calls that must point to a mistake; the second is for slips if all
 answers are small whole numbers.
 """
-MANY = 1000
-"""So many whole numbers do not tell whether a limit is just the one that a slip makes of it."""
 NOT_DONE = ("NotImplementedError", "Missing")
 """Exceptions of functions that are not done yet."""
 Check = Callable[[Student], None]
@@ -227,7 +226,7 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
     telling = [call for call in calls if distance(call.got, call.ours) > TIE and not call.slow]
     if all(counts(call.got) for call in telling) and len(telling) < COUNTS:
         return
-    whole = all(counts(call.got, MANY) for call in telling)
+    whole = all(counts(call.got, math.inf) for call in telling)  # the same for a limit a bit away
     styles = [text for text in known.styles() if _imports_little(text, known.solution)]
     slips = variations(known.solution, task.id, styles)
     end = ours.seconds_left - SECONDS

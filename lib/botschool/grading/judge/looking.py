@@ -6,6 +6,7 @@ import re
 import signal
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -124,7 +125,7 @@ def look_for_causes(failures: list[Failure], passed: list[Check], student: Stude
     found for two different calls. It must not contradict right answers, also those of the quick
     checks that have passed. student: the submission in a new child; its time does not count.
     """
-    cases, right = _cases([e.check for e in failures if e.quick and e.check], student)
+    cases, right = _cases([each.check for each in failures if each.quick and each.check], student)
     if any(case.named for case in cases):
         right += _cases(passed, student)[1]
     calls: dict[str, set[bytes]] = {}
@@ -197,6 +198,11 @@ def _cases(checks: list[Check], student: Student) -> tuple[list[Case], list[Mism
     right: list[Mismatch] = []
 
     def keep(error: Mismatch) -> None:
+        if error.right:
+            few[error.part] += 1
+            if few[error.part] <= MAX_RIGHT:
+                right.append(error)
+            return
         options = student.request.get("options", {}).values()
         given = (*student.request.get("arguments", ()), *options)
         cause = diagnose(error.got, error.wanted, given, student.answer, error.mistakes)
@@ -207,21 +213,16 @@ def _cases(checks: list[Check], student: Student) -> tuple[list[Case], list[Mism
             if _of_another(text, direct):
                 pasted, direct = "", {}
             named = fitting(error.got, error.wanted, error.mistakes)
-            part = error.part
-            found.append(Case(check, text, request, pasted, cause, named, direct, certain, part))
+            found.append(
+                Case(check, text, request, pasted, cause, named, direct, certain, error.part)
+            )
 
     try:
         for check in checks:
             before = len(found)
-            many = dict[tuple[str, str], int]()
-
-            def keep_right(answer: Mismatch, many: dict[tuple[str, str], int] = many) -> None:
-                many[answer.part] = many.get(answer.part, 0) + 1
-                if many[answer.part] <= MAX_RIGHT:
-                    right.append(answer)
-
+            few = Counter[tuple[str, str]]()
             try:
-                with processor_time_limit(MAX_SECONDS), keeping(keep, keep_right):
+                with processor_time_limit(MAX_SECONDS), keeping(keep):
                     check(student)
             except TookTooLong:
                 continue

@@ -21,7 +21,13 @@ from botschool.grading.judge.expressions import (
     SIGNS,
     Edit,
     Expressions,
+)
+from botschool.grading.judge.sentences import (
+    Quotes,
     colon,
+    holds_everywhere,
+    is_vague,
+    without_quotes,
 )
 
 _REGION = re.compile(r"### BEGIN SOLUTION task (\d+\.\d+).*?### END SOLUTION", re.DOTALL)
@@ -31,11 +37,6 @@ _SKIPPED = {
     (ast.AnnAssign, "annotation"),
 }  # fmt: skip
 """Fields of nodes that hold no steps."""
-_USED = r": \S+ is used"
-_QUOTED = re.compile(rf":? `[^`]*`(?: in `[^`]*`)?(?=\.$)| in `[^`]*`(?=\.$)|{_USED}(?=\.$)")
-"""What a sentence quotes at its end: it differs where the same slip is made in several places."""
-_CLEAR = ("sign", "wrong way round", "a loop", "not reversed", "counting", "matrix")
-"""Words of sentences that need no quotation."""
 MOST_NAMES = 16
 """Variables of a function that are tried for one another."""
 _SIGNED = {(ast.Assign, "value"), (ast.Dict, "values"), (ast.Return, "value")}
@@ -61,13 +62,6 @@ class Variation:
     def near(self) -> bool:
         """Return whether a number is a little larger or smaller, as others would be, too."""
         return "number is one" in self.what
-
-
-def is_vague(what: str) -> bool:
-    """Return whether a sentence names neither a place nor a clear mistake."""
-    what = re.sub(_USED, "", what)
-    named = "`" in what or bool(re.search(r"\d", what))
-    return not named and not any(clear in what.lower() for clear in _CLEAR)
 
 
 def variations(solution: str, task: str, styles: Iterable[str] = ()) -> Iterator[Variation]:
@@ -117,21 +111,12 @@ def _of_one(text: str, task: str, public: str, done: set[str], own: bool) -> Ite
                 continue  # a number in code that nobody has seen
             yield from _made(lines, function, where + _placed(place, what), edits, done, own)
             if len(edits) == 1:
-                several_times = _QUOTED.sub("", what)
-                found.setdefault((several_times, ""), []).append(edits[0])
+                found.setdefault((without_quotes(what), ""), []).append(edits[0])
                 found.setdefault((what, place or str(edits[0].line)), []).append(edits[0])
         several += [(function, where + what, edits) for (what, _), edits in found.items()]
     for function, what, edits in several:
-        if len(edits) > 1 and _everywhere(what):
+        if len(edits) > 1 and holds_everywhere(what):
             yield from _made(lines, function, what, edits, done, own)
-
-
-def _everywhere(what: str) -> bool:
-    """Return whether somebody who makes a slip may make it in all places, and understand this.
-
-    Signs that are reversed in several places may have the effect of any other mistake.
-    """
-    return not is_vague(what) and "sign" not in what
 
 
 def _hidden(edit: Edit, what: str) -> bool:
@@ -178,7 +163,7 @@ class _Slips:
             for arg in (*node.args.args, *node.args.kwonlyargs)
             if arg.arg != "self"
         ]
-        self._parts = Expressions(public, parameters, own)
+        self._parts = Expressions(Quotes(public, own), parameters)
 
     def all(self) -> Iterator[tuple[str, str, list[Edit]]]:
         """Yield all slips as (sentence, place, edits); slips of numbers come last: many fit."""
