@@ -1,0 +1,146 @@
+"""Sentences on mistakes do not fit by chance, and quote only what a learner knows."""
+
+import ast
+
+import numpy as np
+import pytest
+
+from botschool.grading import Exercise, expect_close
+from botschool.grading.judge.sentences import Quotes
+from botschool.grading.judge.submission import grade
+from botschool.grading.judge.variations import variations
+from botschool.grading.run.confined import fork_server
+from tiny_course import FILE, submit
+
+
+@pytest.fixture(scope="module")
+def server():
+    with fork_server() as one:
+        yield one
+
+
+@pytest.fixture
+def message(server, tmp_path):
+    """The message on the only task of an exercise."""
+
+    def of(text, exercise):
+        file = submit(tmp_path / "submitted", text)
+        return grade(exercise, file, server=server).tasks[0].message
+
+    return of
+
+
+CUT = "Values above 3 are cut off."
+
+
+def with_a_table(inputs, others=()):
+    """A check whose table has a mistake, and another check with other inputs."""
+    exercise = Exercise(3, "Three", FILE)
+    first = exercise.task("3.1", "First", seconds=5)
+
+    def compare(student, values):
+        table = {CUT: np.sum(np.minimum(values, 3.0))}
+        expect_close("total(...)", student.call("total", list(values)), np.sum(values), 1e-9, table)
+
+    @first.check(60)
+    def totals(student):
+        for values in inputs:
+            compare(student, values)
+
+    @first.check(40)
+    def other_totals(student):
+        for values in others:
+            compare(student, values)
+
+    exercise.knows("def total(values):\n    return float(sum(values))\n")
+    return exercise
+
+
+ONLY_LONG = "def total(v): return float(sum(min(x, 3.0) for x in v) if len(v) > 3 else sum(v))\n"
+"""Cuts lists of more than three values only."""
+LONG = [[5.25, 1.5, 0.25, 2.0], [7.5, 1.25, 4.5, 2.75]]
+SHORT = [4.75, 1.5, 0.5]
+
+
+@pytest.mark.parametrize(
+    ("inputs", "others", "said"),
+    [
+        (LONG, [], True),
+        ([*LONG, SHORT], [], False),  # there the sentence would have changed a right answer
+        (LONG, [SHORT], False),  # so it would have in a check that passes
+        ([*LONG, [2.5, 1.5, 0.5]], [], True),  # here nothing is cut
+    ],
+)
+def test_a_sentence_must_leave_right_answers_right(message, inputs, others, said):
+    told = message(ONLY_LONG, with_a_table(inputs, others))
+    assert "but" in told and (CUT in told) == said
+
+
+def slipped(body):
+    """Sentences and texts of the slips in a function of this body."""
+    lines = "\n".join(f"    {line}" for line in body.splitlines())
+    text = (
+        f"# It asks for `speed`, and for the angle after it.\ndef told(speed, angle):\n"
+        f"    ### BEGIN SOLUTION task 3.1: told\n{lines}\n    ### END SOLUTION\n"
+    )
+    return [(each.what, each.text) for each in variations(text, "3.1")]
+
+
+def test_signs_are_not_reversed_in_several_places():
+    found = slipped("first = abs(speed)\nsecond = first * angle\nreturn [first, second]")
+    assert [text for _, text in found if "-abs(speed)" in text]
+    assert not [text for _, text in found if "-abs(speed)" in text and "-(first" in text]
+
+
+def test_a_sum_for_a_product_is_told_by_its_place():
+    assert any("`+` stands where `*`" in what for what, _ in slipped("return speed * angle"))
+    hidden = slipped("hidden = speed - 1\nreturn hidden * hidden")
+    assert not any("`+` stands where `*`" in what for what, _ in hidden)
+
+
+def test_a_wrong_number_is_shown():
+    assert "A number is half of what it should be: 0.85 is used." in dict(slipped("return 1.7"))
+
+
+@pytest.mark.parametrize(("factor", "said"), [(1.0, False), (2.5, True)])
+def test_a_limit_near_the_right_one_is_no_slip(message, factor, said):
+    """Yes and no are the same for many limits; other answers are those of a single number."""
+    ours = (
+        "def told(x):\n    ### BEGIN SOLUTION task 3.1: told\n"
+        "    return factor * 12 if factor * x > 12 else 0\n    ### END SOLUTION\n"
+    ).replace("factor", str(factor))
+    if factor == 1.0:
+        ours = ours.replace("1.0 * 12 if 1.0 * x", "1 if x")
+    exercise = Exercise(3, "Three", FILE)
+    first = exercise.task("3.1", "First", seconds=5)
+
+    @first.check(100)
+    def limits(student):
+        for x in (5.5, 11.25, 11.5, 11.75, 11.8, 11.9, 20.0, 30.5, 41.0):
+            wanted = (
+                (1 if x > 12 else 0) if factor == 1 else (factor * 12 if factor * x > 12 else 0)
+            )
+            expect_close("told(...)", student.call("told", x), wanted)
+
+    exercise.knows(ours)
+    told = message(ours.replace("12", "11"), exercise)
+    assert ("A number is one less" in told) == said
+
+
+@pytest.mark.parametrize(
+    ("part", "own", "other"),
+    [
+        ("speed", True, True),
+        ("after", True, False),  # a word of the text, not a name
+        ("speed + angle", True, True),
+        ("3 * speed", True, False),
+        ("2 + speed", True, False),
+        ("2 * speed", True, True),
+        ("hidden", False, False),
+    ],
+)
+def test_other_styles_are_quoted_as_far_as_the_text_has_them(part, own, other):
+    text = '# The 3 angles after `2 * speed`.\ndef told(speed, angle):\n    """Of after."""\n'
+    node = ast.parse(part).body[0].value
+    quoted = [bool(Quotes(text, style).quoted(node)) for style in (True, False)]
+    assert quoted == [own, other]
