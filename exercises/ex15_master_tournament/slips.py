@@ -155,6 +155,11 @@ def of_each(rows, summary) -> np.ndarray:
     return np.array([summary(row) if len(row) else np.nan for row in rows])
 
 
+def summed(these, kept, summary) -> np.ndarray:
+    """Summaries of the parts of rows; kept: generation (from 1 on) -> the part of its row."""
+    return of_each([row[kept(g)] for g, row in enumerate(these, 1)], summary)
+
+
 def mistaken_profile(matrix: np.ndarray) -> dict:
     """What mistakes make of a profile."""
     count = len(matrix)
@@ -293,9 +298,6 @@ def mistaken_progress(matrix: np.ndarray) -> dict:
     if count > 2:
         kept["One ancient competitor is left out, that of the predecessor's time: k = g - 1 "
              "counts."] = lambda g: slice(max(g - 1, 1))  # fmt: skip
-
-    def summed(these, kept, summary) -> np.ndarray:
-        return of_each([row[kept(g)] for g, row in enumerate(these, 1)], summary)
 
     def shared(these, kept, draw, counted) -> float:
         rows = [row[kept(g)] for g, row in enumerate(these, 1) if len(row[kept(g)])]
@@ -453,8 +455,19 @@ def mistaken_parts(matrix: np.ndarray) -> dict:
         "The sums are divided by G - 1, not by G.": lambda row: np.sum(row) / (count - 1)
     }
 
-    def summed(these, kept, summary) -> np.ndarray:
-        return of_each([row[kept(g)] for g, row in enumerate(these, 1)], summary)
+    def with_parts(*sentences: str) -> dict:
+        """Sentence -> which numbers of the row of generation g are kept; "" for all of them."""
+        parts = (
+            lambda g: slice(1),
+            lambda g: slice(g, g + 1),
+            lambda g: slice(g),
+            lambda g: slice(g + 1),
+            lambda g: slice(-1, None),
+            lambda g: [k for k in range(count) if k != g],
+            lambda g: slice(1, None),
+            lambda g: slice(-1),
+        )
+        return {"": lambda g: slice(None), **dict(zip(sentences, parts, strict=True))}
 
     own = slips(
         summed,
@@ -467,23 +480,16 @@ def mistaken_parts(matrix: np.ndarray) -> dict:
             "Columns are compared here: the side's own generations are the rows.": columns.T,
             "The amounts of the differences are taken.": np.abs(rows),
         },
-        kept={
-            "": lambda g: slice(None),
-            "The competitors of the first generation alone hold still: take the mean over all.":
-            lambda g: slice(1),
-            "The competitors change with the generation: the very same ones are asked for.":
-            lambda g: slice(g, g + 1),
-            "Only the ancient competitors count: take the mean over all.": lambda g: slice(g),
-            "Only the ancient and the present competitors count: take the mean over all.":
-            lambda g: slice(g + 1),
-            "The competitors of the last generation alone hold still: take the mean over all.":
-            lambda g: slice(-1, None),
-            "The present competitors are left out: take the mean over all.":
-            lambda g: [k for k in range(count) if k != g],
-            "The first competitors are left out: take the mean over all.":
-            lambda g: slice(1, None),
-            "The last competitors are left out: take the mean over all.": lambda g: slice(-1),
-        },
+        kept=with_parts(
+            "The competitors of the first generation alone hold still: take the mean over all.",
+            "The competitors change with the generation: the very same ones are asked for.",
+            "Only the ancient competitors count: take the mean over all.",
+            "Only the ancient and the present competitors count: take the mean over all.",
+            "The competitors of the last generation alone hold still: take the mean over all.",
+            "The present competitors are left out: take the mean over all.",
+            "The first competitors are left out: take the mean over all.",
+            "The last competitors are left out: take the mean over all.",
+        ),
         summary=summaries,
     )  # fmt: skip
     others = slips(
@@ -498,24 +504,16 @@ def mistaken_parts(matrix: np.ndarray) -> dict:
             "Rows are compared here: the competitors are the columns.": rows,
             "The amounts of the differences are taken.": np.abs(columns.T),
         },
-        kept={
-            "": lambda g: slice(None),
-            "The first generation of the side alone holds still: take the mean over all.":
-            lambda g: slice(1),
-            "Only the generation's own row is compared: take the mean over all generations.":
-            lambda g: slice(g, g + 1),
-            "Only the generations before count: take the mean over all.": lambda g: slice(g),
-            "Only the generations up to this one count: take the mean over all.":
-            lambda g: slice(g + 1),
-            "The last generation of the side alone holds still: take the mean over all.":
-            lambda g: slice(-1, None),
-            "The generation's own row is left out: take the mean over all.":
-            lambda g: [k for k in range(count) if k != g],
-            "The first generation of the side is left out: take the mean over all.":
-            lambda g: slice(1, None),
-            "The last generation of the side is left out: take the mean over all.":
-            lambda g: slice(-1),
-        },
+        kept=with_parts(
+            "The first generation of the side alone holds still: take the mean over all.",
+            "Only the generation's own row is compared: take the mean over all generations.",
+            "Only the generations before count: take the mean over all.",
+            "Only the generations up to this one count: take the mean over all.",
+            "The last generation of the side alone holds still: take the mean over all.",
+            "The generation's own row is left out: take the mean over all.",
+            "The first generation of the side is left out: take the mean over all.",
+            "The last generation of the side is left out: take the mean over all.",
+        ),
         summary=summaries,
     )  # fmt: skip
     mean_own, mean_others = rows.mean(axis=1), columns.mean(axis=0)
