@@ -2,12 +2,13 @@
 
 What tasks 11.5 and 11.8 train must have been trained: whenever a gradient is computed, the grader
 notes the parameters, and many small steps must lead from a start to those that are returned. In one
-check of task 11.5 the first networks are check of task 11.5 the first networks are stuck.
- checks (seeds of the grader's). Task 11.5, every output within 0.05 of its target: the
+check of task 11.5 the first networks are stuck.
+
+Stochastic checks (seeds of the grader's). Task 11.5, every output within 0.05 of its target: the
 solution goes on until all are within 0.03. Task 11.8, at least 90 % of the variance explained on
-500 patterns that the submission has not seen, of which 85 % are enough: over 20 seeds, with three
-training sets each, the solution explains 93.5 % or more (half of the time, more than 99.7 %), a
-margin of 8.5 %; another right answer had 89.97 % once in 60.
+500 patterns that the submission has not seen; 85 % are enough. Over 20 seeds, with three training
+sets each, the solution explains 93.5 % or more (half of the time, more than 99.7 %), a margin of
+8.5 %. Another right answer was just below 90 % once in 60 trainings.
 """
 
 import itertools
