@@ -154,6 +154,23 @@ def seed_decides(student: Student):
 ranking = exercise.task("3.2", "Ranking")
 
 
+def mistaken_ranking(fitness, order) -> dict:
+    """What mistakes make of the order of individuals; order: the student's."""
+    fitness = np.asarray(fitness)
+    rising, stable = np.argsort(fitness), np.argsort(fitness, kind="stable")
+    return {
+        "The worst comes first: the best is asked for first.": (
+            rising if np.array_equal(rising, order) else stable
+        ),
+        "The rising order is turned around: of equals the one with the higher number comes first.":
+        stable[::-1],
+        "It returns the place of each individual instead of the numbers in order.":
+        np.argsort(np.argsort(-fitness, kind="stable"), kind="stable"),
+        "argsort keeps the order of equals only with kind='stable'; a few values do not show "
+        "that.": np.argsort(-fitness),
+    }  # fmt: skip
+
+
 @ranking.check(6)
 def best_comes_first(student: Student):
     rng = np.random.default_rng(exercise.seed(5))
@@ -161,14 +178,16 @@ def best_comes_first(student: Student):
         small, large = rng.normal(size=size), rng.permutation(size) - 4
         for fitness in (small, 7 + 1e-4 * small, 1e9 * large, -3e9 - 1e8 * (large + 4), small[:2]):
             order = student.call("rank", fitness)
-            expect_close(student.said, order, np.argsort(-fitness))
+            mistakes = mistaken_ranking(fitness, order)
+            expect_close(student.said, order, np.argsort(-fitness), mistakes=mistakes)
 
 
 @ranking.check(4)
 def equals_keep_their_order(student: Student):
     for fitness, expected in (([1.0, 2.0, 2.0, 1.0], [1, 2, 0, 3]), ([-5.0] * 6, list(range(6)))):
         order = student.call("rank", np.array(fitness))
-        expect_close(f"rank({fitness})", order, expected)
+        mistakes = mistaken_ranking(fitness, order)
+        expect_close(f"rank({fitness})", order, expected, mistakes=mistakes)
     fitness = np.random.default_rng(exercise.seed(18)).integers(-2, 3, size=60).astype(float)
     order = student.call("rank", fitness)
     expect(
@@ -177,11 +196,7 @@ def equals_keep_their_order(student: Student):
     )
     expect_close(
         f"{student.said}: 60 fitnesses, of which many are equal; the order",
-        order, np.argsort(-fitness, kind="stable"),
-        mistakes={
-            "argsort keeps the order of equals only with kind='stable'; a few values do not show "
-            "that.": np.argsort(-fitness)
-        },
+        order, np.argsort(-fitness, kind="stable"), mistakes=mistaken_ranking(fitness, order),
     )  # fmt: skip
 
 
