@@ -325,13 +325,27 @@ def telling_seeds(text: str, index: int) -> list[int]:
     return [telling + more, telling]
 
 
+def telling_limit(text: str, index: int) -> tuple[int, int]:
+    """A seed and steps: with half of the steps, or with no limit, its run finds another walker."""
+    for seed in (int(each) for each in rng_of(index).permutation(500) + 1):
+        for steps in (100, 150, 250):
+            walker = own_run(text, seed, steps)[0]
+            others = (own_run(text, seed, each)[0] for each in (steps // 2, None))
+            if not any(np.array_equal(walker, other) for other in others):
+                return seed, steps
+    raise AssertionError("No run depends on the number of its steps.")
+
+
 class Trial:
     """The student's runs of a very small experiment, and the grader's own."""
 
-    def __init__(self, student: Student, index: int, steps: int | None, zero: bool = False) -> None:
+    def __init__(self, student: Student, index: int, limited: bool = False) -> None:
+        """limited: whether the runs end after some steps, and one of them has the seed 0."""
         text = self.text = experiment_text(index)
-        seeds = telling_seeds(text, index)
-        seeds = [seeds[0], 0] if zero else seeds
+        seeds, steps = telling_seeds(text, index), None
+        if limited:
+            seed, steps = telling_limit(text, index)
+            seeds = [seed, 0]
         self.said = f"evolve_walkers('trial.ini', {seeds}, 'some/runs', {steps})"
         self.walkers, saved, after, self.places = student.run(
             try_runs, text, seeds, "some/runs", steps, said=self.said
@@ -420,12 +434,12 @@ class Trial:
 @running.check(6)
 def best_walker_of_each_run(student: Student):
     for index in (20, 21):
-        Trial(student, index, None).compare()
+        Trial(student, index).compare()
 
 
 @running.check(3)
 def leaves_the_files(student: Student):
-    trial = Trial(student, 20, None)
+    trial = Trial(student, 20)
     for seed, file, wanted in zip(trial.seeds, trial.saved, trial.wanted, strict=True):
         where = trial.places.get(str(seed))
         expect(
@@ -438,7 +452,7 @@ def leaves_the_files(student: Student):
 
 @running.check(3)
 def stops_after_the_steps(student: Student):
-    Trial(student, 20, 100, zero=True).compare()
+    Trial(student, 20, limited=True).compare()
 
 
 # ------------------------------------------------------------------- 5.6
