@@ -1,5 +1,7 @@
 """A known mistake is named where a submission answers exactly as it does, and nowhere else."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,8 +11,9 @@ from botschool.grading import Exercise, expect, expect_close
 from botschool.grading.declare.beside import slips_beside
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.mistakes import Known, read_cases
-from botschool.grading.judge import judging
+from botschool.grading.judge import explaining, judging
 from botschool.grading.judge import known as replay
+from botschool.grading.judge.afresh import KEPT
 from botschool.grading.judge.alike import distance, fits, weight
 from botschool.grading.judge.known import TOLD
 from botschool.grading.judge.smallest import _difference, _smaller, smallest_case
@@ -273,6 +276,20 @@ def test_the_smallest_failing_case_is_told(messages, monkeypatch):
     assert "To try it: spread([1.0, 4.0])" in first
 
 
+KEPT_FIRST = """def spread(x, kept={}):
+    return kept.setdefault(0, float(np.std(x, ddof=1)))
+"""
+
+
+def test_what_stays_from_call_to_call_is_told(messages, monkeypatch):
+    """A call that is right in a new process shows nothing: it is not there to try."""
+    monkeypatch.setattr(replay, "variations", lambda *_: iter(()))
+    first, _ = messages(RIGHT + KEPT_FIRST, declared(mistakes=""))
+    assert KEPT in first and "To try it" not in first
+    first, _ = messages(RIGHT + BY_N, declared(mistakes=""))
+    assert KEPT not in first and "To try it" in first
+
+
 numbers = st.one_of(st.booleans(), st.integers(), st.floats(), st.text(max_size=3), st.none())
 arrays = st.integers(0, 3).map(np.ones) | st.just(np.ones((2, 2))) | st.just(np.array("text"))
 answers = st.recursive(
@@ -285,13 +302,14 @@ answers = st.recursive(
 def test_answers_of_uneven_arrays_are_shown(server, tmp_path):
     """hidden_activations of exercise 13 returns a list of arrays with different shapes."""
     ours = "import numpy as np\ndef f(x): return [np.ones((2, 3)), np.ones((2, 1)) * len(x)]\n"
-    file = tmp_path / "own.py"
-    file.write_text(ours.replace("* len", "+ len"))
-    task = Exercise(3, "Three", "own.py").task("3.1", "First")
-    found = Student(file, 5, server=server)
+    files = [tmp_path / "ours.py", tmp_path / "own.py"]
+    for file, text in zip(files, (ours, ours.replace("* len", "+ len")), strict=True):
+        file.write_text(text)
+    found = Student(files[1], 5, server=server)
     request = {"name": "f", "arguments": [np.arange(6.0)], "options": {}}
-    told = smallest_case(task, ours, "own.py", request, found, server)
+    told, call = smallest_case(request, found, partial(Student, files[0], 5, server=server))
     found.close()
+    assert call["arguments"][0].tolist() == [0.0]
     assert told.startswith("f(np.array([0.0]))[1] returned") and "was expected" in told
 
 
@@ -312,7 +330,7 @@ def test_a_slip_of_ours_costs_no_points(messages, monkeypatch):
     def slips(*_):
         raise KeyError("a place that we forgot")
 
-    monkeypatch.setattr(judging, "known_mistake", slips)
+    monkeypatch.setattr(explaining, "known_mistake", slips)
     with pytest.warns(UserWarning, match="a place that we forgot"):
         first, _ = messages(RIGHT + BY_N)
     assert first.startswith("spread(")
@@ -322,7 +340,7 @@ COSTS = "import numpy as np\ndef cost(rate, table): return rate * np.abs(table).
 
 
 def test_a_failure_without_a_call_has_no_smaller_one():
-    assert smallest_case(None, RIGHT, FILE, {}, None, None) == ""
+    assert smallest_case({}, None, None) is None
 
 
 def test_a_call_that_is_too_long_is_made_smaller(messages):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 import time
 import traceback
 import warnings
@@ -16,18 +15,14 @@ from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong, plain
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Known
-from botschool.grading.judge.known import VARIED, known_mistake
+from botschool.grading.judge.explaining import SecondLook
 from botschool.grading.judge.looking import (
     MAX_SECONDS,
     Failure,
     TookTooLong,
     failure_of,
-    look_for_causes,
-    looked_at_again,
     processor_time_limit,
 )
-from botschool.grading.judge.sentences import is_vague
-from botschool.grading.judge.smallest import smallest_case
 from botschool.grading.run.confined import MachineFault, machine_fault
 from botschool.grading.run.failures import Origin
 from botschool.grading.run.student import Student
@@ -37,12 +32,10 @@ T = TypeVar("T")
 CHECK_SECONDS = 20
 """Processor seconds of a check in the grader's own thread; our solutions need up to 3."""
 SLIPS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
-SHORT = 120
-"""Characters of a call that needs no smaller one."""
 MOST_SECONDS = 2.0
 """As MAX_SECONDS, of a check that has failed: a known mistake must explain its answers, too."""
-MAX_DIAGNOSED, LOOKING_SECONDS = 2, 6.0
-"""Failed checks of a task whose calls are repeated; processor seconds for a second look."""
+LOOKING_SECONDS = 6.0
+"""Processor seconds for a second look."""
 
 
 @dataclass
@@ -102,7 +95,7 @@ def _grade_task(
     problems: list[str] = []
     failed: list[tuple[int, Failure]] = []
     cheap: list[Callable[[Student], None]] = []
-    student, again, told = None, None, ""
+    student, told = None, ""
     try:
         student = Student(
             file, task.seconds, task.memory, server, tried, origin, references, task.refused
@@ -123,49 +116,19 @@ def _grade_task(
             result.printed = plain(student.printed)
             result.pictures = student.pictures()
         result.missing = student.missing
-        failures = [failure for _, failure in failed]
+        seconds = min(LOOKING_SECONDS, task.seconds)
+        limits = seconds, task.memory, server, True
+        begun = partial(Student, file, *limits, origin, references, task.refused)
+        look = SecondLook(task, known, file.name, server, seconds, begun, cheap, failed, problems)
         try:
-            if any(failure.answered or failure.raised for failure in failures):
-                limits = min(LOOKING_SECONDS, task.seconds), task.memory, server, True
-                again = Student(file, *limits, origin, references, task.refused)
-                slow = [
-                    (each.request, each.got)
-                    for each in failures
-                    if each.answered and each.check not in cheap
-                ]
-                told = known_mistake(task, cheap, known, again, file.name, server, slow)
-                passed = [each for each in cheap if each not in [f.check for f in failures]]
-                look_for_causes(failures, passed, again)
-                if told.startswith(VARIED) and any(failure.named for failure in failures):
-                    told = ""  # the check's own sentence is written for the task
-            causes: set[str] = set()
-            vague = told.startswith(VARIED) and is_vague(told[len(VARIED) :])
-            for at, failure in failed:
-                known_cause = (told and not vague) or failure.cause in causes
-                cause = "" if known_cause else failure.cause
-                causes.add(cause)
-                problems[at] = f"{failure.text}\n  {cause}" if cause else failure.text
-            for at, failure in [pair for pair in failed if pair[1].told][:1]:
-                text = ""
-                if len(failure.pasted) > SHORT or not failure.pasted:
-                    calls = task, known.solution, file.name, failure.direct
-                    text = smallest_case(*calls, again, server)
-                if text or failure.pasted:
-                    problems[at] += f"\n  To try it: {text or failure.pasted}"
-            for at, failure in [] if told else _diagnosable(failed):
-                with tempfile.TemporaryDirectory(prefix="botschool-") as folder:
-                    place = Path(folder) / file.name
-                    place.write_text(known.solution, encoding="utf-8")
-                    ours = partial(Student, place, *limits, refused=task.refused)
-                    problems[at] += looked_at_again(failure, again, ours)
+            told = look.explain() if failed else ""
         except SLIPS as slip:  # of ours, and points do not depend on it
             warnings.warn(f"The cause of a failure could not be found: {slip!r}.", stacklevel=1)
     except Wrong as error:
         problems.append(str(error))
     finally:
-        for used in (student, again):
-            if used is not None:
-                used.close()
+        if student is not None:
+            student.close()
     # report the same exception at the same line once, though several checks meet it
     said: dict[str, str] = {}
     for each in problems:
@@ -174,14 +137,6 @@ def _grade_task(
         said = {"": told, **said}
     result.message = plain("\n".join(said.values()))
     return result
-
-
-def _diagnosable(failed: list[tuple[int, Failure]]) -> list[tuple[int, Failure]]:
-    """Return the first failure of each function without a known cause."""
-    by_name = {
-        each.name: (at, each) for at, each in reversed(failed) if each.quick and not each.cause
-    }
-    return sorted(by_name.values(), key=lambda pair: pair[0])[:MAX_DIAGNOSED]
 
 
 def _problem(task: Task, check: Callable[[Student], None], student: Student) -> Failure | None:

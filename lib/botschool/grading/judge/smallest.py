@@ -4,19 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong, expect_close
-from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.values import pasted, show
 from botschool.grading.judge.alike import distance
 from botschool.grading.run.student import Student
-from botschool.sandbox import ForkServer
 
 SECONDS = 2.0
 """Processor seconds for all calls to our solution and to the submission."""
@@ -36,37 +32,37 @@ Cut = Callable[[np.ndarray], np.ndarray]
 
 
 def smallest_case(
-    task: Task,
-    solution: str,
-    name: str,
-    request: dict[str, Any],
-    found: Student,
-    server: ForkServer,
-) -> str:
-    """Return a sentence about a small call that the submission answers wrongly, or "".
+    request: dict[str, Any], found: Student, ours: Callable[[], Student]
+) -> tuple[str, dict[str, Any]] | None:
+    """Return a sentence about a small call that the submission answers wrongly, and this call.
 
-    solution: our text of the file `name`. request: a function call with arrays that was answered
-    wrongly. found: the submission, whose time does not count.
+    request: a function call with arrays that was answered wrongly; with {} there is no small one.
+    found: the submission, whose time does not count. ours: makes a Student of our solution.
     """
-    if not solution or not request:
-        return ""
-    calls = [*_smaller(request), request]
-    with TemporaryDirectory(prefix="botschool-") as folder:
-        file = Path(folder) / name
-        file.write_text(solution, encoding="utf-8")
-        ours = None
-        try:
-            ours = Student(file, SECONDS, task.memory, server, True, refused=task.refused)
-            return next((text for call in calls if (text := _told(call, found, ours))), "")
-        except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
-            return ""
-        finally:
-            if ours is not None:
-                ours.close()
+    if not request:
+        return None
+    solution = None
+    try:
+        solution = ours()
+        begin = solution.seconds_left
+        for call in (*_smaller(request), request):
+            if solution.seconds_left < begin - SECONDS:
+                return None
+            if told := _told(call, found, solution):
+                return told
+    except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
+        pass
+    finally:
+        if solution is not None:
+            solution.close()
+    return None
 
 
-def _told(call: dict[str, Any], found: Student, ours: Student) -> str:
-    """Return what is wrong about a call; "" if both agree, or one of them cannot answer."""
+def _told(call: dict[str, Any], found: Student, ours: Student) -> tuple[str, dict[str, Any]] | None:
+    """Return what is wrong about a call, and the call as shown.
+
+    None if both agree, or one of them cannot answer.
+    """
     for digits in DIGITS:
         simple = _rounded(call, digits)
         parts = simple["name"], tuple(simple["arguments"]), simple["options"]
@@ -79,8 +75,8 @@ def _told(call: dict[str, Any], found: Student, ours: Student) -> str:
             continue
         size = right.size if isinstance(right, np.ndarray) else right != [] and right != {}
         if size and _finite(got) and _finite(right) and distance(got, right) > APART:
-            return _difference(text, got, right)
-    return ""
+            return _difference(text, got, right), simple
+    return None
 
 
 def _finite(answer: Any) -> bool:

@@ -1,0 +1,112 @@
+"""Explain why checks failed: a known mistake or another cause, and a small call to try."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from botschool.grading.declare.exercise import Task
+from botschool.grading.declare.mistakes import Known
+from botschool.grading.judge.afresh import KEPT, kept_something, right_afresh
+from botschool.grading.judge.known import VARIED, known_mistake
+from botschool.grading.judge.looking import Failure, look_for_causes, looked_at_again
+from botschool.grading.judge.sentences import is_vague
+from botschool.grading.judge.smallest import smallest_case
+from botschool.grading.run.student import Student
+from botschool.sandbox import ForkServer
+
+SHORT = 120
+"""Characters of a call that needs no smaller one."""
+MAX_DIAGNOSED = 2
+"""Failed checks of a task whose calls are repeated."""
+
+
+@dataclass
+class SecondLook:
+    """A task's failed checks, to be explained. Points do not depend on it."""
+
+    task: Task
+    known: Known
+    name: str
+    """The name of the submission's file."""
+    server: ForkServer
+    seconds: float
+    """Processor seconds of each process of the submission, or of our solution."""
+    begun: Callable[[], Student]
+    """Starts the submission in a new process, whose time does not count."""
+    cheap: list[Callable[[Student], None]]
+    """The task's quick checks."""
+    failed: list[tuple[int, Failure]]
+    """Places in `problems`, and failures."""
+    problems: list[str]
+    """A text for each failed check."""
+
+    def explain(self) -> str:
+        """Add causes and calls to the problems; return a line on the known mistake, or ""."""
+        with tempfile.TemporaryDirectory(prefix="botschool-") as folder:
+            place = Path(folder) / self.name
+            place.write_text(self.known.solution, encoding="utf-8")
+            limits = self.seconds, self.task.memory, self.server, True
+            ours = partial(Student, place, *limits, refused=self.task.refused)
+            again = self.begun()
+            try:
+                told = self._known_mistake(again)
+                self._add_causes(told)
+                self._add_calls(again, ours)
+                if not told:
+                    self._add_differences(again, ours)
+            finally:
+                again.close()
+        return told
+
+    def _known_mistake(self, again: Student) -> str:
+        """Return a line on a known mistake, or ""; find other causes for the failures."""
+        failures = [failure for _, failure in self.failed]
+        if not any(failure.answered or failure.raised for failure in failures):
+            return ""
+        failing = [failure.check for failure in failures]
+        slow = [
+            (each.request, each.got)
+            for each in failures
+            if each.answered and each.check not in self.cheap
+        ]
+        told = known_mistake(self.task, self.cheap, self.known, again, self.name, self.server, slow)
+        look_for_causes(failures, [each for each in self.cheap if each not in failing], again)
+        if told.startswith(VARIED) and any(failure.named for failure in failures):
+            return ""  # the check's own sentence is written for the task
+        return told
+
+    def _add_causes(self, told: str) -> None:
+        """Add the causes, each once, if no known mistake explains the failures."""
+        causes: set[str] = set()
+        vague = told.startswith(VARIED) and is_vague(told[len(VARIED) :])
+        for at, failure in self.failed:
+            known_cause = (told and not vague) or failure.cause in causes
+            cause = "" if known_cause else failure.cause
+            causes.add(cause)
+            self.problems[at] = f"{failure.text}\n  {cause}" if cause else failure.text
+
+    def _add_calls(self, again: Student, ours: Callable[[], Student]) -> None:
+        """Add a call to try to the first failure; it must show the mistake in a new process."""
+        for at, failure in [pair for pair in self.failed if pair[1].told][:1]:
+            text, call = failure.pasted, failure.direct
+            if self.known.solution and (len(text) > SHORT or not text):
+                text, call = smallest_case(call, again, ours) or (text, call)
+            if text and not right_afresh(call, self.begun, ours):
+                self.problems[at] += f"\n  To try it: {text}"
+
+    def _add_differences(self, again: Student, ours: Callable[[], Student]) -> None:
+        """Add what more calls show, to each function's first failure without a cause."""
+        by_name = {
+            each.name: (at, each)
+            for at, each in reversed(self.failed)
+            if each.quick and not each.cause
+        }
+        for at, failure in sorted(by_name.values(), key=lambda pair: pair[0])[:MAX_DIAGNOSED]:
+            if kept_something(failure, self.begun, ours):
+                self.problems[at] += f"\n  {KEPT}"
+            else:
+                self.problems[at] += looked_at_again(failure, again, ours)
