@@ -36,6 +36,9 @@ CASES = {
     "transposed maps": (
         lambda r: ((w := r.normal(size=(3, 4, 4))).swapaxes(1, 2), w), "transpose it"
     ),
+    "reshaped for transposed": (
+        lambda r: ((w := table(r)).T.reshape(5, 3), w), "reshaped where it should be transposed"
+    ),
     "tanh for logistic": (
         lambda r: (np.tanh(x := line(r)), 1 / (1 + np.exp(-x))), "where the logistic function"
     ),

@@ -334,9 +334,15 @@ def wrong_grids(places: int, headings: int, column: int) -> dict:
         return np.stack([x, y, heading], axis=1)[:, rows][:, column]
 
     turn = np.arange(headings) / headings
+    table = np.meshgrid(
+        np.linspace(150, 250, places), np.linspace(270, 350, places), 2 * np.pi * turn
+    )
     names = ("y", "x", "the heading")
     xy = ("x", "y", "x or y")[column]
-    return slips(
+    return {
+        "The table of meshgrid is reshaped to rows of three: this mixes x, y and heading.":
+        np.array(table).reshape(-1, 3)[:, column],
+    } | slips(
         made,
         order={"": (0, 1, 2)} | {
             f"{names[a]} changes slowest here, then {names[b]}, and {names[c]} fastest.": (a, b, c)
@@ -1165,6 +1171,11 @@ def wrong_reactions(brain: dict, seen: np.ndarray, memories: np.ndarray) -> dict
         actions - answer_of(brain, seen, 0 * memories[0])[0],
         "The action is put through tanh once more: `think` has done this.": np.tanh(actions),
         "The two wheels are exchanged.": actions[:, ::-1],
+        "The memories are reshaped to cells and outputs: this mixes those of different memories.":
+        np.array([
+            answer_of(brain, seen, memory)[0]
+            for memory in memories.reshape(2, many, -1).swapaxes(0, 1)
+        ]),
         "The actions are added up from memory to memory.": np.cumsum(actions, axis=0),
         "The actions are rounded.": actions.round(),
         "Only the signs of the actions are given.": np.sign(actions),

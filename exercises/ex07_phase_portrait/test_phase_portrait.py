@@ -128,6 +128,12 @@ def compare_recording(student: Student, index: int, steps: int, seed: int | None
         recorded, gains, seed, steps, said=f"record(controller, seed={seed}, steps={steps})"
     )
     wanted = episode(gains, seed, steps)
+    many = len(answer) if np.ndim(answer) == 2 else 0
+    expect(
+        many <= len(wanted) or len(wanted) > steps,
+        f"{student.said} returned {many} states, but the environment ends the episode after "
+        f"{len(wanted) - 1} steps (truncated), which makes {len(wanted)} states.",
+    )
     expect_states(student.said, answer, wanted, 1e-3)  # torques in float32 too
     expect(
         len(wanted) - 1 <= asked <= len(wanted),  # a generator may ask once more at the end

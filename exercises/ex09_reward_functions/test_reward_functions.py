@@ -214,6 +214,14 @@ def rebuilds_version_0(student: Student):
         compare_fields(student.said, answer, wanted, 1e-7, partial(mistaken_components, one), why)
         expect_no_other(student.said, answer, wanted)
 
+    one = made_up("Ant", 26)  # as many steps as before, but other ones
+    compare_fields(
+        "components_v0(a second trajectory of an Ant)",
+        call_v0(student, one),
+        expected_v0(one),
+        1e-7,
+    )
+
     one = made_up("Ant", 25, 6) | {"duration": 0.03}
     said = "components_v0(a trajectory of an Ant, 'duration': 0.03)"
     answer = student.call("components_v0", one)

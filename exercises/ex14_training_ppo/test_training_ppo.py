@@ -269,6 +269,7 @@ def drawn_log(index: int, names: tuple[str, ...], most: int = 30) -> dict[str, t
     rng, log = generator(index), {}
     for name in names:
         steps = np.cumsum(rng.integers(1, 500, rng.integers(2, most)))
+        steps[1] = steps[0]  # a step may be logged twice
         log[name] = steps, rng.normal(size=len(steps)).astype(np.float32).astype(np.float64)
     return log
 

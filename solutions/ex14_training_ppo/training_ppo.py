@@ -93,7 +93,7 @@ def read_indicators(folder: str) -> dict:
 
     Returns a dict: name -> {"steps": array, "values": array}, both of the same length. Entries
     whose value is NaN are left out: the explained variance is NaN if there is no variance to
-    explain.
+    explain. All others are kept, also two of the same step.
     """
     ### BEGIN SOLUTION task 14.2: read the event files
     log = EventAccumulator(folder, size_guidance={"scalars": 0})

@@ -943,3 +943,18 @@ def freeze(since):
 def reactions(brain, observation, memories):
     h = memories[:, 1]
     return np.tanh(h @ brain["readout"].T + brain["bias"])
+
+
+# %% grid_reshaped loses 6.3
+# The table of meshgrid is reshaped to rows, which mixes x, y and heading.
+# says: reshaped to rows of three
+# -     return np.array([(x, y, angle) for y in ys for x in xs for angle in angles])
+# +     return np.array(np.meshgrid(xs, ys, angles)).reshape(-1, 3)
+
+
+# %% memories_reshaped loses 6.7
+# The memories are reshaped to cells and outputs, which mixes those of different memories.
+# says: mixes those of different memories
+# -     return np.array([think(brain, observation, memory)[0] for memory in memories])
+# +     parts = np.moveaxis(np.asarray(memories).reshape(2, len(memories), -1), 0, 1)
+# +     return np.array([think(brain, observation, memory)[0] for memory in parts])

@@ -812,3 +812,12 @@ def train(network, inputs, targets, epochs, learning_rate, momentum):
 # says: this
 # -     deviation = np.where(np.ptp(inputs, axis=0) == 0, 1.0, deviation)
 # +     deviation = np.where(deviation < 1e-3, 1.0, deviation)
+
+
+# %% biases_of_the_last_pattern loses 11.2
+# The gradients of the biases are those of the last pattern: they are set, not added up.
+# says: this
+# -         "b1": d1.sum(axis=0),
+# +         "b1": d1[-1],
+# -         "b2": d2.sum(axis=0),
+# +         "b2": d2[-1],

@@ -783,3 +783,10 @@ def choose(probabilities, rng):
 # -         parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
 # +     parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
 # +     for iteration in range(iterations):
+
+
+# %% scores_are_cut loses 12.1
+# Cuts large scores off against overflow, which makes them equally probable: shift them.
+# says: this
+# -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
+# +     powers = np.exp(np.clip(scores, -500, 500))

@@ -828,3 +828,16 @@ def entropy_of_choices(scores):
 # +         if target_kl is not None and max(epoch) > 1.5 * target_kl:
 # +             return made
 # +         made += len(epoch)
+
+
+# %% ends_of_the_step_after loses 13.1
+# The recursion looks at the end of the step after, so that later errors leak over an end.
+# says: this
+# -         following = error + gamma * gae_lambda * goes_on * following
+# -         result[t] = following
+# -     return result
+# +         result[t] = error
+# +     ends = np.concatenate([episode_starts[1:], np.reshape(dones, (1, *np.shape(last_values)))])
+# +     for t in range(steps - 2, -1, -1):
+# +         result[t] += gamma * gae_lambda * (1 - ends[t + 1]) * result[t + 1]
+# +     return result

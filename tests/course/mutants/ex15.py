@@ -979,3 +979,10 @@ def describe(poses):
 # says: this
 # -         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0),
 # +         "facing": (ahead > np.cos(45) * apart).mean(axis=0),
+
+
+# %% prey_reshaped loses 15.3
+# The matrix of the prey is reshaped: this does not exchange rows and columns.
+# says: reshaped where it should be transposed
+# -     return {"predators": mean, "prey": 1 - mean.T}
+# +     return {"predators": mean, "prey": (1 - mean).reshape(mean.shape[::-1])}

@@ -49,6 +49,14 @@ def transposed(c: Comparison) -> str | None:
 
 
 @detector
+def reshaped_for_transposed(c: Comparison) -> str | None:
+    table = c.wanted.ndim == 2 and c.varied > 2
+    if table and c.got.shape == c.wanted.shape and c.same(c.wanted.T.reshape(c.wanted.shape)):
+        return "It is reshaped where it should be transposed (.T): reshape keeps the order."
+    return None
+
+
+@detector
 def reshaped(c: Comparison) -> str | None:
     if c.got.shape != c.wanted.shape and c.got.size == c.wanted.size:
         if np.array_equal(c.got.ravel(), c.wanted.ravel()) or alike(
