@@ -51,6 +51,9 @@ CASES = {
     "reshaped": (lambda r: ((w := line(r))[:, None], w), "their shape is (6, 1)"),
     "column by column": (lambda r: ((w := table(r)).T.ravel(), w), "column by column"),
     "one too many": (lambda r: (np.append(w := line(r), 1.0), w), "last one is one too many"),
+    "rows left over": (
+        lambda r: (np.vstack([w := table(r), np.zeros((4, 3))]), w), "but 4 more of zeros follow"
+    ),
     "one before": (lambda r: (np.append(1.0, w := line(r)), w), "first one is one too many"),
     "last missing": (lambda r: ((w := table(r))[:-1], w), "last one is missing"),
     "first missing": (lambda r: ((w := line(r))[1:], w), "first one is missing"),

@@ -75,7 +75,11 @@ def expect_space(said: str, got: object, space: gymnasium.Space) -> None:
     if isinstance(space, gymnasium.spaces.Discrete):
         kind, choices, first = expect_fields(said, got, "kind", "choices", "first")
         expect(kind == "Discrete", f"{said}: kind is {show(kind)}, but the space is Discrete.")
-        expect_close(f"{said}: choices", choices, space.n)
+        mistakes = {
+            "The first choice is subtracted from the number of choices.": space.n - space.start,
+            "The last choice is taken for the number of choices.": space.n + space.start - 1,
+        }
+        expect_close(f"{said}: choices", choices, space.n, mistakes=mistakes)
         expect_close(f"{said}: first", first, space.start)
         return
     kind, size, low, high = expect_fields(said, got, "kind", "size", "low", "high")

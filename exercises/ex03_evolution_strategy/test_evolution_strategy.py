@@ -474,7 +474,8 @@ class Evolved:
             f"{show(seeds[:4])}...",
         )
         rows = 2 if start.ndim == 1 else len(start)
-        self.populations = [expect_array(self.said, each[0], (rows, len(target))) for each in calls]
+        given = f"{self.said}: what evaluate was given"
+        self.populations = [expect_array(given, each[0], (rows, len(target))) for each in calls]
         self.distance = [((each - target) ** 2).mean(axis=1) for each in self.populations]
         self.fitness = [
             (seed + g) * 37 % 11 + least - distance for g, distance in enumerate(self.distance)

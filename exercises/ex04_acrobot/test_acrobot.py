@@ -327,6 +327,10 @@ class Trial:
             raise Wrong(
                 f"{said} holds {array.size // 6} generations, but the run that was asked for has "
                 f"{wanted.size // 6}."
+                + (
+                    " It ends too early: each run has all of the steps."
+                    * (array.size < wanted.size)
+                )
             )
         expect_array(said, array, wanted.shape)
         expect(

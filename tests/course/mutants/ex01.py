@@ -639,3 +639,34 @@ def describe(environment_id):
 # Gives the standard deviation of the lengths, not of the returns.
 # -                 "deviation": float(np.std(returns, ddof=1)) if episodes > 1 else 0.0,
 # +                 "deviation": float(np.std([len(run["rewards"]) for run in runs], ddof=1)) if episodes > 1 else 0.0,
+
+
+# %% whole_degrees loses 1.3
+# Cuts the angle to whole degrees before it compares.
+# says: this
+# -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
+# +     return bool(abs(position) > 2.4 or int(np.rad2deg(abs(angle))) > 12)
+
+
+# %% choices_without_the_first loses 1.1
+# Subtracts the first choice from the number of choices.
+# says: The first choice is subtracted
+# -             return {"kind": "Discrete", "choices": int(space.n), "first": int(space.start)}
+# +             return {
+# +                 "kind": "Discrete",
+# +                 "choices": int(space.n) - int(space.start),
+# +                 "first": int(space.start),
+# +             }
+
+
+# %% rows_after_the_end loses 1.2
+# Rows of zeros are left over where the episode ends before maxsteps.
+# says: more of zeros follow: cut them off
+_random_episode_1 = random_episode
+
+
+def random_episode(environment_id, seed, maxsteps=1000):
+    found = _random_episode_1(environment_id, seed, maxsteps)
+    seen = found["observations"]
+    rows = np.zeros((maxsteps + 1 - len(seen), *seen.shape[1:]))
+    return {**found, "observations": np.concatenate([seen, rows])}

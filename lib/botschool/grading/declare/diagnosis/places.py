@@ -32,7 +32,8 @@ def of_shapes(got: tuple[int, ...], wanted: tuple[int, ...]) -> str:
         return "An axis of length 1 is too much or missing: see keepdims, reshape and indexing."
     if len(got) == len(wanted):
         apart = [i for i in range(len(got)) if got[i] != wanted[i]]
-        if len(apart) == 1 and abs(got[apart[0]] - wanted[apart[0]]) == 1:
+        near = len(apart) == 1 and abs(got[apart[0]] - wanted[apart[0]]) == 1
+        if near and max(got[apart[0]], wanted[apart[0]]) > 2:  # one of two is no slip of counting
             which = "too many" if got[apart[0]] > wanted[apart[0]] else "too few"
             return (
                 f"Along axis {apart[0]} it is one {which}: an off-by-one, or the length of "
@@ -78,6 +79,9 @@ def one_too_many_or_few(c: Comparison) -> str | None:
             return "The last one is one too many; all before it are right."
         if alike(c.got[1:], c.wanted):
             return "The first one is one too many; all after it are right."
+    many = len(c.wanted)
+    if more > 1 and many > 1 and not np.any(c.got[many:]) and alike(c.got[:many], c.wanted):
+        return f"The first {many} are right, but {more} more of zeros follow: cut them off."
     if more == -1 and len(c.got):
         if alike(c.wanted[:-1], c.got):
             return "The last one is missing; all the others are right."
