@@ -788,6 +788,12 @@ def measured(parameters: list, normalised, targets, answers, others) -> str:
         axis=0
     )
     many = len(parameters[1])
+    if own.min() < 0:
+        return (
+            f"On its own patterns it explains {shown(own)} %, less than their mean would. Either "
+            "it was hardly trained, or on pairs that do not belong together: does each pattern "
+            "keep its target?"
+        )
     if not own.min() >= 0.9:
         return (
             f"On its own patterns it explains {shown(own)} %: with {many} hidden neurons, it has "

@@ -330,6 +330,8 @@ def without_nan(student: Student):
     entries = entries_of(log)
     entries.insert(3, ("train/explained_variance", 1, float("nan")))
     entries.append(("train/explained_variance", 20_000, float("nan")))
+    entries.append(("train/loss", 20_000, 0.5))  # a number at the same step
+    log["train/loss"] = tuple(map(np.append, log["train/loss"], (20_000, 0.5)))
     answer, name = read(student, event_file(entries)), "train/explained_variance"
     for key, kept in zip(
         ("steps", "values"),

@@ -19,22 +19,13 @@ KEPT = (
 Start = Callable[[], Student]
 
 
-def right_afresh(request: dict[str, Any], submission: Start, ours: Start) -> bool:
-    """Return whether the submission answers a request as our solution does, each in a new process.
+def answers_afresh(
+    request: dict[str, Any], submission: Start, ours: Start
+) -> tuple[Any, Any] | None:
+    """Return the answers of the submission and of our solution, each in a new process.
 
-    submission, ours: make a Student of it; its time does not count.
+    submission, ours: make a Student of it; its time does not count. None if one gives no answer.
     """
-    return _right_answer(request, submission, ours) is not None
-
-
-def kept_something(failure: Failure, submission: Start, ours: Start) -> bool:
-    """Return whether a wrong answer is right in a new process."""
-    answer = _right_answer(failure.request, submission, ours)
-    return answer is not None and distance(failure.got, answer) > TIE
-
-
-def _right_answer(request: dict[str, Any], submission: Start, ours: Start) -> Any:
-    """Return the answer that both give; None if they differ, or one of them gives none."""
     answers = []
     for start in (submission, ours):
         student = None
@@ -46,4 +37,14 @@ def _right_answer(request: dict[str, Any], submission: Start, ours: Start) -> An
         finally:
             if student is not None:
                 student.close()
-    return answers[0] if distance(*answers) <= TIE else None
+    return answers[0], answers[1]
+
+
+def kept_something(failure: Failure, submission: Start, ours: Start) -> bool:
+    """Return whether a wrong answer is right in a new process."""
+    answers = answers_afresh(failure.request, submission, ours)
+    return (
+        answers is not None
+        and distance(*answers) <= TIE
+        and distance(failure.got, answers[0]) > TIE
+    )

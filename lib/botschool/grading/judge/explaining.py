@@ -10,11 +10,12 @@ from pathlib import Path
 
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Known
-from botschool.grading.judge.afresh import KEPT, kept_something, right_afresh
+from botschool.grading.judge.afresh import KEPT, answers_afresh, kept_something
+from botschool.grading.judge.alike import TIE, distance
 from botschool.grading.judge.known import VARIED, known_mistake
 from botschool.grading.judge.looking import Failure, look_for_causes, looked_at_again
 from botschool.grading.judge.sentences import is_vague
-from botschool.grading.judge.smallest import smallest_case
+from botschool.grading.judge.smallest import difference, smallest_case
 from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 
@@ -92,10 +93,16 @@ class SecondLook:
     def _add_calls(self, again: Student, ours: Callable[[], Student]) -> None:
         """Add a call to try to the first failure; it must show the mistake in a new process."""
         for at, failure in [pair for pair in self.failed if pair[1].told][:1]:
-            text, call = failure.pasted, failure.direct
+            text, call, small = failure.pasted, failure.direct, None
             if self.known.solution and (len(text) > SHORT or not text):
-                text, call = smallest_case(call, again, ours) or (text, call)
-            if text and not right_afresh(call, self.begun, ours):
+                small = smallest_case(call, again, ours)
+                text, call = small or (text, call)
+            answers = answers_afresh(call, self.begun, ours) if text else None
+            if answers and distance(*answers) <= TIE:
+                continue  # it is right in a new process
+            if small:
+                text = difference(text, *answers) if answers else ""
+            if text:
                 self.problems[at] += f"\n  To try it: {text}"
 
     def _add_differences(self, again: Student, ours: Callable[[], Student]) -> None:

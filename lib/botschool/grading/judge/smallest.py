@@ -34,7 +34,7 @@ Cut = Callable[[np.ndarray], np.ndarray]
 def smallest_case(
     request: dict[str, Any], found: Student, ours: Callable[[], Student]
 ) -> tuple[str, dict[str, Any]] | None:
-    """Return a sentence about a small call that the submission answers wrongly, and this call.
+    """Return the text of a small call that the submission answers wrongly, and this call.
 
     request: a function call with arrays that was answered wrongly; with {} there is no small one.
     found: the submission, whose time does not count. ours: makes a Student of our solution.
@@ -59,7 +59,7 @@ def smallest_case(
 
 
 def _told(call: dict[str, Any], found: Student, ours: Student) -> tuple[str, dict[str, Any]] | None:
-    """Return what is wrong about a call, and the call as shown.
+    """Return a call as text, and as it is shown there.
 
     None if both agree, or one of them cannot answer.
     """
@@ -75,7 +75,7 @@ def _told(call: dict[str, Any], found: Student, ours: Student) -> tuple[str, dic
             continue
         size = right.size if isinstance(right, np.ndarray) else right != [] and right != {}
         if size and _finite(got) and _finite(right) and distance(got, right) > APART:
-            return _difference(text, got, right), simple
+            return text, simple
     return None
 
 
@@ -91,16 +91,16 @@ def _finite(answer: Any) -> bool:
         return True
 
 
-def _difference(said: str, got: Any, right: Any) -> str:
+def difference(said: str, got: Any, right: Any) -> str:
     """Return a sentence about the first part of two answers that differs."""
     if isinstance(got, dict) and isinstance(right, dict):
         for key in right:
             if key in got and distance(got[key], right[key]) > APART:
-                return _difference(f"{said}: {key}", got[key], right[key])
+                return difference(f"{said}: {key}", got[key], right[key])
     if _of_parts(got) and _of_parts(right) and len(got) == len(right):
         for place, (mine, wanted) in enumerate(zip(got, right, strict=True)):
             if distance(mine, wanted) > APART:
-                return _difference(f"{said}[{place}]", mine, wanted)
+                return difference(f"{said}[{place}]", mine, wanted)
     if not _of_parts(right) and got is not None and right is not None:
         try:
             expect_close(said, got, right, APART)
@@ -121,7 +121,7 @@ def _smaller(request: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """Yield the call with one row of its arrays, then with the first few rows (and columns)."""
     arrays = [*_arrays(list(request["arguments"])), *_arrays(request["options"])]
     lengths = [len(array) for array in arrays]
-    if not lengths or max(lengths) < 2:
+    if not lengths or max(lengths) < 2 or _of_uneven_runs(list(request["arguments"])):
         return
     rows = max(set(lengths), key=lengths.count)
     if any(array.ndim == 1 and len(array) == rows < FEW for array in arrays):
@@ -133,6 +133,21 @@ def _smaller(request: dict[str, Any]) -> Iterator[dict[str, Any]]:
         if many < rows:
             cut = partial(_corner, many=many) if square else partial(_some, rows=rows, many=many)
             yield _cut(request, cut)
+
+
+def _of_uneven_runs(value: Any) -> bool:
+    """Return whether a list holds dicts with arrays of different lengths, one for each run.
+
+    Their rows belong to different steps: cut to a few of them, the runs may have none in common.
+    """
+    if isinstance(value, dict):
+        return _of_uneven_runs(list(value.values()))
+    if not isinstance(value, (list, tuple)):
+        return False
+    runs = [_arrays(part) for part in value if isinstance(part, dict)]
+    return len({len(arrays[0]) for arrays in runs if arrays}) > 1 or any(
+        map(_of_uneven_runs, value)
+    )
 
 
 def _some(array: np.ndarray, rows: int, many: int, first: int = 0) -> np.ndarray:
