@@ -482,7 +482,9 @@ def bounds(values, low, high):
     ### END SOLUTION
 '''
 SLIPS = {
-    "`<=` stands where `<` belongs: `value < low`": BOUNDS.replace("value < low", "value <= low"),
+    "`<` and `<=` are taken for each other: `value < low`": BOUNDS.replace(
+        "value < low", "value <= low"
+    ),
     "something should be added to it: `below`": BOUNDS.replace("below += value", "below = value"),
     "anew in each pass": BOUNDS.replace(
         "        if low", "        hidden, below = [], 0\n        if low"

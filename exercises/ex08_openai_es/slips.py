@@ -688,6 +688,13 @@ def why_untrained(
     told = f"It evaluated {len(generations)} generations with a noiseStdDev of about {noise:.2g}."
     if np.allclose(centre, generations[0][0], 1e-6, 1e-9):
         return f"{told} It returned the first centre of these, where the search begins."
+    centres = np.array([middle for middle, _, _ in generations])
+    step = float(np.median(np.abs(np.diff(centres, axis=0)).max(axis=1)))
+    if step and np.abs(centres - centre).max(axis=1).min() > 10 * step:
+        return (
+            f"{told} What it returned is none of their centres, and no step after one: return the "
+            "centre that evolve returns."
+        )
     if share < -0.6:
         return f"{told} Its centre moves to where fitness is lower, but fitness is to rise."
     flat = np.mean([np.ptp(fitness) == 0 for _, _, fitness in generations])

@@ -279,9 +279,10 @@ class Expressions:
             what = colon(self.quoted(part))
             if kind in _BOUNDARY:
                 other = _BOUNDARY[kind]
-                yield (
+                first, second = sorted((SIGNS[other], SIGNS[kind]))
+                yield (  # in a condition that is turned around it is the other one
                     (
-                        f"`{SIGNS[other]}` stands where `{SIGNS[kind]}` belongs{what}. What must "
+                        f"`{first}` and `{second}` are taken for each other{what}. What must "
                         "happen when both sides are equal?"
                     ),
                     Edit(part, "ops", 0, other()),
@@ -302,11 +303,7 @@ class Expressions:
                     yield f"{what}{where}.", Edit(part, "op", None, other())
         elif isinstance(part, ast.BoolOp):
             other = ast.Or if isinstance(part.op, ast.And) else ast.And
-            words = ("or", "and") if other is ast.Or else ("and", "or")
-            yield (
-                f"`{words[0]}` stands where `{words[1]}` belongs.",
-                Edit(part, "op", None, other()),
-            )
+            yield "`and` and `or` are taken for each other.", Edit(part, "op", None, other())
         elif isinstance(part, ast.Call):
             name = self._named(part.func)
             field = "attr" if isinstance(part.func, ast.Attribute) else "id"
@@ -338,12 +335,16 @@ class Expressions:
                     which = " and".join(both)
                 yield f"Two values are exchanged:{which}.", Edit(part, "elts", None, elements)
 
-    def passes(self, over: ast.expr) -> Iterator[tuple[str, ast.expr]]:
+    def passes(self, loop: ast.For | ast.comprehension) -> Iterator[tuple[str, ast.expr]]:
         """Yield (sentence, other values) for what a loop goes over."""
+        over = loop.iter
         first, last = (
             "The first pass of a loop is left out.",
             "The last pass of a loop is left out.",
         )
+        counting = isinstance(over, ast.Call) and self._named(over.func) == "range"
+        if counting and ast.unparse(loop.target) == "_":  # it does not matter which one
+            first = last = "A loop makes one pass too few."
         if isinstance(over, ast.Call) and self._named(over.func) == "range" and len(over.args) < 3:
             begin, end = ([ast.Constant(0), *over.args])[-2:]
             yield first, _range(_moved(begin, 1, 0), end)

@@ -185,7 +185,7 @@ class _Slips:
                 yield what, place, [Edit(node, field, at, negative)]
         for node in {id(each[0]): each[0] for each in places}.values():
             if isinstance(node, (ast.For, ast.comprehension)):
-                for what, new in self._parts.passes(node.iter):
+                for what, new in self._parts.passes(node):
                     yield what, "", [Edit(node, "iter", None, new)]
         for node in {id(each[0]): each[0] for each in places}.values():
             for field in ("body", "orelse"):
