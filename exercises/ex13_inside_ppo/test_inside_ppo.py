@@ -766,6 +766,9 @@ def after_loop(student: Student, seed: int, steps: int, order: int = 700, **opti
     return [expect_array(f"{said}: parameters", answer[0], (n,)), *answer[2:]]
 
 
+RIGHT = "right advantages and right returns"
+
+
 def of_first_rollout(rollout: object) -> str:
     """What is wrong with the advantages and returns that the loop wrote into its first rollout."""
     from botschool.course.ppo import SETTINGS
@@ -809,7 +812,7 @@ def of_first_rollout(rollout: object) -> str:
     if fitting:
         return f"{said}right advantages, and as returns {fitting[0]}"
     if np.allclose(returns, right + values, 1e-4, 1e-4):
-        return f"{said}right advantages and right returns. So look at epochs, batches and the stop."
+        return f"{said}{RIGHT}. So look at epochs, batches and the stop."
     return f"{said}right advantages, and returns that are not advantages plus values."
 
 
@@ -839,8 +842,11 @@ def one_batch_an_epoch(student: Student):
     got, *_, rollout = after_loop(student, seed, 400, **options)
     right = by_reference(seed, 400, 1, 400, None, "Pendulum-v1").parameters
     begun = by_reference(seed, 0, 1, 400, None, "Pendulum-v1").parameters
+    # the last step alone may not turn the sign of any gradient, all that a first step of Adam tells
+    written = of_first_rollout(rollout)
     expect(
-        np.abs(got - right).max() < 0.02 * np.abs(right - begun).max(),
+        np.abs(got - right).max() < 0.02 * np.abs(right - begun).max()
+        and (not written or RIGHT in written),
         f"{student.said}: both episodes of the rollout end because time runs out, the second one "
         "with the last step. What comes after such a step belongs to another episode, too.",
     )
