@@ -624,7 +624,8 @@ def stages_rise(student: Student):
             )
         return ""
 
-    expect_stages(student, fault, other=True)
+    for other in (True, False):
+        expect_stages(student, fault, other)
 
 
 # ------------------------------------------------------------------- 7.7
