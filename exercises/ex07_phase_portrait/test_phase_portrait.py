@@ -78,7 +78,10 @@ def one_observation(student: Student):
     for seen, angle in (([-1.0, 0.0, 2.0], np.pi), ([0.0, -1.0, 2.0], -np.pi / 2)):
         answer = expect_array(f"to_state({seen})", student.call("to_state", np.array(seen)), (2,))
         answer[0] = np.pi if abs(answer[0] + np.pi) < 1e-6 else answer[0]  # both ends are pi
-        expect_close(f"to_state({seen})", answer, [angle, 2.0], 1e-5)
+        mistakes = {}
+        if angle == np.pi:
+            mistakes["Straight down the angle is pi. A sign of 0 makes it 0."] = [0.0, 2.0]
+        expect_close(f"to_state({seen})", answer, [angle, 2.0], 1e-5, mistakes)
 
 
 @state.check(4)

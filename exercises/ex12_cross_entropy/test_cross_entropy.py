@@ -320,6 +320,9 @@ def expect_episode(found: dict, key: str) -> None:
         mistakes["What was seen after each step is recorded, not what was seen before it."] = (
             np.array([*wanted[1:], found["last"]])
         )
+    if key == "return":
+        steps = len(found["wanted"]["actions"])
+        mistakes["The mean of the rewards is not their sum."] = wanted / steps
     expect_close(f"{found['said']}: {key}", found[key], wanted, SINGLE, mistakes)
 
 

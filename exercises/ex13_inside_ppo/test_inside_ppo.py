@@ -540,6 +540,8 @@ def stops_early(student: Student):
         log_ratios[rng.integers(epochs), rng.integers(batches)] = 0.4
         compare_updates(student, log_ratios, 0.02)
     compare_updates(student, np.array([[0.4, 0.01, 0.01]]), 0.02)
+    compare_updates(student, np.array([[0.02, 0.01, 0.01, 0.26], [0.01] * 4]), 0.02)
+    compare_updates(student, np.array([[0.01] * 5, [0.01, 0.02, 0.02, 0.01, 0.3]]), 0.02)
 
 
 @moving.check(3)

@@ -1366,3 +1366,29 @@ def smooth(curve, width):
 # +     noise = {"noiseStdDev": 0.2, "stepsize": 0.05}
 # +     runs = [evolve(evaluate, centre, generations, seed + k, **noise) for k in range(3)]
 # +     return np.mean([run["centre"] for run in runs], axis=0)
+
+
+# %% equals_share_a_rank loses 8.2
+# Equal candidates get the same rank, and the highest rank is that of the different values.
+# says: this
+def utilities(fitness):
+    values = sorted({float(each) for each in fitness})
+    highest = max(len(values) - 1, 1)
+    return np.array([values.index(float(each)) / highest - 0.5 for each in fitness])
+
+
+# %% sign_of_the_whole_centre loses 8.4
+# Takes the centre divided by its length for its sign: each element has a sign of its own.
+# says: this
+# -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
+# +     sign = centre / max(np.linalg.norm(centre), 1e-300)
+# +     pull = {0: np.zeros(len(centre)), 1: centre, 2: sign}[wdecay]
+
+
+# %% ends_of_a_window_count_half loses 8.7
+# Smooths by the trapezoid rule: the two ends of a window count half.
+# says: this
+# -     return np.convolve(curve, np.full(width, 1 / width), mode="valid")
+# +     weights = np.ones(width)
+# +     weights[[0, -1]] = 0.5 if width > 1 else 1
+# +     return np.convolve(curve, weights / weights.sum(), mode="valid")

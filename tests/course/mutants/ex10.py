@@ -1156,3 +1156,11 @@ def evolve(seed):
 # says: a table is asked for
 # - package-data = { balance_bot = ["*.urdf"] }
 # + package-data = ["*.urdf"]
+
+
+# %% inclination_without_a_sign loses 10.3
+# The inclination is the angle to the vertical, which is never negative.
+# says: this
+# -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
+# +         upright = np.reshape(pybullet.getMatrixFromQuaternion(orientation), (3, 3))[2, 2]
+# +         inclination = np.arccos(np.clip(upright, -1.0, 1.0))

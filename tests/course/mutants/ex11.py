@@ -821,3 +821,27 @@ def train(network, inputs, targets, epochs, learning_rate, momentum):
 # +         "b1": d1[-1],
 # -         "b2": d2.sum(axis=0),
 # +         "b2": d2[-1],
+
+
+# %% one_pattern_less_in_the_divisor loses 11.2
+# Divides by (n - 1) m, one pattern too few.
+# says: this
+# -     d2 = 2 * error / error.size
+# +     divisor = (len(error) - 1) * error.shape[1]
+# +     d2 = 2 * error / divisor
+# -         "loss": np.mean(error**2),
+# +         "loss": np.sum(error**2) / divisor,
+
+
+# %% losses_of_the_minibatches loses 11.7
+# The loss of an epoch is the mean of its minibatches' losses, each before its step.
+# says: this
+# -         for batch in minibatches(len(inputs), batch_size, rng):
+# +         total = 0.0
+# +         for batch in minibatches(len(inputs), batch_size, rng):
+# -             optimiser.step()
+# -         with torch.no_grad():
+# -             losses.append(nn.functional.mse_loss(network(inputs), targets).item())
+# +             optimiser.step()
+# +             total += loss.item() * len(batch)
+# +         losses.append(total / len(inputs))

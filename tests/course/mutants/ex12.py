@@ -790,3 +790,26 @@ def choose(probabilities, rng):
 # says: this
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.exp(np.clip(scores, -500, 500))
+
+
+# %% place_among_the_sorted loses 12.2
+# Returns the place among the sorted probabilities instead of the action.
+# says: this
+# -     beyond = np.cumsum(probabilities) > rng.random()
+# +     beyond = np.cumsum(np.sort(probabilities)[::-1]) > rng.random()
+
+
+# %% mean_reward loses 12.3
+# The return is the mean reward of a step instead of the sum.
+# says: this|mean of the rewards is not
+# -     return {"observations": np.array(observations), "actions": np.array(actions), "return": total}
+# +     mean = total / len(actions)
+# +     return {"observations": np.array(observations), "actions": np.array(actions), "return": mean}
+
+
+# %% observations_normalised loses 12.6
+# Normalises the observations before they reach the network.
+# says: this
+# -     inputs = torch.as_tensor(np.asarray(observations), dtype=torch.float32)
+# +     seen = np.asarray(observations)
+# +     inputs = torch.as_tensor((seen - seen.mean(0)) / seen.std(0), dtype=torch.float32)

@@ -867,3 +867,17 @@ def within_variants(numbers, variants, _within=within_variants):
 # -             inside |= steps == 0
 # -         these = values[inside & ~np.isnan(values)]
 # +         these = np.array_split(values[~np.isnan(values)], parts)[part]
+
+
+# %% one_deviation_for_all loses 14.4
+# All variations get the same deviation, pooled from all of their runs.
+# says: this
+_table_14 = table_of
+
+
+def table_of(runs, baseline):
+    rows = _table_14(runs, baseline)
+    free = [max(row["runs"] - 1, 0) for row in rows]
+    squares = [(row["deviation"] or 0) ** 2 * n for row, n in zip(rows, free, strict=True)]
+    pooled = float(np.sqrt(sum(squares) / max(sum(free), 1)))
+    return [{**row, "deviation": pooled if row["runs"] > 1 else None} for row in rows]
