@@ -24,7 +24,7 @@ def message(server, tmp_path):
     """The message on the only task of an exercise."""
 
     def of(text, exercise):
-        file = submit(tmp_path / "submitted", text)
+        file = submit(tmp_path / str(len(list(tmp_path.iterdir()))), text)
         return grade(exercise, file, server=server).tasks[0].message
 
     return of
@@ -58,6 +58,23 @@ def with_a_table(inputs, others=()):
 
 ONLY_LONG = "def total(v): return float(sum(min(x, 3.0) for x in v) if len(v) > 3 else sum(v))\n"
 """Cuts lists of more than three values only."""
+CUT_OR_HALVED = (
+    "def total(v): return float(sum(min(x, 3.0) for x in v) if len(v) > 3 else sum(v) / 2)\n"
+)
+"""Cuts them, and halves the sum of the others."""
+
+
+def test_a_sentence_must_explain_the_wrong_answers_of_other_checks(message):
+    """It fitted both scenes of one check, but no answer of the check before."""
+    cut = [[1.0, 5.5, 7.25, 2.0], [9.0, 0.5, 4.75, 1.0, 8.5]]
+    halved = [[4.0, 5.5], [8.25, 1.0]]
+    told = message(CUT_OR_HALVED, with_a_table(halved, cut))
+    assert "total(...)" in told and CUT not in told
+    assert CUT in message(
+        "def total(v): return float(sum(min(x, 3.0) for x in v))\n", with_a_table(halved, cut)
+    )
+
+
 LONG = [[5.25, 1.5, 0.25, 2.0], [7.5, 1.25, 4.5, 2.75]]
 SHORT = [4.75, 1.5, 0.5]
 

@@ -622,8 +622,8 @@ def stages_rise(student: Student):
         if not first + 100 <= middle <= last - 100:
             return (
                 f"the stages reach {first:.0f}, {middle:.0f} and {last:.0f} on average over 100 "
-                "new episodes, but the middle one must be 100 away from both others: choose it by "
-                "its return, not by its generation."
+                "new episodes, but the middle one must be 100 away from both others: look for the "
+                "one whose return is halfway between theirs."
             )
         return ""
 

@@ -782,10 +782,7 @@ def ranks(numbers: np.ndarray) -> np.ndarray:
     return np.array([np.flatnonzero(order == number).mean() for number in numbers])
 
 
-EQUAL = (
-    "Equal numbers are to share the mean of their ranks: each has a rank of its own here, or the "
-)
-EQUAL += "lowest or highest of theirs."
+EQUAL = "Equal numbers are to share the mean of their ranks: here they have other ranks."
 
 
 def unshared(first: np.ndarray, second: np.ndarray, answer: object) -> float:

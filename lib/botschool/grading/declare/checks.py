@@ -195,7 +195,10 @@ def _not_finite(said: str, array: np.ndarray, bad: np.ndarray) -> str:
     place = f" at [{', '.join(map(str, where))}]" if array.ndim else ""
     what = "NaN" if np.isnan(array[where]) else "infinity"
     causes = {
-        "NaN": "0 / 0, 0 * log(0), infinity minus infinity, or the root of a negative number",
+        "NaN": (
+            "0 / 0, 0 * log(0), infinity / infinity, infinity minus infinity, or the root of a "
+            "negative number"
+        ),
         "infinity": "a division by 0, the logarithm of 0, or np.exp of a large number",
     }
     many = f" ({int(bad.sum())} of {bad.size} numbers are NaN or infinity)" if bad.size > 1 else ""

@@ -29,6 +29,8 @@ MAX_RIGHT = 4
 """Right answers of a check, for each part, that a sentence on wrong ones must not contradict."""
 INPUTS = 2
 """Different calls that must show the same cause before it is reported."""
+COUNTED = "off by one"
+"""Words of causes that one number may show by chance."""
 MANY = 5
 """So many wrong values of yes and no, among right ones or of both kinds, prove a cause."""
 Check = Callable[[Student], None]
@@ -114,8 +116,11 @@ class Case:
     direct: dict[str, Any]
     certain: bool
     """Whether one case is enough: the check itself names the mistake, with many numbers."""
-    part: tuple[str, str]
-    """As in Mismatch."""
+    wrong: Mismatch
+
+    @property
+    def part(self) -> tuple[str, str]:
+        return self.wrong.part
 
 
 def look_for_causes(failures: list[Failure], passed: list[Check], student: Student) -> None:
@@ -137,15 +142,19 @@ def look_for_causes(failures: list[Failure], passed: list[Check], student: Stude
             failure.text, failure.direct = case.text, case.direct
             failure.shown = bool(case.pasted) and case.pasted in case.text
             failure.pasted = "" if failure.shown else case.pasted
-            alike_ones = [each for each in right if each.part == case.part]
-            common = _common(own, cases, alike_ones)
+            same_part = [each for each in cases if each.part == case.part]
+            others = [each for each in right if each.part == case.part]
+            others += [each.wrong for each in same_part]
+            common = _common(own, cases, others)
             enough = any(each.certain for each in own) or len({c.request for c in own}) >= INPUTS
             if common and enough:
                 failure.cause, failure.named = common, True
             elif case.cause and 2 * sum(_explained(case.cause, c) for c in own) < len(own):
                 continue  # it explains a few of the check's wrong answers by chance
-            elif _contradicted(case.cause, alike_ones):
+            elif _contradicted(case.cause, others):
                 continue
+            elif COUNTED in case.cause and not all(_explained(case.cause, c) for c in same_part):
+                continue  # a count is one too large by chance
             elif case.certain or len(calls[_DIGITS.sub("", case.cause)]) >= INPUTS:
                 failure.cause, failure.named = case.cause, case.cause in case.named
 
@@ -155,21 +164,25 @@ def _explained(cause: str, case: Case) -> bool:
     return cause in case.named or _DIGITS.sub("", cause) == _DIGITS.sub("", case.cause)
 
 
-def _contradicted(text: str, right: list[Mismatch]) -> bool:
-    """Return whether a mistake would have changed answers that are right."""
+def _contradicted(text: str, others: list[Mismatch]) -> bool:
+    """Return whether a mistake would have changed right answers, or wrong ones in another way."""
     try:
         with processor_time_limit(MAX_SECONDS):
-            return any(
-                text in each.mistakes and not alike(each.got, each.mistakes[text]) for each in right
-            )
+            return any(text in each.mistakes and _differs(each, text) for each in others)
     except TookTooLong:
         return False
 
 
-def _common(own: list[Case], cases: list[Case], right: list[Mismatch]) -> str:
+def _differs(answer: Mismatch, text: str) -> bool:
+    made = answer.mistakes[text]
+    effective = answer.right or not alike(answer.wanted, made)
+    return effective and not alike(answer.got, made)
+
+
+def _common(own: list[Case], cases: list[Case], others: list[Mismatch]) -> str:
     """Return a sentence of a check that explains all its wrong answers, or "".
 
-    own: the check's cases. right: right answers that a sentence must not contradict. Of several
+    own: the check's cases. others: answers that a sentence must not contradict. Of several
     sentences, the one that explains most of all cases comes first.
     """
     said = [{_DIGITS.sub("", text) for text in case.named} for case in cases]
@@ -182,7 +195,7 @@ def _common(own: list[Case], cases: list[Case], right: list[Mismatch]) -> str:
     if not fit:  # a number in the sentence may follow from the case
         fit = [text for text in own[0].named if all(_DIGITS.sub("", text) in each for each in mine)]
     best_first = sorted(fit, key=explained, reverse=True)
-    return next((text for text in best_first if not _contradicted(text, right)), "")
+    return next((text for text in best_first if not _contradicted(text, others)), "")
 
 
 def _certain(got: np.ndarray, wanted: np.ndarray) -> bool:
@@ -213,9 +226,7 @@ def _cases(checks: list[Check], student: Student) -> tuple[list[Case], list[Mism
             if _of_another(text, direct):
                 pasted, direct = "", {}
             named = fitting(error.got, error.wanted, error.mistakes)
-            found.append(
-                Case(check, text, request, pasted, cause, named, direct, certain, error.part)
-            )
+            found.append(Case(check, text, request, pasted, cause, named, direct, certain, error))
 
     try:
         for check in checks:
