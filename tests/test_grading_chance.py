@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from botschool.grading import Exercise, expect_close
+from botschool.grading.judge.evidence import holds, quoted
 from botschool.grading.judge.sentences import Quotes
 from botschool.grading.judge.submission import grade
 from botschool.grading.judge.variations import variations
@@ -93,14 +94,37 @@ def test_a_sentence_must_leave_right_answers_right(message, inputs, others, said
     assert "but" in told and (CUT in told) == said
 
 
+def written(body):
+    """A solution with a function of this body."""
+    lines = "\n".join(f"    {line}" for line in body.splitlines())
+    return (
+        f"# It asks for `speed`, and for the angle after it; then `seen` and `done`.\n"
+        f"def told(speed, angle):\n    ### BEGIN SOLUTION task 3.1: told\n{lines}\n"
+        "    ### END SOLUTION\n"
+    )
+
+
 def slipped(body):
     """Sentences and texts of the slips in a function of this body."""
-    lines = "\n".join(f"    {line}" for line in body.splitlines())
-    text = (
-        f"# It asks for `speed`, and for the angle after it.\ndef told(speed, angle):\n"
-        f"    ### BEGIN SOLUTION task 3.1: told\n{lines}\n    ### END SOLUTION\n"
-    )
-    return [(each.what, each.text) for each in variations(text, "3.1")]
+    return [(each.what, each.text) for each in variations(written(body), "3.1")]
+
+
+RECORDED = """seen, done = [0.0], []
+while len(done) < speed:
+    done.append(angle * len(done))
+    seen.append(float(len(seen)))
+return {"seen": seen, "done": done}"""
+
+
+def test_a_name_for_another_must_stand_there():
+    """A loop that counted neither of two lists was told that one was taken for the other."""
+    slip = next(each for each in variations(written(RECORDED), "3.1") if "`seen` is" in each.what)
+    assert slip.shown == "len(seen)" and slip.shown in slip.text
+    names = quoted(slip.what)
+    assert names == {"seen", "done"}
+    assert holds("def told(a, b):\n    return a if len(seen) > b else 0", slip.shown, names)
+    assert not holds("for step in range(1, speed):\n    seen.append(1)", slip.shown, names)
+    assert holds("high = [v for v in values if v < high]", "_ < high", {"high", "low"})
 
 
 def test_signs_are_not_reversed_in_several_places():

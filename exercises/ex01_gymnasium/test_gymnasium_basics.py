@@ -293,7 +293,7 @@ def goes_on_to_the_end(student: Student):
         over = replay["terminated"] or replay["truncated"]
         expect(
             over or len(actions) == maxsteps,
-            f"{student.said} stopped after {len(actions)} steps, but {name} was not over.",
+            f"{student.said} holds {len(actions)} steps, after which {name} was not over.",
         )
 
 
@@ -326,7 +326,7 @@ def tells_the_two_ends_apart(student: Student):
         report, actions, replay = told(student, case)
         expect(
             replay["terminated"] or replay["truncated"] or len(actions) == maxsteps,
-            f"{student.said} stopped after {len(actions)} steps, but {name} was not over.",
+            f"{student.said} holds {len(actions)} steps, after which {name} was not over.",
         )
         told_ends, ends = ((each["terminated"], each["truncated"]) for each in (report, replay))
         why = f"in the last of its {len(actions)} steps {name} said"

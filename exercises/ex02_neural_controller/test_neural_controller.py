@@ -580,10 +580,12 @@ def followed(said, env, network, seed, actions, maxsteps, precision) -> float:
         observation, reward, terminated, truncated, _ = env.step(fitting)
         rewards += float(reward)
         over = terminated or truncated
-    expect(
-        over or len(actions) == maxsteps,
-        f"{said} stopped after {len(actions)} steps, but the episode was not over.",
-    )
+    if not over and len(actions) < maxsteps:
+        _, _, *ends, _ = env.step(action_of(outputs_of(network, observation), space))
+        why = "the episode was not over."
+        if any(ends):
+            why = "its last step, with which it ends, is missing."
+        raise Wrong(f"{said} holds {len(actions)} steps of the episode, but {why}")
     return rewards
 
 

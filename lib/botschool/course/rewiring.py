@@ -58,7 +58,14 @@ class Evaluated:
 
     def first(self, many: int) -> np.ndarray:
         """Return the candidates of the first evaluations: at least this many, or all."""
-        found = [each for each in self._rows if each.shape[1:] == self._rows[0].shape[1:]]
+        return self._some(self._rows, many)
+
+    def last(self, many: int) -> np.ndarray:
+        """Return those of the last evaluations, last one first: at least this many, or all."""
+        return self._some(self._rows[::-1], many)
+
+    def _some(self, batches: list[np.ndarray], many: int) -> np.ndarray:
+        found = [each for each in batches if each.shape[1:] == batches[0].shape[1:]]
         before = np.cumsum([0, *map(len, found)])
         return np.concatenate(
             [e for e, n in zip(found, before, strict=False) if n < many] or [np.empty(0)]

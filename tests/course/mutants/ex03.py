@@ -698,3 +698,10 @@ def hill_climb(evaluate, *arguments, **options):
         return np.array([kept[0], kept[-1]])
 
     return _hill_climb_3(of_one, *arguments, **options)
+
+
+# %% returns_the_worst_of_the_last loses 3.7
+# Returns the worst candidate of the last evaluation.
+# says: look at how you choose the one that you return
+# -     return run["population"][rank(fitness)[0]]
+# +     return run["population"][np.argsort(fitness)[0]]

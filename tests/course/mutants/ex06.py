@@ -486,7 +486,7 @@ def forget(step, before, after):
 
 # %% own_memory_for_all loses 6.1
 # Goes on with a memory that it keeps itself, whatever memory is given.
-# says: something that stays from call to call
+# says: stays from call to call
 _think, _own = think, []
 
 

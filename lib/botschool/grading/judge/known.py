@@ -26,6 +26,7 @@ from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Case, Known
 from botschool.grading.judge.alike import TIE, counts, distance, fits, weight
+from botschool.grading.judge.evidence import holds, quoted
 from botschool.grading.judge.looking import TookTooLong, processor_time_limit
 from botschool.grading.judge.variations import Variation, variations
 from botschool.grading.run.student import Student
@@ -102,7 +103,8 @@ def known_mistake(
                     break
                 if _explains(ours, text, calls):
                     return f"{TOLD} {what}"
-            slip = _clearest(_slips(ours, task, known, calls))
+            slips = _slips(ours, task, known, calls)
+            slip = _clearest(each for each in slips if _is_there(each, submission.text))
             return f"{VARIED} {slip.what}" if slip else ""
         except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
             return ""
@@ -219,6 +221,11 @@ def _clearest(slips: Iterator[Variation]) -> Variation | None:
         return next((each for each in slips if each.own and not each.vague), first)
     except (BotschoolError, Wrong):  # no time is left
         return first
+
+
+def _is_there(slip: Variation, text: str) -> bool:
+    """Return whether a sentence may be true of a submission's text."""
+    return not slip.shown or holds(text, slip.shown, quoted(slip.what))
 
 
 def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterator[Variation]:

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from botschool.grading.judge.evidence import EXCHANGED, pattern, quoted
 from botschool.grading.judge.expressions import (
     FIRST,
     LAST,
@@ -53,6 +54,8 @@ class Variation:
     text: str
     own: bool = True
     """Whether it is our solution that has the slip, and not one in another style."""
+    shown: str = ""
+    """The pattern of an expression that a submission must hold, or ""; see evidence.py."""
 
     @property
     def vague(self) -> bool:
@@ -135,6 +138,8 @@ def _made(
         edit.swap()
     try:
         text = ast.unparse(function)
+        whole = edits[0].node if isinstance(edits[0].node, ast.expr) else edits[0].new
+        shown = pattern(whole, quoted(what)) if EXCHANGED in what and len(edits) == 1 else ""
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SyntaxWarning)
             compile(text, "<variation>", "exec")
@@ -146,7 +151,7 @@ def _made(
         done.add(text)
         first, last = function.lineno - 1, function.end_lineno
         first -= sum(1 for _ in function.decorator_list)
-        yield Variation(what, "".join([*lines[:first], text, "\n", *lines[last:]]), own)
+        yield Variation(what, "".join([*lines[:first], text, "\n", *lines[last:]]), own, shown)
 
 
 class _Slips:

@@ -135,6 +135,11 @@ class Student:
         return found if fine and len(found["answers"]) == 2 else None
 
     @property
+    def text(self) -> str:
+        """Return the submission's text."""
+        return self._file.read_text(encoding="utf-8", errors="replace")
+
+    @property
     def printed(self) -> str:
         """Return the beginning of what the submission has printed."""
         return self._printed + (self._child.printed() if self._child else "")
