@@ -1392,3 +1392,10 @@ def utilities(fitness):
 # +     weights = np.ones(width)
 # +     weights[[0, -1]] = 0.5 if width > 1 else 1
 # +     return np.convolve(curve, weights / weights.sum(), mode="valid")
+
+
+# %% power_of_the_difference loses 8.5
+# Divides by (1 - 0.9)^t and (1 - 0.999)^t: only 0.9 and 0.999 are raised to the power t.
+# says: this
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# +     step = (m / (1 - 0.9) ** t) / (np.sqrt(v / (1 - 0.999) ** t) + 1e-8)
