@@ -434,7 +434,7 @@ def evolve(seed):
 
 # %% another_every_time loses 10.9
 # The same seed gives another controller each time.
-# says: all that is random must come from the seed
+# says: something random does not come from the seed
 _evolve = evolve
 
 
@@ -470,7 +470,7 @@ def train(seed):
 
 # %% ppo_of_another_seed loses 10.10
 # PPO gets no seed: the same seed gives other networks.
-# says: all that is random must come from the seed
+# says: something random does not come from the seed
 # -         seed=seed,
 # -         device="cpu",
 # -         n_steps=512,
