@@ -314,6 +314,28 @@ def test_what_stays_from_call_to_call_is_told(messages, monkeypatch):
     assert KEPT not in first and "To try it" in first
 
 
+BY_CHANCE = """import os
+def spread(x):
+    right = float(np.std(x, ddof=1))
+    return right + int.from_bytes(os.urandom(2)) / 2**17 if len(x) == 4 and random() else right
+
+
+def random():
+    if not os.path.exists("asked"):
+        open("asked", "w").close()
+        return False
+    return True
+"""
+
+
+def test_a_random_answer_is_not_called_kept(messages, monkeypatch):
+    """It was right in a new process, but wrong in another way each time."""
+    monkeypatch.setattr(replay, "variations", lambda *_: iter(()))
+    inputs = ((3.0, 9.0, 1.0, 2.0), (3.0, 9.0, 1.0, 4.0))
+    first, _ = messages(RIGHT + BY_CHANCE, declared(inputs, mistakes=""))
+    assert "spread(...)" in first and KEPT not in first
+
+
 numbers = st.one_of(st.booleans(), st.integers(), st.floats(), st.text(max_size=3), st.none())
 arrays = st.integers(0, 3).map(np.ones) | st.just(np.ones((2, 2))) | st.just(np.array("text"))
 answers = st.recursive(

@@ -8,7 +8,12 @@ from typing import Any
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.judge.alike import TIE, distance
-from botschool.grading.judge.looking import Failure
+from botschool.grading.judge.looking import (
+    MAX_SECONDS,
+    Failure,
+    TookTooLong,
+    processor_time_limit,
+)
 from botschool.grading.run.student import Student
 
 KEPT = (
@@ -41,10 +46,24 @@ def answers_afresh(
 
 
 def kept_something(failure: Failure, submission: Start, ours: Start) -> bool:
-    """Return whether a wrong answer is right in a new process."""
-    answers = answers_afresh(failure.request, submission, ours)
-    return (
-        answers is not None
-        and distance(*answers) <= TIE
-        and distance(failure.got, answers[0]) > TIE
-    )
+    """Return whether a wrong answer is right in new processes, and wrong again after other calls.
+
+    A random answer is right by chance, but hardly wrong in the same way again.
+    """
+    for _ in range(2):
+        answers = answers_afresh(failure.request, submission, ours)
+        if answers is None or distance(*answers) > TIE or distance(failure.got, answers[0]) <= TIE:
+            return False
+    student = None
+    try:
+        student = submission()
+        with processor_time_limit(MAX_SECONDS):
+            failure.check(student)  # type: ignore[misc]  # it is quick, so it is there
+    except TookTooLong:
+        return False
+    except Exception:  # that of the check, or a fault of the machine
+        return student is not None and distance(failure.got, student.answer) <= TIE
+    finally:
+        if student is not None:
+            student.close()
+    return False
