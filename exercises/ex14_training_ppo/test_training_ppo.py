@@ -12,6 +12,7 @@ import os
 import tempfile
 import zipfile
 from collections import Counter
+from collections.abc import Callable
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -173,8 +174,15 @@ def varied(student: Student, environment: str, rates: dict, seeds: list[int]) ->
     return answer
 
 
-def expect_same_numbers(said: str, found, reference) -> None:
-    """The post-evaluations are those of the grader's own training."""
+def expect_same_numbers(said: str, found, reference, again: Callable) -> None:
+    """The post-evaluations are those of the grader's own training.
+
+    again: trains once more. One right training in about 200 differed, for a cause that is not known
+    yet; other settings or another seed differ both times.
+    """
+    one, other = found.returns, reference.returns
+    if one.shape != other.shape or not np.allclose(one, other, rtol=1e-4, atol=1e-4):
+        found = again()
     for name in ("steps", "returns", "lengths"):
         got, wanted = getattr(found, name), getattr(reference, name)
         same = got.shape == wanted.shape and np.allclose(got, wanted, rtol=1e-4, atol=1e-4)
@@ -207,7 +215,12 @@ def one_training(student: Student):
             break
     (record,) = varied(student, "Pendulum-v1", {"only": rate}, [index])
     found, said = expect_training(student, record, "Pendulum-v1", "only", rate, index)
-    expect_same_numbers(said, found, reference)
+
+    def again():
+        (record,) = varied(student, "Pendulum-v1", {"only": rate}, [index])
+        return expect_training(student, record, "Pendulum-v1", "only", rate, index)[0]
+
+    expect_same_numbers(said, found, reference, again)
     got, mistakes = record["return"], mistaken_return(reference.returns)
     expect_close(f"{student.said}: return", got, reference.last, CLOSE, mistakes)
 
@@ -220,6 +233,11 @@ def every_variation_with_every_seed(student: Student):
     records = {(record["variant"], record["seed"]): record for record in answer}
     places = {record["folder"] for record in answer}
     expect(len(places) == len(answer), f"{student.said}: two trainings have the same folder.")
+
+    def again():
+        (record,) = varied(student, "CartPole-v1", {"varied": rates["varied"]}, [5])
+        return expect_training(student, record, "CartPole-v1", "varied", rates["varied"], 5)[0]
+
     for variant, index in itertools.product(rates, seeds):
         key = variant, seed_of(index)
         expect(
@@ -231,7 +249,7 @@ def every_variation_with_every_seed(student: Student):
             student, records[key], "CartPole-v1", variant, rates[variant], index
         )
         if (variant, index) == ("varied", 5):
-            expect_same_numbers(said, found, reference)
+            expect_same_numbers(said, found, reference, again)
         got, mistakes = records[key]["return"], mistaken_return(found.returns)
         expect_close(f"{student.said}: return", got, found.last, CLOSE, mistakes)
 
