@@ -661,6 +661,10 @@ def expect_fitness(said: str, value: object, name: str, network: dict, seeds, ma
         )  # fmt: skip
 
 
+def whole_mean(env, network: dict, seeds: list[int], maxsteps: int) -> bool:
+    return sum(return_of(env, network, seed, maxsteps) for seed in seeds) % len(seeds) == 0
+
+
 def check_fitness(
     student: Student,
     name: str,
@@ -679,10 +683,7 @@ def check_fitness(
     seeds += seeds[:twice]
     with gymnasium.make(name) as env:
         network = drawn(rng, *layers_of(env, 6))
-        while (
-            uneven
-            and sum(return_of(env, network, seed, maxsteps) for seed in seeds) % episodes == 0
-        ):
+        while uneven and whole_mean(env, network, seeds, maxsteps):
             network = drawn(rng, *layers_of(env, 6))
     limit = "" if maxsteps is None else f", maxsteps={maxsteps}"
     which = f"seeds={seeds}" if twice else f"{episodes} seeds"

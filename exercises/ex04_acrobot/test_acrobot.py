@@ -324,13 +324,11 @@ class Trial:
 
     def _expect_same(self, said: str, array: np.ndarray, wanted: np.ndarray) -> None:
         if array.shape != wanted.shape and array.ndim == 1 and "/stat" in said:
+            short = array.size < wanted.size
             raise Wrong(
                 f"{said} holds {array.size // 6} generations, but the run that was asked for has "
                 f"{wanted.size // 6}."
-                + (
-                    " It ends too early: each run has all of the steps."
-                    * (array.size < wanted.size)
-                )
+                + (" It ends too early: each run has all of the steps." if short else "")
             )
         expect_array(said, array, wanted.shape)
         expect(

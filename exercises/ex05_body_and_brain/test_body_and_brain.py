@@ -326,31 +326,27 @@ def telling_seeds(text: str, index: int) -> list[int]:
     return [telling + more, telling]
 
 
-def telling_limit(text: str, index: int) -> tuple[int, int]:
-    """A seed and steps: with half of the steps, or with no limit, its run finds another walker."""
+LIMIT = 200
+"""Steps of a run that is ended early; these are half of its steps."""
+
+
+def limited_seed(text: str, index: int) -> int:
+    """A seed whose run finds another walker with half of LIMIT, and with no limit."""
     for seed in (int(each) for each in rng_of(index).permutation(500) + 1):
-        steps = 200
-        walker = own_run(text, seed, steps)[0]
-        others = (own_run(text, seed, each)[0] for each in (steps // 2, None))
+        walker = own_run(text, seed, LIMIT)[0]
+        others = (own_run(text, seed, each)[0] for each in (LIMIT // 2, None))
         if not any(np.array_equal(walker, other) for other in others):
-            return seed, steps
+            return seed
     raise AssertionError("No run depends on the number of its steps.")
 
 
 class Trial:
     """The student's runs of a very small experiment, and the grader's own."""
 
-    def __init__(self, student: Student, index: int, limited: bool = False) -> None:
-        """limited: whether the runs end after some steps, and one of them has the seed 0."""
-        text = self.text = experiment_text(index)
-        steps = None
-        if limited:
-            seed, steps = telling_limit(text, index)
-            seeds = [seed, 0]
-        elif index % 2 == 0:
-            seeds = telling_seeds(text, index)
-        else:
-            seeds = [int(each) + 1 for each in rng_of(index).permutation(500)[:2]]
+    def __init__(
+        self, student: Student, text: str, seeds: list[int], steps: int | None = None
+    ) -> None:
+        self.text = text
         self.said = f"evolve_walkers('trial.ini', {seeds}, 'some/runs', {steps})"
         self.walkers, saved, after, self.places = student.run(
             try_runs, text, seeds, "some/runs", steps, said=self.said
@@ -443,12 +439,14 @@ TRIALS: WeakKeyDictionary[Student, Trial] = WeakKeyDictionary()
 @running.check(6)
 def best_walker_of_each_run(student: Student):
     first_trial(student).compare()
-    Trial(student, 21).compare()
+    seeds = [int(each) + 1 for each in rng_of(21).permutation(500)[:2]]
+    Trial(student, experiment_text(21), seeds).compare()
 
 
 def first_trial(student: Student) -> Trial:
     if student not in TRIALS:
-        TRIALS[student] = Trial(student, 20)
+        text = experiment_text(20)
+        TRIALS[student] = Trial(student, text, telling_seeds(text, 20))
     student.said = TRIALS[student].said
     return TRIALS[student]
 
@@ -468,7 +466,8 @@ def leaves_the_files(student: Student):
 
 @running.check(3)
 def stops_after_the_steps(student: Student):
-    Trial(student, 20, limited=True).compare()
+    text = experiment_text(20)
+    Trial(student, text, [limited_seed(text, 20), 0], LIMIT).compare()
 
 
 # ------------------------------------------------------------------- 5.6

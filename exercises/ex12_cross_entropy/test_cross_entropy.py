@@ -1095,7 +1095,7 @@ def progress(played: object, noise: object, iterations: int) -> str:
 def expect_balanced(student: Student, environment: str, index: int, left: int = 2) -> None:
     """left: so many other seeds may follow where a policy balances for a while, or from the start.
 
-    One network in thirty balances before it has learnt anything.
+    A network may balance before it has learnt anything.
     """
     with gymnasium.make(environment) as env:
         discrete = isinstance(env.action_space, gymnasium.spaces.Discrete)

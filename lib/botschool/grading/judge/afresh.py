@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import closing
 from typing import Any
 
 from botschool.errors import BotschoolError
@@ -33,15 +34,11 @@ def answers_afresh(
     """
     answers = []
     for start in (submission, ours):
-        student = None
         try:
-            student = start()
-            answers.append(student.ask(request))
+            with closing(start()) as student:
+                answers.append(student.ask(request))
         except (BotschoolError, Wrong, OSError):  # an exception, or a fault of the machine
             return None
-        finally:
-            if student is not None:
-                student.close()
     return answers[0], answers[1]
 
 
@@ -54,16 +51,12 @@ def kept_something(failure: Failure, submission: Start, ours: Start) -> bool:
         answers = answers_afresh(failure.request, submission, ours)
         if answers is None or distance(*answers) > TIE or distance(failure.got, answers[0]) <= TIE:
             return False
-    student = None
-    try:
-        student = submission()
-        with processor_time_limit(MAX_SECONDS):
-            failure.check(student)  # type: ignore[misc]  # it is quick, so it is there
-    except TookTooLong:
-        return False
-    except Exception:  # that of the check, or a fault of the machine
-        return student is not None and distance(failure.got, student.answer) <= TIE
-    finally:
-        if student is not None:
-            student.close()
+    with closing(submission()) as student:
+        try:
+            with processor_time_limit(MAX_SECONDS):
+                failure.check(student)  # type: ignore[misc]  # it is quick, so it is there
+        except TookTooLong:
+            return False
+        except Exception:  # that of the check, or a fault of the machine
+            return distance(failure.got, student.answer) <= TIE
     return False

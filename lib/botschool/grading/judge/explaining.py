@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -52,18 +53,15 @@ class SecondLook:
             place.write_text(self.known.solution, encoding="utf-8")
             limits = self.seconds, self.task.memory, self.server, True
             ours = partial(Student, place, *limits, refused=self.task.refused)
-            again = self.begun()
-            try:
-                told = self._known_mistake(again)
+            with closing(self.begun()) as again:
+                told = self._known_mistake(again, place)
                 self._add_causes(told)
                 self._add_calls(again, ours)
                 if not told:
                     self._add_differences(again, ours)
-            finally:
-                again.close()
         return told
 
-    def _known_mistake(self, again: Student) -> str:
+    def _known_mistake(self, again: Student, place: Path) -> str:
         """Return a line on a known mistake, or ""; find other causes for the failures."""
         failures = [failure for _, failure in self.failed]
         if not any(failure.answered or failure.raised for failure in failures):
@@ -74,7 +72,7 @@ class SecondLook:
             for each in failures
             if each.answered and each.check not in self.cheap
         ]
-        told = known_mistake(self.task, self.cheap, self.known, again, self.name, self.server, slow)
+        told = known_mistake(self.task, self.cheap, self.known, again, place, self.server, slow)
         look_for_causes(failures, [each for each in self.cheap if each not in failing], again)
         if told.startswith(VARIED) and any(failure.named for failure in failures):
             return ""  # the check's own sentence is written for the task

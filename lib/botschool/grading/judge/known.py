@@ -14,8 +14,8 @@ from __future__ import annotations
 import math
 import re
 import sys
-import tempfile
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -74,25 +74,20 @@ def known_mistake(
     checks: Iterable[Check],
     known: Known,
     submission: Student,
-    name: str,
+    file: Path,
     server: ForkServer,
     others: Iterable[tuple[dict[str, Any], Any]] = (),
 ) -> str:
     """Return a line about the known mistake that explains a submission's answers, or "".
 
-    checks: the task's quick checks. submission: a Student whose time does not count. name: its
-    file's. others: requests of other checks that have failed, and the submission's answers.
+    checks: the task's quick checks. submission: a Student whose time does not count. file: our
+    solution. others: requests of other checks that have failed, and the submission's answers.
     """
     if not known.solution:
         return ""
     cases = known.of(task.id)[:MOST]
-    with tempfile.TemporaryDirectory(prefix="botschool-") as folder:
-        file = Path(folder) / "ours" / name
-        file.parent.mkdir()
-        file.write_text(known.solution, encoding="utf-8")
-        ours = None
-        try:
-            ours = Student(file, TOTAL, task.memory, server, True, refused=task.refused)
+    try:
+        with closing(Student(file, TOTAL, task.memory, server, True, refused=task.refused)) as ours:
             calls = _calls(ours, checks)
             calls = [call for call in calls if _answered(submission, call)]
             if not _tells(calls, [call.got for call in calls]):
@@ -106,11 +101,8 @@ def known_mistake(
             slips = _slips(ours, task, known, calls)
             slip = _clearest(each for each in slips if _is_there(each, submission.text))
             return f"{VARIED} {slip.what}" if slip else ""
-        except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
-            return ""
-        finally:
-            if ours is not None:
-                ours.close()
+    except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
+        return ""
 
 
 def _calls(ours: Student, checks: Iterable[Check]) -> list[Call]:

@@ -62,6 +62,11 @@ def in_(quoted: str) -> str:
     return f" in{quoted}" if quoted else ""
 
 
+def placed(place: str, what: str) -> str:
+    """Return a sentence that says first where a slip is; place: what is made there, or ""."""
+    return f"In {place}: {what[0].lower()}{what[1:]}" if place else what
+
+
 def used(number: float) -> str:
     """Return the end of a sentence that shows the wrong number."""
     return f": {number:.10g} is used"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import closing, suppress
 from functools import partial
 from typing import Any
 
@@ -41,21 +42,13 @@ def smallest_case(
     """
     if not request:
         return None
-    solution = None
-    try:
-        solution = ours()
-        begin = solution.seconds_left
+    with suppress(BotschoolError, Wrong, OSError), closing(ours()) as solution:
+        end = solution.seconds_left - SECONDS
         for call in (*_smaller(request), request):
-            if solution.seconds_left < begin - SECONDS:
-                return None
-            if told := _told(call, found, solution):
+            told = _told(call, found, solution)
+            if told or solution.seconds_left < end:
                 return told
-    except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
-        pass
-    finally:
-        if solution is not None:
-            solution.close()
-    return None
+    return None  # a fault of the machine, or no time is left
 
 
 def _told(call: dict[str, Any], found: Student, ours: Student) -> tuple[str, dict[str, Any]] | None:

@@ -28,6 +28,7 @@ from botschool.grading.judge.sentences import (
     colon,
     holds_everywhere,
     is_vague,
+    placed,
     without_quotes,
 )
 
@@ -112,7 +113,7 @@ def _of_one(text: str, task: str, public: str, done: set[str], own: bool) -> Ite
         for what, place, edits in slips.all():
             if not own and len(edits) == 1 and _hidden(edits[0], what):
                 continue  # a number in code that nobody has seen
-            yield from _made(lines, function, where + _placed(place, what), edits, done, own)
+            yield from _made(lines, function, where + placed(place, what), edits, done, own)
             if len(edits) == 1:
                 found.setdefault((without_quotes(what), ""), []).append(edits[0])
                 found.setdefault((what, place or str(edits[0].line)), []).append(edits[0])
@@ -389,10 +390,6 @@ def _of_its_place(what: str, node: ast.AST, field: str, part: ast.expr, new: ast
     if isinstance(node, ast.Expr) and what.endswith(" is left out."):
         return f"{what[:-1]}, or stands where it has no effect."
     return what
-
-
-def _placed(place: str, what: str) -> str:
-    return f"In {place}: {what[0].lower()}{what[1:]}" if place else what
 
 
 def _assigned(step: ast.AugAssign) -> ast.Assign:
