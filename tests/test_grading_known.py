@@ -589,3 +589,42 @@ def test_a_slip_in_a_right_solution_of_another_style_is_named(messages):
     exercise.knows(BOUNDS, style)
     (told,) = messages(wrong, exercise)
     assert told.startswith(f"{replay.VARIED} A limit is left out")  # nobody else has its `below`
+
+
+# --- two known mistakes at once
+
+TWO = '''"""Wrong solutions."""
+# %% counts_all loses 3.1
+# The values outside are counted, too.
+# -     many = len(hidden)
+# +     many = len(values)
+# %% doubled loses 3.1
+# A value below counts double.
+# -             below += value
+# +             below += 2 * value
+# %% in_another_task loses 3.2, 3.1
+# The values are negative.
+# -     many = len(hidden)
+# +     many = -len(hidden)
+# %% fits_no_more loses 3.1
+# A line is gone.
+# -     gone = 1
+# +     gone = 2
+'''
+WITH_BOTH = """def bounds(values, low, high):
+    kept = [v for v in values if low <= v < high]
+    below = sum(2 * v for v in values if v < low)
+    return {'kept': kept, 'many': len(values), 'below': float(below)}
+"""
+
+
+def test_two_known_mistakes_at_once_are_named(messages):
+    exercise = bounded()
+    exercise.knows(BOUNDS, TWO)
+    (told,) = messages(WITH_BOTH, exercise)
+    both = "The values outside are counted, too. A value below counts double."
+    assert told.splitlines()[0] == f"{replay.BOTH} {both}"
+    (told,) = messages(WITH_BOTH.replace("2 * v", "3 * v"), exercise)
+    assert replay.BOTH not in told
+    (told,) = messages(WITH_BOTH.replace("2 * v", "v"), exercise)
+    assert told.splitlines()[0] == f"{TOLD} The values outside are counted, too."

@@ -17,9 +17,9 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import closing
 from dataclasses import dataclass
-from itertools import islice
+from itertools import combinations, islice
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
@@ -36,9 +36,11 @@ from botschool.sandbox.protocol import pack, unpack
 TOLD = "Your code answers exactly as with this known mistake:"
 VARIED = "Your code answers exactly as ours does with this slip, or with one of the same effect:"
 """Words before the sentence on a known mistake, and before the sentence on a slip."""
+BOTH = "Your code answers exactly as with two known mistakes at once, or with others like them:"
+"""Words before the sentences on two known mistakes."""
 SECONDS = 3.0
-"""Processor seconds for all slips of a task; known mistakes, which are few, have twice as many."""
-TOTAL = 3 * SECONDS
+"""Processor seconds for all slips of a task, and for all pairs; known mistakes have twice that."""
+TOTAL = 4 * SECONDS
 """Processor seconds of our child."""
 SLIP_SECONDS = 0.1
 """Processor seconds for one answer with a slip in our solution, which may loop without end."""
@@ -54,6 +56,7 @@ answers are small whole numbers.
 """
 NOT_DONE = ("NotImplementedError", "Missing")
 """Exceptions of functions that are not done yet."""
+T = TypeVar("T")
 Check = Callable[[Student], None]
 _IMPORTED = re.compile(r"^[ \t]*(?:from|import) +(\w+)", re.MULTILINE)
 
@@ -94,13 +97,16 @@ def known_mistake(
                 return ""
             calls += [Call(pack(request), None, got, slow=True) for request, got in others]
             for what, text in _likely_first(ours, cases, known.solution, calls):
-                if ours.seconds_left < SECONDS:
+                if ours.seconds_left < 2 * SECONDS:
                     break
                 if _explains(ours, text, calls):
                     return f"{TOLD} {what}"
             slips = _slips(ours, task, known, calls)
             slip = _clearest(each for each in slips if _is_there(each, submission.text))
-            return f"{VARIED} {slip.what}" if slip else ""
+            if slip:
+                return f"{VARIED} {slip.what}"
+            pair = _pair(ours, [case for case in cases if case.loses[0] == task.id], known, calls)
+            return f"{BOTH} {pair}" if pair else ""
     except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
         return ""
 
@@ -222,19 +228,56 @@ def _is_there(slip: Variation, text: str) -> bool:
 
 def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterator[Variation]:
     """Yield the slips that explain a submission's answers: in our solution, then in others."""
-    telling = [call for call in calls if distance(call.got, call.ours) > TIE and not call.slow]
-    if all(counts(call.got) for call in telling) and len(telling) < COUNTS:
+    telling = _wrong(calls)
+    if _few(telling):
         return
     whole = all(counts(call.got, math.inf) for call in telling)  # the same for a limit a bit away
     styles = [text for text in known.styles() if _imports_little(text, known.solution)]
-    slips = variations(known.solution, task.id, styles)
-    end = ours.seconds_left - SECONDS
-    while ours.seconds_left > end and (batch := list(islice(slips, BATCH))):
+    slips = (
+        slip for slip in variations(known.solution, task.id, styles) if not (whole and slip.near)
+    )
+    for batch in _batches(ours, slips):
         texts = [each.text for each in batch]
         near = _near(ours, texts, _telling(calls), SLIP_SECONDS, "slips in our solution")
         for slip, fitting in zip(batch, near, strict=True):
-            if fitting and not (whole and slip.near) and _explains(ours, slip.text, calls):
+            if fitting and _explains(ours, slip.text, calls):
                 yield slip
+
+
+def _pair(ours: Student, cases: list[Case], known: Known, calls: list[Call]) -> str:
+    """Return the sentences on the first two known mistakes that explain the answers together."""
+    if _few(_wrong(calls)):
+        return ""
+    fit = [case for case in cases if _changed(case, known.solution)]
+    made = (
+        (f"{one.what} {two.what}", _changed(two, _changed(one, known.solution)))
+        for one, two in combinations(fit, 2)
+    )
+    pairs = (each for each in made if each[1] and _imports_little(each[1], known.solution))
+    for batch in _batches(ours, pairs):
+        texts = [text for _, text in batch]
+        near = _near(ours, texts, _telling(calls), SLIP_SECONDS, "two known mistakes")
+        for (what, text), fitting in zip(batch, near, strict=True):
+            if fitting and _explains(ours, text, calls):
+                return what
+    return ""
+
+
+def _wrong(calls: list[Call]) -> list[Call]:
+    """Return the quick calls whose answers are wrong."""
+    return [call for call in calls if distance(call.got, call.ours) > TIE and not call.slow]
+
+
+def _few(wrong: list[Call]) -> bool:
+    """Return whether wrong answers are a few small whole numbers, which many slips may give."""
+    return all(counts(call.got) for call in wrong) and len(wrong) < COUNTS
+
+
+def _batches(ours: Student, each: Iterable[T]) -> Iterator[list[T]]:
+    """Yield a few at a time until they end, or until SECONDS of our child have passed."""
+    waiting, end = iter(each), ours.seconds_left - SECONDS
+    while ours.seconds_left > end and (batch := list(islice(waiting, BATCH))):
+        yield batch
 
 
 def tried(module, texts, request, seconds):
