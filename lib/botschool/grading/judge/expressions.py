@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import builtins
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -364,6 +365,11 @@ class Expressions:
 
 def _is_key(node: ast.expr) -> bool:
     return isinstance(node, ast.Constant) and isinstance(node.value, str)
+
+
+def is_common(node: ast.expr) -> bool:
+    """Return whether this is a module or a function of Python, whose name alone says little."""
+    return _is_module(node) or ast.unparse(node) in dir(builtins)
 
 
 def _is_module(node: ast.expr) -> bool:

@@ -22,6 +22,7 @@ from botschool.grading.judge.expressions import (
     SIGNS,
     Edit,
     Expressions,
+    is_common,
 )
 from botschool.grading.judge.sentences import (
     Quotes,
@@ -366,12 +367,13 @@ class _Slips:
                 found.append(self._first_named(called))
             elif isinstance(step, ast.Return):
                 found.append("`return`")
-        found = [each for each in found if each]
-        return f": {', '.join(dict.fromkeys(found))}" if found else ""
+        found = list(dict.fromkeys(each for each in found if each))
+        return f": {', '.join(found)}" if found not in ([], ["`return`"]) else ""
 
     def _first_named(self, parts: list[ast.expr]) -> str:
-        """Return the first part that may be quoted, or ""."""
-        return next((said for each in parts if (said := self._parts.quoted(each).strip())), "")
+        """Return the first part that may be quoted and says something, or ""."""
+        telling = (self._parts.quoted(each).strip() for each in parts if not is_common(each))
+        return next((said for said in telling if said), "")
 
 
 def _inside(function: ast.expr) -> list[ast.expr]:
