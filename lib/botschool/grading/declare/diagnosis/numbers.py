@@ -164,7 +164,7 @@ def added_up(c: Comparison) -> str | None:
     if not c.in_rows:
         return None
     if c.same(np.cumsum(c.wanted, axis=0)):
-        return "Each value includes those before it: is something not set back to 0?"
+        return "Each value includes those before it, as if a sum went on."
     if c.same(np.cumsum(c.wanted[::-1], axis=0)[::-1]):
         return "Each value includes those after it."
     return None
@@ -178,9 +178,7 @@ def in_proportion(c: Comparison) -> str | None:
     largest = np.unravel_index(int(np.abs(c.wanted).argmax()), c.wanted.shape)
     factor = float(c.got[largest] / c.wanted[largest])
     if factor and c.same(factor * c.wanted):
-        return (
-            f"Each number is {factor:.6g} times what was expected: a factor is missing or too much."
-        )
+        return f"Each number is {factor:.6g} times what was expected."
     return None
 
 

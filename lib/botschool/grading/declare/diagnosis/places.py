@@ -193,7 +193,7 @@ def another_summary(c: Comparison) -> str | None:
 @detector
 def all_zero(c: Comparison) -> str | None:
     if not np.any(c.got) and c.wanted.size > 1:
-        return "All values are 0, but they should not be: does your code ever fill them in?"
+        return "All values are 0, but they should not be."
     return None
 
 
@@ -214,7 +214,7 @@ def rows_alike(c: Comparison) -> str | None:
             "each time (.copy())."
         )
     if which:
-        return "All rows equal the first one: nothing changes on the way."
+        return "All rows equal the first one."
     return "All rows are equal, but they should differ."
 
 
