@@ -602,6 +602,10 @@ TWO = '''"""Wrong solutions."""
 # A value below counts double.
 # -             below += value
 # +             below += 2 * value
+# %% without_effect loses 3.1
+# The values are copied.
+# -     hidden, below = [], 0
+# +     hidden, below, values = [], 0, list(values)
 # %% in_another_task loses 3.2, 3.1
 # The values are negative.
 # -     many = len(hidden)
@@ -618,7 +622,7 @@ WITH_BOTH = """def bounds(values, low, high):
 """
 
 
-def test_two_known_mistakes_at_once_are_named(messages):
+def test_two_known_mistakes_at_once_are_named(messages, monkeypatch):
     exercise = bounded()
     exercise.knows(BOUNDS, TWO)
     (told,) = messages(WITH_BOTH, exercise)
@@ -626,5 +630,8 @@ def test_two_known_mistakes_at_once_are_named(messages):
     assert told.splitlines()[0] == f"{replay.BOTH} {both}"
     (told,) = messages(WITH_BOTH.replace("2 * v", "3 * v"), exercise)
     assert replay.BOTH not in told
+    (told,) = messages(WITH_BOTH.replace("2 * v", "v"), exercise)
+    assert told.splitlines()[0] == f"{TOLD} The values outside are counted, too."
+    monkeypatch.setattr(replay, "_likely_first", lambda *_: [])  # no time for single ones
     (told,) = messages(WITH_BOTH.replace("2 * v", "v"), exercise)
     assert told.splitlines()[0] == f"{TOLD} The values outside are counted, too."

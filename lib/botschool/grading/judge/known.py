@@ -105,8 +105,7 @@ def known_mistake(
             slip = _clearest(each for each in slips if _is_there(each, submission.text))
             if slip:
                 return f"{VARIED} {slip.what}"
-            pair = _pair(ours, [case for case in cases if case.loses[0] == task.id], known, calls)
-            return f"{BOTH} {pair}" if pair else ""
+            return _pair(ours, [case for case in cases if case.loses[0] == task.id], known, calls)
     except (BotschoolError, Wrong, OSError):  # a fault of the machine, or no time is left
         return ""
 
@@ -245,21 +244,27 @@ def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterat
 
 
 def _pair(ours: Student, cases: list[Case], known: Known, calls: list[Call]) -> str:
-    """Return the sentences on the first two known mistakes that explain the answers together."""
+    """Return a line on the first two known mistakes that explain the answers together, or "".
+
+    If one of them does so alone, and had no time before, the line tells only that one.
+    """
     if _few(_wrong(calls)):
         return ""
-    fit = [case for case in cases if _changed(case, known.solution)]
-    made = (
-        (f"{one.what} {two.what}", _changed(two, _changed(one, known.solution)))
-        for one, two in combinations(fit, 2)
+    alone = [(case, text) for case in cases if (text := _changed(case, known.solution))]
+    pairs = (
+        (one[0], two[0], text)
+        for one, two in combinations(alone, 2)
+        if (text := _changed(two[0], one[1])) and _imports_little(text, known.solution)
     )
-    pairs = (each for each in made if each[1] and _imports_little(each[1], known.solution))
     for batch in _batches(ours, pairs):
-        texts = [text for _, text in batch]
+        texts = [text for *_, text in batch]
         near = _near(ours, texts, _telling(calls), SLIP_SECONDS, "two known mistakes")
-        for (what, text), fitting in zip(batch, near, strict=True):
+        for (*both, text), fitting in zip(batch, near, strict=True):
             if fitting and _explains(ours, text, calls):
-                return what
+                for case in both:
+                    if _explains(ours, _changed(case, known.solution), calls):
+                        return f"{TOLD} {case.what}"
+                return f"{BOTH} {both[0].what} {both[1].what}"
     return ""
 
 

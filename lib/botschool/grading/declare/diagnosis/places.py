@@ -27,7 +27,7 @@ detector = adding_to(DETECTORS)
 def of_shapes(got: tuple[int, ...], wanted: tuple[int, ...]) -> str:
     """Return a sentence about two shapes, without their numbers; "" if they show no cause."""
     if len(got) == 2 and got == wanted[::-1]:
-        return "Rows and columns are exchanged: transpose it (.T)."
+        return "The shape is that of the transpose (.T): are rows and columns exchanged?"
     if [n for n in got if n != 1] == [n for n in wanted if n != 1]:
         return "An axis of length 1 is too much or missing: see keepdims, reshape and indexing."
     if len(got) == len(wanted):
