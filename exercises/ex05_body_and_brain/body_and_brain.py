@@ -159,7 +159,7 @@ def evolve_walkers(
     """Run the experiment once with each seed and leave the files of all runs in the folder.
 
     Make the folder, and those above it, if they do not exist. Returns the genotype with the best
-    post-evaluated fitness of each run, one row for each seed, in the order of the seeds.
+    post-evaluated fitness of each run, one row for each seed, in the order given.
     """
     raise NotImplementedError("task 5.5: run the replications")
 

@@ -56,9 +56,8 @@ def record(controller, seed: int, steps: int) -> np.ndarray:
     """Record the states of one episode of Gymnasium's Pendulum-v1, reset with the seed.
 
     Each step asks the controller once. The recording ends after `steps` steps, or with the episode
-    if that comes first. Returns an
-    array of shape (steps done + 1, 2): the states (angle in [-pi, pi], velocity) from the start
-    to the one after the last step.
+    if that comes first. Returns an array of shape (steps done + 1, 2): the states
+    (angle in [-pi, pi], velocity) from the start to the one after the last step.
     """
     raise NotImplementedError("task 7.2: record the states of an episode")
 
@@ -121,7 +120,7 @@ def next_states(controller, states: np.ndarray) -> np.ndarray:
 
 # %%
 def evolve(algorithm, evaluate, generations: int, every: int) -> dict:
-    """Evolve, and keep the best candidate of every `every`-th generation.
+    """Evolve, and keep the best candidate of one generation in `every`.
 
     In generation g (from 0) the candidates come from one `candidates, seeds = algorithm.ask()`,
     their fitness from one `evaluate(candidates, g)`, which is then told to the algorithm. Kept is

@@ -248,7 +248,8 @@ def responses(activations: np.ndarray, observations: np.ndarray) -> np.ndarray:
     """The correlation of each neuron with each observed number; shape (neurons, numbers observed).
 
     activations: shape (N, neurons); observations: shape (N, numbers observed). Where one of the two
-    never changes, there is nothing to follow, and the correlation is 0.
+    never changes, there is nothing to follow, and the correlation is 0. The mean of equal numbers
+    may differ from them by rounding, so compare the numbers themselves.
     """
     raise NotImplementedError("task 13.7: correlate neurons and observations")
 

@@ -55,7 +55,7 @@ def train_variations(
     variations: name -> the params of that variation. The trainings of a variation lie in a folder
     of its own, folder/name.
 
-    Returns a dict for each training, with
+    Returns a list with a dict for each training, in any order:
     - "variant": the variation's name, and "seed";
     - "return": the mean return of the last post-evaluation;
     - "folder": the path of the training's folder, as text (`str(run.path)`).

@@ -135,7 +135,7 @@ def evolve(evaluate, population: np.ndarray, generations: int, mutrate: float, s
 
     evaluate(population, seed) returns the fitness of each row, which may be negative. In generation
     g (from 0) it is called once, with seed + g. All other randomness comes from
-    np.random.default_rng(seed), so the same arguments give the same run.
+    one np.random.default_rng(seed), so the same arguments give the same run.
 
     Returns a dict with
     - "best": the parameters with the highest fitness met in any generation, shape (parameters,);

@@ -56,7 +56,9 @@ def progress(distance: np.ndarray, duration: float) -> np.ndarray:
 def alive_bonus(
     robot: str, height: np.ndarray, pitch: np.ndarray, touching: np.ndarray
 ) -> np.ndarray:
-    """The alive bonus after each step, shape (T,), by the table in README.md; -1 for the fallen."""
+    """The alive bonus after each step, shape (T,), by the table in README.md; -1 for the fallen.
+
+    Each step is judged by itself: a robot that gets up again has not fallen."""
     ### BEGIN SOLUTION task 9.1: tell the standing from the fallen
     if robot == "Ant":
         return np.where(height > 0.26, 1.0, -1.0)
@@ -249,7 +251,7 @@ def compare(robot: str, genotypes: dict, seed: int, episodes: int) -> dict:
     """The gaits of robots that were evolved in several versions.
 
     genotypes: as `evolve_both` returns them. All are recorded in version 5 of the robot's
-    environment, in the episodes with the seeds seed, seed + 1, ... Returns, for each key of
+    environment, each in the same episodes with the seeds seed, seed + 1, ... Returns, for each key of
     genotypes, a dict with the keys of `gait`: arrays with the mean over the episodes for each row.
     """
     ### BEGIN SOLUTION task 9.6: compare the gaits

@@ -90,7 +90,8 @@ def choose(probabilities: np.ndarray, rng: np.random.Generator) -> int:
     """An action drawn with these probabilities, shape (actions,).
 
     u = rng.random() is the dart, the only random number; the action is the first one for which
-    the sum of the probabilities up to and including its own is greater than u.
+    the sum of the probabilities up to and including its own is greater than u, or the last one if
+    rounding leaves no such sum.
     """
     ### BEGIN SOLUTION task 12.2: choose an action
     beyond = np.cumsum(probabilities) > rng.random()

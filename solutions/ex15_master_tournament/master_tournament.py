@@ -58,8 +58,8 @@ def chase(predator: np.ndarray, prey: np.ndarray, maxsteps: int = 2000) -> dict:
 
     Returns a dict with
     - "poses", shape (T + 1, 2, 3): of both robots, at the start and after each of the T steps;
-    - "caught": whether the predator has caught the prey;
-    - "fitness": the predator's.
+    - "caught": whether the predator has caught the prey, also in the very last step;
+    - "fitness": the predator's: 1 - T / maxsteps if it catches the prey, else 0.
     """
     ### BEGIN SOLUTION task 15.1: record a chase
     arena = arenas.make("predprey", max_steps=maxsteps)
