@@ -251,8 +251,9 @@ def compare(robot: str, genotypes: dict, seed: int, episodes: int) -> dict:
     """The gaits of robots that were evolved in several versions.
 
     genotypes: as `evolve_both` returns them. All are recorded in version 5 of the robot's
-    environment, each in the same episodes with the seeds seed, seed + 1, ... Returns, for each key of
-    genotypes, a dict with the keys of `gait`: arrays with the mean over the episodes for each row.
+    environment, each in the same episodes, with the seeds seed, seed + 1, ... Returns, for each
+    key of genotypes, a dict with the keys of `gait`: arrays with the mean over the episodes for
+    each row.
     """
     ### BEGIN SOLUTION task 9.6: compare the gaits
     runner, table = Runner(f"{robot}-v5"), {}
