@@ -33,7 +33,7 @@ def describe(environment_id):
 
 # %% goes_on_after_the_end loses 1.2
 # Looks at `terminated` alone, and goes on when the time limit is over.
-# says: the episode was over after 200 steps
+# says: is over after 200 steps
 def random_episode(environment_id, seed, maxsteps):
     env = gymnasium.make(environment_id)
     observation, _ = env.reset(seed=seed)
@@ -120,7 +120,7 @@ def cartpole_reward(observation, action):
 
 # %% limits_of_the_space loses 1.3
 # Takes the limits of the observation space, which are twice those of the task.
-# says: compare with 2.4 metres and 12 degrees
+# says: 12 degrees are 0.2094
 def fallen(observation):
     return bool(abs(observation[0]) > 4.8 or abs(observation[2]) > 0.4189)
 
