@@ -211,8 +211,18 @@ def expect_same_start(said: str, reported: object, start: np.ndarray) -> None:
     expect(
         first.shape != start.shape or np.allclose(first, start, rtol=1e-4, atol=1e-4),
         f"{said}: the first observation is {show(first)}, but env.reset(seed=seed) gives "
-        f"{show(start)}: the episode does not begin where this seed puts it.",
+        f"{show(start)}.",
     )
+
+
+def met_the_end(reported: object, many: int, end: np.ndarray, step: int) -> bool:
+    """Whether the report of many actions has the end of the episode after so many steps."""
+    try:
+        place = step - (len(reported) == many)  # the observation of the reset is missing
+        there = np.asarray(reported, dtype=float)[place]
+    except (ValueError, TypeError, IndexError):
+        return False
+    return there.shape == end.shape and np.allclose(there, end, rtol=1e-4, atol=1e-4)
 
 
 def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
@@ -234,11 +244,14 @@ def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
         )
         for step, action in enumerate(actions):
             if any(ends):
-                if len(reported) == len(actions) + 1:
+                many = len(actions)
+                if isinstance(reported, (list, np.ndarray)) and len(reported) == many + 1:
                     expect_same_start(student.said, reported, observations[0])
+                went = met_the_end(reported, many, observations[-1], step)
                 raise Wrong(
-                    f"{student.said}: the episode was over after {step} steps, but {len(actions)} "
-                    f"actions are reported.\n  {went_on(*ends)}".rstrip()
+                    f"{student.said} reports {many} actions, but with these actions the episode "
+                    f"of this seed is over after {step} steps.\n  "
+                    f"{went_on(*ends) if went else ''}".rstrip()
                 )
             expect(
                 belongs(action, env.action_space),
@@ -258,7 +271,7 @@ def observations_and_rewards_follow_from_the_actions(student: Student):
         report, actions, replay = told(student, case)
         expect(
             len(actions) > 3,
-            f"{student.said} did only {len(actions)} steps: go on to the end of the episode.",
+            f"{student.said} has only {len(actions)} actions, but the episode is longer.",
         )
         before = replay["observations"][[0, *range(len(actions))]]
         for key, mistakes in (
@@ -278,7 +291,7 @@ def every_action_is_drawn_from_the_seeded_space(student: Student):
         _, actions, _ = told(student, case)
         wanted = lived(name, seed_of(case), maxsteps)["actions"]
         together = min(len(actions), len(wanted), 30)
-        expect(together > 3, f"{student.said} did only {len(actions)} steps.")
+        expect(together > 3, f"{student.said} has only {len(actions)} actions.")
         expect(
             np.array_equal(actions[:together], wanted[:together]),
             f"{student.said}: the actions are not those that env.action_space.sample() gives "
@@ -320,17 +333,38 @@ def ended_twice(module, steps, seed):
     return module.random_episode(name, seed, 1000)
 
 
+def ends_of(student: Student, case: int) -> tuple[tuple, tuple, int]:
+    """The two ends that the student reports, those of a fresh environment, and the steps."""
+    report, actions, replay = told(student, case)
+    name, maxsteps = CASES[case]
+    expect(
+        replay["terminated"] or replay["truncated"] or len(actions) == maxsteps,
+        f"{student.said} holds {len(actions)} steps, after which {name} was not over.",
+    )
+    got, ends = ((each["terminated"], each["truncated"]) for each in (report, replay))
+    return got, ends, len(actions)
+
+
+def mixed_up_always(student: Student, case: int) -> bool:
+    """Whether the ends of all episodes are exchanged, or are one, if they are in this one."""
+    got, ends, _ = ends_of(student, case)
+    for rule in (lambda two: two[::-1], lambda two: (any(two),) * 2):
+        if got == rule(ends):
+            found = [ends_of(student, each)[:2] for each in range(len(CASES))]
+            ends_of(student, case)  # so that this is the last call again
+            return all(one == rule(right) for one, right in found)
+    return True
+
+
 @episode.check(7)
 def tells_the_two_ends_apart(student: Student):
-    for case, (name, maxsteps) in enumerate(CASES):
-        report, actions, replay = told(student, case)
-        expect(
-            replay["terminated"] or replay["truncated"] or len(actions) == maxsteps,
-            f"{student.said} holds {len(actions)} steps, after which {name} was not over.",
-        )
-        told_ends, ends = ((each["terminated"], each["truncated"]) for each in (report, replay))
-        why = f"in the last of its {len(actions)} steps {name} said"
-        expect_ends(student.said, told_ends, ends, why)
+    for case, (name, _) in enumerate(CASES):
+        got, ends, many = ends_of(student, case)
+        why = f"in the last of its {many} steps {name} said"
+        if got == ends or mixed_up_always(student, case):
+            expect_ends(student.said, got, ends, why)
+        for key, value, right in zip(("terminated", "truncated"), got, ends, strict=True):
+            expect(value is right, f"{student.said}: {key} is {show(value)}, but {why} {right}.")
 
     said = "random_episode(an environment whose task ends in step 7, its time limit, ...)"
     report = student.run(ended_twice, 7, seed_of(0), said=said)
@@ -420,8 +454,9 @@ def knows_both_limits(student: Student):
     for observation, value, over in zip(observations, got, wanted, strict=True):
         expect(
             value == over,
-            f"fallen({show(observation)}) returned {value}: compare with 2.4 metres and 12 degrees "
-            "(0.20944 radians).",
+            f"fallen({show(observation)}) returned {value}, but {bool(over)} is right: the cart is "
+            f"{abs(observation[0]):.3g} metres from the middle (the limit is 2.4), and the pole "
+            f"leans {abs(observation[2]):.4g} radians (12 degrees are 0.2094).",
         )
 
     sides = rng.choice([-1.0, 1.0], size=8)
@@ -446,10 +481,11 @@ def knows_both_limits(student: Student):
         observation = [float(position), 0.5, 0.0, 0.0]
         got = student.run(answers, "fallen", np.array([observation]), None, said="fallen(...)")
         (value,) = truth_values(f"fallen({observation})", got, 1)
+        why = "this is a tiny bit more" if wanted else "exactly 2.4 is still allowed"
         expect(
             value == wanted,
-            f"fallen({observation}) returned {value}, but the cart is terminated only when it is "
-            "more than 2.4 metres away: exactly 2.4 is still allowed.",
+            f"fallen({observation}) returned {value}, but {wanted} is right. The cart must be "
+            f"more than 2.4 metres away: {why}.",
         )
     for angle in (np.pi * 12 / 180, -np.pi * 12 / 180):
         observation = [0.5, 0.5, float(angle), 0.0]
@@ -488,7 +524,7 @@ def gives_the_rewards_of_gymnasium(student: Student):
         (value,) = single_numbers(said, got, 1)
         expect(
             abs(value - wanted) < 1e-6,
-            f"{said} returned {value:g}, but {wanted} was expected: the pole is up until the cart "
+            f"{said} returned {value:g}, but {wanted} was expected: the reward is 1 until the cart "
             "is more than 2.4 metres away or the pole leans more than 12 degrees.",
         )
 
@@ -545,6 +581,9 @@ def expect_rewards(student: Student, index: int, torque) -> None:
         "The torque has no square"
         f"{', or its square is cut instead of the torque' * bool(np.abs(torque).max() > 2)}.": (
             reward_of(np.arctan2(sine, cosine), np.sqrt(np.abs(torque.clip(-2, 2))))
+        ),
+        "The torque is cut to -1 and 1 and then doubled, but the motor gives up to 2 as it is.": (
+            reward_of(angle, 2 * torque.clip(-1, 1))
         ),
         "The angular speed is left out.": reward_of(
             np.arctan2(sine, cosine), torque.clip(-2, 2), 0.0
@@ -678,14 +717,18 @@ def looked_at(student: Student) -> str:
     rng = np.random.default_rng(exercise.seed(43))
     observations, others = rng.normal(size=(2, 200, 4)) * (1, 1, 0.05, 0.3)
     actions, found = actions_for(student, observations), []
+    if actions_for(student, observations[::-1])[::-1] != actions:
+        return "It gives other actions for the same observations when it is called again."
     names = ("the cart's position", "the cart's speed", "the angle", "the angle's speed")
     for number, name in enumerate(names):
         changed = observations.copy()
         changed[:, number] = others[:, number]
         if actions_for(student, changed) != actions:
             found.append(f"{name} ([{number}])")
+    if not found and len(set(actions)) == 1:
+        return f"Your rule gave the action {actions[0]} for each of 200 other observations."
     if not found:
-        return "Your rule always gives the same action."
+        return ""
     return f"Your rule looks at {' and '.join(found)}."
 
 
@@ -695,7 +738,7 @@ def balances_for_half_of_the_time(student: Student):
     if mean < 100:
         raise Wrong(
             f"{said}: the pole stays up for {mean:.1f} steps on average over {EPISODES} episodes; "
-            f"100 give points, 195 full marks. {looked_at(student)}"
+            f"100 give points, 195 full marks. {looked_at(student)}".rstrip()
         )
 
 
@@ -705,7 +748,7 @@ def balances(student: Student):
     if mean < 195:
         raise Wrong(
             f"{said}: the pole stays up for {mean:.1f} steps on average over {EPISODES} episodes, "
-            f"but 195 of 200 are asked for. {looked_at(student)}"
+            f"but 195 of 200 are asked for. {looked_at(student)}".rstrip()
         )
 
 
@@ -733,6 +776,12 @@ def expect_column(student: Student, column: str, wanted_of) -> None:
             expect(
                 environment == name,
                 f"{student.said}: the row of {name} is about {show(environment)}.",
+            )
+            nan = isinstance(value, float) and np.isnan(value)
+            expect(
+                column != "deviation" or episodes > 1 or not nan,
+                f"{student.said}: deviation of {name} is NaN, but it is 0 for a single episode: "
+                "there, the number of episodes minus one is 0 and divides nothing.",
             )
             runs = [lived(name, seed + i, 10_000) for i in range(episodes)]
             expect_close(f"{student.said}: {column} of {name}", value, wanted_of(runs), 1e-6)

@@ -99,14 +99,19 @@ drawing = exercise.task("2.1", "The parameters")
 
 
 DEVIATIONS = {
-    0.1**0.5: "0.1 is the standard deviation, not the variance: do not take its root.",
-    0.01: "0.1 is the standard deviation: multiply by it once, do not square it.",
-    1.0: "0.1 is left out.",
-    0.1 * 3**-0.5: "These are evenly distributed numbers, not Gaussian ones.",
-    150**-0.5: "It is 1 over the root of the size of a layer, but 0.1 is 0.1 for every size.",
-    130**-0.5: "It is 1 over the root of the size of a layer, but 0.1 is 0.1 for every size.",
+    0.1**0.5: "That is the root of 0.1: 0.1 is the standard deviation, not the variance.",
+    0.01: "That is 0.1 squared: 0.1 is the standard deviation itself.",
+    1.0: "The numbers are not multiplied by 0.1.",
+    150**-0.5: "That is 1 over the root of 150, but 0.1 is asked for, whatever the sizes are.",
+    130**-0.5: "That is 1 over the root of 130, but 0.1 is asked for, whatever the sizes are.",
 }
 """The standard deviation of a typical mistake -> what is wrong."""
+
+
+def evenly_distributed(weights: np.ndarray) -> bool:
+    """Whether many numbers reach as far as evenly distributed ones do, and lie on all sizes."""
+    away = np.abs(weights - weights.mean())
+    return bool(away.max() < 1.8 * weights.std() and 0.4 < (away < away.max() / 2).mean() < 0.6)
 
 
 def parameters_of(student: Student, layers: tuple[int, int, int], index: int) -> dict:
@@ -135,9 +140,12 @@ def weights_are_gaussian(student: Student):
     for key in ("W1", "W2"):
         weights = network[key]
         near = (each for each in DEVIATIONS if abs(weights.std() / each - 1) < 0.02)
-        why = DEVIATIONS.get(next(near, 0.0), "") if abs(weights.mean()) < 0.005 else ""
+        centred = abs(weights.mean()) < 0.03 * weights.std()
+        why = DEVIATIONS.get(next(near, 0.0), "") if centred else ""
         if abs(weights.mean() - 0.1) < 0.03 * weights.std():
             why = "0.1 is the standard deviation, not the mean."
+        if evenly_distributed(weights):
+            why = "These are evenly distributed numbers, not Gaussian ones."
         farthest = np.abs(weights).max()
         if bool(np.all(weights >= 0)):
             why = "None of them is negative."
@@ -176,9 +184,12 @@ def drawn_again(module, *arguments):
 def every_weight_is_drawn_and_the_seed_decides(student: Student):
     one = parameters_of(student, (5, 6, 5), 4)
     weights = np.concatenate([one["W1"].ravel(), one["W2"].ravel()])
+    few = "but each must be drawn on its own."
+    if np.array_equal(weights, weights.round(4)):
+        few = "and none has more than four decimals: they must not be rounded."
     expect(
         len(np.unique(weights)) == len(weights),
-        f"{student.said}: some weights are equal to others, but each must be drawn on its own.",
+        f"{student.said}: some weights are equal to others, {few}",
     )
     again = parameters_of(student, (5, 6, 5), 4)
     seed = exercise.seed(4) + 1
@@ -189,8 +200,9 @@ def every_weight_is_drawn_and_the_seed_decides(student: Student):
     )
     expect(
         len(shared) == 0,
-        f"{said}: {len(shared)} of its 60 weights are also in the network of seed={seed - 1}. Draw "
-        "all weights from one generator that you make from the seed.",
+        f"{said}: {len(shared)} of its 60 weights are also in the network of seed={seed - 1}. Two "
+        "seeds must have no weight in common, as with one generator for all that is made from the "
+        "seed.",
     )
     zero, same = (
         expect_network(said, student.call("parameters", 5, 6, 5, seed=0), 5, 6, 5) for _ in range(2)
@@ -566,15 +578,15 @@ def followed(said, env, network, seed, actions, maxsteps, precision) -> float:
     for step, action in enumerate(actions):
         expect(
             not over,
-            f"{said}: the episode was over after {step} steps, but {len(actions)} actions are "
-            "reported.",
+            f"{said} reports {len(actions)} actions, but with these actions the episode of this "
+            f"seed is over after {step} steps.",
         )
         outputs = outputs_of(network, observation)
         wanted = action_of(outputs, space)
         expect(
             _draw(outputs, space) or np.allclose(action, wanted, rtol=1e-4, atol=1e-4),
-            f"{said}: action {step} is {show(action)}, but after these actions the network "
-            f"chooses {show(wanted)}.",
+            f"{said}: action {step} is {show(action)}, but the network chooses {show(wanted)} "
+            + ("for the observation of the reset." if step == 0 else "after the actions before."),
         )
         fitting = int(action) if space.shape == () else action.astype(precision)
         observation, reward, terminated, truncated, _ = env.step(fitting)
@@ -582,10 +594,10 @@ def followed(said, env, network, seed, actions, maxsteps, precision) -> float:
         over = terminated or truncated
     if not over and len(actions) < maxsteps:
         _, _, *ends, _ = env.step(action_of(outputs_of(network, observation), space))
-        why = "the episode was not over."
+        why = "the episode of this seed is not over then."
         if any(ends):
-            why = "its last step, with which it ends, is missing."
-        raise Wrong(f"{said} holds {len(actions)} steps of the episode, but {why}")
+            why = f"the episode of this seed has {len(actions) + 1}: its last step is missing."
+        raise Wrong(f"{said} holds {len(actions)} steps, but {why}")
     return rewards
 
 
@@ -689,7 +701,10 @@ def check_fitness(
     which = f"seeds={seeds}" if twice else f"{episodes} seeds"
     said = f"fitness({name!r}, network, {which}{limit})"
     value, after = student.run(measured, name, network, seeds, maxsteps, said=said)
-    expect(after == seeds, f"{said} changed the list of seeds that it was given: work on a copy.")
+    expect(
+        after == seeds,
+        f"{said} changed the list of seeds that it was given: it is {show(after)} now.",
+    )
     expect_fitness(said, value, name, network, seeds, 200 if maxsteps is None else maxsteps)
 
 
@@ -855,7 +870,8 @@ def searched(student: Student, name: str, index: int, nnetworks: int, nhiddens: 
     weights = np.array([network["W1"].ravel()[0] for network in networks])
     expect(
         len(np.unique(weights)) == nnetworks,
-        f"{student.said}: some networks are the same, but each has a seed of its own.",
+        f"{student.said}: W1[0, 0] is the same in some networks, but network i has the parameters "
+        "of seed + i.",
     )
     said = student.said
     for i in sorted({0, 1, nnetworks - 1}):

@@ -70,9 +70,11 @@ def individuals_differ(student: Student):
 
 
 DEVIATIONS = {
-    0.1**0.5: "0.1 is the standard deviation, not the variance: multiply by 0.1, not by its root.",
-    0.01: "0.1 is the standard deviation: multiply by it once, do not square it.",
-    200**-0.5: "You divide by the root of the number of weights, but 0.1 is 0.1 for every size.",
+    0.1**0.5: "That is the root of 0.1: 0.1 is the standard deviation, not the variance.",
+    0.01: "That is 0.1 squared: 0.1 is the standard deviation itself.",
+    200
+    ** -0.5: "That is 1 over the root of the 200 weights, but 0.1 is asked for, however many there "
+    "are.",
 }
 
 
@@ -139,8 +141,8 @@ def seed_decides(student: Student):
         other = student.call("initial_population", 40, 2, 9, seed=exercise.seed(3) + later)
         expect(
             not same_rows(expect_array(student.said, other, (40, 11)), one).any(),
-            f"{student.said} holds individuals of the population of seed={exercise.seed(3)}: make "
-            "one generator from the seed, and draw all individuals from it.",
+            f"{student.said} holds individuals of the population of seed={exercise.seed(3)}, but "
+            "two seeds must have none in common, as with one generator for all individuals.",
         )
     said = "initial_population(4, 2, 9, seed=1), after the array of an earlier call was changed,"
     expect(
@@ -270,9 +272,11 @@ def same_rows(some: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 
 def expect_overwritten(step: Step) -> None:
+    stayed = int(same_rows(step.after, step.worse).any(axis=0).sum())
     expect(
-        not same_rows(step.after, step.worse).any(),
-        f"{step.said}: rows of the worse half were left as they are.",
+        not stayed,
+        f"{step.said}: {stayed} of the {len(step.worse)} individuals of the worse half are still "
+        "in the new population as they were.",
     )
 
 
@@ -282,10 +286,18 @@ def better_half_stays(student: Student):
         step = Step(student, popsize, 0.02, 6, scale)
         better = step.sorted_out(step.after)[0]
         moved = float(np.std(better - step.better))
+        alike = same_rows(step.after, step.better)
+        stayed, many = int(alike.any(axis=0).sum()), len(step.better)
         expect(
-            not 0.5 < moved / 0.02 < 2,
+            stayed > 0 or not 0.5 < moved / 0.02 < 2,
             f"{step.said}: none of the better half is as it was, but noise with standard deviation "
             f"{moved:.3f} was added to it. The better half stays; only its copies get noise.",
+        )
+        elsewhere = int(alike[np.setdiff1d(np.arange(popsize), step.places)].any(axis=0).sum())
+        expect(
+            stayed == many or not elsewhere,
+            f"{step.said}: only {stayed} of the {many} individuals of the better half are in the "
+            "new population as they were, but all of them stay.",
         )
         expect_close(f"{step.said}: the better half", better, step.better, 1e-6)
         expect_overwritten(step)
@@ -324,9 +336,9 @@ def worse_half_becomes_mutated_copies(student: Student):
         away = np.abs(step.noise(step.after)).mean(axis=1)
         expect(
             bool(np.all(away < 0.05)),
-            f"{step.said}: a row of the worse half is no mutated copy of one of the better half: "
-            f"its parameters differ by {away.max():.3f} on average from those of the nearest one, "
-            "but noise with standard deviation 0.02 makes it 0.016.",
+            f"{step.said}: a row that is new differs from the nearest one of the better half by "
+            f"{away.max():.3f} on average, but a copy with noise of standard deviation 0.02 "
+            "differs by 0.016.",
         )
         copies = np.bincount(step.parents(step.after), minlength=10).tolist()
         expect(
@@ -339,12 +351,20 @@ def worse_half_becomes_mutated_copies(student: Student):
 def noises(mutrate: float) -> dict[float, str]:
     """The standard deviation of a typical mistake -> what is wrong."""
     return {
-        mutrate**0.5: "mutrate is the standard deviation, not the variance: do not take its root.",
-        mutrate**2: "mutrate is squared: multiply by it once.",
-        1.0: "mutrate is left out.",
-        mutrate * 3**-0.5: "These are evenly distributed numbers, not Gaussian ones.",
-        mutrate * (1 - 2 / np.pi) ** 0.5: "All noise has the same sign.",
+        mutrate**0.5: "That is its root: mutrate is the standard deviation, not the variance.",
+        mutrate**2: "That is its square: mutrate itself is the standard deviation.",
+        1.0: "That is noise without mutrate.",
     }
+
+
+def slip_of_noise(noise: np.ndarray, mutrate: float) -> str:
+    """A sentence on what is wrong with numbers that should have standard deviation mutrate."""
+    away = np.abs(noise - noise.mean())
+    if noise.min() >= 0 or noise.max() <= 0:
+        return " All noise has the same sign."
+    if away.max() < 1.8 * noise.std() and 0.4 < (away < away.max() / 2).mean() < 0.6:
+        return " These are evenly distributed numbers, not Gaussian ones."
+    return slip_of(float(noise.std()), noises(mutrate))
 
 
 @following.check(3)
@@ -354,19 +374,29 @@ def noise_is_gaussian(student: Student):
         expect_overwritten(step)
         noise = step.noise(step.after) / mutrate
         none = float(np.mean(noise[:, ZEROS:] == 0))
+        share = ""
+        if abs(1 - none - mutrate) < 0.2 * mutrate:
+            share = ": mutrate is the standard deviation of the noise, not the share of changes"
         expect(
             none < 0.02,
             f"{step.said}: {100 * none:.0f} % of the parameters of the copies got no noise, but "
-            "every parameter gets some: mutrate is the standard deviation of the noise, not the "
-            "probability or the share of changes.",
+            f"every parameter gets some{share}.",
         )
         expect(
             bool(np.any(noise[:, :ZEROS])),
-            f"{step.said}: parameters that are 0 get no noise, but biases begin at 0 and must "
-            "mutate, too: add the noise, whatever the parameter is.",
+            f"{step.said}: the first {ZEROS} parameters, which are 0 in all individuals, got no "
+            "noise, but biases begin at 0 and must mutate, too.",
+        )
+        amounts = mutrate * noise
+        rounded = np.any(amounts) and np.allclose(amounts, amounts.round(3), rtol=0, atol=1e-9)
+        many = len(np.unique(np.abs(noise).round(6)))
+        expect(
+            many > 0.95 * noise.size or not rounded or many < 3,
+            f"{step.said}: all noise is rounded: the first copy got "
+            f"{show(amounts[0, ZEROS : ZEROS + 3])}....",
         )
         expect(
-            len(np.unique(np.abs(noise).round(6))) > 0.95 * noise.size,
+            many > 0.95 * noise.size,
             f"{step.said}: the same noise (but for its sign) was added to several parameters or "
             f"several copies: the first copy got {show(noise[0, ZEROS : ZEROS + 3] * mutrate)}..., "
             f"the second {show(noise[1, ZEROS : ZEROS + 3] * mutrate)}.... Each parameter of each "
@@ -376,7 +406,7 @@ def noise_is_gaussian(student: Student):
             0.93 < noise.std() < 1.07 and abs(noise.mean()) < 0.1,
             f"{step.said}: the noise has mean {mutrate * noise.mean():.3f} and standard deviation "
             f"{mutrate * noise.std():.3f}, but 0 and {mutrate:g} are asked for."
-            f"{slip_of(mutrate * noise.std(), noises(mutrate))}",
+            f"{slip_of_noise(amounts, mutrate)}",
         )
         beyond = float(np.mean(np.abs(noise) > 2))
         expect(
@@ -392,13 +422,16 @@ def noise_comes_from_rng(student: Student):
     expect_overwritten(step)
     expect(
         np.array_equal(step.after, step.again),
-        f"{step.said}: two generators with the same seed gave different populations, so not all "
-        "random numbers come from rng.",
+        f"{step.said}: two generators with the same seed gave different populations, but all "
+        "random numbers come from rng, and nothing stays from an earlier call.",
     )
+    first, second = step.noise(step.after), step.noise(step.later)
+    what = "added the same noise again, but rng gives new random numbers in each call."
+    if not first.any(axis=1).all() or not second.any(axis=1).all():
+        what = "and the first one left a copy without any noise."
     expect(
-        not same_rows(step.noise(step.after), step.noise(step.later)).any(),
-        f"{step.said}: a second call with the same rng added the same noise, so the random "
-        "numbers do not come from rng.",
+        not same_rows(first, second).any(),
+        f"{step.said}: a second call with the same rng {what}",
     )
 
 
@@ -468,11 +501,15 @@ class Evolved:
             f"{self.said} called evaluate {len(calls)} times for {generations} generations.",
         )
         seeds = [each[1] for each in calls]
+        asked = list(range(seed, seed + generations))
+        other = ([g for g in range(generations) if seeds[g] != asked[g]] or [None])[0]
         expect(
-            seeds == list(range(seed, seed + generations)),
+            other is None,
             f"{self.said} must call evaluate with seed, seed + 1, seed + 2, ... but used "
-            f"{show(seeds[:4])}...",
-        )
+            f"{show(seeds[:4])}"
+            + ("..." if other is None or other < 4 else f"..., and {show(seeds[other])} in "
+               f"generation {other}."),
+        )  # fmt: skip
         rows = 2 if start.ndim == 1 else len(start)
         given = f"{self.said}: what evaluate was given"
         self.populations = [expect_array(given, each[0], (rows, len(target))) for each in calls]
@@ -517,8 +554,8 @@ class Evolved:
         last = expect_array(f"{self.said}: population", self.run["population"],
                             self.populations[0].shape)  # fmt: skip
         mistakes = {
-            "This is what stands in its row after the last generation: keep a copy of the row "
-            "(.copy()), not a view, which changes with the array.": last[place],
+            "This is what stands in the same row after the last generation. For example, a row "
+            "changes with its array: keep a copy of it (.copy()).": last[place],
             "This is the best of the last generation, not the best of all.":
                 self.populations[-1][table[-1].argmax()],
             "This is individual 0 at the end.": last[0],
@@ -576,23 +613,30 @@ class Evolved:
                 f"{self.said}: {which} holds an individual that had been thrown away: besides the "
                 f"better half of generation {g} it should hold only mutated copies of it.",
             )
+            again = (after[same.any(axis=1)][:, None] - better[None]).reshape(-1, after.shape[1])
+            expect(
+                len(others) == half or before is None or not same_rows(again, before).any(),
+                f"{self.said}: {which} holds an individual twice, because the same noise was added "
+                "in two generations, but each generation gets new random numbers.",
+            )
             expect(
                 len(others) == half,
-                f"{self.said}: {which} should hold {half} mutated copies, but has {len(others)} "
-                f"rows that were not in the better half of generation {g} (is the same noise added "
-                "again and again? Does one stay twice?).",
+                f"{self.said}: {which} should hold {half} mutated copies, but has {len(others)}; "
+                f"its other {len(after) - len(others)} rows are unchanged ones of the better half "
+                f"of generation {g}.",
             )
             noise = others[:, None] - better[None]
             noise = noise[np.arange(half), np.abs(noise).mean(axis=2).argmin(axis=1)]
             expect(
                 bool(np.all(np.abs(noise) < 7 * self.mutrate)),
-                f"{self.said}: {which} holds a row that is no mutated copy of one of the better "
-                f"half of generation {g}.",
+                f"{self.said}: {which} holds a row that differs by up to {np.abs(noise).max():.3g} "
+                f"from the nearest one of the better half of generation {g}, but a copy with "
+                f"mutrate={self.mutrate:g} differs by less than {7 * self.mutrate:.3g}.",
             )
             expect(
                 before is None or not same_rows(noise, before).any(),
-                f"{self.said}: the same noise was added in two generations. Make the random "
-                "generator once, before the loop.",
+                f"{self.said}: the same noise was added in two generations, but each generation "
+                "gets new random numbers, from one generator.",
             )
             before = noise
             all_noise.append(noise)
@@ -602,7 +646,7 @@ class Evolved:
             0.6 < deviation / self.mutrate < 1.6,
             f"{self.said}: the noise of all generations has standard deviation {deviation:.3f}, "
             f"but mutrate={self.mutrate:g} is asked for."
-            f"{slip_of(deviation, noises(self.mutrate))}",
+            f"{slip_of_noise(self.noise, self.mutrate)}",
         )
         if np.size(all_noise) > MANY and len(self.populations[0]) == 2:  # so the parent is known
             third = len(all_noise) // 3
@@ -630,8 +674,8 @@ class Evolved:
         )
         expect(
             not first or not second or not same_rows(np.array(first), np.array(second)).any(),
-            f"{other.said} made the same mutated copies in generation 1 as with another seed: "
-            "make the generator from the seed that is given.",
+            f"{other.said} made the same mutated copies in generation 1 as with another seed, but "
+            "its generator comes from the seed that is given.",
         )
 
 
@@ -684,10 +728,11 @@ def seed_decides_the_noise(student: Student):
     run, following = (Evolved(student, "evolve", start, 6, 14, next=i) for i in range(2))
     run.expect_lineage()
     following.expect_lineage()
+    early = same_rows(run.noise[5:10], following.noise[:5]).any()
+    why = " It comes one generation earlier: make one generator from the seed, before the loop."
     expect(
         not same_rows(run.noise, following.noise).any(),
-        f"{following.said} added noise that {run.said} added, too: make the generator once, from "
-        "the seed, before the loop, and not in every generation.",
+        f"{following.said} added noise that {run.said} added, too.{why if early else ''}",
     )
 
 
@@ -732,7 +777,7 @@ def reports_like_evolve(student: Student):
     climb.expect_lineage()
     expect(
         not np.array_equal(climb.populations[0], climb.populations[-1]),
-        f"{student.said} evaluated the same two individuals in all generations.",
+        f"{student.said} evaluated the same two individuals in the first and the last generation.",
     )
     start = start_of(16, 5)
     student.stop()
@@ -775,10 +820,11 @@ def curves_of(student: Student, n: int, seed: int):
         f"{student.said} ran the experiment with the seeds {show(asked[:4])}..., of which some are "
         "not in the list: use the seeds that are given.",
     )
+    keep = ", and keep what it returns" if len(asked) > n else ""
     expect(
         sorted(asked) == sorted(seeds),
-        f"{student.said} ran the experiment {len(asked)} times for {n} seeds: run each once, and "
-        "keep what it returns.",
+        f"{student.said} ran the experiment {len(asked)} times for {n} seeds, with the seeds "
+        f"{show(asked)}: run each once{keep}.",
     )
     expect(after == seeds, f"{student.said} changed the list of seeds: it is {show(after)} now.")
     expect_fields(student.said, result, "mean", "deviation", "best")
@@ -919,8 +965,8 @@ def expect_trained(
         expect(
             run.was_evaluated,
             f"{run.said} returned parameters that it has not evaluated ({run.many} others were): "
-            "return one of the candidates that you gave to robot.evaluate, not their mean or a "
-            "changed copy.",
+            "return one of the candidates that you gave to robot.evaluate, and not, for example, "
+            "their mean, a changed copy or one of a later population.",
         )
     passed = sum(run.mean >= wanted for run in runs)
     for number, run in enumerate(runs):

@@ -208,11 +208,13 @@ def compare_where_differences_fail(student: Student, name: str, index: int) -> N
         for key, value in zip(NAMES, expect_fields(said, answer, *NAMES), strict=True):
             scale = np.abs(right[key]).max()
             value = expect_array(f"{said}: {key}", value, right[key].shape)
+            because = ""
+            if np.abs(value - right[key]).max() <= 0.5 * scale:  # near, so they may be differences
+                because = " Quotients of differences of the loss are about this far off where the "
+                because += "loss is large; the formulas are not."
             expect(
                 bool(np.allclose(value, right[key], rtol=1e-5, atol=1e-6 * scale)),
-                f"{said}: {key} is {show(value)}, but {show(right[key])} was expected. Quotients "
-                "of differences of the loss are this far off where the loss is large; the formulas "
-                "are not.",
+                f"{said}: {key} is {show(value)}, but {show(right[key])} was expected.{because}",
             )
 
 
@@ -311,8 +313,11 @@ def trained(module, name, parameters, inputs, targets, options):
     return [[float(loss) for loss in losses], [p.detach().numpy() for p in made.parameters()]]
 
 
-def mistaken_losses(given: tuple, step: dict, losses: list) -> dict:
-    """What mistakes make of the losses of `train`; given: the first arguments of `descended`."""
+def mistaken_losses(given: tuple, step: dict, losses: list, after: list) -> dict:
+    """What mistakes make of the losses of `train`; given: the first arguments of `descended`.
+
+    losses, after: the submission's, and the parameters of its network.
+    """
 
     def of(**other):
         return descended(*given, **(step | other))[1]
@@ -321,23 +326,29 @@ def mistaken_losses(given: tuple, step: dict, losses: list) -> dict:
         "These are the losses after each step, not before it.": descended(
             given[0], *given[1:3], [*given[3], given[3][0]], **step
         )[1][1:],
-    } | mistaken_steps(of, step, given[2].shape[1])
+    } | mistaken_steps(of, step, given, after)
     falling = (of(falls=each) for each in (0.5, 0.9, 0.95, 0.98, 0.99, 0.995, 0.999))
     if len(losses) > 2 and any(np.allclose(losses, each, rtol=1e-4) for each in falling):
         found["The learning rate falls from epoch to epoch, but it is to stay the same."] = losses
     return found
 
 
-def mistaken_steps(of, step: dict, outputs: int) -> dict:
+def mistaken_steps(of, step: dict, given: tuple, after: list) -> dict:
     """What mistakes in the steps make of the losses; of: returns them for changed arguments."""
-    rate, momentum = step["learning_rate"], step["momentum"]
+    rate, momentum, outputs = step["learning_rate"], step["momentum"], given[2].shape[1]
+    pairs = zip(after, given[0], strict=True)
+    kept = all(np.array_equal(np.float32(got), np.float32(first)) for got, first in pairs)
     found = {
         "The gradients of the steps add up: clear the old one before each backward().": of(
             cleared=False
         ),
-        "The steps go uphill: the gradient is subtracted, not added.": of(learning_rate=-rate),
-        "No step moves the network: every epoch has the same loss.": of(learning_rate=0.0),
+        "The steps go uphill: the gradient must be subtracted, not added.": of(learning_rate=-rate),
     }
+    if kept:
+        found["No step moves the network: every epoch has the same loss."] = of(learning_rate=0.0)
+    else:
+        text = "Every epoch has the same loss, that of the first, though the network has moved."
+        found[text] = of(learning_rate=0.0)
     if outputs > 1:
         found["The steps are those of a sum over the outputs, not of the mean."] = of(
             learning_rate=outputs * rate
@@ -366,13 +377,13 @@ def epochs_descended(network, inputs, targets, epochs, **step):
     return after, losses
 
 
-def mistaken_epochs(given: tuple, step: dict) -> dict:
+def mistaken_epochs(given: tuple, step: dict, after: list) -> dict:
     """What mistakes make of the losses of `train_in_batches`."""
 
     def of(**other):
         return epochs_descended(*given, **(step | other))[1]
 
-    return mistaken_steps(of, step, given[2].shape[1])
+    return mistaken_steps(of, step, given, after)
 
 
 def compare_training(student: Student, name: str, index: int, epochs: int, **options) -> None:
@@ -397,10 +408,10 @@ def compare_training(student: Student, name: str, index: int, epochs: int, **opt
             cuts = [cut(order.permutation(n), options["batch_size"]) for _ in range(epochs)]
             given = (parameters, patterns, targets, cuts)
             right, right_losses = epochs_descended(*given, **step)
-            mistakes = partial(mistaken_epochs, given, step)
+            mistakes = partial(mistaken_epochs, given, step, after)
         if name == "train":
             given = (parameters, patterns, targets, everything)
-            mistakes = partial(mistaken_losses, given, step, losses)
+            mistakes = partial(mistaken_losses, given, step, losses, after)
         expect_close(f"{said}: losses", losses, right_losses, 1e-3, mistakes)
         if len(losses) == epochs and not np.allclose(losses, right_losses, 1e-3, 1e-3):
             continue  # the parameters follow from the same mistake
@@ -542,15 +553,16 @@ def expect_trained(said: str, evidence: object) -> None:
     gradients, *walked = evidence if isinstance(evidence, list) and evidence else [0]
     expect(
         isinstance(gradients, int) and gradients >= GRADIENTS,
-        f"{said} has computed {show(gradients)} gradients: its network was not trained. Weights "
-        "that are written down, or come from a formula, do not count.",
+        f"{said}: the grader has seen {show(gradients)} gradients, of torch or of the functions of "
+        f"11.2 and 11.3, but a training has at least {GRADIENTS}. Weights that are written down, "
+        "or come from a formula, do not count.",
     )
     away, longest, come, size = walked if len(walked) == 4 else (1.0, 0.0, 0.0, 1.0)
     expect(
         away <= max(longest, 1e-4 * size) and come >= COME * size,
         f"{said} has computed {gradients} gradients, but steps along them did not lead from a "
-        "start to the weights that it returned. Return the network that you have trained, from "
-        "its first random weights on.",
+        "start to the weights that it returned. The network that comes back must be the trained "
+        "one, as its last steps left it, and trained from its first random weights on.",
     )
 
 
@@ -572,11 +584,13 @@ def compare_corners(
     outputs = outputs_of(parameters, corners)
     wrong = np.abs(outputs - targets).max()
     because = ""
-    if stuck:
+    if stuck and np.allclose(parameters[0], parameters[0][0], atol=1e-3):  # all neurons are alike
         because = " The first networks that it made were stuck, and should have been replaced."
+    elif stuck:
+        because = " The grader made its first networks so that they are stuck; this is another one."
     error = ((outputs - targets) ** 2).mean()
     if error <= 0.05:
-        because += f" Their mean squared error is {error:.3f}, but what counts is the distance of "
+        because += f" Their mean squared error is {error:.3f}; what counts is the distance of "
         because += "each output from its target."
     expect(
         wrong <= 0.05,
@@ -585,8 +599,9 @@ def compare_corners(
     )
     expect(
         not np.any(repeated),
-        f"{said}: a network that replaces a stuck one begins with the same weights as one before, "
-        "and so it may get stuck for ever. Set torch's seed once, before the first network.",
+        f"{said}: a network that it made begins with the same weights as one before. If it "
+        "replaces a stuck one, it gets stuck again. Set torch's seed once, before the first "
+        "network.",
     )
     expect_trained(said, gradients)
 
@@ -746,7 +761,7 @@ def shuffled_and_cut(student: Student):
         right = cut(rng.permutation(n), batch_size)
         expect(
             isinstance(got, list) and len(got) == len(right),
-            f"{said} must return {len(right)} arrays, not {show(got)}.",
+            f"{said} must return a list of {len(right)} arrays, not {show(got)}.",
         )
         for i, (each, wanted) in enumerate(zip(got, right, strict=True)):
             expect_close(f"{said}: minibatch {i}", each, wanted)
@@ -781,8 +796,8 @@ def measured(parameters: list, normalised, targets, answers, others) -> str:
         straight = np.array([np.corrcoef(*pair)[0, 1] ** 2 for pair in pairs])
     if straight.min() >= 0.9:
         return (
-            f"Stretched and shifted, its answers would explain {shown(straight)} %: is it trained "
-            "on other targets than those given?"
+            f"Stretched and shifted, its answers would explain {shown(straight)} %. For example, "
+            "it was trained on other targets than those given, or stopped too early."
         )
     own = 1 - ((outputs_of(parameters, normalised) - targets) ** 2).mean(axis=0) / targets.var(
         axis=0
@@ -790,19 +805,20 @@ def measured(parameters: list, normalised, targets, answers, others) -> str:
     many = len(parameters[1])
     if own.min() < 0:
         return (
-            f"On its own patterns it explains {shown(own)} %, less than their mean would. Either "
-            "it was hardly trained, or on pairs that do not belong together: does each pattern "
-            "keep its target?"
+            f"On its own patterns it explains {shown(own)} %, less than their mean would. For "
+            "example, it was hardly trained, or on other inputs than (inputs - mean) / deviation, "
+            "or patterns and targets did not belong together."
         )
     if not own.min() >= 0.9:
         return (
             f"On its own patterns it explains {shown(own)} %: with {many} hidden neurons, it has "
-            "not learnt them yet. Does it train on the normalised patterns? If so, look at the "
-            "losses: more epochs, a larger learning rate, smaller minibatches or more neurons?"
+            "not learnt them yet. For example, it needs more epochs, another learning rate, "
+            "smaller minibatches or more neurons, or was trained on patterns that were not "
+            "normalised."
         )
     return (
-        f"On its own patterns it explains {shown(own)} %: with {many} hidden neurons, it has "
-        "learnt these by heart."
+        f"On its own patterns it explains {shown(own)} %: with {many} hidden neurons, it does "
+        "better on these than on patterns that it has not seen."
     )
 
 

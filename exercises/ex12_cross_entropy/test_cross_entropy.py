@@ -91,6 +91,16 @@ def compare_softmax(student: Student, scores: np.ndarray) -> None:
     if scores.dtype.kind == "i":
         text = "The result has the type of the scores: whole numbers cut probabilities off to 0."
         mistakes[text] = 0 * powers
+    limits = [20, 30, 50, 80, 100, 200, 250, 300, 350, 400, 500, 600, 650, *range(680, 746), 900]
+    cuts = [np.clip(scores, low, limit) for limit in limits for low in (-limit, -np.inf)]
+    for each in cuts:
+        made = np.exp(logarithms_of(each))
+        if np.shape(answer) == made.shape and np.allclose(answer, made, rtol=1e-6, atol=1e-9):
+            text = (
+                "Large scores are cut off at a limit, which makes them equally probable: subtract "
+            )
+            mistakes[text + "the largest one of each row instead."] = made
+            break
     if scores.ndim > 1:
         sums = np.maximum(powers.sum(axis=0), 1e-300)
         mistakes["The sum runs over the steps, but it is to run over the actions."] = powers / sums
@@ -191,16 +201,18 @@ def compare_choices(student: Student, index: int, shares: np.ndarray, times: int
     }  # fmt: skip
     if whole and len(set(answer)) == 1:  # many mistakes lead to it
         mistakes = {"It is the same action each time: draw one.": answer}
+    if np.any(shares == 1):  # so do they here, where one action is certain
+        mistakes = {}
     lines = [text for text, made in mistakes.items() if whole and np.array_equal(answer, made)]
     hint = "".join(f" {text}" for text in lines[:1])
-    for got in answer:
+    for number, got in enumerate(answer, 1):
         dart, edges = float(rng.random()), np.cumsum(shares)
         wanted = min(int(np.searchsorted(edges, dart, side="right")), len(shares) - 1)
         near = bool(np.any(np.abs(edges - dart) < 1e-9))
         expect(
             near or (type(got) is int and got == wanted),
-            f"{said} returned {show(got)} when rng.random() gave {dart:.4f}, but {wanted} was "
-            f"expected.{hint}",
+            f"{said}, call {number}, returned {show(got)}. Its dart, number {number} of "
+            f"rng.random(), is {dart:.4f}, so {wanted} was expected.{hint}",
         )
 
 
@@ -221,9 +233,9 @@ def unlikely_and_certain_actions(student: Student):
     got = student.run(chosen_at, shares, most, said=said)
     expect(
         type(got) is int and got == 9,
-        f"{said} returned {show(got)} when rng.random() gave {most!r}, the largest number that it "
-        "gives, but 9 was expected: by rounding the sum of the probabilities is not greater than "
-        "that, and the last action owns the rest of the ruler.",
+        f"{said} returned {show(got)}, but 9 was expected if rng.random() gives {most!r}, its "
+        "largest number: by rounding the sum of the probabilities is not greater than that, and "
+        "the last action owns the rest of the ruler.",
     )
     seed = exercise.seed(17)
     dart = float(np.random.default_rng(seed).random())
@@ -231,8 +243,8 @@ def unlikely_and_certain_actions(student: Student):
     answer = student.run(chosen, np.array([dart, 1 - dart]), seed, 1, said=said)
     expect(
         answer == [1],
-        f"{said} returned {show(answer)[1:-1]} when rng.random() gave exactly the first "
-        "probability, but 1 was expected: the sum of the probabilities must be greater than u.",
+        f"{said} returned {show(answer)[1:-1]}, but 1 was expected if rng.random() gives exactly "
+        "the first probability: the sum of the probabilities must be greater than u.",
     )
 
 
@@ -299,11 +311,16 @@ def expect_steps(found: dict, key: str) -> None:
     steps = len(value) if isinstance(value, (list, np.ndarray)) else 0
     why = ""
     if np.shape(value)[1:] == np.shape(found["wanted"][key])[1:] and steps:
-        first = np.array(found["wanted"][key])[: min(2, steps)]
-        if not np.allclose(np.array(value[: len(first)], dtype=float), first, atol=1e-4):
-            if key == "observations":
-                why = "It is another episode: does reset get the seed?"
-        elif steps > wanted:
+        right = np.array([*found["wanted"][key], *([found["last"]] * (key == "observations"))])
+        rows = np.array(value, dtype=float)
+        both = min(len(right), steps)
+        if key == "observations" and not np.allclose(rows[0], right[0], atol=1e-4):
+            why = "Its first row is not what reset(seed=seed) returns."
+            if np.allclose(rows[0], right[1], atol=1e-4):
+                why = "Its first row is what was seen after the first step, not before it."
+        elif steps == wanted + 1 == len(right) and np.allclose(rows, right, atol=1e-4):
+            why = "Its last row is what was seen after the last step: no action follows there."
+        elif steps > wanted and np.allclose(rows[:both], right[:both], atol=1e-4):
             why = went_on(*found["ends"])
     expect(
         steps == wanted,
@@ -604,8 +621,8 @@ def measured(module, scores, actions):
     scores = torch.tensor(scores, requires_grad=True)
     loss = module.cross_entropy(scores, torch.tensor(actions))
     if not loss.requires_grad:
-        text = "torch cannot follow the loss back: it went through NumPy, .item() or .detach()"
-        raise ValueError(text)
+        text = "torch cannot follow the loss back to the scores, as after NumPy, .item(), .detach()"
+        raise ValueError(f"{text}, torch.tensor(...) or torch.no_grad()")
     loss.backward()
     return [loss.detach().numpy(), scores.grad.numpy()]
 
@@ -686,8 +703,8 @@ def gradients_flow(student: Student):
     for index, steps, actions in ((84, 40, 2), (85, 25, 6)):
         _, gradient, _, wanted, _ = surprised(student, index, steps, actions, 1.0)
         mistakes = {
-            "No gradient arrives at the scores: torch cannot follow through NumPy, .item() or "
-            ".detach().": 0 * wanted,
+            "No gradient arrives at the scores. For example, torch cannot follow .detach().": 0
+            * wanted,
         }
         expect_close(f"{student.said}: gradient of the scores", gradient, wanted, SINGLE, mistakes)
 
@@ -778,8 +795,8 @@ def compare_updates(student: Student, index: int, kind: str, whole: bool, update
     )
     expect(
         kinds == [wanted] * updates,
-        f"{said} must call the loss {updates} times, with actions of {wanted}, but the calls had "
-        f"{show(kinds)}.",
+        f"{said} must call loss(outputs, actions) {updates} times, with actions of {wanted}, but "
+        f"the calls had {show(kinds)}.",
     )
     expect(isinstance(after, list) and len(after) == 4, f"{said} gave no parameters.")
     return said, losses, after, *right
@@ -847,8 +864,8 @@ def measured_gaussian(module, means, log_deviation, actions):
     means, log_deviation = (torch.tensor(x, requires_grad=True) for x in (means, log_deviation))
     loss = module.gaussian_loss(means, log_deviation, torch.tensor(actions))
     if not loss.requires_grad:
-        text = "torch cannot follow the loss back: it went through NumPy, .item() or .detach()"
-        raise ValueError(text)
+        text = "torch cannot follow the loss back, as after NumPy, .item(), .detach()"
+        raise ValueError(f"{text}, torch.tensor(...) or torch.no_grad()")
     loss.backward()
     grads = [torch.zeros_like(x) if x.grad is None else x.grad for x in (means, log_deviation)]
     return [loss.detach().numpy(), *(grad.numpy() for grad in grads)]
@@ -893,7 +910,8 @@ def compare_gaussian(student: Student, index: int, steps: int, actuators: int, p
     slope = -distance / np.exp(log_deviation) / steps
     spread = (1 - distance**2).sum(axis=0) / steps
     for name, got, wanted in (("means", answer[1], slope), ("log_deviation", answer[2], spread)):
-        mistakes = {f"No gradient arrives at {name}: torch cannot follow .detach().": 0 * wanted}
+        text = f"No gradient arrives at {name}. For example, torch cannot follow .detach()."
+        mistakes = {text: 0 * wanted}
         expect_close(f"{said}: gradient of {'the ' * (name == 'means')}{name}", got, wanted, SINGLE,
                      mistakes)  # fmt: skip
 
@@ -1070,26 +1088,27 @@ def mean_return(environment: str, parameters: list[np.ndarray], signs, side: int
     return total / 50
 
 
-def progress(played: object, noise: object, iterations: int) -> str:
-    """What a training shows about why its policy is not good enough."""
+def progress(played: object, noise: object, iterations: int, mean: float) -> str:
+    """What a training shows about why its policy is not good enough; mean: the policy's steps."""
     had = np.array(played, dtype=float)[:, 0]
     changes = noise.get("outputs_of") if isinstance(noise, dict) else None
     if isinstance(changes, int) and iterations >= 10 and changes < iterations / 3:
         return (
             f"In {len(had)} episodes outputs_of got new parameters {changes} times: the policy "
-            "that acts stays as it was, whatever the network has learnt since."
+            "that acts stays as it was. Either its parameters are not taken from the network again "
+            "after the updates, or the updates do not change the network."
         )
     first, last = had[:20].mean(), had[-20:].mean()
     text = f"Its first 20 of {len(had)} episodes had {first:.0f} steps on average, the last 20"
+    if last > mean + 20:
+        return f"{text} {last:.0f}, more than this policy: are its parameters those of the end?"
     if last < 2 * first:
         return (
-            f"{text} {last:.0f}: it has hardly learnt. Do the episodes come from the network as it "
-            "is after each update, are their actions drawn at random, does the elite hold the best "
-            "only, is the learning rate large enough?"
+            f"{text} {last:.0f}: it has hardly learnt. Look, for example, whether the episodes "
+            "come from the network as it is after each update, their actions are drawn at random, "
+            "the elite holds the best only, and the learning rate is large enough."
         )
-    if last < 150:
-        return f"{text} {last:.0f}: it learns, but too little, or ends too soon."
-    return f"{text} {last:.0f}: it had learnt. Are the parameters returned those of the end?"
+    return f"{text} {last:.0f}: it learns, but too little, or ends too soon."
 
 
 def expect_balanced(student: Student, environment: str, index: int, left: int = 2) -> None:
@@ -1130,8 +1149,8 @@ def expect_balanced(student: Student, environment: str, index: int, left: int = 
     expect(
         not known,
         f"{said}: the policy balances the usual environment, but not the one that it was asked to "
-        "learn in, where the grader has changed the signs of what is observed or done. So it was "
-        "not learnt there: train anew, in what gymnasium.make gives.",
+        "learn in, where the grader has changed the signs of what is observed or done. It must be "
+        "learnt there: train anew, in what gymnasium.make gives.",
     )
     if 100 <= mean < 180 and left:
         expect_balanced(student, environment, index + 10, left=0)
@@ -1140,7 +1159,7 @@ def expect_balanced(student: Student, environment: str, index: int, left: int = 
         mean >= 180,
         f"{said}: without chance, the policy keeps the pole up for {mean:.1f} steps on "
         "average over 50 new episodes, but 180 are asked for. "
-        + progress(played, noise, len(returns)),
+        + progress(played, noise, len(returns), mean),
     )
     gradients, losses = fields("the grader's driver", counts, "gradients", "losses")
     if left and (gradients == 0 or balanced_before(learnt, arrays, environment, (signs, side))):
@@ -1148,13 +1167,13 @@ def expect_balanced(student: Student, environment: str, index: int, left: int = 
         return
     expect(
         isinstance(gradients, int) and gradients >= UPDATES,
-        f"{said} has computed {show(gradients)} gradients, so the policy is not one that has "
-        "learnt by the cross-entropy loss.",
+        f"{said} has computed {show(gradients)} gradients, but who learns by the cross-entropy "
+        f"loss computes at least {UPDATES}.",
     )
     expect(
         isinstance(losses, int) and losses >= UPDATES,
-        f"{said} has called your losses {show(losses)} times, so the policy is not one that has "
-        "learnt by them: hand cross_entropy, or gaussian_loss, to improve.",
+        f"{said} has called your cross_entropy and gaussian_loss {show(losses)} times, but who "
+        f"learns by them does so at least {UPDATES} times: hand one of them to improve.",
     )
     count = sum(map(len, returns))
     told = expect_array(f"{said}: returns", [r for each in returns for r in each], (count,))
@@ -1207,8 +1226,8 @@ def expect_learnt(said: str, environment: str, arrays: list, learnt: list, chang
     )
     expect(
         not balanced_before(learnt, arrays, environment, changed),
-        f"{said}: before the optimiser's first step the policy stays up already, so your losses "
-        "taught it nothing.",
+        f"{said}: before the optimiser's first step the policy stays up already, with several "
+        "seeds. It is to learn this by your losses.",
     )
 
 
@@ -1231,13 +1250,13 @@ def expect_noise(said: str, noise: dict, iterations: int) -> None:
     """The deviation of the noise is learnt, and the actions have the one that is learnt."""
     expect(
         noise.get("gaussian_loss") is not False,
-        f"{said}: ln sigma is the same number in all calls of gaussian_loss, so it is not learnt. "
-        "The policy learns it like any other parameter.",
+        f"{said}: ln sigma is the same number in all calls of gaussian_loss, but it is to be "
+        "learnt like any other parameter.",
     )
     expect(
         iterations < 2 or noise.get("gaussian_action") is not False,
-        f"{said}: ln sigma is learnt, but gaussian_action gets the same number in all calls: the "
-        "policy acts with the deviation of the beginning.",
+        f"{said}: ln sigma changes from call to call of gaussian_loss, but gaussian_action gets "
+        "the same number in all calls: the policy always acts with one deviation.",
     )
 
 

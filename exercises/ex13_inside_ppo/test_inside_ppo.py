@@ -322,7 +322,7 @@ def mistaken_losses(given: dict, clip_range: float) -> dict:
         advantages={
             "": raw if single else centred / (spread + 1e-8),
             "The advantages are not normalised.": raw,
-            "The advantages of a single step are normalised, which leaves 0 of them."
+            "The advantage of a single step counts as 0: a single step is not normalised."
             if single else "The deviation of the advantages divides by N, not by N - 1 (ddof=1).":
             0.0 * raw if single else centred / (raw.std() + 1e-8),
             "The mean of the advantages is not subtracted.": raw / (spread + 1e-8),
@@ -814,7 +814,9 @@ def of_first_rollout(rollout: object) -> str:
     if fitting:
         return f"{said}right advantages, and as returns {fitting[0]}"
     if np.allclose(returns, right + values, 1e-4, 1e-4):
-        return f"{said}{RIGHT}. So look at epochs, batches and the stop."
+        return (
+            f"{said}{RIGHT}. What differs comes later, such as epochs, batches, updates, the stop."
+        )
     return f"{said}right advantages, and returns that are not advantages plus values."
 
 
@@ -846,11 +848,17 @@ def one_batch_an_epoch(student: Student):
     begun = by_reference(seed, 0, 1, 400, None, "Pendulum-v1").parameters
     # the last step alone may not turn the sign of any gradient, all that a first step of Adam tells
     written = of_first_rollout(rollout)
+    away, moved = np.abs(got - right).max(), np.abs(right - begun).max()
     expect(
-        np.abs(got - right).max() < 0.02 * np.abs(right - begun).max()
-        and (not written or RIGHT in written),
+        not written or RIGHT in written,
         f"{student.said}: both episodes of the rollout end because time runs out, the second one "
-        "with the last step. What comes after such a step belongs to another episode, too.",
+        "with the last step. What comes after such a step belongs to another episode, "
+        f"too.{written}",
+    )
+    expect(
+        away < 0.02 * moved,
+        f"{student.said}: the parameters end {away:.3g} away from where they should (they move by "
+        f"{moved:.3g} in all).{written}",
     )
 
 
@@ -863,8 +871,9 @@ def the_stop_ends_the_rollout(student: Student):
     expect(
         np.array_equal(sizes, [128] * 4),
         f"{student.said}: the second batch of each rollout already has too large a divergence, so "
-        f"2 batches of each of the 2 rollouts were expected, but {len(sizes)} were taken. The "
-        "early stop ends all epochs of a rollout, and the next rollout begins anew.",
+        "2 batches of 128 steps of each of the 2 rollouts were expected, but those taken have "
+        f"{show(sizes)} steps. The early stop ends all epochs of a rollout, and the next rollout "
+        "begins anew.",
     )
 
 

@@ -658,14 +658,14 @@ signs = exercise.task("14.6", "Warning signs")
 
 
 def compare_phases(student: Student, steps, values, total: int, parts: int) -> None:
+
+    def inside(part: int) -> list[int]:
+        low, high = Fraction(part * total, parts), Fraction((part + 1) * total, parts)
+        return [i for i, s in enumerate(steps.tolist()) if low < s <= high or s == part == 0]
+
     wanted = []
     for part in range(parts):
-        low, high = Fraction(part * total, parts), Fraction((part + 1) * total, parts)
-        these = [
-            float(value)
-            for step, value in zip(steps.tolist(), values, strict=True)
-            if (low < step <= high or step == part == 0) and not np.isnan(value)
-        ]
+        these = [float(value) for value in values[inside(part)] if not np.isnan(value)]
         wanted.append(sum(these) / len(these) if these else None)
     answer = student.call("phase_means", steps, values, total, parts)
     if len(steps) <= 6:
@@ -676,7 +676,8 @@ def compare_phases(student: Student, steps, values, total: int, parts: int) -> N
     for part, (got, right) in enumerate(zip(answer, wanted, strict=True)):
         said = f"{student.said}: part {part}"
         if right is None:
-            expect(got is None, f"{said} holds nothing, but is {show(got)} instead of None.")
+            only = "nothing but NaN" if np.isnan(values[inside(part)]).any() else "nothing"
+            expect(got is None, f"{said} holds {only}, but is {show(got)} instead of None.")
         else:
             expect_close(said, got, right, CLOSE)
 
@@ -773,6 +774,10 @@ def expect_no_sign_at_limits(student: Student, level: float) -> None:
             f"{student.said} {'names' if name in answer else 'leaves out'} a sign {side} {limit}"
             f"{why}",
         )
+    once = len(answer) == len(wanted)
+    expect(
+        once, f"{student.said} has {len(answer)} entries, but {len(wanted)} signs were expected."
+    )
     expect(answer == wanted, f"{student.said} is not in the order of the signs.")
 
 

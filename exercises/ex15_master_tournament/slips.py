@@ -854,7 +854,7 @@ def mistaken_descriptions(poses: np.ndarray) -> dict:
             "Turns to the left and to the right cancel out: the sign is to be left out.": 10
             * short,
             "This is the turning of a step, not that of a second.": abs(short),
-            "No step turns: the heading of poses[t] is to be compared with that of poses[t + 1].": (
+            "This is 0, as if no step turned: the headings of poses[t] and poses[t + 1] differ.": (
                 0 * short
             ),
             "The turning is in degrees, not in rad.": np.degrees(10 * abs(short)),

@@ -123,29 +123,42 @@ def say_where_it_begins(said: str, poses, expected: np.ndarray) -> None:
             " Each pose stands one place too late: the start is there twice, and the pose after "
             "the last step is missing."
         )
-    elif len(poses) % 2 and len(poses) > 4 and np.allclose(poses[1::2], poses[2::2]):
+    elif twice_after_the_start(np.asarray(poses), expected):
         cause = " Each pose after the start stands there twice: keep it once in each step."
     elif still:
         cause = (
-            f" There the {who} {'stand' if wrong[step].all() else 'stands'} still: set the wheels "
-            "of both robots before each arena.step(), and keep the poses after it."
+            f" There the {who} {'stand' if wrong[step].all() else 'stands'} still. The wheels of "
+            "both robots are set before each arena.step(), and the poses are kept after it."
         )
     elif step == 1 and wrong[1].all():
         cause = (
-            " Both robots move wrongly from the first step on: are the networks new ones, do they "
-            "step once, does each get its own robot's observation (24 numbers, the predator's "
-            "first), and does the action hold left and right wheel of the predator, then those of "
-            "the prey?"
+            " Both robots move wrongly from the first step on. Look, for example, whether the "
+            "networks are new ones and step once, whether each gets its own robot's observation "
+            "(24 numbers, the predator's first), and whether the action holds left and right wheel "
+            "of the predator, then those of the prey."
         )
     elif step > 1:
         cause = (
-            " Up to then all poses are right: does each network get its own robot's observation "
-            "of this very step, and the arena `maxsteps` (robots sense the time)?"
+            " Up to then all poses are right. Look, for example, whether each network is made once "
+            "and gets its own robot's observation of this very step, and the arena `maxsteps` "
+            "(robots sense the time)."
         )
     expect(
         False,
         f"{said}: poses[{step}] is wrong for the {who}: {got}, but {right} was expected "
         f"(x, y, heading).{cause}",
+    )
+
+
+def twice_after_the_start(poses: np.ndarray, expected: np.ndarray) -> bool:
+    """Whether each right pose after the start is there twice."""
+    once = poses[1::2]
+    return (
+        len(poses) % 2 == 1
+        and len(poses) > 4
+        and np.allclose(once, poses[2::2])
+        and len(once) < len(expected)
+        and np.allclose(once, expected[1 : len(once) + 1], atol=1e-6)
     )
 
 

@@ -125,7 +125,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 # %% never_stops loses 2.5
 # Does all of the steps, even when the pole has fallen or the goal is reached.
-# says: the episode was over after 10 steps
+# says: is over after 10 steps
 # -     terminated = truncated = False
 # -     while len(actions) < maxsteps and not (terminated or truncated):
 # +     for _ in range(maxsteps):
@@ -795,7 +795,7 @@ def forward_batch(networks, observations):
 
 # %% last_step_not_written_down loses 2.5
 # Leaves the loop at the end of the episode before the last action and reward are written down.
-# says: its last step, with which it ends, is missing
+# says: its last step is missing
 _run_episode_2 = run_episode
 
 

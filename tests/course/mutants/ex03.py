@@ -161,7 +161,7 @@ def evolve(evaluate, population, generations, mutrate, seed):
 
 # %% same_noise_each_generation loses 3.4
 # The generator of random numbers is made anew in each generation.
-# says: is the same noise added again
+# says: the same noise was added
 def evolve(evaluate, population, generations, mutrate, seed):
     best, best_fitness, history = population[0], -np.inf, []
     for generation in range(generations):
@@ -583,7 +583,7 @@ def initial_population(popsize, nbiases, nweights, seed):
 
 # %% seed_of_each_generation loses 3.4
 # The generator of each generation has the seed of the generation: neighbouring runs share their noise.
-# says: once, from
+# says: make one generator from
 # -         fitness = evaluate(population, seed + generation)
 # +         rng = np.random.default_rng(seed + generation)
 # +         fitness = evaluate(population, seed + generation)
@@ -661,7 +661,7 @@ def next_population(population, fitness, mutrate, rng):
 
 # %% squared_rate loses 3.3
 # Squares the mutation rate.
-# says: mutrate is squared
+# says: mutrate itself is
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[worst] = population[best] + mutrate**2 * noise
 
@@ -705,3 +705,79 @@ def hill_climb(evaluate, *arguments, **options):
 # says: look at how you choose the one that you return
 # -     return run["population"][rank(fitness)[0]]
 # +     return run["population"][np.argsort(fitness)[0]]
+
+
+# %% places_by_value loses 3.2
+# Looks each value up in the list (list.index), which finds the first of equal ones again and again.
+# says: this
+# -     return np.argsort(-np.asarray(fitness), kind="stable")
+# +     values = list(fitness)
+# +     return np.array([values.index(value) for value in sorted(values, reverse=True)])
+
+
+# %% best_of_the_mean_curve loses 3.6
+# Gives the highest value of the mean curve for the best fitness of each run.
+# says: this
+# -         "best": [run["fitness"] for run in runs],
+# +         "best": [float(histories.mean(axis=0).max()) for run in runs],
+
+
+# %% deviation_over_the_generations loses 3.6
+# The deviation goes over the generations of each run (axis=1), not over the replications.
+# says: this
+# -         "deviation": histories.std(axis=0, ddof=1) if many else np.zeros(histories.shape[1]),
+# +         "deviation": histories.std(axis=1, ddof=1),
+
+
+# %% mean_of_all_values loses 3.6
+# Gives one mean of all replications and generations, but a mean for each generation is asked for.
+# says: this
+# -         "mean": histories.mean(axis=0),
+# +         "mean": float(histories.mean()),
+
+
+# %% best_of_all_runs loses 3.6
+# Gives the fitness of the best run alone, but that of each run is asked for.
+# says: this
+# -         "best": [run["fitness"] for run in runs],
+# +         "best": max(run["fitness"] for run in runs),
+
+
+# %% noise_times_parameters loses 3.3
+# Multiplies the noise by the parameters, so that parameters of 0 never change.
+# -     following[worst] = population[best] + mutrate * noise
+# +     following[worst] = population[best] * (1 + mutrate * noise)
+
+
+# %% worse_half_stays loses 3.3
+# Keeps the worse half and overwrites the better one.
+# says: this
+# -     best, worst = ranking[:half], ranking[half:]
+# +     worst, best = ranking[:half], ranking[half:]
+
+
+# %% noise_without_rate loses 3.3
+# Adds the noise without mutrate.
+# says: this
+# -     following[worst] = population[best] + mutrate * noise
+# +     following[worst] = population[best] + noise
+
+
+# %% evaluates_with_one_seed loses 3.4
+# Gives evaluate the seed itself in every generation, but seed + g is asked for.
+# -         fitness = evaluate(population, seed + generation)
+# +         fitness = evaluate(population, seed)
+
+
+# %% lowest_of_each_generation loses 3.4
+# The history holds the lowest fitness of each generation.
+# says: this
+# -         history.append(float(fitness[winner]))
+# +         history.append(float(np.min(fitness)))
+
+
+# %% climber_begins_at_zero loses 3.5
+# The second individual begins as zeros, but both begin as copies of start.
+# says: what evaluate was given|both individuals at first
+# -     return evolve(evaluate, np.array([start, start]), generations, mutrate, seed)
+# +     return evolve(evaluate, np.array([start, 0 * start]), generations, mutrate, seed)

@@ -227,7 +227,7 @@ def normalise(inputs):
 
 # %% last_patterns_dropped loses 11.7
 # Leaves out the patterns that do not fill a minibatch.
-# says: must return 3 arrays
+# says: must return a list of 3 arrays
 # -     return [order[start : start + batch_size] for start in range(0, n, batch_size)]
 # +     return [order[i : i + batch_size] for i in range(0, n - batch_size + 1, batch_size)]
 

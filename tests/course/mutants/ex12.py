@@ -702,7 +702,7 @@ def choose(probabilities, rng):
 
 # %% noise_of_the_beginning loses 12.8
 # ln sigma is learnt, but the actions are drawn with that of the beginning.
-# says: acts with the deviation of the beginning
+# says: always acts with one deviation
 # -         parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
 # +         parameters, spread = parameters_of(network), np.zeros(noutputs)
 
