@@ -591,6 +591,40 @@ def test_a_slip_in_a_right_solution_of_another_style_is_named(messages):
     assert told.startswith(f"{replay.VARIED} A limit is left out")  # nobody else has its `below`
 
 
+ENDS = '''"""A solution."""
+def long(values, stopped, limit):
+    """How many values come before the first one that is stopped, limit at most."""
+    ### BEGIN SOLUTION task 3.1: keep
+    many = 0
+    while many < len(values) and not (many >= limit or stopped[many]):
+        many += 1
+    return {"many": many, "sum": float(sum(values[:many]))}
+    ### END SOLUTION
+'''
+
+
+@pytest.mark.parametrize("asks", [False, True])
+def test_a_condition_that_is_there_is_not_said_to_be_left_out(messages, asks):
+    """Who asks for the limit, but sets it to another number before, has not left it out."""
+    exercise = Exercise(3, "Three", FILE)
+    first = exercise.task("3.1", "First", seconds=5)
+
+    @first.check(100)
+    def ends(student):
+        for values in ([0.5, 1.5, 3.0, 2.5], [1.25, 2.5, 1.75, 2.25, 0.25]):
+            for stopped, many in ((False, 2), (True, 0)):
+                answer = student.call("long", values, [stopped] * len(values), 2)
+                right = {"many": many, "sum": float(sum(values[:many]))}
+                expect(answer == right, "long(...): not these")
+
+    exercise.knows(ENDS)
+    wrong = ENDS.replace("many >= limit or ", "")
+    if asks:
+        wrong = ENDS.replace("    many = 0", "    many, limit = 0, max(limit, 9)")
+    (told,) = messages(wrong, exercise)
+    assert ("One of several conditions is left out: `many >= limit`" in told) is not asks
+
+
 # --- two known mistakes at once
 
 TWO = '''"""Wrong solutions."""

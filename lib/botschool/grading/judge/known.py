@@ -26,9 +26,10 @@ from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Case, Known
 from botschool.grading.judge.alike import TIE, counts, distance, fits, weight
-from botschool.grading.judge.evidence import holds, quoted
+from botschool.grading.judge.evidence import CONDITION, asks_for, holds, quoted
 from botschool.grading.judge.looking import TookTooLong, processor_time_limit
-from botschool.grading.judge.variations import Variation, variations
+from botschool.grading.judge.sentences import Variation
+from botschool.grading.judge.variations import variations
 from botschool.grading.run.student import Student
 from botschool.sandbox import ForkServer
 from botschool.sandbox.protocol import pack, unpack
@@ -222,6 +223,9 @@ def _clearest(slips: Iterator[Variation]) -> Variation | None:
 
 def _is_there(slip: Variation, text: str) -> bool:
     """Return whether a sentence may be true of a submission's text."""
+    _, is_condition, condition = slip.what.partition(CONDITION)
+    if is_condition and asks_for(text, slip.function, condition.strip("`.")):
+        return False
     return not slip.shown or holds(text, slip.shown, quoted(slip.what))
 
 

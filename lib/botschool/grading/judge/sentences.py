@@ -1,9 +1,10 @@
-"""What sentences on slips quote, and which of them are vague."""
+"""Slips with their sentences: what these quote, and which of them are vague."""
 
 from __future__ import annotations
 
 import ast
 import re
+from dataclasses import dataclass
 
 _LONGEST = 40
 """Characters of a part that a sentence quotes."""
@@ -11,6 +12,29 @@ _USED = r": \S+ is used"
 _QUOTED = re.compile(rf":? `[^`]*`(?: in `[^`]*`)?(?=\.$)| in `[^`]*`(?=\.$)|{_USED}(?=\.$)")
 _CLEAR = ("sign", "wrong way round", "a loop", "not reversed", "counting", "matrix")
 """Words of sentences that need no quotation."""
+
+
+@dataclass(frozen=True)
+class Variation:
+    """The text of a solution with a slip, and a sentence that names the slip."""
+
+    what: str
+    text: str
+    own: bool = True
+    """Whether it is our solution that has the slip, and not one in another style."""
+    shown: str = ""
+    """The pattern of an expression that a submission must hold, or ""; see evidence.py."""
+    function: str = ""
+    """The function that has the slip."""
+
+    @property
+    def vague(self) -> bool:
+        return is_vague(self.what)
+
+    @property
+    def near(self) -> bool:
+        """Return whether a number is a little larger or smaller, as others would be, too."""
+        return "number is one" in self.what
 
 
 class Quotes:

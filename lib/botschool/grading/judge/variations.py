@@ -11,7 +11,6 @@ import ast
 import re
 import warnings
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Any
 
 from botschool.grading.judge.evidence import EXCHANGED, pattern, quoted
@@ -26,9 +25,9 @@ from botschool.grading.judge.expressions import (
 )
 from botschool.grading.judge.sentences import (
     Quotes,
+    Variation,
     colon,
     holds_everywhere,
-    is_vague,
     placed,
     without_quotes,
 )
@@ -46,27 +45,6 @@ _SIGNED = {(ast.Assign, "value"), (ast.Dict, "values"), (ast.Return, "value")}
 """Fields of nodes that hold whole results."""
 Place = tuple[Any, str, "int | None", Any, str]
 """A node, the field and the index of a part in it, the part, and what is made of it."""
-
-
-@dataclass(frozen=True)
-class Variation:
-    """The text of a solution with a slip, and a sentence that names the slip."""
-
-    what: str
-    text: str
-    own: bool = True
-    """Whether it is our solution that has the slip, and not one in another style."""
-    shown: str = ""
-    """The pattern of an expression that a submission must hold, or ""; see evidence.py."""
-
-    @property
-    def vague(self) -> bool:
-        return is_vague(self.what)
-
-    @property
-    def near(self) -> bool:
-        """Return whether a number is a little larger or smaller, as others would be, too."""
-        return "number is one" in self.what
 
 
 def variations(solution: str, task: str, styles: Iterable[str] = ()) -> Iterator[Variation]:
@@ -153,7 +131,8 @@ def _made(
         done.add(text)
         first, last = function.lineno - 1, function.end_lineno
         first -= sum(1 for _ in function.decorator_list)
-        yield Variation(what, "".join([*lines[:first], text, "\n", *lines[last:]]), own, shown)
+        text = "".join([*lines[:first], text, "\n", *lines[last:]])
+        yield Variation(what, text, own, shown, function.name)
 
 
 class _Slips:
