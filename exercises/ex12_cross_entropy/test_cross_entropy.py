@@ -318,8 +318,10 @@ def expect_steps(found: dict, key: str) -> None:
             why = "Its first row is not what reset(seed=seed) returns."
             if np.allclose(rows[0], right[1], atol=1e-4):
                 why = "Its first row is what was seen after the first step, not before it."
+        elif steps > wanted and not any(found["ends"]) and np.size(found["actions"]) > wanted:
+            why = "It goes on after `maxsteps` steps."
         elif steps == wanted + 1 == len(right) and np.allclose(rows, right, atol=1e-4):
-            why = "Its last row is what was seen after the last step: no action follows there."
+            why = "Its last row is what was seen after the last step."
         elif steps > wanted and np.allclose(rows[:both], right[:both], atol=1e-4):
             why = went_on(*found["ends"])
     expect(
