@@ -845,3 +845,158 @@ def train(network, inputs, targets, epochs, learning_rate, momentum):
 # +             optimiser.step()
 # +             total += loss.item() * len(batch)
 # +         losses.append(total / len(inputs))
+
+
+# %% mean_of_the_losses_so_far loses 11.4
+# Gives the mean of the losses so far, not that of each epoch.
+# says: this
+# -         losses.append(loss.item())
+# -     return losses
+# +         losses.append(loss.item())
+# +     return [sum(losses[: i + 1]) / (i + 1) for i in range(epochs)]
+
+
+# %% loss_of_the_first_epoch loses 11.4
+# Gives the loss of the first epoch for each epoch.
+# says: this|Every epoch has the same loss
+# -         losses.append(loss.item())
+# -     return losses
+# +         losses.append(loss.item())
+# +     return [losses[0]] * epochs
+
+
+# %% a_step_for_each_pattern loses 11.4
+# Makes a step for each pattern: one for all of them in each epoch is asked for.
+# says: this
+# -         optimiser.zero_grad()
+# -         loss = nn.functional.mse_loss(network(inputs), targets)
+# -         loss.backward()
+# -         optimiser.step()
+# -         losses.append(loss.item())
+# -     return losses
+# +         losses.append(nn.functional.mse_loss(network(inputs), targets).item())
+# +         for pattern, target in zip(inputs, targets, strict=True):
+# +             optimiser.zero_grad()
+# +             nn.functional.mse_loss(network(pattern), target).backward()
+# +             optimiser.step()
+# +     return losses
+
+
+# %% one_loss_more loses 11.4
+# Gives one loss more, that after the last step.
+# says: this
+# -         losses.append(loss.item())
+# -     return losses
+# +         losses.append(loss.item())
+# +     return [*losses, nn.functional.mse_loss(network(inputs), targets).item()]
+
+
+# %% absolute_errors_trained loses 11.4
+# Trains on the mean absolute error, not on the mean square.
+# says: this
+# -         loss = nn.functional.mse_loss(network(inputs), targets)
+# -         loss.backward()
+# -         optimiser.step()
+# -         losses.append(loss.item())
+# -     return losses
+# +         loss = nn.functional.l1_loss(network(inputs), targets)
+# +         loss.backward()
+# +         optimiser.step()
+# +         losses.append(loss.item())
+# +     return losses
+
+
+# %% divided_by_the_hidden_neurons loses 11.2
+# What goes back to the hidden neurons is divided by their number: it is no mean over them.
+# says: this
+# -     d1 = d2 @ w2 * hidden * (1 - hidden)
+# +     d1 = d2 @ w2 * hidden * (1 - hidden) / hidden.shape[1]
+
+
+# %% own_weights_left_out loses 11.2
+# The weights of the outputs are left out on the way back: each hidden neuron gets the sum of D2.
+# says: this
+# -     d1 = d2 @ w2 * hidden * (1 - hidden)
+# +     d1 = d2.sum(axis=1, keepdims=True) * hidden * (1 - hidden)
+
+
+# %% as_many_batches_as_their_size loses 11.7
+# Makes batch_size minibatches: batch_size is how many patterns are in each.
+# says: this
+# -     return [order[start : start + batch_size] for start in range(0, n, batch_size)]
+# +     return np.array_split(order, batch_size)
+
+
+# %% every_so_many_in_a_batch loses 11.7
+# Every so many numbers of the order make a minibatch, not those beside each other.
+# says: this
+# -     return [order[start : start + batch_size] for start in range(0, n, batch_size)]
+# +     many = -(-n // batch_size)
+# +     return [order[start::many] for start in range(many)]
+
+
+# %% steps_of_the_first_minibatch loses 11.7
+# Only the first minibatch of each epoch makes a step.
+# says: this
+# -             optimiser.step()
+# -         with torch.no_grad():
+# +             optimiser.step()
+# +             break
+# +         with torch.no_grad():
+
+
+# %% loss_of_the_first_epoch_in_batches loses 11.7
+# Gives the loss before the first epoch for each epoch.
+# says: this|Every epoch has the same loss
+_train_in_batches = train_in_batches
+
+
+def train_in_batches(network, inputs, targets, *rest, **more):
+    first = nn.functional.mse_loss(network(inputs), targets).item()
+    return [first for _ in _train_in_batches(network, inputs, targets, *rest, **more)]
+
+
+# %% highest_row_first loses 11.9
+# The rows go from the high end down: row 0 belongs to the low end.
+# says: this
+_feature_maps = feature_maps
+
+
+def feature_maps(network, low, high, n):
+    return _feature_maps(network, low, high, n)[:, ::-1].copy()
+
+
+# %% neurons_on_the_last_axis loses 11.9
+# The neurons are on the last axis: they come first.
+# says: this
+_feature_maps = feature_maps
+
+
+def feature_maps(network, low, high, n):
+    return np.moveaxis(_feature_maps(network, low, high, n), 0, -1).copy()
+
+
+# %% both_inputs_alike loses 11.9
+# Both inputs are that of the column: the second one is that of the row.
+# says: this
+# -     patterns = torch.stack([first.ravel(), second.ravel()], dim=1)
+# +     patterns = torch.stack([first.ravel(), first.ravel()], dim=1)
+
+
+# %% first_neuron_only loses 11.9
+# All maps are that of the first hidden neuron.
+# says: this
+_feature_maps = feature_maps
+
+
+def feature_maps(network, low, high, n):
+    return np.repeat(_feature_maps(network, low, high, n)[:1], network.hidden.out_features, axis=0)
+
+
+# %% deviation_0_of_what_never_changes loses 11.6
+# A column that never changes gets the deviation 0: 1 is asked for.
+# says: this
+def normalise(inputs):
+    mean, deviation = inputs.mean(axis=0), inputs.std(axis=0)
+    deviation[np.ptp(inputs, axis=0) == 0] = 0.0
+    return (inputs - mean) / np.where(deviation == 0, 1.0, deviation), mean, deviation

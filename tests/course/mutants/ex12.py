@@ -813,3 +813,155 @@ def choose(probabilities, rng):
 # -     inputs = torch.as_tensor(np.asarray(observations), dtype=torch.float32)
 # +     seen = np.asarray(observations)
 # +     inputs = torch.as_tensor((seen - seen.mean(0)) / seen.std(0), dtype=torch.float32)
+
+
+# %% scores_cut_at_700 loses 12.1
+# Scores are cut off at 700 against overflow.
+# says: cut off at a limit
+# -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
+# +     powers = np.exp(np.clip(scores, -700, 700))
+
+
+# %% rounded_dart loses 12.2
+# The dart is rounded to one place.
+# says: this
+# -     beyond = np.cumsum(probabilities) > rng.random()
+# +     beyond = np.cumsum(probabilities) > round(rng.random(), 1)
+
+
+# %% observation_at_the_end loses 12.3
+# The observation at the end is recorded, too: one row more than actions.
+# says: this|Its last row is what was seen after the last step
+# -     return {"observations": np.array(observations), "actions": np.array(actions), "return": total}
+# +     observations.append(observation)
+# +     return {"observations": np.array(observations), "actions": np.array(actions), "return": total}
+
+
+# %% cut_to_half_the_limits loses 12.3
+# Actions are cut to half of the limits.
+# says: this
+# -                 action = np.clip(action, space.low, space.high).astype(space.dtype)
+# +                 action = np.clip(action, space.low / 2, space.high / 2).astype(space.dtype)
+
+
+# %% largest_reward loses 12.3
+# The return is the largest reward.
+# says: this
+# -             total += float(reward)
+# +             total = max(total, float(reward))
+
+
+# %% limits_of_the_first_actuator loses 12.3
+# The limits of the first actuator are taken for all of them.
+# says: this
+# -                 action = np.clip(action, space.low, space.high).astype(space.dtype)
+# +                 action = np.clip(action, space.low[0], space.high[0]).astype(space.dtype)
+
+
+# %% one_step_more loses 12.3
+# Makes one step more than maxsteps.
+# says: this
+# -         for _ in range(maxsteps):
+# +         for _ in range(maxsteps + 1):
+
+
+# %% percentile_for_a_share loses 12.4
+# The bound is a quantile: the percentile is taken for a share from 0 to 1.
+# says: this
+# -     bound = float(np.percentile([episode["return"] for episode in episodes], percentile))
+# +     bound = float(np.percentile([e["return"] for e in episodes], percentile / 100))
+
+
+# %% mean_for_the_bound loses 12.4
+# The bound is the mean of the returns, whatever the percentile.
+# says: this
+# -     bound = float(np.percentile([episode["return"] for episode in episodes], percentile))
+# +     bound = float(np.mean([episode["return"] for episode in episodes]))
+
+
+# %% observations_of_all loses 12.4
+# The observations are those of all episodes; only the actions are those of the elite.
+# says: this
+# -         "observations": np.concatenate([episode["observations"] for episode in kept]),
+# +         "observations": np.concatenate([episode["observations"] for episode in episodes]),
+
+
+# %% actions_as_floats loses 12.4
+# Whole actions become floats.
+# says: this|actions must stay whole numbers
+# -         "actions": np.concatenate([episode["actions"] for episode in kept]),
+# +         "actions": np.concatenate([episode["actions"] for episode in kept]).astype(float),
+
+
+# %% scores_with_the_wrong_sign loses 12.5
+# The scores enter the sum with the wrong sign.
+# says: this
+# -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
+# +     return (torch.logsumexp(-scores, dim=1) - chosen).mean()
+
+
+# %% largest_for_the_sum loses 12.5
+# The largest score is taken for the logarithm of the sum.
+# says: this
+# -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
+# +     return (scores.max(dim=1).values - chosen).mean()
+
+
+# %% last_step_only loses 12.5
+# Only the last step counts, not the mean.
+# says: this
+# -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
+# +     return (torch.logsumexp(scores, dim=1) - chosen)[-1]
+
+
+# %% action_of_the_highest_score loses 12.5
+# The action with the highest score is taken for the one that was done.
+# says: this
+# -     chosen = scores[torch.arange(len(actions)), actions]
+# +     chosen = scores.max(dim=1).values
+
+
+# %% last_loss_for_all loses 12.6
+# The last loss is returned for each update.
+# says: this
+# -         losses.append(value.item())
+# -     return losses
+# +         losses.append(value.item())
+# +     return [losses[-1]] * updates
+
+
+# %% mean_of_the_losses_so_far loses 12.6
+# Gives the mean of the losses so far.
+# says: this
+# -         losses.append(value.item())
+# -     return losses
+# +         losses.append(value.item())
+# +     return [sum(losses[: i + 1]) / (i + 1) for i in range(updates)]
+
+
+# %% variance_in_the_square loses 12.7
+# The distance is divided by the variance, not by the deviation.
+# says: this
+# -     distance = (actions - means) / torch.exp(log_deviation)
+# +     distance = (actions - means) / torch.exp(log_deviation) ** 2
+
+
+# %% sigma_for_its_logarithm loses 12.7
+# sigma itself is added, not ln sigma.
+# says: this
+# -     surprise = distance**2 / 2 + log_deviation + np.log(2 * np.pi) / 2
+# +     surprise = distance**2 / 2 + torch.exp(log_deviation) + np.log(2 * np.pi) / 2
+
+
+# %% uniform_noise loses 12.7
+# The noise is even (rng.uniform), not Gaussian.
+# says: this
+# -     return mean + np.exp(log_deviation) * rng.standard_normal(len(mean))
+# +     return mean + np.exp(log_deviation) * rng.uniform(-1, 1, len(mean))
+
+
+# %% action_cut_when_drawn loses 12.7
+# The action is cut to -1..1 here: that is left to run_episode.
+# says: this
+# -     return mean + np.exp(log_deviation) * rng.standard_normal(len(mean))
+# +     return np.clip(mean + np.exp(log_deviation) * rng.standard_normal(len(mean)), -1, 1)

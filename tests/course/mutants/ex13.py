@@ -866,3 +866,117 @@ def entropy_of_choices(scores):
 # -     return float(1 - np.var(returns - values) / np.var(returns))
 # +     left, whole = np.var(returns - values, axis=0), np.var(returns, axis=0)
 # +     return float(1 - left.mean() / whole.mean())
+
+
+# %% any_end_ends_all loses 13.1
+# Where the episode of one environment ends, those of all environments are taken for ended.
+# says: this
+# -         goes_on = 1 - (dones if last else episode_starts[t + 1])
+# +         goes_on = 1 - np.max(dones if last else episode_starts[t + 1])
+
+
+# %% last_value_of_the_first_environment loses 13.1
+# The value of the first environment's last observation is taken for all environments.
+# says: this
+# -         next_values = last_values if last else values[t + 1]
+# +         next_values = last_values[0] if last else values[t + 1]
+
+
+# %% bootstrapped_by_reward loses 13.1
+# The reward is discounted, too, where time ran out: only the value behind it is.
+# says: this
+# -     return rewards + gamma * out_of_time * final_values
+# +     return np.where(out_of_time > 0, gamma * (rewards + final_values), rewards)
+
+
+# %% first_environment_alone loses 13.1
+# The ends of the first environment are taken for those of all.
+# says: this
+# -         goes_on = 1 - (dones if last else episode_starts[t + 1])
+# +         goes_on = 1 - (dones if last else episode_starts[t + 1])[0]
+
+
+# %% minimum_of_means loses 13.2
+# The smaller of the two means is taken, not the mean of the smaller products.
+# says: this
+# -         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).mean()),
+# +         "loss": float(-min((ratio * advantages).mean(), (clipped * advantages).mean())),
+
+
+# %% fraction_of_low_ratios loses 13.2
+# Only ratios below 1 - clip_range count as clipped.
+# says: this
+# -         "clip_fraction": float(np.mean(np.abs(ratio - 1) > clip_range)),
+# +         "clip_fraction": float(np.mean(1 - ratio > clip_range)),
+
+
+# %% ratio_of_values loses 13.3
+# The ratio of the new values to the old ones is clipped, not their difference.
+# says: this
+# -         predictions = old_values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
+# +         ratio = np.clip(values / old_values, 1 - clip_range_vf, 1 + clip_range_vf)
+# +         predictions = old_values * ratio
+
+
+# %% smaller_of_two_value_losses loses 13.3
+# Takes the smaller one of the clipped and the unclipped loss in each step.
+# says: this
+# -     return float(np.mean((returns - predictions) ** 2))
+# +     return float(np.mean(np.minimum((returns - predictions) ** 2, (returns - values) ** 2)))
+
+
+# %% surprise_of_all_actions loses 13.4
+# The logarithms are not weighted by the probabilities: their mean is taken.
+# says: this
+# -     return -(np.exp(logarithms) * logarithms).sum(axis=1)
+# +     return -logarithms.mean(axis=1)
+
+
+# %% entropy_divided_by_its_largest loses 13.4
+# The entropy is divided by the logarithm of the number of actions, the largest that it can be.
+# says: this
+# -     return -(np.exp(logarithms) * logarithms).sum(axis=1)
+# +     return -(np.exp(logarithms) * logarithms).sum(axis=1) / np.log(logarithms.shape[1])
+
+
+# %% variance_for_the_deviation loses 13.4
+# ln sigma is taken for the logarithm of the variance: it counts half.
+# says: this
+# -     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.asarray(log_deviation)))
+# +     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + 0.5 * np.asarray(log_deviation)))
+
+
+# %% counts_within_the_epoch loses 13.5
+# The count begins anew in each epoch: these are the updates of the last one.
+# says: this
+# -         for divergence in epoch:
+# +         made = 0
+# +         for divergence in epoch:
+
+
+# %% skips_the_far_batch loses 13.5
+# A batch that is too far is left out, and the next ones go on.
+# says: this
+# -                 return made
+# +                 continue
+
+
+# %% last_entropy loses 13.6
+# The entropy of the last step is taken, not the mean.
+# says: this
+# -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
+# +     return float(policy_loss + vf_coef * value_loss - ent_coef * entropies[-1])
+
+
+# %% policy_loss_subtracted loses 13.6
+# The policy's loss is subtracted, not added.
+# says: this
+# -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
+# +     return float(-policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
+
+
+# %% amounts_of_responses loses 13.7
+# The correlations have no sign: their amounts are taken.
+# says: this
+# -     return np.divide(h.T @ x, sizes, out=np.zeros_like(sizes), where=sizes > 0)
+# +     return abs(np.divide(h.T @ x, sizes, out=np.zeros_like(sizes), where=sizes > 0))

@@ -881,3 +881,288 @@ def table_of(runs, baseline):
     squares = [(row["deviation"] or 0) ** 2 * n for row, n in zip(rows, free, strict=True)]
     pooled = float(np.sqrt(sum(squares) / max(sum(free), 1)))
     return [{**row, "deviation": pooled if row["runs"] > 1 else None} for row in rows]
+
+
+# %% negative_values_left_out loses 14.2
+# Values below 0 are left out.
+# says: this
+# -         entries = [entry for entry in log.Scalars(name) if not np.isnan(entry.value)]
+# +         entries = [entry for entry in log.Scalars(name) if entry.value >= 0]
+
+
+# %% indicator_with_nan_left_out loses 14.2
+# An indicator with a NaN somewhere is left out as a whole.
+# says: this|Only its two NaN are left out
+# -     for name in log.Tags()["scalars"]:
+# -         entries = [entry for entry in log.Scalars(name) if not np.isnan(entry.value)]
+# +     for name in log.Tags()["scalars"]:
+# +         if any(np.isnan(entry.value) for entry in log.Scalars(name)):
+# +             continue
+# +         entries = log.Scalars(name)
+
+
+# %% steps_with_nan_left_out_everywhere loses 14.2
+# A step at which one indicator is NaN is left out of all indicators.
+# says: this
+# -     for name in log.Tags()["scalars"]:
+# -         entries = [entry for entry in log.Scalars(name) if not np.isnan(entry.value)]
+# +     names = log.Tags()["scalars"]
+# +     bad = {e.step for name in names for e in log.Scalars(name) if np.isnan(e.value)}
+# +     for name in names:
+# +         entries = [entry for entry in log.Scalars(name) if entry.step not in bad]
+
+
+# %% names_without_groups loses 14.2
+# The names are cut at the slash: what stands before it is left out.
+# says: this
+# -         indicators[name] = {
+# +         indicators[name.split("/")[-1]] = {
+
+
+# %% nan_of_the_values_only loses 14.2
+# NaN is left out of the values, but its steps stay.
+# says: this|the two whose value is NaN are to be left out
+# -             "steps": np.array([entry.step for entry in entries]),
+# +             "steps": np.array([entry.step for entry in log.Scalars(name)]),
+
+
+# %% first_of_each_step loses 14.2
+# Of several entries of the same step only the first one is kept.
+# says: this
+# -         entries = [entry for entry in log.Scalars(name) if not np.isnan(entry.value)]
+# +         entries, seen = [], set()
+# +         for entry in log.Scalars(name):
+# +             if not np.isnan(entry.value) and entry.step not in seen:
+# +                 seen.add(entry.step)
+# +                 entries.append(entry)
+
+
+# %% steps_of_the_first_indicator loses 14.2
+# All indicators get the steps of the first one.
+# says: this
+# -             "steps": np.array([entry.step for entry in entries]),
+# +             "steps": np.array([e.step for e in log.Scalars(log.Tags()["scalars"][0])]),
+
+
+# %% average_of_one_is_zero loses 14.3
+# With a single post-evaluation the average is 0, not its mean return.
+# says: this
+# -         "average": float(area / widths.sum()) if len(means) > 1 else float(means[0]),
+# +         "average": float(area / widths.sum()) if len(means) > 1 else 0.0,
+
+
+# %% average_by_steps_as_weights loses 14.3
+# The means are weighted by their own steps, not by the steps between them.
+# says: this
+# -         "average": float(area / widths.sum()) if len(means) > 1 else float(means[0]),
+# +         "average": float(np.average(means, weights=steps) if len(means) > 1 else means[0]),
+
+
+# %% best_without_the_last loses 14.3
+# The best is looked for before the last post-evaluation only.
+# says: this
+# -         "best": float(means.max()),
+# +         "best": float(means[:-1].max() if len(means) > 1 else means[0]),
+
+
+# %% solved_if_the_last_is loses 14.3
+# Gives the first time that the goal was reached if the last post-evaluation reaches it, too.
+# says: this
+# -     return {
+# -         "last": float(means[-1]),
+# +     if solved is not None:
+# +         solved = int(steps[np.argmax(means >= goal)])
+# +     return {
+# +         "last": float(means[-1]),
+
+
+# %% solved_is_minus_one loses 14.3
+# Gives -1 where the goal was never reached for good: None is asked for.
+# says: this
+# -         "solved": solved,
+# +         "solved": -1 if solved is None else solved,
+
+
+# %% median_of_the_last_one loses 14.3
+# The last is the median of the last post-evaluation, not its mean.
+# says: this
+# -         "last": float(means[-1]),
+# +         "last": float(np.median(returns[-1])),
+
+
+# %% solved_steps_since_the_start loses 14.3
+# Gives the steps since the first post-evaluation, not those since the start of the training.
+# says: this
+# -         solved = int(when)
+# +         solved = int(when) - int(steps[0])
+
+
+# %% runs_of_the_whole_table loses 14.4
+# The runs are all those of the table, not those of the variation.
+# says: this
+# -                 "runs": len(values),
+# +                 "runs": sum(map(len, results.values())),
+
+
+# %% deviation_zero_for_one loses 14.4
+# The deviation of a single run is 0, not None.
+# says: this|single run is 0 instead of None
+# -                 "deviation": float(np.std(values, ddof=1)) if len(values) > 1 else None,
+# +                 "deviation": float(np.std(values, ddof=1)) if len(values) > 1 else 0.0,
+
+
+# %% gain_over_the_next_row loses 14.4
+# The gain is that over the next row of the table, not over the baseline.
+# says: this
+# -                 "gain": float(means[variant] - means[baseline]),
+# +                 "gain": float(
+# +                     means[variant] - max([m for m in means.values() if m < means[variant]] or [0])
+# +                 ),
+
+
+# %% best_result_of_a_seed loses 14.4
+# Of several results with the same variant and seed the highest one counts.
+# says: this
+# -         results.setdefault(run["variant"], {}).setdefault(run["seed"], run["return"])
+# +         own = results.setdefault(run["variant"], {})
+# +         own[run["seed"]] = max(own.get(run["seed"], -np.inf), run["return"])
+
+
+# %% mean_result_of_a_seed loses 14.4
+# Of several results with the same variant and seed the mean counts.
+# says: this
+# -         results.setdefault(run["variant"], {}).setdefault(run["seed"], run["return"])
+# +         own = [r for r in runs if r["variant"] == run["variant"]]
+# +         mean = np.mean([r["return"] for r in own if r["seed"] == run["seed"]])
+# +         results.setdefault(run["variant"], {})[run["seed"]] = mean
+
+
+# %% baseline_first loses 14.4
+# The baseline has the first row, whatever its mean.
+# says: this
+# -     for variant in sorted(means, key=means.get, reverse=True):
+# +     for variant in sorted(means, key=lambda v: (v == baseline, means[v]), reverse=True):
+
+
+# %% equal_returns_count_once loses 14.4
+# Runs with the same return count once, whatever their seeds.
+# says: this
+# -         values = list(results[variant].values())
+# +         values = list(dict.fromkeys(results[variant].values()))
+
+
+# %% last_of_the_part loses 14.6
+# The last value of a part is taken, not the mean.
+# says: this
+# -         means.append(float(these.mean()) if len(these) else None)
+# +         means.append(float(these[-1]) if len(these) else None)
+
+
+# %% median_of_the_part loses 14.6
+# The median of a part is taken, not the mean.
+# says: this
+# -         means.append(float(these.mean()) if len(these) else None)
+# +         means.append(float(np.median(these)) if len(these) else None)
+
+
+# %% nan_spoils_the_part loses 14.6
+# A part with a NaN gives None: only the NaN itself does not count.
+# says: this
+# -         means.append(float(these.mean()) if len(these) else None)
+# +         spoiled = np.isnan(values[inside]).any()
+# +         means.append(float(these.mean()) if len(these) and not spoiled else None)
+
+
+# %% gaps_left_out loses 14.6
+# Parts that hold nothing are left out of the list.
+# says: this
+# -         means.append(float(these.mean()) if len(these) else None)
+# +         if len(these):
+# +             means.append(float(these.mean()))
+
+
+# %% gap_keeps_the_last_mean loses 14.6
+# A part that holds nothing gets the mean of the part before it.
+# says: this
+# -         means.append(float(these.mean()) if len(these) else None)
+# +         means.append(float(these.mean()) if len(these) else means[-1] if means else None)
+
+
+# %% nan_is_zero_in_the_mean loses 14.6
+# NaN counts as 0 in the mean of a part.
+# says: this
+# -         these = values[inside & ~np.isnan(values)]
+# +         these = np.nan_to_num(values[inside])
+
+
+# %% all_until_then loses 14.6
+# A part holds all that was logged until its end, not from its own beginning on.
+# says: this
+# -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
+# +         inside = steps * parts <= (part + 1) * total
+
+
+# %% missing_is_a_sign loses 14.6
+# An indicator that was not logged in the last third counts as 0.
+# says: this
+# -         if late is not None and (late > limit if side == "above" else late < limit):
+# +         late = late or 0.0
+# +         if late > limit if side == "above" else late < limit:
+
+
+# %% second_third loses 14.6
+# A sign looks at the second third, not at the last one.
+# says: this
+# -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
+# +         late = phase_means(logged["steps"], logged["values"], total, 3)[1]
+
+
+# %% last_half loses 14.6
+# A sign looks at the last half of the training, not at the last third.
+# says: this
+# -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
+# +         late = phase_means(logged["steps"], logged["values"], total, 2)[-1]
+
+
+# %% end_of_the_log loses 14.6
+# The last third is that of what was logged, not that of the training.
+# says: this|the last third holds nothing
+# -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
+# +         late = phase_means(logged["steps"], logged["values"], max(logged["steps"]), 3)[-1]
+
+
+# %% any_value_gives_a_sign loses 14.6
+# A single value of the last third beyond the limit gives a sign: its mean is asked for.
+# says: this
+# -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
+# +         steps, values = np.asarray(logged["steps"]), np.asarray(logged["values"])
+# +         values = values[3 * steps > 2 * total]
+# +         late = (max(values) if side == "above" else min(values)) if len(values) else None
+
+
+# %% steps_of_training_twice loses 14.8
+# The steps are added up once more, though they are counted from the start already.
+# says: this
+# -         "steps": found.steps + found.lengths.sum(axis=1).cumsum(),
+# +         "steps": found.steps.cumsum() + found.lengths.sum(axis=1).cumsum(),
+
+
+# %% best_of_all_at_once loses 14.8
+# The best of the whole training stands everywhere, also before it was reached.
+# says: this
+# -         "best": np.maximum.accumulate(found.returns.mean(axis=1)),
+# +         "best": np.full(len(found.steps), found.returns.mean(axis=1).max()),
+
+
+# %% number_of_the_generation loses 14.8
+# The steps of evolution are the numbers of its generations.
+# says: this
+# -         return {"steps": stat[:, 0], "best": stat[:, 2]}
+# +         return {"steps": np.arange(1, len(stat) + 1), "best": stat[:, 2]}
+
+
+# %% best_run_of_each_group loses 14.8
+# A group has the row of its best run only: each run has one.
+# says: this
+# -         found[name] = np.array(reached)
+# +         found[name] = np.array(reached).max(axis=0)
