@@ -118,7 +118,7 @@ def expect_decoded(student: Student, index: int, keys: tuple[str, str], columns:
     ]
     for position, key in enumerate(keys):
         said = [f"decode({shown(observation)}): {key}" for observation in observations]
-        other = f"This is {keys[1 - position]}: are the two exchanged?"
+        other = f"This is {keys[1 - position]}, but {key} is asked for."
         wanted = states[:, columns][:, position]
         mistakes = {other: np.round(states[:, columns][:, 1 - position], 3)}
         if "angle" in key:

@@ -831,6 +831,9 @@ def wrong_parts(brain: np.ndarray, body: np.ndarray, part: slice) -> dict[str, n
         }  # fmt: skip
     return {
         "The network is that of the body's genotype: brain and body are exchanged.": other,
+        "The foreign body stands in the first 64 places, but the network comes first.": np.append(
+            body[-134:-70], one[64:]
+        ),
         "The networks of both genotypes are averaged.": (one + other) / 2,
         "The networks of both genotypes are added.": one + other,
         **{
@@ -1106,6 +1109,8 @@ def wrong_losses(matrix: np.ndarray, key: str) -> dict:
             np.sum(own - rest.mean(axis=1) > 0),
             "A brain must beat each other place of its row, not the mean of all foreign places.":
             np.sum(own > others.mean()),
+            "A brain must beat the others of its own row, not all foreign places.":
+            np.sum(own > others.max()),
             "A brain must beat each other place of its row, not their median.":
             np.sum(own > np.median(rest, axis=1)),
             "0 stands on the diagonal, which beats returns below 0.":

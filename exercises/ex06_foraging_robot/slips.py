@@ -89,9 +89,9 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         "The new cells are kept after tanh: tanh belongs to the outputs alone.":
         made(np.tanh(cells), outputs),
         "The new cells are put through tanh, and once more for the outputs.": made(np.tanh(cells)),
-        "The input gate is a factor of tanh(candidate), and stands outside the tanh.":
+        "The input gate is multiplied inside the candidate's tanh, but belongs outside.":
         made(kept * memory[0] + np.tanh(taken * net[3])),
-        "The forget gate is a factor of the old cells, not of tanh of them.":
+        "The forget gate is multiplied by tanh of the old cells, not by the cells themselves.":
         made(kept * np.tanh(memory[0]) + taken * np.tanh(net[3])),
         "The 1 is added to the new cells, but belongs inside the forget gate's logistic function.":
         made(squash(net[0]) * memory[0] + 1 + taken * np.tanh(net[3])),
@@ -118,7 +118,8 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         made(kept * memory[0] + shown * np.tanh(net[3])),
         "The output gate is used for the forget gate, too.":
         made(shown * memory[0] + taken * np.tanh(net[3])),
-        "The new outputs are the old ones where the output gate is 0: no such mixing is asked for.":
+        "1 minus the output gate of the old outputs is added to the new ones: only the new ones "
+        "belong there.":
         made(cells, shown * np.tanh(cells) + (1 - shown) * memory[1]),
         "The logistic function stands around the whole output.":
         made(cells, squash(net[2] * np.tanh(cells))),
@@ -171,7 +172,8 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         "The two biases are exchanged.": (np.tanh(readout @ outputs + bias[::-1]), right[1]),
         "The action lies between -1 and 1: it is 0 to 1 here.": (
             (np.tanh(readout @ outputs + bias) + 1) / 2, right[1]),
-        "The action is divided by the number of units: take the sum.": (
+        "The sum over the units is divided by their number before the bias is added: no division "
+        "is asked for.": (
             np.tanh(readout @ outputs / UNITS + bias), right[1]),
         "The action is read from tanh(outputs): the outputs themselves are asked for.": (
             np.tanh(readout @ np.tanh(outputs) + bias), right[1]),
@@ -199,16 +201,17 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
             f"{', '.join(GATES[order.index(k)] for k in range(4))}.": of(order=order)
             for order in permutations(range(4)) if order != (0, 1, 2, 3)
         },
-        "The candidate goes through tanh, not through the logistic function.": of(
+        "The candidate goes through the logistic function instead of tanh.": of(
             candidate=squash
         ),
         "tanh of the candidate is left out.": of(candidate=lambda x: x),
-        "The new cells go through tanh before the output gate.": of(shown=lambda x: x),
+        "The new cells go to the outputs without tanh.": of(shown=lambda x: x),
         "The outputs show the cells of the step before: the new ones are asked for.": of(
             shown=lambda _: np.tanh(memory[0])
         ),
-        "The gates use the logistic function, not tanh.": of(gate=np.tanh),
-        "The input gate is a gate of its own, not 1 minus the forget gate.": of(
+        "The three gates go through tanh, but the logistic function is asked for.":
+        of(gate=np.tanh),
+        "The input gate is 1 minus the forget gate here, not a gate of its own.": of(
             enter=lambda kept: 1 - kept
         ),
         "The forget gate is not applied: the old cells are kept whole.": of(
@@ -229,19 +232,21 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         ),
         "The 1 is added to all four, but belongs to the forget gate alone.": of(ones=(1, 1, 1, 1)),
         "The 1 is added to the candidate, but belongs to the forget gate.": of(ones=(0, 0, 0, 1)),
-        "The output gate is a factor of tanh(new cells), not of the cells.": of(outside=False),
+        "The output gate is multiplied inside the tanh of the new cells, but belongs outside.":
+        of(outside=False),
         "The new cells go through the logistic function, but tanh is asked for.": of(shown=squash),
-        "The forget gate is a factor of the old cells, not of the old outputs.": of(old=memory[1]),
-        "The forget gate is taken for its opposite: 1 keeps the old cells, 0 forgets them.": of(
+        "The forget gate is multiplied by the old outputs, not by the old cells.":
+        of(old=memory[1]),
+        "The old cells are multiplied by 1 minus the forget gate, not by the gate itself.": of(
             forget=lambda net: 1 - squash(net)
         ),
         "The logistic function has a minus sign too few or too many.": of(
             gate=lambda net: squash(-net)
         ),
-        "The new candidate is subtracted, but belongs to the old cells.": of(
+        "The new candidate is subtracted from the old cells, but belongs added.": of(
             candidate=lambda x: -np.tanh(x)
         ),
-        "The forget gate is a factor of the old cells alone, not of what is added to them.": of(
+        "The forget gate is also a factor of what is added: it belongs to the old cells alone.": of(
             enter=lambda kept: kept * squash(net[1])
         ),
         "The forget gate is used for the input gate, too.": of(enter=lambda kept: kept),
@@ -258,7 +263,8 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         "The action is read from the cells of the step before.": (
             np.tanh(bias + readout @ memory[0]), right[1]
         ),
-        "Cells and outputs are exchanged: memory[0] holds the cells, in the old and the new one.": (
+        "Cells and outputs are exchanged in the old and the new memory: memory[0] is to hold the "
+        "cells.": (
             swapped[0], swapped[1][::-1]
         ),
         "The old cells are taken for the outputs and the old outputs for the cells.": swapped,
@@ -275,7 +281,7 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
             leave=squash(gates[2] @ np.append(observation, np.tanh(cells)))
         ),
         "The two wheels are exchanged.": (right[0][::-1], right[1]),
-        "The rows of the new memory are exchanged: the cells come first.": (
+        "The rows of the new memory are exchanged: the outputs stand before the cells.": (
             right[0], np.array([outputs, cells])
         ),
         "The action is cut off at -1 and 1 instead of put through tanh.": (
@@ -361,14 +367,15 @@ def wrong_grids(places: int, headings: int, column: int) -> dict:
             "x and y are cut to whole numbers.": lambda a, b, n: np.linspace(a, b, n).astype(int),
             ("x has the range of y.", "y has the range of x.", "")[column]: lambda a, b, n:
             np.linspace(*((150, 250) if a == 270 else (270, 350)), n),
-            f"{xy} falls: it begins at the lower end.": lambda a, b, n: np.linspace(b, a, n),
+            f"{xy} falls from its upper end to its lower one, but is to rise.":
+            lambda a, b, n: np.linspace(b, a, n),
             f"{xy} is left at its lower end.": lambda a, b, n: np.full(n, float(a)),
             f"{xy} is left at its upper end.": lambda a, b, n: np.full(n, float(b)),
             f"The lower end of {xy} is missing.": lambda a, b, n: np.linspace(a, b, n + 1)[1:],
             f"Both ends of {xy} are missing.": lambda a, b, n: np.linspace(a, b, n + 2)[1:-1],
             f"{xy} is counted from 0, not from its lower end.":
             lambda a, b, n: np.linspace(0, b - a, n),
-            f"{xy} ends at its upper end, but does not begin at 0.":
+            f"{xy} begins at 0, not at its lower end.":
             lambda a, b, n: np.linspace(0, b, n),
             f"The steps of {xy} are as long as its range divided by `places` + 1.":
             lambda a, b, n: a + np.arange(n) * (b - a) / (n + 1),
@@ -385,18 +392,18 @@ def wrong_grids(places: int, headings: int, column: int) -> dict:
             np.linspace(0, 2 * np.pi, headings),
             "The headings are in degrees.": 360 * turn,
             "The headings divide half a turn, not the whole one.": np.pi * turn,
-            "`//` cuts the fraction off: divide with `/`.":
+            "The fraction of the step between headings is cut off, as `//` does.":
             np.arange(headings) * (2 * np.pi // headings),
             "The headings begin at minus pi, not at 0.": 2 * np.pi * turn - np.pi,
             "The headings turn clockwise.": -2 * np.pi * turn,
             "The headings are counted in whole turns.": turn,
             "The headings divide the turn into one part too many.":
             2 * np.pi * np.arange(headings) / (headings + 1),
-            "The headings begin half a part after 0, which belongs to them.":
+            "The headings begin half a part after 0, but 0 belongs to them.":
             2 * np.pi * (turn + 0.5 / headings),
-            "The headings fall from 2 pi: they begin at 0 and grow.": 2 * np.pi * (1 - turn),
+            "The headings fall from 2 pi, but are to begin at 0 and grow.": 2 * np.pi * (1 - turn),
             "The headings stand in the opposite order.": 2 * np.pi * turn[::-1],
-            "The headings lie between -pi and pi: they grow from 0.":
+            "The headings lie between -pi and pi here, but are to grow from 0.":
             np.angle(np.exp(2j * np.pi * turn)),
             "The headings divide a quarter of a turn, not the whole one.": np.pi / 2 * turn,
             "The headings divide two turns.": 4 * np.pi * turn,
@@ -410,7 +417,8 @@ def wrong_grids(places: int, headings: int, column: int) -> dict:
             "The step between headings is 2 pi divided by `places`, not by `headings`.":
             2 * np.pi * np.arange(headings) / places,
             "The headings are rounded.": (2 * np.pi * turn).round(),
-            "The headings begin after 0, which belongs to them.":
+            "The headings begin one part after 0 and end with 2 pi: 0 belongs to them, 2 pi does "
+            "not.":
             2 * np.pi * (np.arange(headings) + 1) / headings,
         },
     )  # fmt: skip
@@ -451,7 +459,7 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             NO_REWARD: np.argmax(near),
             "The first step with a reward is part of the search here.": search + 1,
             "The last step of the search is left out.": search - 1,
-            "The search ends at the first reward: later steps without one do not belong to it.":
+            "All steps without a reward count here, but the search ends at the first reward.":
             np.sum(~near),
             "All steps count here, not those of the search.": many,
             "These are the steps near the cylinder, not those of the search.": np.sum(near),
@@ -461,13 +469,16 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             search if near.any() else many + 1,
             "Without any reward, the search has as many steps as the episode, not one less.":
             search if near.any() else many - 1,
-            "The search is counted in steps of 0.1 s, not in seconds.": search / 10,
-            "The search begins anew whenever the cylinder is lost: it ends at the first reward.":
+            "The search is divided by 10 here: it is counted in steps, not in seconds.":
+            search / 10,
+            "This is the longest run of steps without a reward: the search ends at the first "
+            "reward.":
             max(map(len, "".join(".x"[int(each)] for each in near).split("x"))),
             "These are the steps from the first reward on.": many - search,
             "The search ends at the last step with a reward, not at the first one.": last,
             "The share of the search is given, not its number of steps.": search / many,
-            "A search without end has -1 here, not all the steps.": search if near.any() else -1,
+            "Without any reward the search is -1 here, but has all steps of the episode.":
+            search if near.any() else -1,
             "A reward in the first step is overlooked.":
             int(near[1:].argmax()) + 1 if near[1:].any() else many,
             "The first step is left out before the first reward is sought.":
@@ -495,14 +506,15 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "The speed has lost its sign.": np.abs(forward(theta)),
             "The speed has the wrong sign.": -forward(theta),
             "Sine and cosine are exchanged.": dx * np.sin(theta) + dy * np.cos(theta),
-            "The two parts are to be added: one is subtracted here.":
+            "The part in y is subtracted from that in x, but belongs added.":
             dx * np.cos(theta) - dy * np.sin(theta),
             "This is how far the robot moves sideways.": dy * np.cos(theta) - dx * np.sin(theta),
             "The heading is left out: speed is along it.": dx + dy,
             "The heading of each step is asked for, not that at the start.":
             dx * np.cos(theta[0]) + dy * np.sin(theta[0]),
-            "The speed is per step of 0.1 s, not per second.": 10 * forward(theta),
-            "The speed is divided by 10: it is per step.": forward(theta) / 10,
+            "The speed is multiplied by 10 here: it is asked for per step, not per second.":
+            10 * forward(theta),
+            "The speed is divided by 10 here: it is asked for per step.": forward(theta) / 10,
             "The way is divided by its own length: this is the cosine of its direction.":
             forward(theta) / np.where(length > 0, length, 1),
             "The heading is taken for degrees: np.cos takes radians.":
@@ -535,7 +547,7 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             np.where(change < -np.pi, change + 2 * np.pi, change),
             "Only one direction is taken the short way around: it may leap by -2 pi or 2 pi.":
             np.where(change > np.pi, change - 2 * np.pi, change),
-            "The short way around is the smaller amount, but keeps its sign.":
+            "This is the amount of the short way around, without its sign.":
             np.minimum(np.abs(change), 2 * np.pi - np.abs(change)),
             "The turning is the heading itself: take its change.": later,
             "The turning is the heading at the beginning of the step: take its change.": theta,
@@ -547,17 +559,20 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             change.clip(-np.pi, np.pi),
             "A leap counts as 0: take the short way around.":
             np.where(np.abs(change) > np.pi, 0, change),
-            "The remainder by pi is taken: a whole turn is 2 pi.": change % np.pi,
+            "The remainder by pi is taken here, but a whole turn is 2 pi.": change % np.pi,
             "The turning is the sine of the change.": np.sin(change),
-            "The turning is per step, not per second.": 10 * turned,
+            "The turning is multiplied by 10 here: it is asked for per step, not per second.":
+            10 * turned,
             "The direction in which the robot moves is taken for its heading.":
             np.angle(np.exp(1j * (np.arctan2(dy, dx) - theta))),
-            "np.fmod keeps the sign of what is divided: use % for the short way.":
+            "np.fmod keeps the sign of what is divided, so that turns below -pi do not take the "
+            "short way: % does it.":
             np.fmod(change + np.pi, 2 * np.pi) - np.pi,
-            "The wrong half is taken: a change above pi loses pi, not 2 pi.":
+            "Changes beyond pi and -pi are made smaller by pi here, but a whole turn is 2 pi.":
             change - np.pi * np.sign(change) * (np.abs(change) > np.pi),
             "The long way around is taken.": turned - np.sign(turned) * 2 * np.pi,
-            "The short way around is within half a turn, not a quarter.":
+            "The changes lie between -pi / 2 and pi / 2 here, but the short way around is between "
+            "-pi and pi.":
             (change + np.pi / 2) % np.pi - np.pi / 2,
         },
         "wall": {
@@ -618,7 +633,8 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "The pace is that of the step before.": np.append(0, length[:-1]),
             "The pace is that of the step after.": np.append(length[1:], 0),
             "The change of the heading is counted in the pace.": np.sqrt(length**2 + change**2),
-            "The pace is per step of 0.1 s, not per second.": 10 * length,
+            "The pace is multiplied by 10 here: it is asked for per step, not per second.":
+            10 * length,
             "The pace is the way to the cylinder.": np.hypot(to_x, to_y),
             "The pace is the change of the distance to the cylinder.":
             np.hypot(from_x, from_y) - np.hypot(to_x, to_y),
@@ -643,9 +659,9 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "The heading is not subtracted.": np.sin(bearing),
             "The heading is added, not subtracted.": np.sin(bearing + later),
             "The sine is not taken.": bearing - later,
-            "The direction is arctan2(dy, dx), not arctan2(dx, dy).":
+            "The direction is computed as arctan2(dx, dy), but arctan2(dy, dx) is asked for.":
             np.sin(np.arctan2(to_x, to_y) - later),
-            "The sine is not divided by the distance.":
+            "This is the sine times the distance to the cylinder.":
             np.sin(bearing - later) * np.hypot(to_x, to_y),
             "Only the sign of the side is taken.": np.sign(np.sin(bearing - later)),
             "The direction leads from the arena's middle to the cylinder, not from the robot.":
@@ -665,7 +681,7 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
             "The side has lost its sign: -1 means that the cylinder is to the right.":
             np.abs(np.sin(bearing - later)),
             "This is the tangent, not the sine.": np.tan(bearing - later),
-            "The short way around is the angle itself: take its sine.":
+            "This is the angle itself, the short way around: its sine is asked for.":
             np.angle(np.exp(1j * (bearing - later))),
             "The direction in which the robot moves is taken for its heading.":
             np.sin(bearing - np.arctan2(dy, dx)),
@@ -677,7 +693,7 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
     }  # fmt: skip
     of_search = {
         "": steps < search,
-        "The search ends at the first reward: later steps without one do not belong to it.": ~near,
+        "All steps without a reward count here, but the search ends at the first reward.": ~near,
         "All steps count here, not those of the search.": steps >= 0,
         "The first step with a reward is part of the search here.": steps <= search,
         "The last step of the search is left out.": steps < search - 1,
@@ -687,7 +703,7 @@ def wrong_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str)
     }
     of_near = {
         "": near,
-        "Steps after the search count only with a reward: the robot may lose the cylinder.": steps
+        "All steps after the search count here, but those without a reward are not near.": steps
         >= search,
         "All steps count here, not those with a reward.": steps >= 0,
         "These are the steps of the search, not those near the cylinder.": steps < search,
@@ -995,9 +1011,10 @@ def wrong_families(table: np.ndarray, threshold: float) -> dict:
         lambda a, b, m, n: np.minimum(a, b),
         "Families are as far apart as their most different robots: take the mean over all pairs.":
         lambda a, b, m, n: np.maximum(a, b),
-        "Two families weigh alike when they merge: take the mean over all pairs of robots.":
+        "When two families merge, their distances are averaged whatever their sizes: the mean "
+        "over all pairs of robots is asked for.":
         lambda a, b, m, n: (a + b) / 2,
-        "A family is represented by its first robot: take the mean over all pairs.":
+        "A family is represented by its first robot, but the mean over all pairs is asked for.":
         lambda a, b, m, n: a,
         "The distances of the pairs are added up: take their mean.": lambda a, b, m, n: a + b,
     }  # fmt: skip
@@ -1007,7 +1024,8 @@ def wrong_families(table: np.ndarray, threshold: float) -> dict:
         "The first pair nearer than the threshold is merged, not the two nearest families.":
         "first",
         "The first pair below the threshold is merged, not the two nearest families.": "lowest",
-        "Robots join the first robot that is near: families are to be merged, the nearest first.":
+        "Each robot joins the first robot that is near, but families are to be merged, the "
+        "nearest first.":
         "leader",
         "The distance of two families is that of their means: take the mean distance of robots.":
         "centre",
@@ -1062,8 +1080,15 @@ def wrong_memories(first: np.ndarray, afters: np.ndarray, episode: int) -> dict:
     return {
         **(
             {
-                "This is the memory at the beginning of the second episode: what `freeze` counts "
-                "goes on from one episode to the next, but `step` begins anew.": first
+                "This is the memory at the beginning of the second episode, though the first one "
+                "was "
+                "right: something goes on from one episode to the next, for example a count or a "
+                "flag.": first,
+                **{
+                    f"This is the memory after step {k} of the first episode: it is kept from one "
+                    "episode to the next.": each
+                    for k, each in enumerate(other)
+                },
             }
             if episode
             else {}
@@ -1071,11 +1096,6 @@ def wrong_memories(first: np.ndarray, afters: np.ndarray, episode: int) -> dict:
         "This is the memory at the beginning of the episode, or always the one before.": first,
         "This memory is empty.": 0 * first,
         **{f"This is the memory after step {k}.": each for k, each in enumerate(own)},
-        **{
-            f"This is the memory after step {k} of the other episode: it is kept from one episode "
-            "to the next.": each
-            for k, each in enumerate(other)
-        },
         "Only the cells are empty, but the outputs are memory, too.": own[0] * [[0], [1]],
         **{
             f"The {what} are those of step {k}, the others are empty.": each * factors

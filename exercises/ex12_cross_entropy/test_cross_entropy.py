@@ -624,6 +624,8 @@ def measured(module, scores, actions):
 
     scores = torch.tensor(scores, requires_grad=True)
     loss = module.cross_entropy(scores, torch.tensor(actions))
+    if not isinstance(loss, torch.Tensor):
+        raise TypeError(f"the loss is a {type(loss).__name__}, but a tensor of torch is needed")
     if not loss.requires_grad:
         text = "torch cannot follow the loss back to the scores, as after NumPy, .item(), .detach()"
         raise ValueError(f"{text}, torch.tensor(...) or torch.no_grad()")
@@ -867,6 +869,8 @@ def measured_gaussian(module, means, log_deviation, actions):
 
     means, log_deviation = (torch.tensor(x, requires_grad=True) for x in (means, log_deviation))
     loss = module.gaussian_loss(means, log_deviation, torch.tensor(actions))
+    if not isinstance(loss, torch.Tensor):
+        raise TypeError(f"the loss is a {type(loss).__name__}, but a tensor of torch is needed")
     if not loss.requires_grad:
         text = "torch cannot follow the loss back, as after NumPy, .item(), .detach()"
         raise ValueError(f"{text}, torch.tensor(...) or torch.no_grad()")

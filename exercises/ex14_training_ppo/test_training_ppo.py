@@ -631,10 +631,11 @@ def compare_chance(student: Student, first: list[float], second: list[float]) ->
     }  # fmt: skip
     answer = student.call("chance_of", first, second)
     student.said = f"chance_of({first}, {second})"
-    right = bool(np.all(np.isclose(answer, hits / len(ways), CLOSE, CLOSE)))
-    whole = np.asarray(answer, dtype=float) * len(ways)
+    share = expect_array(student.said, answer, ())
+    right = bool(np.isclose(share, hits / len(ways), CLOSE, CLOSE))
+    whole = share * len(ways)
     expect(
-        right or bool(np.all(np.abs(whole - np.round(whole)) < 1e-6)),
+        right or bool(np.abs(whole - np.round(whole)) < 1e-6),
         f"{student.said} returned {show(answer)}, but {hits} / {len(ways)} was expected: there are "
         f"{len(ways)} ways, each of which counts once, so the answer is a multiple of "
         f"1 / {len(ways)}.",

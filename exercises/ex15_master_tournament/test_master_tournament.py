@@ -118,7 +118,9 @@ def say_where_it_begins(said: str, poses, expected: np.ndarray) -> None:
     cause = ""
     rest = [np.allclose(poses[step][k], poses[step - 1][k], atol=1e-6) for k in range(2)]
     still = step > 0 and all(rest[k] for k in np.flatnonzero(wrong[step]))
-    if step == 1 and len(poses) == len(expected) > 2 and np.allclose(poses[1:], expected[:-1]):
+    if np.allclose(poses[:both], expected[:both, ::-1], atol=1e-6):
+        cause = " The prey stands first in the poses: the predator comes first."
+    elif step == 1 and len(poses) == len(expected) > 2 and np.allclose(poses[1:], expected[:-1]):
         cause = (
             " Each pose stands one place too late: the start is there twice, and the pose after "
             "the last step is missing."

@@ -804,3 +804,122 @@ def run_episode(environment_id, network, seed, maxsteps=200):
     if len(whole["actions"]) == maxsteps:
         return whole
     return _run_episode_2(environment_id, network, seed, len(whole["actions"]) - 1)
+
+
+# %% signs_of_the_observation_lost loses 2.2
+# Takes the absolute values of the observation.
+# says: this
+# -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
+# +     hidden = np.tanh(network["W1"] @ np.abs(observation) + network["b1"])
+
+
+# %% tanh_of_each_product loses 2.2
+# Puts each product of a weight and an input through tanh, not their sum.
+# says: this
+# -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
+# +     hidden = np.tanh(network["W1"] * observation).sum(axis=1) + network["b1"]
+
+
+# %% all_biases_at_each_output loses 2.2
+# Adds the biases of all outputs to each output.
+# says: this
+# -     return np.tanh(network["W2"] @ hidden + network["b2"])
+# +     return np.tanh(network["W2"] @ hidden + network["b2"].sum())
+
+
+# %% tangent_for_tanh loses 2.2
+# Uses np.tan, the tangent, where np.tanh is asked for.
+# says: this
+# -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
+# -     return np.tanh(network["W2"] @ hidden + network["b2"])
+# +     hidden = np.tan(network["W1"] @ observation + network["b1"])
+# +     return np.tan(network["W2"] @ hidden + network["b2"])
+
+
+# %% logistic_everywhere loses 2.2
+# Uses the logistic function instead of tanh in hidden neurons and outputs.
+# says: this
+# -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
+# -     return np.tanh(network["W2"] @ hidden + network["b2"])
+# +     hidden = 1 / (1 + np.exp(-(network["W1"] @ observation + network["b1"])))
+# +     return 1 / (1 + np.exp(-(network["W2"] @ hidden + network["b2"])))
+
+
+# %% logistic_outputs loses 2.2
+# Uses the logistic function at the outputs, where tanh is asked for.
+# says: logistic function where tanh
+# -     return np.tanh(network["W2"] @ hidden + network["b2"])
+# +     return 1 / (1 + np.exp(-(network["W2"] @ hidden + network["b2"])))
+
+
+# %% seeds_from_the_next loses 2.8
+# Measures with the seeds from seed + 1 to seed + 10.
+# says: seed \+ 1 to seed \+ 10
+# -     seeds = list(range(seed, seed + 10))
+# +     seeds = list(range(seed + 1, seed + 11))
+
+
+# %% eleven_seeds loses 2.8
+# Measures with eleven seeds, from seed to seed + 10.
+# says: this
+# -     seeds = list(range(seed, seed + 10))
+# +     seeds = list(range(seed, seed + 11))
+
+
+# %% better_than_the_one_before loses 2.8
+# Compares each network with the one before it, not with the best so far.
+# says: this
+# -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
+# +     best = 0
+# +     for i in range(1, nnetworks):
+# +         if measured[i] > measured[i - 1]:
+# +             best = i
+# +     return {"networks": networks, "fitness": measured, "best": best}
+
+
+# %% same_network_again loses 2.8
+# Gives all networks the parameters of the seed itself, but network i has those of seed + i.
+# says: this
+# -     networks = [parameters(ninputs, nhiddens, noutputs, seed + i) for i in range(nnetworks)]
+# +     networks = [parameters(ninputs, nhiddens, noutputs, seed) for i in range(nnetworks)]
+
+
+# %% hundred_steps loses 2.8
+# Ends each episode after 100 steps.
+# says: this
+# -     measured = [fitness(environment_id, network, seeds) for network in networks]
+# +     measured = [fitness(environment_id, network, seeds, 100) for network in networks]
+
+
+# %% five_hundred_steps loses 2.8
+# Goes on for up to 500 steps in each episode, but 200 are asked for.
+# -     measured = [fitness(environment_id, network, seeds) for network in networks]
+# +     measured = [fitness(environment_id, network, seeds, 500) for network in networks]
+
+
+# %% counts_the_best_from_one loses 2.8
+# Counts the number of the best network from 1.
+# says: this
+# -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
+# +     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured)) + 1}
+
+
+# %% best_network_itself loses 2.8
+# Gives the best network itself, but its number is asked for.
+# says: this
+# -     return {"networks": networks, "fitness": measured, "best": int(np.argmax(measured))}
+# +     return {"networks": networks, "fitness": measured, "best": networks[int(np.argmax(measured))]}
+
+
+# %% measures_the_first_only loses 2.8
+# Measures network 0 again and again, and gives its fitness for all networks.
+# says: this
+# -     measured = [fitness(environment_id, network, seeds) for network in networks]
+# +     measured = [fitness(environment_id, networks[0], seeds) for network in networks]
+
+
+# %% dimensions_for_inputs loses 2.3
+# Gives the number of dimensions of the observation space, but how many numbers it has is asked for.
+# says: this
+# -     ninputs, actions = env.observation_space.shape[0], env.action_space
+# +     ninputs, actions = len(env.observation_space.shape), env.action_space

@@ -15,7 +15,7 @@ def decode(observation):
 
 # %% speeds_swapped loses 4.1
 # The two speeds are mixed up.
-# says: This is speed2: are the two exchanged
+# says: This is speed2|The two speeds
 _decoded = decode
 
 
@@ -437,3 +437,124 @@ def curves(stats, column, budgets):
 # -         fitness[seed] = float(run.record.bestg_fitness)
 # +         best = max(best, float(run.record.bestg_fitness))
 # +         fitness[seed] = best
+
+
+# %% angles_in_turns loses 4.1
+# Gives the angles in turns, but radians are asked for.
+# says: this
+# -         "angle1": float(np.arctan2(sin1, cos1)),
+# -         "angle2": float(np.arctan2(sin2, cos2)),
+# +         "angle1": float(np.arctan2(sin1, cos1) / (2 * np.pi)),
+# +         "angle2": float(np.arctan2(sin2, cos2) / (2 * np.pi)),
+
+
+# %% from_straight_up loses 4.1
+# Counts the first angle from straight up, but 0 is straight down.
+# says: this
+# -         "angle1": float(np.arctan2(sin1, cos1)),
+# +         "angle1": float(np.arctan2(-sin1, -cos1)),
+
+
+# %% second_minus_first loses 4.1
+# Subtracts the first angle from the second, which counts from the first link already.
+# says: this
+# -         "angle2": float(np.arctan2(sin2, cos2)),
+# +         "angle2": float(np.arctan2(sin2, cos2) - np.arctan2(sin1, cos1)),
+
+
+# %% speed_sum loses 4.1
+# Adds the first speed to the second one.
+# says: this
+# -         "speed2": speed2,
+# +         "speed2": speed1 + speed2,
+
+
+# %% first_angle_rounded loses 4.1
+# Rounds the first angle to two places.
+# says: this
+# -         "angle1": float(np.arctan2(sin1, cos1)),
+# +         "angle1": round(float(np.arctan2(sin1, cos1)), 2),
+
+
+# %% first_angle_twice loses 4.1
+# Gives the first angle for the second one, too.
+# says: This is angle1|first angle for the second
+# -         "angle2": float(np.arctan2(sin2, cos2)),
+# +         "angle2": float(np.arctan2(sin1, cos1)),
+
+
+# %% cosines_before_sines loses 4.1
+# Takes the numbers for two cosines and then two sines, but each cosine has its sine beside it.
+# says: this
+# -     cos1, sin1, cos2, sin2, speed1, speed2 = (float(value) for value in observation)
+# +     cos1, cos2, sin1, sin2, speed1, speed2 = (float(value) for value in observation)
+
+
+# %% average_promises loses 4.6
+# Takes the average fitness of the last generation for the promise.
+# says: this
+# -         row = {"seed": seed, "promised": float(stat["best post-evaluated"][-1])}
+# +         row = {"seed": seed, "promised": float(stat["average"][-1])}
+
+
+# %% mean_promises loses 4.6
+# Takes the mean over all generations for the promise, but the last one tells it.
+# says: this
+# -         row = {"seed": seed, "promised": float(stat["best post-evaluated"][-1])}
+# +         row = {"seed": seed, "promised": float(stat["best post-evaluated"].mean())}
+
+
+# %% first_episode_only loses 4.6
+# Counts the first of the new episodes only, not their mean.
+# says: this
+# -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
+# +             row[kind] = float(robot.evaluate(test_seed, episodes)[0])
+
+
+# %% last_episode_only loses 4.6
+# Counts the last of the new episodes only, not their mean.
+# says: this
+# -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
+# +             row[kind] = float(robot.evaluate(test_seed, episodes)[-1])
+
+
+# %% ten_episodes_always loses 4.6
+# Evaluates in 10 episodes, however many are asked for.
+# says: this
+# -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
+# +             row[kind] = float(robot.evaluate(test_seed, 10).mean())
+
+
+# %% robots_of_the_first_seed loses 4.6
+# Evaluates the robots of the first seed for all seeds.
+# says: this
+# -             robot = SavedRobot(experiment_file, np.load(Path(folder) / f"{kind}S{seed}.npy"))
+# +             robot = SavedRobot(experiment_file, np.load(Path(folder) / f"{kind}S{seeds[0]}.npy"))
+
+
+# %% best_for_both loses 4.6
+# Evaluates the robot of bestS for bestg, too.
+# says: this
+# -             robot = SavedRobot(experiment_file, np.load(Path(folder) / f"{kind}S{seed}.npy"))
+# +             robot = SavedRobot(experiment_file, np.load(Path(folder) / f"bestS{seed}.npy"))
+
+
+# %% seed_for_each_episode loses 4.6
+# Evaluates each episode alone with a seed of its own: evaluate gets test_seed once, for all.
+# says: this
+# -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
+# +             row[kind] = float(np.mean([robot.evaluate(test_seed + i, 1)[0] for i in range(episodes)]))
+
+
+# %% test_seed_plus_one loses 4.6
+# Evaluates with test_seed + 1.
+# says: this
+# -             row[kind] = float(robot.evaluate(test_seed, episodes).mean())
+# +             row[kind] = float(robot.evaluate(test_seed + 1, episodes).mean())
+
+
+# %% one_generation_too_early loses 4.5
+# Takes the generation before the last one that is complete at the budget.
+# says: this
+# -         stat[column][np.searchsorted(stat["steps"], budgets, side="right") - 1] for stat in stats
+# +         stat[column][np.maximum(np.searchsorted(stat["steps"], budgets, side="right") - 2, 0)] for stat in stats

@@ -908,3 +908,55 @@ def loss(matrix):
 # Cuts the angles of all segments off but the torso's.
 # -         "angles": 3 * np.pi / 4 * np.clip(parameters[42:53], -1, 1),
 # +         "angles": 3 * np.pi / 4 * np.append(parameters[42], np.clip(parameters[43:53], -1, 1)),
+
+
+# %% density_of_the_torso loses 5.1
+# Takes the density of the torso for all segments.
+# says: this
+# -     densities = 5 + 0.8 * np.tanh(parameters[53:])
+# +     densities = 5 + 0.8 * np.tanh(parameters[53])
+
+
+# %% across_the_torso loses 5.3
+# Takes the direction across the torso for all segments.
+# says: this
+# -     side = size["thicknesses"][:, None] / 2 * across
+# +     side = size["thicknesses"][:, None] / 2 * across[0]
+
+
+# %% middle_as_a_fifth_corner loses 5.3
+# Adds the middle of each segment as a fifth corner.
+# says: five places for each segment|fifth corner
+# -     return np.stack([beginnings - side, ends - side, ends + side, beginnings + side], axis=1)
+# +     return np.stack(
+# +         [beginnings - side, ends - side, ends + side, beginnings + side, (beginnings + ends) / 2],
+# +         axis=1,
+# +     )
+
+
+# %% body_at_the_front loses 5.6
+# Puts the foreign body into the first 64 places, where the network begins.
+# says: this
+# -     chimera[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS] = body_of(body)
+# +     chimera[:BODY] = body_of(body)
+
+
+# %% home_against_all_foreign loses 5.8
+# Compares each brain with the best of all foreign places, not with those of its own row.
+# says: this
+# -         "at home": int(np.sum(own > others.max(axis=1))),
+# +         "at home": int(np.sum(own > others.max())),
+
+
+# %% home_against_the_next loses 5.8
+# Compares each brain with the next body only, not with each of the others.
+# says: this
+# -         "at home": int(np.sum(own > others.max(axis=1))),
+# +         "at home": int(np.sum(own > np.roll(matrix, -1, axis=1).diagonal())),
+
+
+# %% lengths_without_tanh loses 5.1
+# Leaves tanh out in the lengths: uses the parameters themselves.
+# says: tanh is left out|Leaves tanh out
+# -     lengths, thicknesses = 0.8 * scales[:, 0], 0.2 * scales[:, 1]
+# +     lengths, thicknesses = 0.8 + 0.72 * parameters[:22:2], 0.2 * scales[:, 1]

@@ -803,14 +803,14 @@ def think(brain, observation, memory):
 
 # %% headings_floored loses 6.3
 # Divides the whole turn with `//`, which cuts the fraction off.
-# says: cuts the fraction off
+# says: fraction of the step between headings is cut off
 # -     angles = np.arange(headings) * 2 * np.pi / headings
 # +     angles = np.arange(headings) * (2 * np.pi // headings)
 
 
 # %% near_is_all_after_the_search loses 6.4
 # Counts all steps after the search as near the cylinder, for pace and side.
-# says: count only with a reward
+# says: All steps after the search count
 def describe(poses, rewards, cylinder):
     n = len(rewards)
     hits = np.flatnonzero(rewards)
@@ -834,7 +834,7 @@ def describe(poses, rewards, cylinder):
 
 # %% search_goes_on_after_the_find loses 6.4
 # Speed, turning and wall count all steps without a reward.
-# says: The search ends at the first reward
+# says: the search ends at the first reward
 def describe(poses, rewards, cylinder):
     near = rewards == 1
     far = ~near
@@ -958,3 +958,93 @@ def reactions(brain, observation, memories):
 # -     return np.array([think(brain, observation, memory)[0] for memory in memories])
 # +     parts = np.moveaxis(np.asarray(memories).reshape(2, len(memories), -1), 0, 1)
 # +     return np.array([think(brain, observation, memory)[0] for memory in parts])
+
+
+# %% one_memory_for_all_episodes loses 6.2
+# All episodes change one memory in place: it does not begin at 0, and its rows are all the last.
+# says: something that stays from call to call
+# -     memory = np.zeros((2, UNITS))
+# +     memory = SHARED
+# -         memory = remember(len(steps) - 1, memory, after)
+# +         memory[:] = remember(len(steps) - 1, memory, after)
+SHARED = np.zeros((2, 10))
+
+
+# %% memory_changed_in_place loses 6.2
+# The memory is changed in place, so that all recorded memories are the last one.
+# says: this
+# -         memory = remember(len(steps) - 1, memory, after)
+# +         memory[:] = remember(len(steps) - 1, memory, after)
+
+
+# %% reset_without_the_seed loses 6.2
+# The arena is reset without the seed, so the noise is another one.
+# says: this
+# -     arena.reset(seed)
+# +     arena.reset()
+
+
+# %% start_kept_for_all_poses loses 6.2
+# Each recorded pose is the start: the robot moves, but its poses are not looked at.
+# says: this
+# -         poses.append(arena.robots[0].copy())
+# +         poses.append(np.array(start, dtype=float))
+
+
+# %% sensed_before_the_cylinder loses 6.2
+# The first observation is renewed after the robot is placed, but before the cylinder is.
+# -     arena.objects[0, :2] = cylinder
+# -     arena.sense()
+# +     arena.sense()
+# +     arena.objects[0, :2] = cylinder
+
+
+# %% last_family_is_taken loses 6.5
+# Whatever pair is nearest, the last family in the list is merged into the first one of the pair.
+# says: this
+# -         groups[i] += groups.pop(j)
+# +         groups[i] += groups.pop()
+
+
+# %% last_family_left_out loses 6.5
+# The last family in the list takes part in no merger.
+# says: this
+# -     while len(groups) > 1:
+# +     while len(groups) > 2:
+# -         pairs = [(i, j) for j in range(len(groups)) for i in range(j)]
+# +         pairs = [(i, j) for j in range(len(groups) - 1) for i in range(j)]
+
+
+# %% last_robot_of_a_family loses 6.5
+# The distance of two families counts only the robot that joined the one of them last.
+# says: this
+# -         apart = [distance[np.ix_(groups[i], groups[j])].mean() for i, j in pairs]
+# +         apart = [distance[np.ix_(groups[i], groups[j])][-1].mean() for i, j in pairs]
+
+
+# %% ends_when_the_farthest_are_far loses 6.5
+# Merging ends when the two farthest families are not nearer than the threshold.
+# says: this
+# -         if min(apart) >= threshold:
+# +         if max(apart) >= threshold:
+
+
+# %% all_from_the_first_start loses 6.6
+# All episodes begin at the first start.
+# says: this
+# -             episode(brain, start, cylinder, seed + i, remember, maxsteps)
+# +             episode(brain, starts[0], cylinder, seed + i, remember, maxsteps)
+
+
+# %% forgets_and_returns_nothing loses 6.6
+# Empties the array that `forget` is given, and returns None instead of a memory.
+# says: this
+def forget(step, before, after):
+    after[:] = 0
+
+
+# %% memory_of_the_reaction_before loses 6.7
+# Each reaction has the memory of the one before in the list; the first one has the last memory.
+# says: this
+# -     return np.array([think(brain, observation, memory)[0] for memory in memories])
+# +     return np.array([think(brain, observation, memories[i - 1])[0] for i in range(len(memories))])

@@ -129,7 +129,7 @@ def run_episode(environment, act, seed, maxsteps=200):
 
 
 # %% reset_without_seed loses 12.3
-# Begins anywhere instead of where the seed says.
+# The episode does not begin where the seed says: reset gets another seed, or none.
 _run_episode = run_episode
 
 
@@ -965,3 +965,18 @@ def choose(probabilities, rng):
 # says: this
 # -     return mean + np.exp(log_deviation) * rng.standard_normal(len(mean))
 # +     return np.clip(mean + np.exp(log_deviation) * rng.standard_normal(len(mean)), -1, 1)
+
+
+# %% number_for_the_loss loses 12.5
+# The loss is a plain number (.item()): torch needs a tensor, to go back to the scores.
+# says: this
+# -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
+# +     return (torch.logsumexp(scores, dim=1) - chosen).mean().item()
+
+
+# %% two_numbers_for_each_choice loses 12.2
+# Draws two random numbers for each action and uses the second one: one is asked for.
+# says: this
+# -     beyond = np.cumsum(probabilities) > rng.random()
+# +     rng.random()
+# +     beyond = np.cumsum(probabilities) > rng.random()

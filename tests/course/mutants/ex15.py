@@ -993,3 +993,66 @@ def describe(poses):
 # says: this
 # -         "own": (matrix[1:] - matrix[0]).mean(axis=1),
 # +         "own": np.cumsum(progress(matrix)["historical"]),
+
+
+# %% networks_anew_in_each_step loses 15.1
+# The networks are made anew in each step, and so remember nothing.
+# says: this
+# -         for network, observation in zip(networks, np.split(arena.observation, 2), strict=True):
+# +         networks = robot(predator), robot(prey)
+# +         for network, observation in zip(networks, np.split(arena.observation, 2), strict=True):
+
+
+# %% action_of_the_step_before loses 15.1
+# The action of a step is done in the next one: the first step stands still.
+# says: this
+# -         arena.action = np.concatenate(wheels)
+# -         fitness += arena.step()
+# +         fitness += arena.step()
+# +         arena.action = np.concatenate(wheels)
+
+
+# %% steps_left_for_the_fitness loses 15.1
+# The fitness is the number of steps left, not their share of all steps.
+# says: this
+# -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
+# +     left = maxsteps - len(poses) + 1
+# +     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(left)}
+
+
+# %% poses_without_headings loses 15.1
+# The poses have x and y only: the heading is left out.
+# says: this
+# -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
+# +     poses = np.array(poses)[..., :2]
+# +     return {"poses": poses, "caught": arena.terminated, "fitness": float(fitness)}
+
+
+# %% prey_first_in_the_poses loses 15.1
+# The prey is the first robot in the poses: the predator comes first.
+# says: this|The prey stands first in the poses
+# -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
+# +     poses = np.array(poses)[:, ::-1].copy()
+# +     return {"poses": poses, "caught": arena.terminated, "fitness": float(fitness)}
+
+
+# %% networks_step_twice loses 15.1
+# Each network makes two steps in each step of the arena.
+# says: this
+# -             wheels.append(network.step().copy())
+# +             network.step()
+# +             wheels.append(network.step().copy())
+
+
+# %% prey_stands_still loses 15.1
+# Only the predator is moved: the prey's wheels are 0.
+# says: this
+# -         arena.action = np.concatenate(wheels)
+# +         arena.action = np.concatenate([wheels[0], 0 * wheels[1]])
+
+
+# %% half_of_the_resamples loses 15.7
+# Half as many resamples are drawn as are asked for.
+# says: this
+# -     for _ in range(resamples):
+# +     for _ in range(resamples // 2):
