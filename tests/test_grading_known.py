@@ -625,6 +625,32 @@ def test_a_condition_that_is_there_is_not_said_to_be_left_out(messages, asks):
     assert ("One of several conditions is left out: `many >= limit`" in told) is not asks
 
 
+ENTRY = '''"""A solution."""
+def entry(values, number):
+    """The entry with this number, from 1."""
+    ### BEGIN SOLUTION task 3.1: entry
+    kept = values[:number]
+    return float(kept[number - 1])
+    ### END SOLUTION
+'''
+
+
+def test_exceptions_alone_prove_no_slip(messages):
+    """`kept[number]` raises the same, as any other code that looks for too much."""
+    exercise = Exercise(3, "Three", FILE)
+    first = exercise.task("3.1", "First", seconds=5)
+
+    @first.check(100)
+    def numbers(student):
+        for number in (1, 2, 3, 4, 5):
+            values = [0.5, 1.5, -3.0, 2.5, 4.25]
+            expect_close("entry(...)", student.call("entry", values, number), values[number - 1])
+
+    exercise.knows(ENTRY)
+    (told,) = messages("def entry(values, number):\n    return [][0]\n", exercise)
+    assert "IndexError" in told and replay.VARIED not in told
+
+
 # --- two known mistakes at once
 
 TWO = '''"""Wrong solutions."""

@@ -278,8 +278,12 @@ def _wrong(calls: list[Call]) -> list[Call]:
 
 
 def _few(wrong: list[Call]) -> bool:
-    """Return whether wrong answers are a few small whole numbers, which many slips may give."""
-    return all(counts(call.got) for call in wrong) and len(wrong) < COUNTS
+    """Return whether wrong answers are exceptions or a few small whole numbers.
+
+    Many slips may lead to these.
+    """
+    told = [call for call in wrong if not _raised(call.got)]
+    return not told or (all(counts(call.got) for call in told) and len(wrong) < COUNTS)
 
 
 def _batches(ours: Student, each: Iterable[T]) -> Iterator[list[T]]:
