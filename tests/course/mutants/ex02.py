@@ -879,7 +879,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 # %% same_network_again loses 2.8
 # Gives all networks the parameters of the seed itself, but network i has those of seed + i.
-# says: this
+# says: is the same in some networks|the seed itself
 # -     networks = [parameters(ninputs, nhiddens, noutputs, seed + i) for i in range(nnetworks)]
 # +     networks = [parameters(ninputs, nhiddens, noutputs, seed) for i in range(nnetworks)]
 
