@@ -197,7 +197,7 @@ def mistaken_bonus(one: dict) -> dict:
         high & ((np.abs(one["pitch"]) <= 1) | (not leans)) & (off | (not cheetah)),
         "One fall makes all steps count as fallen: judge each step by itself.":
         np.full(steps, bool((wanted > 0).all())),
-        "All steps are judged alike here, but each is to be judged by itself.": np.full(steps, True),
+        "All steps are judged alike here: each stands for itself.": np.full(steps, True),
         "The comparison is the wrong way round: the fallen stand, and those who stand have "
         "fallen.": wanted < 0,
     } | {
