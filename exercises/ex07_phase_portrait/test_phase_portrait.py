@@ -70,7 +70,10 @@ def one_observation(student: Student):
             "Cosine and sine are exchanged: see the order in np.arctan2.": [
                 np.arctan2(cosine, sine), velocity
             ],
-            "arctan(sine / cosine) knows half of the circle only: see np.arctan2.": [
+            "This is arcsin(sine), which knows half of the circle only: see np.arctan2.": [
+                np.arcsin(sine), velocity
+            ],
+            "This is arctan(sine / cosine), which knows half of the circle only: see np.arctan2.": [
                 np.arctan(sine / cosine), velocity
             ],
         }  # fmt: skip
@@ -80,7 +83,8 @@ def one_observation(student: Student):
         answer[0] = np.pi if abs(answer[0] + np.pi) < 1e-6 else answer[0]  # both ends are pi
         mistakes = {}
         if angle == np.pi:
-            mistakes["Straight down the angle is pi. A sign of 0 makes it 0."] = [0.0, 2.0]
+            text = "Straight down the angle is pi, but 0 came back (by a sign of 0, for example)."
+            mistakes[text] = [0.0, 2.0]
         expect_close(f"to_state({seen})", answer, [angle, 2.0], 1e-5, mistakes)
 
 
@@ -104,7 +108,7 @@ def recorded(module, gains, seed, steps):
 
     def controller(seen):
         if numpy.shape(seen) != (3,):
-            text = f"the controller was given {seen}, not an observation, which holds 3 numbers"
+            text = f"the controller was given {seen}, but an observation has the shape (3,)"
             raise ValueError(text)
         asked.append(1)
         return numpy.clip([gains @ seen], -2, 2)
@@ -140,8 +144,8 @@ def compare_recording(student: Student, index: int, steps: int, seed: int | None
     expect_states(student.said, answer, wanted, 1e-3)  # torques in float32 too
     expect(
         len(wanted) - 1 <= asked <= len(wanted),  # a generator may ask once more at the end
-        f"{student.said} asked the controller {asked} times for {len(wanted) - 1} steps: ask once "
-        "in each step, as a controller may remember what it has seen.",
+        f"{student.said} asked the controller {asked} times for {len(wanted) - 1} steps, but it is "
+        "to be asked once in each step: it may remember what it has seen.",
     )
 
 
@@ -181,6 +185,12 @@ def compare_arrows(student: Student, before: np.ndarray, change: np.ndarray) -> 
         }
         gap = (after - before)[:, 0]
         turns = {
+            "A change beyond half a turn becomes 2 pi minus its amount, but it has a sign, too.": (
+                np.where(np.abs(gap) > np.pi, 2 * np.pi - np.abs(gap), gap)
+            ),
+            "A change beyond half a turn becomes its amount minus 2 pi, whatever its sign.": (
+                np.where(np.abs(gap) > np.pi, np.abs(gap) - 2 * np.pi, gap)
+            ),
             "The changes of the angle lie between 0 and 2 pi, but the short way is between -pi and "
             "pi.": gap % (2 * np.pi),
             "The changes of the angle leap by whole turns: take the short way around.": gap,
@@ -191,9 +201,8 @@ def compare_arrows(student: Student, before: np.ndarray, change: np.ndarray) -> 
                 gap.clip(-np.pi, np.pi)
             ),
             "The changes of the angle have lost their sign.": np.abs(change[:, 0]),
-            "Only changes above pi take the short way, not those below -pi.": np.where(
-                gap > np.pi, change[:, 0], gap
-            ),
+            "Only changes above pi take the short way, not those below -pi (with np.fmod, for "
+            "example).": np.where(gap > np.pi, change[:, 0], gap),
             "Only changes below -pi take the short way, not those above pi.": np.where(
                 gap < -np.pi, change[:, 0], gap
             ),
@@ -277,7 +286,7 @@ def stepped(module, gains, states):
 
     def controller(seen):
         if numpy.shape(seen) != (3,):
-            text = f"the controller was given {seen}, not an observation, which holds 3 numbers"
+            text = f"the controller was given {seen}, but an observation has the shape (3,)"
             raise ValueError(text)
         return numpy.clip([gains @ seen], -2, 2)
 
@@ -562,18 +571,19 @@ def expect_stages(student: Student, fault, other: bool = False) -> None:
     expect(not plain, f"{student.said}: {plain}")
     raise Wrong(
         f"{student.said} is right for the ordinary robot, but not for one whose parameters count "
-        f"with other signs and sizes: {found} To evolution both are the same task. Either a stage "
-        "was right by luck (choose each by its mean return in 100 episodes, not by its number), or "
-        "the evolution begins with parameters that were known before."
+        f"with other signs and sizes: {found} To evolution both are the same task. This comes, for "
+        "example, of a stage that was right by luck (chosen by its number, or by few episodes), or "
+        "of an evolution that begins with parameters that were known before."
     )
 
 
 @three.check(5)
 def last_stage_holds_the_pendulum(student: Student):
     def fault(returns):
-        told = f"the last stage reaches {returns[2]:.0f} on average over 100 new episodes, but -400"
-        told += " is asked for. Is it the best of all that were kept, and is the evolution long "
-        told += "enough?"
+        told = f"the last stage reaches {returns[2]:.0f} on average over 100 new episodes, but at "
+        told += "least -400 is asked for."
+        if returns[2] < returns[0] - 100:
+            told += f" The first one reaches {returns[0]:.0f}: the evolution leads downwards."
         return "" if returns[2] >= -400 else told
 
     try:
@@ -599,14 +609,14 @@ def seed_decides(student: Student):
     shared = (early[:, None] == others[None]).all(axis=2).any(axis=1).mean()
     expect(
         bool(shared < 0.1),
-        f"{student.said} begins with the same candidates as with another seed: give the seed to "
-        "the algorithm, too.",
+        f"{student.said} begins with the same candidates as with another seed: what the algorithm "
+        "draws must follow from the seed.",
     )
     likeness = np.sum(one * other, axis=1) / np.sqrt(np.sum(one**2, 1) * np.sum(other**2, 1))
     expect(
         bool(likeness.max() < 0.8),
         f"{student.said} gave nearly the same parameters as another seed (correlation "
-        f"{likeness.max():.2f}): evolve them from the seed.",
+        f"{likeness.max():.2f}): they are to be evolved anew from each seed.",
     )
 
 
@@ -620,11 +630,14 @@ def stages_rise(student: Student):
                 "of generation 0 cannot be that good."
             )
         if not first + 100 <= middle <= last - 100:
-            return (
+            told = (
                 f"the stages reach {first:.0f}, {middle:.0f} and {last:.0f} on average over 100 "
-                "new episodes, but the middle one must be 100 away from both others: look for the "
-                "one whose return is halfway between theirs."
+                "new episodes, but the middle one must be 100 above the first and 100 below the "
+                "last one"
             )
+            if last - first < 200:
+                return f"{told}. The last one is too near to the first one for that."
+            return f"{told}: look for the one whose return is halfway between theirs."
         return ""
 
     for other in (True, False):
@@ -718,13 +731,16 @@ def places(student: Student, drawings: list[tuple[list, list]]) -> list[tuple[fl
         (height, width), (rows, columns) = different.shape, np.nonzero(different > VISIBLE)
         expect(
             len(rows) > 20,
-            f"{student.said}: other arrows give the same picture: they are not drawn, or they lie "
-            "outside of the axes.",
+            f"{student.said}: other arrows give the same picture: nothing of them is seen. They "
+            f"are "
+            "not drawn, or they lie outside of the axes, for example.",
         )
         expect(
             len(rows) < 0.2 * height * width,
-            f"{student.said}: other arrows change the whole picture, though the axes and panels "
-            "should stay what they are.",
+            f"{student.said}: a few other arrows change {len(rows) / (height * width):.0%} of the "
+            "picture, though axes and panels should stay what they are, and each arrow should be "
+            "as "
+            "long as its change.",
         )
         found.append((float(np.median(columns)) / width, 1 - float(np.median(rows)) / height))
     return found
@@ -747,8 +763,8 @@ def expect_fixed_axes(student: Student, found: list[tuple[float, float]]) -> Non
     states, places = np.array(STATES), np.array(found)
     for name, values, spots in zip(("angles", "velocities"), states.T, places.T, strict=True):
         why = (
-            "Does each panel show -pi to pi and -8 to 8, whatever is drawn, and does each arrow "
-            "begin in its state and end in the next one?"
+            "Each panel is to show -pi to pi and -8 to 8, whatever is drawn, and each arrow is to "
+            "begin in its state and to end in the next one."
         )
         if spread(spots[::-1], values[::-1]):
             side = "upwards" if name == "velocities" else "from left to right"
@@ -783,12 +799,13 @@ def one_panel_for_each(student: Student):
             expect(
                 len(rows) > 20,
                 f"{student.said}: other arrows in {what}[{k}] give the same picture in the "
-                f"{PLACES[k]} third: they are not drawn there, or they lie outside of the axes.",
+                f"{PLACES[k]} third: nothing of them is seen there.",
             )
             low, middle, high = np.percentile(rows, [5, 50, 95]) / len(third)
             if high - low >= 0.25:
                 drawing = (three, alone) if what == "paths" else (alone, three)
                 one = np.array_split(difference(pixels_of(student, *drawing), plain), 3, axis=1)
+                layout = panels_otherwise(student, what, plain)
                 why = "Each arrow is as long as its change, in axes from -pi to pi and -8 to 8."
                 if (one[0] > VISIBLE).any() or (one[2] > VISIBLE).any():
                     why = (
@@ -798,7 +815,7 @@ def one_panel_for_each(student: Student):
                 raise Wrong(
                     f"{student.said}: in the {PLACES[k]} third of the picture, the few arrows of "
                     f"{what}[{k}], all near the velocity {states[k]:g}, cover "
-                    f"{100 * (high - low):.0f} % of the height. {why}"
+                    f"{100 * (high - low):.0f} % of the height. {layout or why}"
                 )
             found.append(float(1 - middle))
         why = f"Panel i shows {what}[i]."
@@ -815,6 +832,25 @@ def one_panel_for_each(student: Student):
         )
     titles_stand_above(student, plain)
     path_lies_above(student)
+
+
+def panels_otherwise(student: Student, what: str, plain: np.ndarray) -> str:
+    """How panels lie that do not lie side by side, or "": the same arrows in the first and last."""
+    found = []
+    for k in (0, 2):
+        arrows = [around(*STATES[0]) if i == k else CENTRE for i in range(3)]
+        drawing = ([CENTRE] * 3, arrows) if what == "paths" else (arrows, [CENTRE] * 3)
+        rows, columns = np.nonzero(difference(pixels_of(student, *drawing), plain) > VISIBLE)
+        if len(rows) <= 20 or np.ptp(columns) > 0.4 * plain.shape[1]:
+            return ""
+        found.append((np.median(columns) / plain.shape[1], np.median(rows) / plain.shape[0]))
+    (x, y), (other_x, other_y) = found
+    if abs(x - other_x) > 0.05:
+        return ""
+    if abs(y - other_y) > 0.4:
+        return "The panels stand one below the other, but one row is asked for."
+    same = abs(y - other_y) < 0.05
+    return f"{what}[0] and {what}[2] are drawn at the same place." if same else ""
 
 
 def titles_stand_above(student: Student, plain: np.ndarray) -> None:
@@ -843,7 +879,7 @@ def path_lies_above(student: Student) -> None:
     expect(
         bool(np.abs(both - path)[shared].sum() <= np.abs(both - field)[shared].sum()),
         f"{student.said}: where an arrow of a path and one of the field lie upon each other, the "
-        "field covers the path: draw the path after the field.",
+        "field covers the path, but the path is to lie above the field.",
     )
 
 
@@ -903,6 +939,9 @@ def drawn_otherwise(extent: np.ndarray, sizes) -> str:
         ),
         "They point the other way: the changes are to be added.": (states, states - changes),
     }  # fmt: skip
+    for factor in (0.1, 0.2, 0.5, 2, 5, 10):
+        text = f"They are {factor:g} times as long as their change."
+        ways[text] = (states, states + factor * changes)
     off = {text: max(misfits(extent, *within_axes(*ends), sizes)) for text, ends in ways.items()}
     exchanged = (states[:, ::-1], (states + changes)[:, ::-1])
     off["Angles and velocities are exchanged."] = max(misfits(extent, *exchanged, sizes))
@@ -939,8 +978,8 @@ def arrows_point_to_the_next_state(student: Student):
         shape, found = different.shape[1:], drawn_arrows(different)
         expect(
             all(len(points) > 5 for points, _ in found),
-            f"{student.said}: a single arrow of a {what} is not drawn, or lies outside of the "
-            "axes.",
+            f"{student.said}: a single arrow of a {what} is not seen: it is not drawn, or it lies "
+            "outside of the axes, for example.",
         )
         begins, ends = ARROWS[:, :2], ARROWS[:, :2] + ARROWS[:, 2:]
         extent = np.array([[points.min(axis=0), points.max(axis=0)] for points, _ in found])
@@ -948,9 +987,10 @@ def arrows_point_to_the_next_state(student: Student):
         if off >= 0.05:
             far = f"up to {100 * off:.0f} % of the picture away" if off < 1 else "elsewhere"
             raise Wrong(
-                f"{student.said}: the arrows of a {what} do not go from their state to the next "
-                f"one, but begin or end {far}: draw them in the units of the axes, each as long as "
-                f"its change.{drawn_otherwise(extent, shape[::-1])}"
+                f"{student.said}: in axes from -pi to pi and -8 to 8, the arrows of a {what} are "
+                f"to "
+                f"go from their state to the next one, but they begin or end {far}."
+                f"{drawn_otherwise(extent, shape[::-1])}"
             )
         scales = fitted(extent, begins, ends)
         places = [
@@ -966,8 +1006,8 @@ def arrows_point_to_the_next_state(student: Student):
         at_head, at_tail = np.sum(widths, axis=0)
         expect(
             at_head > 1.15 * at_tail,
-            f"{student.said}: the arrows of a {what} have no heads at the next state, so that "
-            "nobody sees where they point.",
+            f"{student.said}: the arrows of a {what} are not wider at the next state than at "
+            "their own one: they need heads there.",
         )
     axes_end_exactly(student)
 
@@ -985,6 +1025,12 @@ def axes_end_exactly(student: Student) -> None:
     wrong = [state for state in inside if not is_seen(state)]
     if not wrong and is_seen(*outside):
         wrong = [state for state in outside if is_seen(state)]
+    expect(
+        not wrong or is_seen((1.0, 1.0)),
+        f"{student.said}: a path of two arrows shows only the first one, though both lie within "
+        f"the "
+        "axes.",
+    )
     for angle, velocity in wrong[:1]:
         raise Wrong(
             f"{student.said}: an arrow at angle {angle:g} and velocity {velocity:g} is "

@@ -521,7 +521,7 @@ def mistaken_runs(evaluate, start, generations, seed, settings) -> dict:
         },
         uphill={
             "": 1.0,
-            "The run goes downhill: is the gradient turned around twice, or not at all?": -1.0,
+            "The run goes downhill: the gradient has the wrong sign.": -1.0,
         },
         decays={"": False, "The first centre is pulled, not the present one.": True},
     )  # fmt: skip
@@ -698,6 +698,8 @@ def why_untrained(
     if share < -0.6:
         return f"{told} Its centre moves to where fitness is lower, but fitness is to rise."
     flat = np.mean([np.ptp(fitness) == 0 for _, _, fitness in generations])
-    if flat > 0.3 or noise < 0.1:
-        return f"{told} All candidates do about the same: take a larger noiseStdDev."
-    return f"{told} Try more generations, a larger stepsize, or more episodes for each fitness."
+    if flat > 0.3:
+        return f"{told} In {flat:.0%} of them all candidates have the same fitness."
+    if noise < 0.1:
+        return f"{told} A larger noiseStdDev may help: the candidates are near to each other."
+    return f"{told} More generations, a larger stepsize, or more episodes may help, for example."

@@ -329,20 +329,19 @@ def departure(seeds: list, seen: list, seed: int, right: list, *_: int) -> str:
             if np.allclose(own - centre, far * (wanted - centre), 1e-4, 1e-9):
                 return (
                     f"The candidates of {where} lie {far:.4g} times as far from the right centre "
-                    "as they should: noiseStdDev comes in once, as it is given, in "
-                    "candidates_around."
+                    "as they should."
                 )
             return (
-                f"The candidates of {where} lie around the right centre, but their samples or "
-                "noiseStdDev are others: draw them by one rng.standard_normal((samplesize, n))."
+                f"The candidates of {where} lie around the right centre, but at other places. "
+                "Their samples are asked for by one rng.standard_normal((samplesize, n))."
             )
         if g == 0:
             return "The candidates of generation 0 do not lie around the first centre."
         for k in range(g):
             if np.allclose(own_centre, right[k][:2].mean(axis=0), 1e-6, 1e-9):
                 return (
-                    f"{where.capitalize()} begins at the centre where generation {k} began: every "
-                    "generation begins where the last step led, better or worse."
+                    f"{where.capitalize()} begins at the centre where generation {k} began, but "
+                    "every generation is to begin where the last step led."
                 )
         before = right[g - 1][:2].mean(axis=0)
         ratio = (own_centre - before) / np.where(centre == before, np.nan, centre - before)
@@ -350,18 +349,17 @@ def departure(seeds: list, seen: list, seed: int, right: list, *_: int) -> str:
             return f"The step of generation {g - 1} goes the wrong way: fitness is to rise."
         if np.ptp(ratio) < 1e-4:
             return (
-                f"The step of generation {g - 1} is {ratio[0]:.4g} times as long as it should be: "
-                "is stepsize handed on to adam as it is, and is t generation + 1?"
+                f"The step of generation {g - 1} is {ratio[0]:.4g} times as long as it should be."
             )
         return (
             f"All is right until the step of generation {g - 1}, but it leads to another centre "
-            "than it should: look at what descent and adam are given."
+            "than it should."
         )
     if len(seen) != len(right):
         return f"evaluate is called {len(seen)} times, but there are {len(right)} generations."
     return (
-        "All candidates and seeds are right. history[g] is the mean fitness of generation g alone, "
-        "and the centre is the one after the last step."
+        "What evaluate is given is right. history[g] is to be the mean fitness of generation g "
+        "alone, and the centre the one after the last step."
     )
 
 
@@ -697,14 +695,14 @@ def expect_other_beginning(said: str, seed: int, first: np.ndarray, other: np.nd
     (centre, samples, _), (next_centre, next_samples, _) = (each[0] for each in pairs)
     expect(
         not np.allclose(centre, next_centre, 1e-6, 1e-9),
-        f"{said} and seed={seed + 1} begin at the same centre, {show(centre)}: draw the weights "
-        "of the first centre anew from each seed.",
+        f"{said} and seed={seed + 1} begin at the same centre, {show(centre)}, but its weights "
+        "are to be drawn anew from each seed.",
     )
     few = min(len(samples), len(next_samples))
     expect(
         not np.allclose(samples[:few], next_samples[:few], 1e-6, 1e-9),
-        f"{said} and seed={seed + 1} begin with the same samples around the first centre: hand "
-        "the seed on to evolve.",
+        f"{said} and seed={seed + 1} begin with the same samples around the first centre, but "
+        "these are to follow from the seed.",
     )
 
 

@@ -166,7 +166,7 @@ def mistaken_bonus(one: dict) -> dict:
     high, leans = one["height"] > low, robot not in ("Ant", "Humanoid")
     cheetah = robot == "HalfCheetah"
     stands = {
-        "A robot that leans back is forgotten: the pitch may be negative, take abs(pitch).":
+        "A robot that leans back does not count: the pitch may be negative, take abs(pitch).":
         high & ((one["pitch"] < 1) | (not leans)) & (off | (not cheetah)),
         "A robot that leans forward is forgotten: take abs(pitch).":
         high & ((one["pitch"] > -1) | (not leans)) & (off | (not cheetah)),
@@ -197,7 +197,7 @@ def mistaken_bonus(one: dict) -> dict:
         high & ((np.abs(one["pitch"]) <= 1) | (not leans)) & (off | (not cheetah)),
         "One fall makes all steps count as fallen: judge each step by itself.":
         np.full(steps, bool((wanted > 0).all())),
-        "All have fallen, or none has: is it a decision for each step?": np.full(steps, True),
+        "All steps are judged alike here: each stands for itself.": np.full(steps, True),
         "The comparison is the wrong way round: the fallen stand, and those who stand have "
         "fallen.": wanted < 0,
     } | {

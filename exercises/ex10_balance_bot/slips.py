@@ -236,9 +236,9 @@ def why_fallen(parameters: np.ndarray, steps: list[int], balances) -> str:
     )
     good, longest = steps.count(500), max(steps)
     if longest < 500 and 3 * steps.count(longest) > len(steps):
-        return f"{course} None lasted for more than {longest}: is maxsteps 500?"
+        return f"{course} None lasted for more than {longest}: an episode may have 500 steps."
     if last < 0.8 * first or max(steps[-len(steps) // 3 :]) < max(steps) / 2:
-        return f"{course} They are to become longer: is it the best candidates that you keep?"
+        return f"{course} They are to become longer."
     if good == 0:
         return f"{course} No candidate balanced: vary the weights more, or evolve for longer."
     return (

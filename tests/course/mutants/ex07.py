@@ -261,7 +261,7 @@ def draw_portraits(file, titles, fields, paths):
 
 # %% controller_asked_twice loses 7.2
 # Asks the controller twice in each step.
-# says: ask once
+# says: asked once in each step
 # -         observation, _, terminated, truncated, _ = env.step(controller(observation))
 # +         if np.all(np.isfinite(controller(observation))):
 # +             observation, _, terminated, truncated, _ = env.step(controller(observation))
@@ -327,7 +327,7 @@ def three_stages(seed):
 
 
 # %% wraps_above_only loses 7.3
-# Takes the short way only for changes above pi.
+# Takes the short way only for changes above pi, not for those below -pi (as np.fmod does).
 # -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
 # +     change[:, 0] = np.where(change[:, 0] > np.pi, change[:, 0] - 2 * np.pi, change[:, 0])
 
@@ -381,7 +381,7 @@ def three_stages(seed):
 
 # %% seed_of_the_algorithm_fixed loses 7.6
 # The algorithm has seed 1 always.
-# says: give the seed to
+# says: must follow from the seed
 # -     parameters = evolve(openai_es(robot, seed), evaluate, generations=600, every=5)["parameters"]
 # +     parameters = evolve(openai_es(robot, 1), evaluate, generations=600, every=5)["parameters"]
 
@@ -403,7 +403,7 @@ def three_stages(seed):
 
 # %% path_below_the_field loses 7.7
 # Draws the paths first, so that the field covers them.
-# says: after the field
+# says: to lie above the field
 # -         axes.quiver(*field.T, color="#a8b4c0", width=0.0035, **exact)
 # -         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
 # +         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
@@ -657,3 +657,95 @@ def next_states(controller, states):
     angle = states[:, 0] + 0.05 * states[:, 1]
     following[:, 0] = np.arctan2(np.sin(angle), np.cos(angle))
     return following
+
+
+# %% amount_of_the_short_way loses 7.3
+# A change beyond half a turn becomes 2 pi minus its amount, and loses its sign.
+# says: becomes 2 pi minus its amount
+# -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
+# +     amount = np.abs(change[:, 0])
+# +     change[:, 0] = np.where(amount > np.pi, 2 * np.pi - amount, change[:, 0])
+
+
+# %% remainder_of_the_other_sign loses 7.3
+# Takes the short way only for changes below -pi, not for those above pi.
+# says: this
+# -     change[:, 0] = (change[:, 0] + np.pi) % (2 * np.pi) - np.pi
+# +     change[:, 0] = np.fmod(change[:, 0] - np.pi, 2 * np.pi) + np.pi
+
+
+# %% arrows_begin_in_the_next_state loses 7.3
+# The arrows begin in the states after, not in those before.
+# says: this
+# -     return np.hstack([before, change])
+# +     return np.hstack([after, change])
+
+
+# %% angles_cut_off loses 7.4
+# Angles beyond pi and -pi are cut off there, but a turn goes on at the other side.
+# says: this
+# -         observation, *_ = env.step(controller(seen))
+# -         following.append(observation)
+# -     return to_state(np.array(following))
+# +         env.step(controller(seen))
+# +         following.append(env.unwrapped.state)
+# +     return np.clip(np.array(following), [-np.pi, -8], [np.pi, 8])
+
+
+# %% angles_of_the_environment loses 7.4
+# Returns the angles as the environment holds them: they are not brought back to [-pi, pi].
+# says: this
+# -         observation, *_ = env.step(controller(seen))
+# -         following.append(observation)
+# -     return to_state(np.array(following))
+# +         env.step(controller(seen))
+# +         following.append(env.unwrapped.state)
+# +     return np.array(following)
+
+
+# %% velocities_without_limit loses 7.4
+# The velocities are not limited to [-8, 8], as those of Pendulum-v1 are.
+# says: this
+def next_states(controller, states):
+    following = []
+    for angle, velocity in states:
+        seen = np.array([np.cos(angle), np.sin(angle), velocity], dtype=np.float32)
+        torque = np.clip(controller(seen), -2, 2)[0]
+        velocity = velocity + (15 * np.sin(angle) + 3 * torque) * 0.05
+        following.append([(angle + velocity * 0.05 + np.pi) % (2 * np.pi) - np.pi, velocity])
+    return np.array(following)
+
+
+# %% resets_with_the_next_seed loses 7.2
+# The environment is reset with seed + 1 instead of the seed.
+# says: this
+# -     observation, _ = env.reset(seed=seed)
+# +     observation, _ = env.reset(seed=seed + 1)
+
+
+# %% angle_of_the_sine_alone loses 7.1
+# The angle is arcsin of the sine, which knows half of the circle only.
+# says: arcsin\(sine\)
+# -     angle = np.arctan2(observation[..., 1], observation[..., 0])
+# +     angle = np.arcsin(observation[..., 1])
+
+
+# %% panels_in_a_column loses 7.7
+# The panels stand one below the other.
+# says: one below the other
+# -     panels = figure.subplots(1, len(titles), squeeze=False, sharey=True)[0]
+# +     panels = figure.subplots(len(titles), 1, squeeze=False, sharey=True)[:, 0]
+
+
+# %% first_arrow_of_a_path_only loses 7.7
+# Draws only the first arrow of each path.
+# says: nothing of them is seen
+# -         axes.quiver(*path.T, color="#d55e00", width=0.005, **exact)
+# +         axes.quiver(*path[:1].T, color="#d55e00", width=0.005, **exact)
+
+
+# %% arrows_five_times_as_long loses 7.7
+# The arrows are five times as long as their changes.
+# says: 5 times as long as their change
+# -     exact = {"angles": "xy", "scale_units": "xy", "scale": 1}
+# +     exact = {"angles": "xy", "scale_units": "xy", "scale": 0.2}

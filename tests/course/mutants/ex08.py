@@ -1399,3 +1399,10 @@ def utilities(fitness):
 # says: this
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # +     step = (m / (1 - 0.9) ** t) / (np.sqrt(v / (1 - 0.999) ** t) + 1e-8)
+
+
+# %% pairs_that_overlap loses 8.3
+# Sample b is weighted by utilities b and b + 1, but its two are those at 2 b and 2 b + 1.
+# says: this
+# -     weights = utilities[0::2] - utilities[1::2]
+# +     weights = utilities[: len(samples)] - utilities[1 : len(samples) + 1]

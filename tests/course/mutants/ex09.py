@@ -791,3 +791,13 @@ def components_v0(trajectory):
 # -     alive, moved = (float(np.maximum(parts[key], 0).sum()) for key in ("alive", "progress"))
 # +     kept = (parts["alive"] >= 0) & (parts["progress"] >= 0)
 # +     alive, moved = (float(parts[key][kept].sum()) for key in ("alive", "progress"))
+
+
+# %% one_dict_for_both_versions loses 9.6
+# Both versions have one and the same dict: it holds the gaits of the last one.
+# says: this
+# -     runner, table = Runner(f"{robot}-v5"), {}
+# +     runner, table, kept = Runner(f"{robot}-v5"), {}, {}
+# -         table[version] = dict(zip(gaits[0], np.array(means).T, strict=True))
+# +         kept.update(zip(gaits[0], np.array(means).T, strict=True))
+# +         table[version] = kept

@@ -1089,7 +1089,7 @@ def evolve(seed):
 
 # %% keeps_the_worst loses 10.9
 # Takes the worst candidates for the best.
-# says: the best candidates that you keep
+# says: They are to become longer
 # -         centre = population[np.argsort(fitness)[-3:]].mean(axis=0)
 # +         centre = population[np.argsort(fitness)[:3]].mean(axis=0)
 
@@ -1170,3 +1170,10 @@ def evolve(seed):
 # -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
 # +         upright = np.reshape(pybullet.getMatrixFromQuaternion(orientation), (3, 3))[2, 2]
 # +         inclination = np.arccos(np.clip(upright, -1.0, 1.0))
+
+
+# %% rate_from_the_last_call loses 10.3
+# The rate is the change of the inclination since the last call, not the velocity of the turning.
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         before, self.seen = getattr(self, "seen", inclination), inclination
+# +         return np.array([inclination, inclination - before, self.speed], dtype=np.float32)
