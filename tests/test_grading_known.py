@@ -487,6 +487,51 @@ def test_answers_are_compared_part_by_part():
     assert weight(True, True, False) == 0.5 and weight([1, 0], [1, 0], [0, 0]) == 0.5
 
 
+SAVED = '''"""A solution."""
+def save(values, folder):
+    """Write the sum."""
+    ### BEGIN SOLUTION task 3.1: save
+    name = "sum"
+    with open(f"{folder}/{name}", "w") as file:
+        file.write(str(sum(values)))
+    ### END SOLUTION
+'''
+NAMES = '''"""Wrong solutions."""
+# %% one_file_each loses 3.1
+# There is a file for each value.
+# -     name = "sum"
+# +     name = f"sum{values[0]}"
+# %% total loses 3.1
+# The file has another name.
+# -     name = "sum"
+# +     name = "total"
+'''
+
+
+def listed(module, values):
+    """A driver."""
+    import os
+
+    os.makedirs("saved", exist_ok=True)
+    module.save(values, "saved")
+    return sorted(os.listdir("saved"))
+
+
+def test_files_of_one_mistake_do_not_hide_another(messages, monkeypatch):
+    exercise = Exercise(3, "Three", FILE)
+    first = exercise.task("3.1", "First", seconds=5)
+
+    @first.check(100)
+    def saves(student):
+        for values in ([1.5, 2.0], [2.5, 1.0], [0.5], [4.0, 1.0]):
+            expect(student.run(listed, values) == ["sum"], "save(...): not this file")
+
+    exercise.knows(SAVED, NAMES)
+    monkeypatch.setattr(replay, "_near", lambda ours, texts, *_: [True] * len(texts))
+    (told,) = messages(SAVED.replace('"sum"', '"total"'), exercise)
+    assert told.splitlines()[0] == f"{TOLD} The file has another name."
+
+
 # --- slips in our own solution, where no known mistake fits
 
 BOUNDS = '''"""A solution."""

@@ -17,7 +17,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import closing
 from dataclasses import dataclass
-from itertools import combinations, islice
+from itertools import combinations, count, islice
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -58,6 +58,8 @@ answers are small whole numbers.
 NOT_DONE = ("NotImplementedError", "Missing")
 """Exceptions of functions that are not done yet."""
 T = TypeVar("T")
+_NUMBERS = count()
+"""Numbers of the folders in which mistakes are tried: files of one are not found by another."""
 Check = Callable[[Student], None]
 _IMPORTED = re.compile(r"^[ \t]*(?:from|import) +(\w+)", re.MULTILINE)
 
@@ -193,14 +195,15 @@ def _near(ours: Student, texts: list[str], call: Call, seconds: float, said: str
 
 
 def _explains(ours: Student, text: str, calls: list[Call]) -> bool:
-    """Return whether a wrong solution answers as the submission does."""
+    """Return whether a wrong solution answers as the submission does, in an empty folder."""
     if not text:
         return False
     made: list[Any] = []
+    folder = f"try-{next(_NUMBERS)}"
     for part in (calls[:1], calls[1:]):
         try:
             requests = [unpack(call.request) for call in part]
-            made += ours.run(answered, text, requests, said="a known mistake")
+            made += ours.run(answered, text, requests, folder, said="a known mistake")
         except Wrong:
             if ours.seconds_left <= 0:
                 raise
@@ -338,8 +341,9 @@ def tried(module, texts, request, seconds):
     return found
 
 
-def answered(module, text, requests):
-    """Return another text's answers; runs in the child of our solution."""
+def answered(module, text, requests, folder):
+    """Return another text's answers in a folder; runs in the child of our solution."""
+    import os
     import sys
     import types
 
@@ -355,8 +359,14 @@ def answered(module, text, requests):
     other = types.ModuleType("student")
     other.__file__ = module.__file__
     sys.modules["student"] = other
-    exec(compile(text, module.__file__, "exec"), vars(other))
-    return [answer(request) for request in requests]
+    before = os.getcwd()
+    os.makedirs(folder, exist_ok=True)
+    os.chdir(folder)
+    try:
+        exec(compile(text, module.__file__, "exec"), vars(other))
+        return [answer(request) for request in requests]
+    finally:
+        os.chdir(before)
 
 
 def _tells(calls: list[Call], answers: list[Any]) -> bool:
