@@ -186,6 +186,8 @@ def mistaken_profile(matrix: np.ndarray) -> dict:
     }
     by_more = "The sums are divided by one more than the number of competitors."
     by_all[by_more] = lambda row: np.sum(row) / (len(row) + 1)
+    no_zeros = "Competitors against whom the fitness is 0 are left out of the mean."
+    by_all[no_zeros] = lambda row: np.sum(row) / max(1, np.count_nonzero(row))
     return {
         "present": {
             "This is the last row of the matrix: each generation has a present of its own.": (

@@ -291,6 +291,13 @@ def random_matrix(rng: np.random.Generator, count: int) -> np.ndarray:
     return means_of(random_table(rng, count, 2, count, 3))
 
 
+def with_zeros(rng: np.random.Generator, count: int) -> np.ndarray:
+    """Some generations have no success at all against some competitors."""
+    matrix = random_matrix(rng, count)
+    matrix[[2, 0, 1], [0, 2, 3]] = 0
+    return matrix
+
+
 def steady(rng: np.random.Generator, count: int) -> np.ndarray:
     """Each generation does better than the one before it, against all competitors."""
     strength = np.cumsum(rng.uniform(0.02, 0.08, (2, count)), axis=1)
@@ -317,14 +324,20 @@ def of_part(mistaken: Callable, argument: np.ndarray, part: str) -> dict:
 
 
 def compare_parts(
-    student: Student, name: str, solve: Callable, index: int, parts: tuple, mistaken: Callable
+    student: Student,
+    name: str,
+    solve: Callable,
+    index: int,
+    parts: tuple,
+    mistaken: Callable,
+    kinds: tuple = MATRICES,
 ) -> None:
     """The parts of the dict that a function gives for matrices of all kinds.
 
     mistaken(matrix): part -> what mistakes make of it.
     """
     rng = rng_of(index)
-    for kind, count in MATRICES:
+    for kind, count in kinds:
         matrix = kind(rng, count)
         said = f"{name}(<{kind.__name__.replace('_', ' ')}, {count} generations>)"
         if kind is random_matrix:
@@ -358,7 +371,9 @@ def against_the_present(student: Student):
 
 @times.check(8)
 def against_the_past_and_the_future(student: Student):
-    compare_parts(student, "profile", profile_of, 9, ("ancient", "future"), mistaken_profile)
+    given = student, "profile", profile_of, 9, ("ancient", "future"), mistaken_profile
+    compare_parts(*given)
+    compare_parts(*given, kinds=((with_zeros, 4), (with_zeros, 7)))
 
 
 # ------------------------------------------------------------------- 15.5
