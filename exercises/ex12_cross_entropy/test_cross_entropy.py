@@ -729,7 +729,10 @@ learning = exercise.task("12.6", "Learning from the elite")
 
 
 def improved(module, parameters, observations, actions, kind, updates):
-    """The student's updates of a network, with an optimiser and a loss of the grader's."""
+    """The student's updates of a network, with an optimiser and a loss of the grader's.
+
+    A fifth one of the parameters is one of the optimiser, but not of the network.
+    """
     import torch
 
     sizes = [parameters[0].shape[1], len(parameters[0]), len(parameters[2])]
@@ -737,11 +740,13 @@ def improved(module, parameters, observations, actions, kind, updates):
         torch.nn.Linear(*sizes[:2]), torch.nn.Tanh(), torch.nn.Linear(*sizes[1:])
     )
     with torch.no_grad():
-        for own, given in zip(network.parameters(), parameters, strict=True):
+        more = [torch.nn.Parameter(torch.zeros(len(given))) for given in parameters[4:]]
+        every = [*network.parameters(), *more]
+        for own, given in zip(every, parameters, strict=True):
             own.copy_(torch.as_tensor(given))
             own.grad = torch.ones_like(own)  # left over from something else
     made = torch.optim.Adam if kind == "Adam" else torch.optim.SGD
-    optimiser = made(network.parameters(), lr=0.02)
+    optimiser = made(every, lr=0.02)
     kinds = []
 
     def loss(outputs, wanted):
@@ -750,10 +755,10 @@ def improved(module, parameters, observations, actions, kind, updates):
             return torch.nn.functional.cross_entropy(outputs, wanted)
         if wanted.ndim < outputs.ndim:  # of another type, which is reported
             return outputs.pow(2).mean()
-        return (outputs - wanted).pow(2).mean()
+        return sum((each - wanted).pow(2).mean() for each in (outputs, *more))
 
     losses = module.improve(network, optimiser, observations, actions, loss, updates)
-    after = [each.detach().numpy() for each in network.parameters()]
+    after = [each.detach().numpy() for each in every]
     return [losses, after, kinds]
 
 
@@ -771,7 +776,7 @@ def updated(parameters, observations, actions, kind, updates) -> tuple[list, lis
             loss = torch.nn.functional.cross_entropy(outputs, torch.tensor(actions))
         else:
             wanted = torch.tensor(actions, dtype=torch.float32)
-            loss = ((outputs - wanted) ** 2).mean()
+            loss = sum(((each - wanted) ** 2).mean() for each in (outputs, *weights[4:]))
         optimiser.zero_grad()
         loss.backward()
         optimiser.step()
@@ -785,7 +790,8 @@ def compare_updates(student: Student, index: int, kind: str, whole: bool, update
     steps, noutputs = int(rng.integers(20, 60)), int(rng.integers(2, 4))
     noutputs = 1 if kind == "SGD" and not whole else noutputs  # a single actuator
     sizes = ((6, 4), (6,), (noutputs, 6), (noutputs,))
-    parameters = [0.5 * rng.normal(size=size) for size in sizes]
+    more = ((noutputs,),) if kind == "Adam" and not whole else ()
+    parameters = [0.5 * rng.normal(size=size) for size in (*sizes, *more)]
     observations = rng.normal(size=(steps, 4))
     actions = rng.integers(0, noutputs, steps) if whole else rng.normal(size=(steps, noutputs))
     right = updated(parameters, observations, actions, kind, updates)
@@ -804,10 +810,14 @@ def compare_updates(student: Student, index: int, kind: str, whole: bool, update
         f"{said} must call loss(outputs, actions) {updates} times, with actions of {wanted}, but "
         f"the calls had {show(kinds)}.",
     )
-    expect(isinstance(after, list) and len(after) == 4, f"{said} gave no parameters.")
+    expect(isinstance(after, list) and len(after) == len(parameters), f"{said} gave no parameters.")
     return said, losses, after, *right
 
 
+PARAMETERS = (
+    *(f"{name} of the network" for name in ("W1", "b1", "W2", "b2")),
+    "a parameter that the optimiser has beside the network's (as ln sigma in 12.8)",
+)
 LEARNING_CASES = (("SGD", True, 1), ("Adam", True, 12), ("SGD", False, 5), ("Adam", False, 8))
 
 
@@ -815,11 +825,11 @@ LEARNING_CASES = (("SGD", True, 1), ("Adam", True, 12), ("SGD", False, 5), ("Ada
 def parameters_after_the_updates(student: Student):
     for number, case in enumerate(LEARNING_CASES):
         said, _, after, _, right = compare_updates(student, 90 + number, *case)
-        for name, got, wanted in zip(("W1", "b1", "W2", "b2"), after, right, strict=True):
+        for name, got, wanted in zip(PARAMETERS, after, right, strict=False):
             mistakes = {
                 "Gradients of before are added: set them to zero first (zero_grad).": wanted - 0.02
             }  # of the first case: one step of SGD, and the gradients left over are all 1
-            expect_close(f"{said}: {name} of the network afterwards", got, wanted, 1e-4, mistakes)
+            expect_close(f"{said}: {name} afterwards", got, wanted, 1e-4, mistakes)
 
 
 @learning.check(4)
