@@ -785,6 +785,8 @@ def expect_no_sign_at_limits(student: Student, level: float) -> None:
             why = ", but the last third holds nothing."
         elif limit == level:
             why = ": a mean that equals the limit gives no sign."
+        elif level == 0:
+            why = ". A mean of 0 is a number like any other."
         expect(
             (name in answer) == (name in wanted),
             f"{student.said} {'names' if name in answer else 'leaves out'} a sign {side} {limit}"

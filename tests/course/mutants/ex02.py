@@ -923,3 +923,29 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 # says: this
 # -     ninputs, actions = env.observation_space.shape[0], env.action_space
 # +     ninputs, actions = len(env.observation_space.shape), env.action_space
+
+
+# %% one_output_decides_between_two loses 2.3
+# Two choices get one output, but each choice needs its own.
+# -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
+# +     if isinstance(actions, spaces.Discrete):
+# +         return ninputs, 1 if actions.n == 2 else int(actions.n)
+# +     return ninputs, actions.shape[0]
+
+
+# %% a_time_limit_of_its_own loses 2.5
+# Makes the environment with max_episode_steps=maxsteps, which takes the place of its own time limit.
+# says: this
+def run_episode(environment_id, network, seed, maxsteps=200):
+    world = gymnasium.make(environment_id, max_episode_steps=maxsteps)
+    obs = world.reset(seed=seed)[0]
+    result = {"actions": [], "return": 0.0}
+    done = False
+    while not done:
+        a = act(forward(network, obs), world.action_space)
+        obs, r, term, trunc, _ = world.step(a)
+        result["actions"].append(a)
+        result["return"] += float(r)
+        done = term or trunc
+    world.close()
+    return result

@@ -960,3 +960,15 @@ def loss(matrix):
 # says: tanh is left out|Leaves tanh out
 # -     lengths, thicknesses = 0.8 * scales[:, 0], 0.2 * scales[:, 1]
 # +     lengths, thicknesses = 0.8 + 0.72 * parameters[:22:2], 0.2 * scales[:, 1]
+
+
+# %% old_robots_in_the_folder loses 5.5
+# Does not run a seed again whose file is in the folder already, though the steps are others now.
+# says: files that were there before
+# -         run = Run(experiment, seed)
+# -         evolve(run, Path(folder), steps)
+# -         walkers.append(run.record.bestg)
+# +         saved = Path(folder) / f"bestgS{seed}.npy"
+# +         if not saved.exists():
+# +             evolve(Run(experiment, seed), Path(folder), steps)
+# +         walkers.append(np.load(saved))

@@ -749,3 +749,36 @@ def next_states(controller, states):
 # says: 5 times as long as their change
 # -     exact = {"angles": "xy", "scale_units": "xy", "scale": 1}
 # +     exact = {"angles": "xy", "scale_units": "xy", "scale": 0.2}
+
+
+# %% ends_with_the_episode loses 7.4
+# Stops when the environment says that the time is up, and leaves out the states that are left.
+# says: this
+# -         observation, *_ = env.step(controller(seen))
+# -         following.append(observation)
+# +         observation, _, terminated, truncated, _ = env.step(controller(seen))
+# +         following.append(observation)
+# +         if terminated or truncated:
+# +             break
+
+
+# %% the_best_of_all_since loses 7.5
+# Keeps the best candidate of all generations since the last one kept, not that of the generation itself.
+# says: this
+def evolve(algorithm, evaluate, generations, every):
+    result = {"generations": [], "parameters": [], "history": []}
+    champion, highest = None, -np.inf
+    for g in range(generations):
+        candidates, _ = algorithm.ask()
+        fitness = np.asarray(evaluate(candidates, g))
+        i = fitness.argmax()
+        result["history"].append(float(fitness[i]))
+        if champion is None or fitness[i] > highest:
+            champion, highest = candidates[i].copy(), fitness[i]
+        if g % every == 0 or g == generations - 1:
+            result["generations"].append(g)
+            result["parameters"].append(champion)
+            champion, highest = None, -np.inf
+        algorithm.tell(fitness)
+    result["parameters"] = np.array(result["parameters"])
+    return result

@@ -1000,3 +1000,10 @@ def normalise(inputs):
     mean, deviation = inputs.mean(axis=0), inputs.std(axis=0)
     deviation[np.ptp(inputs, axis=0) == 0] = 0.0
     return (inputs - mean) / np.where(deviation == 0, 1.0, deviation), mean, deviation
+
+
+# %% reshaped_without_transposing loses 11.9
+# Reshapes the activations without transposing them first: neurons and pixels are mixed up.
+# says: this
+# -         return network.features(patterns).numpy().T.reshape(-1, n, n)
+# +         return network.features(patterns).numpy().reshape(-1, n, n)

@@ -980,3 +980,31 @@ def entropy_of_choices(scores):
 # says: this
 # -     return np.divide(h.T @ x, sizes, out=np.zeros_like(sizes), where=sizes > 0)
 # +     return abs(np.divide(h.T @ x, sizes, out=np.zeros_like(sizes), where=sizes > 0))
+
+
+# %% running_sum_not_reset loses 13.1
+# The advantage of one environment runs on into the next one: it begins with 0 in each.
+# says: this
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    n_steps, n_envs = rewards.shape
+    adv = np.zeros((n_steps, n_envs))
+    gae = 0.0
+    for e in range(n_envs):
+        for t in range(n_steps - 1, -1, -1):
+            if t == n_steps - 1:
+                alive, nxt = 1.0 - dones[e], last_values[e]
+            else:
+                alive, nxt = 1.0 - episode_starts[t + 1, e], values[t + 1, e]
+            delta = rewards[t, e] + gamma * nxt * alive - values[t, e]
+            gae = delta + gamma * gae_lambda * alive * gae
+            adv[t, e] = gae
+    return adv
+
+
+# %% mean_ratio_first loses 13.5
+# The ratios are averaged before the formula, but the mean is that of the formula's values.
+# says: this
+# -     log_ratio = log_prob - old_log_prob
+# -     return float(np.mean(np.exp(log_ratio) - 1 - log_ratio))
+# +     ratio = np.mean(np.exp(log_prob - old_log_prob))
+# +     return float((ratio - 1) - np.log(ratio))

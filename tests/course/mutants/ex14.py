@@ -1166,3 +1166,19 @@ def table_of(runs, baseline):
 # says: this
 # -         found[name] = np.array(reached)
 # +         found[name] = np.array(reached).max(axis=0)
+
+
+# %% different_hands_only loses 14.5
+# Counts ways that give the same numbers only once.
+# says: this
+# -     ways = np.array(list(combinations(range(n + m), n)))
+# -     totals = together[ways].sum(axis=1)
+# +     ways = np.array(sorted(set(combinations(sorted(together), n))))
+# +     totals = ways.sum(axis=1)
+
+
+# %% zero_is_nothing loses 14.6
+# Takes a mean of exactly 0 for one that is missing.
+# says: A mean of 0 is a number
+# -         if late is not None and (late > limit if side == "above" else late < limit):
+# +         if late and (late > limit if side == "above" else late < limit):
