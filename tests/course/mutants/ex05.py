@@ -964,7 +964,7 @@ def loss(matrix):
 
 # %% old_robots_in_the_folder loses 5.5
 # Does not run a seed again whose file is in the folder already, though the steps are others now.
-# says: files that were there before
+# says: or a file\.|files that were there before
 # -         run = Run(experiment, seed)
 # -         evolve(run, Path(folder), steps)
 # -         walkers.append(run.record.bestg)
