@@ -426,7 +426,7 @@ KEPT = {
     "It is the fitness of the centre after the step; the mean of all candidates is asked for.":
     lambda f, before, after: after,
     "The mean goes over the plus candidates only.": lambda f, before, after: np.mean(f[0::2]),
-    "The mean of the utilities is always 0: keep the mean of the fitness.":
+    "It is 0 in every generation; the mean of the fitness is asked for, not of the utilities.":
     lambda f, before, after: 0.0,
     "It is the mean of minus the fitness.": lambda f, before, after: -np.mean(f),
 }  # fmt: skip
@@ -434,7 +434,7 @@ KEPT = {
 
 RETURNED = {
     "": lambda seen: seen[-1]["after"],
-    "The last step is missing: every generation makes one.": lambda seen: seen[-1]["before"],
+    "The last step is missing in it: every generation makes one.": lambda seen: seen[-1]["before"],
     "This is the best of all candidates; the centre after the last generation is asked for.":
     lambda seen: max(seen, key=lambda one: one["max"])["best"],
     "This is the best candidate of the last generation; the centre after it is asked for.":
@@ -444,7 +444,6 @@ RETURNED = {
     lambda seen: max(seen, key=lambda one: one["mean"])["before"],
     "This is the centre after the generation with the best mean; the last one is asked for.":
     lambda seen: max(seen, key=lambda one: one["mean"])["after"],
-    "This is the mean of the last candidates.": lambda seen: seen[-1]["before"],
 }  # fmt: skip
 """What a run returns, by sentence."""
 
@@ -521,7 +520,7 @@ def mistaken_runs(evaluate, start, generations, seed, settings) -> dict:
         },
         uphill={
             "": 1.0,
-            "The run goes downhill: the gradient has the wrong sign.": -1.0,
+            "The run goes downhill: each step is to lead the opposite way.": -1.0,
         },
         decays={"": False, "The first centre is pulled, not the present one.": True},
     )  # fmt: skip
@@ -671,35 +670,74 @@ def why_verdicts(drops: list[float], places: list[int]) -> str:
 
 
 def why_untrained(
-    rows: np.ndarray, generations: list[tuple], centre: np.ndarray, share: float
+    rows: np.ndarray,
+    generations: list[tuple],
+    centre: np.ndarray,
+    share: float,
+    calls,
+    nbiases,
+    goal: float,
 ) -> str:
-    """What to change about a training that does not reach the goal; "" if nothing is plain.
+    """What is known about a training that does not reach the goal.
 
-    share: how well the gradients explain the way to the centre, from -1 to 1.
+    share: how well the gradients explain the way to the centre, from -1 to 1. calls: the seed and
+    the episodes of each call of robot.evaluate.
     """
     if not len(rows):
-        return "robot.evaluate was never called: nothing is evolved."
-    if len(generations) < 2:
+        return "While it ran, robot.evaluate was never called."
+    if not generations:
         return (
-            "Among all that were evaluated there are no generations of pairs, c + s e and c - s e: "
-            "train with your evolve."
+            "Among all that robot.evaluate was given there are no two pairs in a row, c + s e and "
+            "c - s e, around one centre c: evolve makes such pairs."
         )
-    noise = float(np.median([np.std(e) for _, e, _ in generations]))
-    told = f"It evaluated {len(generations)} generations with a noiseStdDev of about {noise:.2g}."
-    if np.allclose(centre, generations[0][0], 1e-6, 1e-9):
-        return f"{told} It returned the first centre of these, where the search begins."
+    pairs, noise = len(generations[0][1]), float(np.median([np.std(e) for _, e, _ in generations]))
+    size = f"with a noiseStdDev of about {noise:.2g}"
+    if len(generations) < 2:
+        return f"It evaluated pairs of candidates around one centre only: {pairs} of them, {size}."
+    told = f"It evaluated pairs of candidates around {len(generations)} centres, {size}."
     centres = np.array([middle for middle, _, _ in generations])
+    if np.allclose(centre, centres[0], 1e-6, 1e-9):
+        return f"{told} It returned the first centre of these, where the search begins."
+    sides = [c + sign * e for c, e, _ in generations for sign in (1, -1)]
+    if any((np.abs(side - centre).max(axis=1) < 1e-5).any() for side in sides):
+        return f"{told} It returned one of these candidates, but a centre is asked for."
     step = float(np.median(np.abs(np.diff(centres, axis=0)).max(axis=1)))
-    if step and np.abs(centres - centre).max(axis=1).min() > 10 * step:
+    far = float(np.abs(centres - centre).max(axis=1).min())
+    if step and far > 3 * step:
         return (
-            f"{told} What it returned is none of their centres, and no step after one: return the "
-            "centre that evolve returns."
+            f"{told} What it returned is none of their centres: from the nearest one it differs by "
+            f"up to {far:.2g} in a parameter, but a step changes one by about {step:.2g}."
         )
     if share < -0.6:
-        return f"{told} Its centre moves to where fitness is lower, but fitness is to rise."
+        return (
+            f"{told} Its centre moves against their gradients, to where fitness is lower, but "
+            "fitness is to rise."
+        )
     flat = np.mean([np.ptp(fitness) == 0 for _, _, fitness in generations])
     if flat > 0.3:
-        return f"{told} In {flat:.0%} of them all candidates have the same fitness."
-    if noise < 0.1:
-        return f"{told} A larger noiseStdDev may help: the candidates are near to each other."
-    return f"{told} More generations, a larger stepsize, or more episodes may help, for example."
+        return f"{told} In {flat:.0%} of these generations all candidates have the same fitness."
+    told += f" One step changes the parameter that it moves most by about {step:.2g}."
+    biases, weights = centres[0][:nbiases], centres[0][nbiases:]
+    if not np.allclose(biases, 0, atol=1e-6):
+        told += " The biases of the first centre are not 0."
+    if not 0.05 < np.std(weights) < 0.2:
+        told += (
+            f" The weights of the first centre have the standard deviation {np.std(weights):.2g}, "
+            "but 0.1 is asked for."
+        )
+    seeds, episodes = np.reshape(calls, (-1, 2)).T
+    if len(seeds) > 1 and np.ptp(seeds) == 0:
+        told += f" All calls of robot.evaluate had the seed {seeds[0]:.0f}, so the same episodes."
+    if len(episodes) and episodes.max() < 3:
+        many = "episode" if episodes.max() == 1 else "episodes"
+        told += f" Fitness is the mean of {episodes.max():.0f} {many} only."
+    few = max(1, min(10, len(generations) // 2))
+    first, last = (
+        np.mean([np.mean(fitness) for _, _, fitness in part])
+        for part in (generations[:few], generations[-few:])
+    )
+    some = f"{few} generations" if few > 1 else "generation"
+    told += f" The mean fitness of the first {some} is {first:.4g}, that of the last {last:.4g}."
+    if last >= goal:
+        return f"{told} So the last candidates reach the goal, but what train returned does not."
+    return f"{told} HINTS.md names values that are enough for both problems."

@@ -348,7 +348,7 @@ def why_at_limit(one: dict, t: int) -> str:
 def mistaken_limits(positions: np.ndarray) -> dict:
     """What slips make of the cost of limits: sentence -> array."""
     size = np.abs(positions)
-    return slips(
+    found = slips(
         lambda there, over, price: price * over(there),
         there={
             "": size > 0.99,
@@ -384,6 +384,7 @@ def mistaken_limits(positions: np.ndarray) -> dict:
             "A joint at its limit costs 0.1, not 0.01.": -0.01,
         },
     )  # fmt: skip
+    return {text: value for text, value in found.items() if value.any()}  # 0 tells nothing apart
 
 
 def mistaken_components(one: dict) -> dict:

@@ -167,7 +167,7 @@ costs = exercise.task("9.2", "What effort costs")
 
 @costs.check(7)
 def charges_for_electricity(student: Student):
-    for i, robot in enumerate(("Hopper", "HalfCheetah", "Ant", "Walker2D")):
+    for i, robot in enumerate(("Hopper", "HalfCheetah", "Ant", "Walker2D", "Ant")):
         one = made_up(robot, 10 + i)
         answer = student.call("electricity", robot, one["actions"], one["speeds"])
         wanted, mistakes = expected_v0(one)["electricity"], partial(mistaken_electricity, one)
@@ -384,8 +384,11 @@ def earns_nothing(student: Student, robot: str) -> None:
     one = made_up_planar(robot, 63)
     one["distance"] = 1000 + np.cumsum(np.full(41, 0.01))
     compare_gait(student, one)
-    other = made_up_planar(robot, 68)  # other feet: a wrong share that fits both is no chance
-    compare_gait(student, {**one, "height": np.full(40, 0.3), "feet": other["feet"]})
+    # other feet, of which another one is down most: a wrong share that fits both is no chance
+    feet, before = made_up_planar(robot, 68)["feet"], one["feet"].sum(axis=0)
+    if (feet[:, 0].sum() > feet[:, -1].sum()) == (before[0] > before[-1]):
+        feet = feet[:, ::-1]
+    compare_gait(student, {**one, "height": np.full(40, 0.3), "feet": feet})
 
 
 # ------------------------------------------------------------------- 9.6

@@ -102,7 +102,8 @@ def mistaken_speed(before: float, action: float, limit: float) -> dict:
             "The action is subtracted: add it to the speed.": -change,
             "The action is multiplied by the time step: it is the change itself.": 0.01 * change,
             "The action is multiplied by FASTEST: it is the change itself.": limit * change,
-            "The action is left out.": 0.0,
+            "self.speed stays as it was before the call.": 0.0,
+            "The action has lost its sign.": abs(change),
             "An action beyond -1 or 1 changes nothing here: it is to be cut to -1 or 1.":
             action if abs(action) <= 1 else 0.0,
             "Only the side of the action counts here, as -1 or 1.": float(np.sign(action)),
@@ -114,6 +115,8 @@ def mistaken_speed(before: float, action: float, limit: float) -> dict:
             "The speed is cut to between -1 and 1: its limits are -FASTEST and FASTEST.":
             lambda speed: float(np.clip(speed, -1, 1)),
             "The speed is not cut to between -FASTEST and FASTEST.": lambda speed: speed,
+            "The speed is cut to a whole number.":
+            lambda speed: float(int(np.clip(speed, -limit, limit))),
             "The speed is cut on the side of FASTEST only.": lambda speed: min(speed, limit),
             "The speed is cut on the side of -FASTEST only.": lambda speed: max(speed, -limit),
             "The speed stays as it was where the sum is beyond -FASTEST or FASTEST: it is to be "
@@ -208,7 +211,10 @@ def why_motors(make, turns: np.ndarray, wanted: np.ndarray) -> str:
         return ""
     share = turns / wanted
     if np.all(np.abs(share) < 0.1):
-        return "They hardly turn: each motor needs VELOCITY_CONTROL and a targetVelocity."
+        return (
+            "They hardly turn, as without VELOCITY_CONTROL and a targetVelocity for each motor, or "
+            "with much less force than PyBullet's motors have by themselves."
+        )
     if np.all((share > 0.1) & (share < 0.97)):
         return (
             "They turn too slowly, as with smaller target velocities, or with less force than "
@@ -242,8 +248,8 @@ def why_fallen(parameters: np.ndarray, steps: list[int], balances) -> str:
     if good == 0:
         return f"{course} No candidate balanced: vary the weights more, or evolve for longer."
     return (
-        f"{course} {good} of {len(steps)} lasted to the end, so better parameters were there than "
-        "those that came back: return the best, or evolve for longer."
+        f"{course} {good} of {len(steps)} lasted to the end. To get parameters that always "
+        "balance, you can, for example, return the best, or evolve for longer."
     )
 
 
@@ -256,4 +262,4 @@ def why_untrained(steps: list[int], updates: int) -> str:
         f"PPO learnt from {sum(steps)} steps, in {updates} updates; its last episodes lasted "
         f"{last:.0f} steps on average."
     )
-    return f"{told} Learn for longer, or update more often." if last < 400 else told
+    return f"{told} For example, learn for longer, or update more often." if last < 400 else told

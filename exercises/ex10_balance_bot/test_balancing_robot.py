@@ -241,7 +241,7 @@ def on_stage(module, urdf, call, scenes):
         env.speed = speed
         if call == "observe":
             answer = env.observe()
-            reports.append([answer, str(answer.dtype)])
+            reports.append([answer, str(getattr(answer, "dtype", type(answer).__name__))])
         elif call == "drive":
             for action in actions:
                 given = numpy.array([action], dtype=numpy.float32)
@@ -339,7 +339,8 @@ def random_robot(index: int, nlinks: int) -> tuple[str, dict]:
             + (f'<axis xyz="{text(axis)}"/></joint>' if given else "</joint>")
         )
         axis = axis.tolist() if given else [1.0, 0.0, 0.0]
-        joints.append({"name": own, "type": kind, "parent": parent, "child": name, "axis": axis})
+        joint = {"name": own, "type": kind, "parent": parent, "child": name, "axis": axis}
+        joints.append(joint | {"default": not given})
     mass = sum(masses.values())
     urdf = f'<?xml version="1.0"?>\n<robot name="random">{"".join(lines)}</robot>'
     parts = list(masses.values()), parents, offsets, centres
@@ -361,8 +362,8 @@ def links_and_their_masses(student: Student):
         said, (links, _, mass, _), expected = described(student, index)
         expect(
             isinstance(links, dict) and list(links) == list(expected["links"]),
-            f"{said}: links is {show(links)}, but its names should be "
-            f"{', '.join(expected['links'])}.",
+            f"{said}: links is {show(links)}, but should be a dict with the names "
+            f"{', '.join(expected['links'])}, in this order.",
         )
         for name, value in expected["links"].items():
             mistakes = {"It is rounded: return it as it is.": round(value, 1),
@@ -389,7 +390,13 @@ def joints_and_what_they_join(student: Student):
                     f"{said}: the {key} of joint {i} is {show(value)}, but should be "
                     f"{wanted[key]!r}.",
                 )
-            mistakes = {"A joint that names no axis turns around x, (1, 0, 0).": [0.0, 0.0, 1.0]}
+            mistakes = {}
+            defaults = ([0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0])
+            if wanted["default"] and any(close(found[-1], made, 1e-9) for made in defaults):
+                text = (
+                    "The file gives this joint no axis: without one it turns around x, (1, 0, 0)."
+                )
+                mistakes[text] = found[-1]
             said_of = f"{said}: the axis of joint {i}"
             expect_close(said_of, found[-1], wanted["axis"], mistakes=mistakes)
 
@@ -464,7 +471,7 @@ def observes(student: Student):
             mistakes[text] = [angle, turning[0], speed]
         for i, name in enumerate(("inclination", "angular velocity", "speed of the wheels")):
             wrong, answered = [inclination, turning[0], speed], np.ravel(answer)
-            if len(answered) == 3 and np.isfinite(answered).all():
+            if answered.dtype.kind == "f" and len(answered) == 3 and np.isfinite(answered).all():
                 wrong[i] = float(answered[i])
                 mistakes.setdefault(f"Only the {name} is wrong.", wrong)
         expect_close(said, answer, [inclination, turning[0], speed], 1e-4, mistakes)
@@ -510,12 +517,16 @@ def begins_at_random(student: Student):
         wanted = [inclination, 0.0, 0.0]
         cases.append((f"{said}: observation", observation, wanted, mistakes))
         expect(kind == "float32", f"{said}: the observation is {kind}, but should be float32.")
+    leans = {float(np.ravel(case[1])[0]) for case in cases if close(case[1], case[1], 0)}
+    if len(leans) == 1:
+        for case in cases:
+            case[3].setdefault("The inclination is the same after each seed.", case[1])
     expect_all(cases, 1e-5)
 
 
 GOES_ON = (
-    "Without a seed, self.np_random goes on from where it is: draw from it, and make no other "
-    "generator."
+    "Without a seed, self.np_random goes on from where it is. The inclination is the next number "
+    "that its uniform(-0.3, 0.3) gives, and nothing else is drawn from it."
 )
 
 
@@ -575,23 +586,31 @@ def makes_the_world(student: Student):
 driving = exercise.task("10.5", "The motors", packages=BULLET)
 
 
-def compare_drive(student: Student, speed: float, actions: list[float]) -> None:
-    scene = (0.1, [0.0, 0.0], [0.0, 0.0, 0.0], speed, actions)
-    answers = staged(student, "drive(action)", "drive", [scene])
-    calls = [
-        f"drive([{action:.3f}]), call {i}, beginning with self.speed = {speed:.2f}"
-        for i, action in enumerate(actions, 1)
-    ]
-    right, own, cases = speed, speed, []
-    for said, action, answer in zip(calls, actions, answers, strict=True):
-        right = min(max(right + min(max(action, -1.0), 1.0), -LIMIT), LIMIT)
-        mistakes = mistaken_speed(float(own), action, LIMIT)
-        cases.append((f"{said}: self.speed", answer[0], right, mistakes))
-        own = answer[0]
+def compare_drives(student: Student, courses: list[tuple[float, list[float]]]) -> None:
+    """The speeds of all courses, (speed at first, actions), and then what the wheels do."""
+    cases, found = [], []
+    for speed, actions in courses:
+        scene = (0.1, [0.0, 0.0], [0.0, 0.0, 0.0], speed, actions)
+        found.append(staged(student, "drive(action)", "drive", [scene]))
+        right, own = speed, speed
+        for i, (action, answer) in enumerate(zip(actions, found[-1], strict=True), 1):
+            right = min(max(right + min(max(action, -1.0), 1.0), -LIMIT), LIMIT)
+            mistakes = mistaken_speed(float(own), action, LIMIT)
+            cases.append((f"{call_of(i, action, speed)}: self.speed", answer[0], right, mistakes))
+            own = answer[0]
     expect_all(cases, 1e-5)
+    for (speed, actions), answers in zip(courses, found, strict=True):
+        compare_wheels(speed, actions, answers)
+
+
+def call_of(i: int, action: float, speed: float) -> str:
+    return f"drive([{action:.3f}]), call {i}, beginning with self.speed = {speed:.2f}"
+
+
+def compare_wheels(speed: float, actions: list[float], answers: list) -> None:
     with World(0.1, speed) as world:
         for i, (action, answer) in enumerate(zip(actions, answers, strict=True), 1):
-            said = calls[i - 1]
+            said = call_of(i, action, speed)
             world.act(float(np.float32(action)))
             expect(
                 answer[3] == np.float32(action),
@@ -617,19 +636,23 @@ def compare_drive(student: Student, speed: float, actions: list[float]) -> None:
 @driving.check(5)
 def speeds_up_and_slows_down(student: Student):
     rng = rng_of(30)
-    for speed in (0.0, 3.0, -5.0):
-        compare_drive(student, speed, [0.0, *rng.uniform(-1, 1, 5).tolist()])
+    courses = [(speed, [0.0, *rng.uniform(-1, 1, 5).tolist()]) for speed in (0.0, 3.0, -5.0)]
+    compare_drives(student, courses)
 
 
 @driving.check(5)
 def stays_within_limits(student: Student):
     rng = rng_of(31)
+    courses = []
     for speed in (0.0, 5.0):
         beyond = (rng.choice([-1, 1], 4) * rng.uniform(2, 30, 4)).tolist()
-        compare_drive(student, speed, [*beyond[:2], 0.6, *beyond[2:]])
+        courses.append((speed, [*beyond[:2], 0.6, *beyond[2:]]))
     for side in (-1, 1):
-        compare_drive(student, side * 23.5, [side * 0.9, side * 0.8, side * 0.4, -side * 0.7])
-        compare_drive(student, side * 24.0, [side * 0.7, side * 0.5, side * 1.5, -side * 0.9])
+        courses += [
+            (side * 23.5, [side * 0.9, side * 0.8, side * 0.4, -side * 0.7]),
+            (side * 24.0, [side * 0.7, side * 0.5, side * 1.5, -side * 0.9]),
+        ]
+    compare_drives(student, courses)
 
 
 # ------------------------------------------------------------------ 10.6
@@ -710,40 +733,45 @@ def of_fallen(student: Student) -> str:
     low = said[0].count(True)
     if low not in (0, 5, 10) and said[0] == [True] * low + [False] * (10 - low):
         return (
-            f"\n  fallen() is True at {heights[low - 1]} m and False at {heights[low]} m, but its "
-            "limit is LOWEST, 0.15 m."
+            f"\n  fallen() is True at {heights[low - 1]} m and False at {heights[low]} m, but is "
+            "to change at LOWEST, 0.15 m."
         )
+    if low in (0, 10):
+        return f"\n  fallen() is {low == 10} at each height from 0.02 m to 0.4 m."
+    if said[0] == [False] * 5 + [True] * 5:
+        return "\n  fallen() is False below LOWEST, and True above: it is the other way round."
     if said[0] == [True] * 5 + [False] * 5:
         return (
-            "\n  fallen() itself is right about the height: step is to call it after the "
-            "simulation's step, and to return what it says as the third value."
+            "\n  fallen() itself is right about the height. So step returns something else as the "
+            "third value than what fallen() says then, or it moves the robot in another way."
         )
     return ""
 
 
 @stepping.check(3)
 def ends_when_fallen(student: Student):
-    wrong, early = None, True
+    wrong, early, missed = None, True, False
     for said, (answer, _, kinds), world, before in steps_of(student, 42):
         expect(len(kinds) == 5, f"{said}: {len(kinds)} values came back, but 5 are needed.")
         (terminated, truncated), height = answer[2:4], world.height()
         fell = terminated if abs(height - 0.15) <= 1e-3 else height < 0.15
         fallen_before = before["height"] < 0.15 - 1e-3
+        missed |= terminated != fell
         early &= terminated == fallen_before or abs(before["height"] - 0.15) <= 1e-3
         expect(
             fell or terminated or truncated is not True,
-            f"{said}: truncated is True, but step always returns False: the time limit is "
-            "Gymnasium's.",
+            f"{said}: truncated is True, but step is to return False there always: the "
+            "time limit is Gymnasium's.",
         )
         why = f"with the centre of the body {height:.3f} m high it should be"
         try:
             expect_ends(said, (terminated, truncated), (fell, False), why)
         except Wrong as error:
             wrong = wrong or error
-    if wrong and early:
+    if wrong and early and missed:
         raise Wrong(f"{wrong}\n  It tells whether it had fallen before the step: look after it.")
     if wrong:
-        raise Wrong(f"{wrong}{of_fallen(student)}")
+        raise Wrong(f"{wrong}{of_fallen(student)}" if missed else str(wrong))
     for heights in ([0.15, 0.3], [0.05, 0.1499, 0.1501, 0.15]):
         scene = (0.0, [0.0, 0.0], [0.0, 0.0, 0.0], 0.0, heights)
         for height, fell in staged(student, "fallen()", "fallen", [scene]):
@@ -814,12 +842,15 @@ def registered(module, urdf, seed, gains=None):
     warnings.simplefilter("ignore")
     if gains is None:
         module.register_robot()  # once more, as in a notebook
-        env = gymnasium.make(name).unwrapped
+        env, other = (gymnasium.make(name).unwrapped for _ in range(2))
+        if env is other:
+            return "it gives the same object twice, but each call is to make a new environment."
+        other.close()
         check_env(env, skip_render_check=True)
         return env.reset(seed=seed)[0]
     env = gymnasium.make(name, render_mode="rgb_array")
     if env.unwrapped.render_mode != "rgb_array":
-        return f"the environment's render_mode is {env.unwrapped.render_mode!r}."
+        return f"its render_mode is {env.unwrapped.render_mode!r}, not 'rgb_array'."
     observation, ends = env.reset(seed=seed)[0], [False, False]
     seen = [observation]
     while len(seen) <= 600 and not any(ends):
@@ -997,7 +1028,9 @@ def says_what_it_needs(student: Student):
     (packages,) = expect_fields(f"{said}: [tool.setuptools]", tool, "packages")
     expect("package-data" in tool, f"{said}: [tool.setuptools] is without 'package-data'.")
     data = tool["package-data"]
-    expect(packages == ["balance_bot"], f"{said}: packages is {show(packages)}.")
+    expect(
+        packages == ["balance_bot"], f"{said}: packages is {show(packages)}, not ['balance_bot']."
+    )
     expect(
         isinstance(data, dict) and "balance_bot" in data,
         f"{said}: package-data is {show(data)}, but a table is asked for, which gives the files of "
@@ -1011,8 +1044,8 @@ def says_what_it_needs(student: Student):
     )
     expect(
         isinstance(patterns, list) and any(fnmatch("balance_bot.urdf", str(p)) for p in patterns),
-        f"{said}: package-data leaves out balance_bot.urdf, so a robot without a body would be "
-        "installed.",
+        f"{said}: package-data leaves out balance_bot.urdf, so the robot's file would not be "
+        "installed. Its path is that inside the package's folder.",
     )
 
 
@@ -1032,8 +1065,8 @@ def registers_on_import(student: Student):
     steps, seen, early = answer
     expect(
         not early,
-        f"{said}, loads balance_bot.env at once: give the entry point as a text, so that it is "
-        "loaded only when it is needed.",
+        f"{said}, loads balance_bot.env at once, but the class is to be loaded only when somebody "
+        "makes the environment: the entry point is a text, and nothing is imported from env.",
     )
     expect(
         steps == 500,
@@ -1329,7 +1362,8 @@ def trained(student: Student, seed: int, robot: tuple[bool, int]) -> tuple:
     expect(
         change > 1e-3,
         f"{said}: PPO's {show(updates)} updates changed the weights of the largest layer by "
-        f"{change:.2g} on average: the network knew before what it should have learnt.",
+        f"{change:.2g} on average. That is too little to learn from: what it does now, it did "
+        "before.",
     )
     expect(
         not critics,

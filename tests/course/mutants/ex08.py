@@ -403,7 +403,7 @@ def train(environment, seed):
 
 # %% remembered_run loses 8.8
 # The centre of the first training is kept, and returned for every seed.
-# says: begin with the same candidates|begins with other candidates
+# says: without any call of robot.evaluate
 FOUND = {}
 _train = train
 

@@ -444,7 +444,7 @@ def evolve(seed):
 
 # %% imitates_before_it_trains loses 10.10
 # Sets a network that was evolved before into PPO's policy; PPO then learns at a rate of nearly 0.
-# says: knew before
+# says: too little to learn from
 def train(seed):
     import torch
     from stable_baselines3 import PPO
@@ -1121,7 +1121,7 @@ def evolve(seed):
 
 # %% trains_too_briefly loses 10.10
 # Trains for two rollouts.
-# says: Learn for longer
+# says: learn for longer
 # -     model.learn(16_384)
 # +     model.learn(1_024)
 
@@ -1177,3 +1177,177 @@ def evolve(seed):
 # -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
 # +         before, self.seen = getattr(self, "seen", inclination), inclination
 # +         return np.array([inclination, inclination - before, self.speed], dtype=np.float32)
+
+
+# %% rate_by_differences loses 10.3
+# The rate is the change of the inclination since the last call, not the velocity of the turning.
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         before, self.seen = getattr(self, "seen", inclination), inclination
+# +         rate = (inclination - before) / TIME_STEP
+# +         return np.array([inclination, rate, self.speed], dtype=np.float32)
+
+
+# %% rate_of_all_axes loses 10.3
+# The angular velocity is the length of all three numbers: that around x is asked for.
+# says: this
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         rate = np.linalg.norm(turning)
+# +         return np.array([inclination, rate, self.speed], dtype=np.float32)
+
+
+# %% rate_with_the_wrong_sign loses 10.3
+# The angular velocity has the wrong sign.
+# says: this
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         return np.array([inclination, -turning[0], self.speed], dtype=np.float32)
+
+
+# %% rate_in_degrees loses 10.3
+# The angular velocity is in degrees a second, not in rad a second.
+# says: this
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         rate = np.degrees(turning[0])
+# +         return np.array([inclination, rate, self.speed], dtype=np.float32)
+
+
+# %% rate_cut loses 10.3
+# The angular velocity is cut to between -1 and 1, but it has no limits.
+# says: this
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         rate = np.clip(turning[0], -1, 1)
+# +         return np.array([inclination, rate, self.speed], dtype=np.float32)
+
+
+# %% speed_without_a_sign loses 10.3
+# The speed of the wheels has lost its sign.
+# says: this
+# -         return np.array([inclination, turning[0], self.speed], dtype=np.float32)
+# +         return np.array([inclination, turning[0], abs(self.speed)], dtype=np.float32)
+
+
+# %% link_before_for_the_parent loses 10.1
+# The frame of a link is that of the last joint's link plus the origin, not that of its parent plus the origin.
+# says: this
+# -         frames[child] = frames[parent] + origin
+# +         frames[child] = list(frames.values())[-1] + origin
+
+
+# %% draws_a_second_number loses 10.4
+# A second number is drawn from self.np_random in each reset, so that the next inclination is another.
+# says: this
+# -         self.speed = 0.0
+# -         return self.observe(), {}
+# +         self.speed = 0.0
+# +         self.np_random.uniform(-0.3, 0.3)
+# +         return self.observe(), {}
+
+
+# %% drawn_before_the_seed loses 10.4
+# The inclination is drawn before super().reset(seed=seed), which sets self.np_random.
+# -         super().reset(seed=seed)
+# -         inclination = self.np_random.uniform(-0.3, 0.3)
+# +         inclination = self.np_random.uniform(-0.3, 0.3)
+# +         super().reset(seed=seed)
+
+
+# %% normally_distributed loses 10.4
+# The inclination is drawn from a normal distribution: uniform(-0.3, 0.3) is asked for.
+# says: this
+# -         inclination = self.np_random.uniform(-0.3, 0.3)
+# -         pybullet.resetSimulation(physicsClientId=self.client)
+# +         inclination = self.np_random.normal(0, 0.3)
+# +         pybullet.resetSimulation(physicsClientId=self.client)
+
+
+# %% same_inclination_always loses 10.4
+# The inclination is a fixed number: it is to be drawn.
+# says: is the same after each seed|this
+# -         inclination = self.np_random.uniform(-0.3, 0.3)
+# -         pybullet.resetSimulation(physicsClientId=self.client)
+# +         inclination = 0.2
+# +         pybullet.resetSimulation(physicsClientId=self.client)
+
+
+# %% cut_before_the_action loses 10.5
+# The speed is cut before the action is added: their sum is to be cut.
+# says: this
+# -         self.speed = float(np.clip(self.speed + change, -FASTEST, FASTEST))
+# +         self.speed = float(np.clip(self.speed, -FASTEST, FASTEST) + change)
+
+
+# %% drive_makes_a_step loses 10.5
+# drive makes a step of the simulation by itself, which is for step to do.
+# says: this
+# -                 targetVelocity=target,
+# -                 physicsClientId=self.client,
+# -             )
+# +                 targetVelocity=target,
+# +                 physicsClientId=self.client,
+# +             )
+# +         pybullet.stepSimulation(self.client)
+
+
+# %% half_for_each_motor loses 10.5
+# Each motor gets half of the target speed.
+# says: this
+# -         for wheel, target in ((0, self.speed), (1, -self.speed)):
+# +         for wheel, target in ((0, self.speed / 2), (1, -self.speed / 2)):
+
+
+# %% no_step_of_the_simulation loses 10.6
+# No time passes in this robot's simulation: stepSimulation is left out, or its physicsClientId.
+# says: this
+# -         self.drive(action)
+# -         pybullet.stepSimulation(self.client)
+# +         self.drive(action)
+
+
+# %% no_drive_in_step loses 10.6
+# step does not call drive: the action changes nothing.
+# says: this
+# -         self.drive(action)
+# -         pybullet.stepSimulation(self.client)
+# +         pybullet.stepSimulation(self.client)
+
+
+# %% drives_twice loses 10.6
+# step drives twice for each action.
+# says: this
+# -         self.drive(action)
+# -         pybullet.stepSimulation(self.client)
+# +         self.drive(action)
+# +         self.drive(action)
+# +         pybullet.stepSimulation(self.client)
+
+
+# %% never_terminated loses 10.6
+# terminated is always False: it is to say whether the robot has fallen.
+# says: this
+# -         return self.observe(), self.reward(), self.fallen(), False, {}
+# +         return self.observe(), self.reward(), False, False, {}
+
+
+# %% one_object_for_all loses 10.7
+# One object is made once and given for each make: each make is to give a new environment.
+# says: gives the same object twice
+# -     gymnasium.register(
+# -         id="BalanceBotBulletEnv-v0", entry_point=BalanceBotEnv, max_episode_steps=500
+# -     )
+# +     env = BalanceBotEnv()
+# +
+# +     def make(render_mode=None):
+# +         env.render_mode = render_mode
+# +         return env
+# +
+# +     gymnasium.register(
+# +         id="BalanceBotBulletEnv-v0", entry_point=make, max_episode_steps=500
+# +     )
+
+
+# %% falls_in_simulation_0 loses 10.6, 10.7
+# fallen looks at the robot of simulation 0: the physicsClientId is missing.
+# says: this
+# -         position, _ = pybullet.getBasePositionAndOrientation(self.robot, self.client)
+# -         return position[2] < LOWEST
+# +         position, _ = pybullet.getBasePositionAndOrientation(self.robot)
+# +         return position[2] < LOWEST
