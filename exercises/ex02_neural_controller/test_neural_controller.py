@@ -8,6 +8,8 @@ the order of sums and single precision can do.
 """
 
 import time
+from collections.abc import Sequence
+from functools import partial
 
 import gymnasium
 import numpy as np
@@ -353,6 +355,14 @@ def probe(module, ninputs, noutputs, discrete, start):
     return module.sizes(name)
 
 
+def why_so_many(discrete: bool, wanted: Sequence[int], index: int) -> str:
+    """What the task says about the number of inputs (index 0) or outputs."""
+    if index == 0:
+        return f"Each of the {wanted[0]} observed numbers is an input."
+    kind = "choices of a Discrete action" if discrete else "numbers of an action in a Box"
+    return f"Each of the {wanted[1]} {kind} needs an output."
+
+
 def expect_sizes(student: Student, discrete: bool) -> None:
     rng = np.random.default_rng(exercise.seed(20 + discrete))
     for name in PROBLEMS:
@@ -361,7 +371,7 @@ def expect_sizes(student: Student, discrete: bool) -> None:
                 continue
             wanted = layers_of(env, 1)[::2]
         answer = student.call("sizes", name)
-        expect_close(student.said, answer, wanted)
+        expect_close(student.said, answer, wanted, why=partial(why_so_many, discrete, wanted))
     for start in (0, 7, 5):
         wanted = rng.integers(2, 30, size=2).tolist()
         first = f", start={start}" if start else ""
@@ -379,7 +389,8 @@ def expect_sizes(student: Student, discrete: bool) -> None:
                 for text, count in counts.items()
             }
         answer = student.run(probe, *wanted, discrete, start, said=said)
-        expect_close(said, answer, wanted, mistakes=mistakes)
+        why = partial(why_so_many, discrete, wanted)
+        expect_close(said, answer, wanted, mistakes=mistakes, why=why)
 
 
 @counting.check(4)

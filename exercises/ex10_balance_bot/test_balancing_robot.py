@@ -419,10 +419,11 @@ def expect_space(student: Student, which: int, name: str, high: list[float]) -> 
     got_low, got_high, kind = answer[which]
     for side, got, wanted in (("low", got_low, -np.array(high)), ("high", got_high, high)):
         fits = isinstance(got, np.ndarray) and got.shape == np.shape(wanted)
+        exchanged = fits and np.allclose(np.sort(got), np.sort(wanted), rtol=1e-6)
         expect(
             fits and np.allclose(got, wanted, rtol=1e-6),
             f"BalanceBotEnv(): {name}.{side} is {show(got)}, but should be "
-            f"{show(np.array(wanted))}.",
+            f"{show(np.array(wanted))}.{' Its limits are those of other numbers.' * exchanged}",
         )
     expect(kind == "float32", f"BalanceBotEnv(): {name} holds {kind}, but float32 is asked for.")
 
@@ -1188,7 +1189,7 @@ def learnt(module, urdf, gyro, name, seed, most):
     try:
         answer = module.train(seed)
     except BrokenOff:
-        return [None, actions, steps, 0, False, 0.0, []]
+        return [None, actions, steps, 0, False, 0.0, [], False]
     finally:
         PPO.train = updates
 
@@ -1199,7 +1200,7 @@ def learnt(module, urdf, gyro, name, seed, most):
 
     layers = list(answer) if isinstance(answer, (list, tuple)) else []
     if not all(isinstance(layer, (list, tuple)) and len(layer) == 2 for layer in layers):
-        return [answer, actions, steps, len(learnt), False, 0.0, []]
+        return [answer, actions, steps, len(learnt), False, 0.0, [], False]
     critics = [
         number
         for number, (weights, _) in enumerate(layers)
@@ -1208,12 +1209,15 @@ def learnt(module, urdf, gyro, name, seed, most):
     ]  # fmt: skip
     parts = sorted((numpy.array(part) for layer in answer for part in layer), key=numpy.size)
     same, change, start = False, 0.0, None
+    begun = any(
+        first is not None and all(places(part, first).size for part in parts) for first in before
+    )
     for first, after in zip(before, learnt, strict=True):
         start = start if first is None else first
         if all(places(part, after).size for part in parts):
             at = places(parts[-1], after)
             same, change = True, max(change, *(float(abs(after[i] - start[i]).mean()) for i in at))
-    return [answer, actions, steps, len(learnt), same, change, critics]
+    return [answer, actions, steps, len(learnt), same, change, critics, begun]
 
 
 def balanced(layers: list, robot: tuple[bool, int], index: int) -> list[int]:
@@ -1339,7 +1343,7 @@ def trained(student: Student, seed: int, robot: tuple[bool, int]) -> tuple:
     how the training went, in words.
     """
     said, report = learns(student, "train", seed, robot, np.inf)
-    answer, actions, steps, updates, same, change, critics = report
+    answer, actions, steps, updates, same, change, critics, begun = report
     expect(
         isinstance(answer, list) and 0 < len(answer) < 10,
         f"{said} returned {show(answer)}, but a list of layers is needed.",
@@ -1354,6 +1358,11 @@ def trained(student: Student, seed: int, robot: tuple[bool, int]) -> tuple:
         weights = expect_array(f"{said}: weights of layer {i}", layer[0], (neurons, inputs))
         layers.append((weights, expect_array(f"{said}: biases of layer {i}", layer[1], (neurons,))))
         inputs = neurons
+    expect(
+        same is True or begun is False,
+        f"{said}: the layers are those of the policy before PPO's first update. Of a network that "
+        "PPO trains further, they are a copy: it does not learn along.",
+    )
     expect(
         same is True,
         f"{said}: the layers are not all those of a policy after one of PPO's updates, of which "

@@ -927,6 +927,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 # %% one_output_decides_between_two loses 2.3
 # Two choices get one output, but each choice needs its own.
+# says: Each of the 2 choices
 # -     return ninputs, int(actions.n) if isinstance(actions, spaces.Discrete) else actions.shape[0]
 # +     if isinstance(actions, spaces.Discrete):
 # +         return ninputs, 1 if actions.n == 2 else int(actions.n)
