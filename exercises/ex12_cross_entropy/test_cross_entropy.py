@@ -859,7 +859,7 @@ def draws_actions(student: Student):
         said = f"gaussian_action({show(mean)}, {show(log_deviation)}, rng)"
         answer = student.run(moved, mean, log_deviation, seed, 4, said=said)
         expect(isinstance(answer, list) and len(answer) == 4, f"{said} gave no answers.")
-        noise = np.random.default_rng(seed)
+        noise, single = np.random.default_rng(seed), np.random.default_rng(seed)
         for got in answer:
             drawn = noise.standard_normal(actuators)
             mistakes = {
@@ -868,6 +868,8 @@ def draws_actions(student: Student):
                 "log_deviation is taken for the deviation itself: np.exp is missing.": mean
                 + log_deviation * drawn,
                 "The noise is left out.": mean,
+                "One number is drawn for all actuators, but each needs its own.": mean
+                + np.exp(log_deviation) * single.standard_normal(),
             }
             wanted = mean + np.exp(log_deviation) * drawn
             expect_close(said, got, wanted, mistakes=mistakes)
@@ -903,6 +905,7 @@ def compare_gaussian(student: Student, index: int, steps: int, actuators: int, p
         constant = np.log(2 * np.pi) / 2
         mistakes = {
             "The constant ln(2 pi) / 2 is left out.": (surprises - constant).sum(axis=1).mean(),
+            "ln(2 pi) is added whole, not half of it.": (surprises + constant).sum(axis=1).mean(),
             "The mean is taken over the actuators, too: their surprises add up.": surprises.mean(),
             "The sum goes over the steps, too: the loss is their mean.": surprises.sum(),
             "ln sigma (log_deviation) is not added.": (surprises - log_deviation)
