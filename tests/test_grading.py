@@ -7,6 +7,7 @@ import os
 import signal
 import stat
 import sys
+import time
 from pathlib import Path
 
 import psutil
@@ -28,6 +29,7 @@ from botschool.grading.run import confined
 from botschool.grading.run.confined import fork_server
 from botschool.grading.run.student import Student
 from botschool.sandbox import paths
+from botschool.sandbox.process import Child
 from tiny_course import FILE, FOLDER, HINTS, SOLUTION, make_course, submit
 
 
@@ -191,6 +193,21 @@ def test_scratch_files_that_are_not_there(student):
 def test_limits_are_told(student):
     with pytest.raises(Wrong, match=r"while talk.* was running: it printed more than 16 MB"):
         student("def talk():\n    while True: print('x' * 100_000)\n", 20).call("talk")
+
+
+def test_what_is_printed_last_is_kept(student, monkeypatch):
+    """Even if it is read only after the child has ended."""
+    drain = Child._drain
+
+    def late(child):
+        time.sleep(0.2)
+        drain(child)
+
+    monkeypatch.setattr(Child, "_drain", late)
+    one = student("def talk():\n    print('the end')\n")
+    one.call("talk")
+    one.close()
+    assert one.printed == "the end\n"
 
 
 def test_a_child_that_does_not_start_is_the_graders_trouble(course, monkeypatch):

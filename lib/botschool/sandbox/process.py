@@ -84,7 +84,8 @@ class Child:
         finally:
             for fd in (to_child, from_child, its_output):
                 os.close(fd)
-        threading.Thread(target=self._drain, daemon=True).start()
+        self._drains = threading.Thread(target=self._drain, daemon=True)
+        self._drains.start()
         self.missing = self._set_up(file, limits, readable, references)
         """What this system cannot confine: some of "files", "processes", "network"."""
         threading.Thread(target=self._look, daemon=True).start()
@@ -187,6 +188,7 @@ class Child:
         self._closed.set()
         self._kill_group()
         self._wait(5)
+        self._drains.join(1)  # what the child printed last may still be in the pipe
         self._close_pipes()
 
     def _wait(self, seconds: float) -> int | None:

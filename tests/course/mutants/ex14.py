@@ -224,12 +224,6 @@ def warning_signs(indicators, total, signs):
     return found
 
 
-# %% mean_of_zero_is_nothing loses 14.6
-# Takes a mean of 0 for a part in which nothing was logged.
-# -         if late is not None and (late > limit if side == "above" else late < limit):
-# +         if late and (late > limit if side == "above" else late < limit):
-
-
 # %% only_nan_is_nan loses 14.6
 # Gives NaN for a part in which nothing but NaN was logged.
 def phase_means(steps, values, total, parts=3):
