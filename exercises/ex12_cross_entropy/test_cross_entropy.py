@@ -1291,12 +1291,19 @@ def expect_starts(said: str, given: list, returns: list) -> None:
     episodes = len(returns[0])
     first, later = set(seeds[:episodes]), set(seeds[episodes + 1 :])
     formula = "episode e of iteration i has the seed `seed + i * starts + e % starts`."
-    if len(seeds) < 2 * episodes:
+    if not episodes or len(seeds) < 2 * episodes:
         return
     expect(
         not later <= first,
         f"{said}: all iterations begin their episodes with the seeds of the first one, but "
         f"{formula}",
+    )
+    second = set(seeds[episodes : 2 * episodes])
+    stride = min(second) - min(first)
+    expect(
+        episodes < 2 or len(first) > 1 or len(second) > 1 or stride == 1,
+        f"{said}: all {episodes} episodes of an iteration begin with one seed, which is right only "
+        f"if starts is 1, but the seed of the next iteration is {stride} higher: {formula}",
     )
     together = len(set(seeds[: 3 * episodes]))
     expect(
