@@ -137,6 +137,7 @@ def seed_decides(student: Student):
     expect(not np.array_equal(one, other), f"{student.said}: another seed gave the same numbers.")
     one = student.call("initial_population", 40, 2, 9, seed=exercise.seed(3))
     one = expect_array(student.said, one, (40, 11))
+    one = one[one.any(axis=1)]  # rows of zeros are all alike, whatever the seed
     for later in (1, 2, 10):
         other = student.call("initial_population", 40, 2, 9, seed=exercise.seed(3) + later)
         expect(
