@@ -799,3 +799,18 @@ def compare(environment_ids, episodes, seed):
 # Gives 1000 steps for an environment without a time limit, but None is asked for.
 # -         "maxsteps": env.spec.max_episode_steps,
 # +         "maxsteps": env.spec.max_episode_steps or 1000,
+
+
+# %% last_choice_for_the_first loses 1.1
+# Gives the last choice of a Discrete space for the first.
+# says: this
+# -             return {"kind": "Discrete", "choices": int(space.n), "first": int(space.start)}
+# +             last = int(space.start + space.n - 1)
+# +             return {"kind": "Discrete", "choices": int(space.n), "first": last}
+
+
+# %% limit_of_what_is_observed loses 1.3
+# Takes 24 degrees, the limit of what can be observed, for the limit of the angle.
+# says: this
+# -     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(12))
+# +     return bool(abs(position) > 2.4 or abs(angle) > np.deg2rad(24))
