@@ -1,15 +1,15 @@
 """Grader of exercise 3; run it with `make test-ex3`.
 
-Stochastic checks (task 3.7), each with two seeds and 20 unseen episodes a controller, on robots
-whose parameters count with gains drawn in secret (botschool.course.rewiring). Margins are those of
-20 seeds, each with gains of its own:
+Stochastic checks (task 3.7), each with two seeds (a third one if just one of them is good enough)
+and 20 unseen episodes a controller, on robots whose parameters count with gains drawn in secret
+(botschool.course.rewiring). Margins are those of 20 seeds, each with gains of its own:
 
 - CartPole-v0 needs a mean of at least 195. The solution reaches 200.0 with each (margin 5 steps).
   Of random controllers 3 % reach it too, so this part can also be had by luck.
-- Pendulum-v1 needs a mean of at least -600. The solution reaches -201 to -117 (margin 399). Random
-  controllers reach -1160 +- 90 with the weights of task 3.1 and -1500 +- 150 with weights of
-  deviation 1; the best of 6000 of the latter, chosen with 5 and the best 20 again with 20 episodes,
-  -990 to -750.
+- Pendulum-v1 needs a mean of at least -600. The solution reaches -201 to -117 (margin 399), but
+  -633 with one of some hundreds of other seeds. Random controllers reach -1160 +- 90 with the
+  weights of task 3.1 and -1500 +- 150 with weights of deviation 1; the best of 6000 of the latter,
+  chosen with 5 and the best 20 again with 20 episodes, -990 to -750.
 """
 
 from __future__ import annotations
@@ -947,16 +947,23 @@ def gains_of(index: int, size: int) -> np.ndarray:
     return rng.choice([-1.0, 1.0], size=size) * 1.25 ** rng.uniform(-1, 1, size)
 
 
+THIRD = 4
+"""The third seed has the index of the first one plus this."""
+
+
 def expect_trained(
     student: Student, environment: str, index: int, wanted: float, random: float, told: str
 ):
     """Two seeds, and a robot whose parameters have other gains, drawn in secret.
 
+    If just one of the two is good enough, a third one decides: a seed in some hundreds is unlucky.
     random: the mean return of random controllers. told: what is said of a mean that is not enough.
     """
     robot = Robot(environment)
     gains = gains_of(index, robot.nbiases + robot.nweights)
     runs = [Trained(student, environment, each, gains) for each in (index, index + 1)]
+    if sum(run.mean >= wanted for run in runs) == 1:
+        runs.append(Trained(student, environment, index + THIRD, gains))
     for run in runs:
         expect(
             run.many > 0,
@@ -969,7 +976,10 @@ def expect_trained(
             "return one of the candidates that you gave to robot.evaluate, and not, for example, "
             "their mean, a changed copy or one of a later population.",
         )
-    passed = sum(run.mean >= wanted for run in runs)
+    good = [run for run in runs if run.mean >= wanted]
+    passed = len(good)
+    if passed == 2:
+        runs = good
     for number, run in enumerate(runs):
         if run.mean >= wanted:
             continue
@@ -992,8 +1002,8 @@ def expect_trained(
                     "how you choose the one that you return."
                 )
             raise Wrong(
-                f"{worse.said}: {told.format(worse.mean)} Of the two seeds that are graded, "
-                f"{passed} {'is' if passed == 1 else 'are'} good enough. {advice}"
+                f"{worse.said}: {told.format(worse.mean)} Of the {len(runs)} seeds that are "
+                f"graded, {passed} {'is' if passed == 1 else 'are'} good enough. {advice}"
             )
         raise Wrong(
             f"{run.said}: the controller of the ordinary robot reaches {plain.mean:.0f}, but that "
