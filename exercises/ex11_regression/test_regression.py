@@ -458,17 +458,26 @@ def watched(module, name, arguments, stuck):
 
     stuck: how many of the first networks that it makes begin with hidden neurons that are all
     alike, and so stay alike for ever: they learn no more than a single one. Of `learn` also how
-    many of its networks began with the weights that an earlier one had from torch.
+    many of its networks learn from the very weights that an earlier one had from torch.
     """
     import numpy
     import torch
 
-    gradients, made, walks, beginnings, repeated = 0, 0, {}, [], 0
+    gradients, made, walks, beginnings, again, repeated = 0, 0, {}, [], [], 0
+
+    def note_repeated(place):
+        nonlocal repeated
+        for first in again:
+            if numpy.array_equal(numpy.sort(place), first):
+                again.clear()
+                repeated += 1
+                return
 
     def note(values):
         """values: the parameters as they are now; a walk keeps its start, its end and its steps."""
         values = sorted(values, key=lambda each: tuple(each.shape))
         place = numpy.concatenate([numpy.ravel(numpy.array(each, float)) for each in values])
+        note_repeated(place)
         own = walks.setdefault(len(place), [])
         step = float(numpy.linalg.norm(place - own[-1]["ends"][-1])) if own else 0.0
         walk = own[-1] if own else None
@@ -493,24 +502,31 @@ def watched(module, name, arguments, stuck):
             ahead += [before for before, _ in node.next_functions]
         return found
 
-    def counting(function):
+    def counting(function, is_own):
         def counted(*arguments, **options):
             nonlocal gradients
             gradients += 1
-            by_hand = len(arguments) == 6
-            note(arguments[2:] if by_hand else leaves(arguments[0] if arguments else ()))
+            if is_own:
+                named = [options[each] for each in options if each not in ("inputs", "targets")]
+                values = [*arguments[2:], *named]
+            else:
+                values = leaves(next(iter([*arguments, *options.values()]), ()))
+            if values:
+                note(values)
             return function(*arguments, **options)
 
         return counted
 
     def begin(self, *arguments, **options):
-        nonlocal made, repeated
+        nonlocal made
         initialise(self, *arguments, **options)
         made += 1
         if made <= 20:
             first = [numpy.ravel(each.detach().numpy().copy()) for each in self.parameters()]
             first = numpy.concatenate([*first, []])
-            repeated += any(numpy.array_equal(first, each) for each in beginnings)
+            first = numpy.sort(first.astype(float))
+            if any(numpy.array_equal(first, each) for each in beginnings):
+                again.append(first)
             beginnings.append(first)
         if made <= stuck:
             with torch.no_grad():
@@ -524,7 +540,7 @@ def watched(module, name, arguments, stuck):
     try:
         module.Network.__init__ = begin
         for place, each, function in kept:
-            setattr(place, each, counting(function))
+            setattr(place, each, counting(function, place is module))
         if name == "learn":
             arguments[:2] = [torch.tensor(each, dtype=torch.float32) for each in arguments[:2]]
         answer = getattr(module, name)(*arguments)
@@ -599,7 +615,7 @@ def compare_corners(
     )
     expect(
         not np.any(repeated),
-        f"{said}: a network that it made begins with the same weights as one before. If it "
+        f"{said}: a network that it made learns from the same first weights as one before. If it "
         "replaces a stuck one, it gets stuck again. Set torch's seed once, before the first "
         "network.",
     )

@@ -768,7 +768,7 @@ def learn(inputs, targets, hiddens, seed):
 
 # %% always_the_same_network loses 11.5
 # Each new network has the weights of the first one, since torch's seed is set again.
-# says: begins with the same weights as one before
+# says: learns from the same first weights
 # -     torch.manual_seed(seed)
 # -     while True:
 # +     while True:
