@@ -295,7 +295,8 @@ def every_action_is_drawn_from_the_seeded_space(student: Student):
         expect(
             np.array_equal(actions[:together], wanted[:together]),
             f"{student.said}: the actions are not those that env.action_space.sample() gives "
-            "after env.action_space.seed(seed).",
+            "after env.action_space.seed(seed)."
+            f"{' 0 is a seed like any other.' * (case == ZERO)}",
         )
 
 
@@ -306,7 +307,8 @@ def goes_on_to_the_end(student: Student):
         over = replay["terminated"] or replay["truncated"]
         expect(
             over or len(actions) == maxsteps,
-            f"{student.said} holds {len(actions)} steps, after which {name} was not over.",
+            f"{student.said} holds {len(actions)} steps. {name}, reset with this seed, is not over "
+            "after these actions.",
         )
 
 
@@ -339,7 +341,8 @@ def ends_of(student: Student, case: int) -> tuple[tuple, tuple, int]:
     name, maxsteps = CASES[case]
     expect(
         replay["terminated"] or replay["truncated"] or len(actions) == maxsteps,
-        f"{student.said} holds {len(actions)} steps, after which {name} was not over.",
+        f"{student.said} holds {len(actions)} steps. {name}, reset with this seed, is not over "
+        "after these actions.",
     )
     got, ends = ((each["terminated"], each["truncated"]) for each in (report, replay))
     return got, ends, len(actions)

@@ -431,11 +431,14 @@ def outputs_after(module, outputs, low, high):
 
 
 OTHER_CHOICES = (
-    (lambda y: len(y) - 1 - y[::-1].argmax(), "Of equal outputs, the last one decides."),
-    (lambda y: y.argmin(), "The least active output decides."),
-    (lambda y: np.abs(y).argmax(), "The output that is farthest from 0 decides."),
+    (lambda y: len(y) - 1 - y[::-1].argmax(), "Of equal outputs, the last one is taken."),
+    (lambda y: y.argmin(), "The least active output is taken."),
+    (
+        lambda y: np.abs(y).argmax(),
+        "The output farthest from 0 is taken, not the largest one.",
+    ),
     *(
-        (rule, "The first output alone decides, but each choice has an output of its own.")
+        (rule, "The first output alone decides here, but each choice has an output of its own.")
         for rule in (
             lambda y: round((y[0] + 1) / 2 * (len(y) - 1)),
             lambda y: int((y[0] + 1) / 2 * len(y)),

@@ -105,8 +105,8 @@ def a_known_factor(c: Comparison) -> str | None:
                 under = "" if abs(power) == 1 else " under a root"
                 return (
                     f"It is as if you divided by {used}{under} where {right} belongs (in a "
-                    f"variance or a deviation of {n} values: see ddof in NumPy, correction in "
-                    "torch)."
+                    f"variance, covariance or deviation of {n} values: see ddof in NumPy, "
+                    "correction in torch)."
                 )
     return None
 
