@@ -1,5 +1,9 @@
 """A known mistake is named where a submission answers exactly as it does, and nowhere else."""
 
+import importlib
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
 import numpy as np
@@ -8,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from botschool.grading import Exercise, expect, expect_close
-from botschool.grading.declare.beside import slips_beside
+from botschool.grading.declare.beside import importable, slips_beside
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.mistakes import Known, read_cases
 from botschool.grading.judge import explaining, judging
@@ -472,6 +476,23 @@ def test_a_packed_grader_takes_the_slips_beside_it_along(messages, tmp_path, mon
         load_exercise(3, course)  # what one grader imports is not left for the next one
     grader.write_text(packed)
     assert messages(half, load_exercise(3, course)) == plain
+
+
+def test_graders_that_are_loaded_at_once_import_their_own_slips(tmp_path):
+    """As in grade-all, which loads graders in several threads: the name `slips` is that of all."""
+    begun = threading.Event()
+
+    def load(value: int, wait: float) -> int:
+        with importable(tmp_path, f"value = {value}"):
+            begun.set()
+            time.sleep(wait)
+            return importlib.import_module("slips").value
+
+    with ThreadPoolExecutor(2) as pool:
+        first = pool.submit(load, 1, 0.2)
+        begun.wait()
+        second = pool.submit(load, 2, 0.4)
+        assert (first.result(), second.result()) == (1, 2)
 
 
 def test_answers_are_compared_part_by_part():
