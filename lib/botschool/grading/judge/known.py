@@ -99,9 +99,9 @@ def known_mistake(
             if not _tells(calls, [call.got for call in calls]):
                 return ""
             calls += [Call(pack(request), None, got, slow=True) for request, got in others]
-            for what, text in _likely_first(ours, cases, known.solution, calls):
-                if ours.seconds_left < 2 * SECONDS:
-                    break
+            for what, text, likely in _likely_first(ours, cases, known.solution, calls):
+                if ours.seconds_left < 2 * SECONDS and not likely:
+                    break  # so much is for slips and for pairs
                 if _explains(ours, text, calls):
                     return f"{TOLD} {what}"
             slips = _slips(ours, task, known, calls)
@@ -168,13 +168,14 @@ def _imports_little(text: str, solution: str) -> bool:
 
 def _likely_first(
     ours: Student, cases: list[Case], solution: str, calls: list[Call]
-) -> list[tuple[str, str]]:
-    """Return sentences and texts of mistakes; mistakes that fit one wrong answer come first."""
+) -> list[tuple[str, str, bool]]:
+    """Return (sentence, text, whether it fits one wrong answer) of mistakes, the fitting first."""
     made = [(case.what, _changed(case, solution)) for case in cases]
     texts = [text for _, text in made if text and _imports_little(text, solution)]
     near = _near(ours, texts, _telling(calls), CASE_SECONDS, "known mistakes")
     likely = {text for text, fitting in zip(texts, near, strict=True) if fitting}
-    return sorted(made, key=lambda each: each[1] not in likely)
+    found = [(what, text, text in likely) for what, text in made]
+    return sorted(found, key=lambda each: not each[2])
 
 
 def _telling(calls: list[Call]) -> Call:
