@@ -37,6 +37,28 @@ def by_sb3():
         yield
 
 
+@pytest.fixture(scope="module")
+def server():
+    """The fork server of graders."""
+    from botschool.grading.run.confined import fork_server
+
+    with fork_server() as one:
+        yield one
+
+
+@pytest.fixture
+def messages(server, tmp_path):
+    """Grade a text in an exercise of tiny_course's file; return the message of each task."""
+    from botschool.grading.judge.submission import grade
+    from tiny_course import submit
+
+    def of(text, exercise):
+        file = submit(tmp_path / str(len(list(tmp_path.iterdir()))), text)
+        return [task.message for task in grade(exercise, file, server=server).tasks]
+
+    return of
+
+
 @pytest.fixture
 def command(capfd, monkeypatch):
     """Call the command in this process; return (exit code, standard output, standard error)."""

@@ -1,36 +1,28 @@
 """Sentences on mistakes do not fit by chance, and quote only what a learner knows."""
 
 import ast
+import contextlib
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from botschool.grading import Exercise, expect_close
+from botschool.grading import Exercise, Wrong, expect_close
+from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.judge.evidence import holds, quoted
 from botschool.grading.judge.sentences import Quotes
-from botschool.grading.judge.submission import grade
 from botschool.grading.judge.variations import variations
-from botschool.grading.run.confined import fork_server
-from tiny_course import FILE, submit
-
-
-@pytest.fixture(scope="module")
-def server():
-    with fork_server() as one:
-        yield one
+from tiny_course import FILE
 
 
 @pytest.fixture
-def message(server, tmp_path):
+def message(messages):
     """The message on the only task of an exercise."""
-
-    def of(text, exercise):
-        file = submit(tmp_path / str(len(list(tmp_path.iterdir()))), text)
-        return grade(exercise, file, server=server).tasks[0].message
-
-    return of
+    return lambda text, exercise: messages(text, exercise)[0]
 
 
+ROOT = Path(__file__).parents[1]
 CUT = "Values above 3 are cut off."
 
 
@@ -185,3 +177,34 @@ def test_other_styles_are_quoted_as_far_as_the_text_has_them(part, own, other):
     node = ast.parse(part).body[0].value
     quoted = [bool(Quotes(text, style).quoted(node)) for style in (True, False)]
     assert quoted == [own, other]
+
+
+@pytest.mark.parametrize(
+    ("means", "told"),
+    [
+        ((0, 0), ""),
+        ((-900, 0, 0), ""),
+        ((0, -900, 0), ""),
+        ((0, -900, -900), "Of the 3 seeds that are graded, 1 is good enough"),
+        ((-900, -900), "Of the 2 seeds that are graded, 0 are good enough"),
+    ],
+)
+def test_a_third_seed_decides_about_a_training_with_an_unlucky_one(monkeypatch, means, told):
+    """In task 3.7; two bad ones are followed by a training of the ordinary robot."""
+    load_exercise(3, ROOT)
+    grader, trained = sys.modules["grader_3"], []
+
+    class Trained:
+        many, was_evaluated, said = 1, True, "train(...)"
+        another_reaches = staticmethod(lambda wanted: False)
+
+        def __init__(self, *_):
+            self.mean = means[len(trained)] if len(trained) < len(means) else -900
+            trained.append(self)
+            self.parameters = np.eye(5)[len(trained)]
+
+    monkeypatch.setattr(grader, "Trained", Trained)
+    given = ("Pendulum-v1", 22, -600, -1200, "It reaches {:.0f}.")
+    with pytest.raises(Wrong, match=told) if told else contextlib.nullcontext():
+        grader.expect_trained(None, *given)
+    assert len(trained) >= len(means)

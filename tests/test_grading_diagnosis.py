@@ -83,7 +83,7 @@ CASES = {
     ),
     "all axes": (lambda r: ((t := table(r)).sum(), t.sum(axis=1)[:1], (t[:1],)), ""),
     "a forgotten copy": (lambda r: (np.tile((w := table(r))[-1], (5, 1)), w), ".copy()"),
-    "nothing changes": (lambda r: (np.tile((w := table(r))[0], (5, 1)), w), "the first one."),
+    "rows like the first": (lambda r: (np.tile((w := table(r))[0], (5, 1)), w), "the first one."),
     "rows alike": (lambda r: (np.tile(line(r, 3), (5, 1)), table(r)), "All rows are equal"),
     "numbers alike": (lambda r: (np.full(6, 0.3), line(r)), "All numbers are the same"),
     "last for best": (

@@ -22,14 +22,7 @@ from botschool.grading.declare.values import apart, kind, pasted, show
 from botschool.grading.judge.known import VARIED
 from botschool.grading.judge.looking import same
 from botschool.grading.judge.submission import grade
-from botschool.grading.run.confined import fork_server
 from tiny_course import FILE, SOLUTION, make_course, submit
-
-
-@pytest.fixture(scope="module")
-def server():
-    with fork_server() as one:
-        yield one
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,6 @@ from botschool.grading.declare.exercise import exercise_numbers, load_exercise
 from botschool.grading.declare.references import functions_of, pruned
 from botschool.grading.judge.submission import grade
 from botschool.grading.packed import pack, unpack
-from botschool.grading.run.confined import fork_server
 from tiny_course import FILE, submit
 
 ROOT = Path(__file__).parents[1]
@@ -52,12 +51,6 @@ def last(x):
 if __name__ == "__main__":
     print(last(1))
 '''
-
-
-@pytest.fixture(scope="module")
-def server():
-    with fork_server() as one:
-        yield one
 
 
 def declared():

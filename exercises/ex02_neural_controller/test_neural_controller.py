@@ -433,10 +433,7 @@ def outputs_after(module, outputs, low, high):
 OTHER_CHOICES = (
     (lambda y: len(y) - 1 - y[::-1].argmax(), "Of equal outputs, the last one is taken."),
     (lambda y: y.argmin(), "The least active output is taken."),
-    (
-        lambda y: np.abs(y).argmax(),
-        "The output farthest from 0 is taken, not the largest one.",
-    ),
+    (lambda y: np.abs(y).argmax(), "The output farthest from 0 is taken, not the largest one."),
     *(
         (rule, "The first output alone decides here, but each choice has an output of its own.")
         for rule in (

@@ -403,8 +403,8 @@ class Trial:
                 seeds, steps, 1
             ),
             "The walkers are in another order than the seeds.": self.wanted[::-1],
-            "The runs do not end after the steps that are asked for, or are those of files that "
-            "were there before.": runs(seeds, None),
+            "These runs have the length of the file, not `steps`: they end too late, or their "
+            "files were there before.": runs(seeds, None),
             "The seeds that are given are not used: these runs have the seeds 0 and 1.": runs(
                 [0, 1], steps
             ),
@@ -477,7 +477,7 @@ def stops_after_the_steps(student: Student):
     text = experiment_text(20)
     seed = limited_seed(text, 20)
     said = f"evolve_walkers('trial.ini', [{seed}], 'some/runs', None)"
-    student.run(try_runs, text, [seed], "some/runs", None, said=said)  # these files are old then
+    student.run(try_runs, text, [seed], "some/runs", None, said=said)  # leaves longer runs
     Trial(student, text, [seed, 0], LIMIT).compare()
 
 

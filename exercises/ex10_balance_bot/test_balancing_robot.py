@@ -420,10 +420,11 @@ def expect_space(student: Student, which: int, name: str, high: list[float]) -> 
     for side, got, wanted in (("low", got_low, -np.array(high)), ("high", got_high, high)):
         fits = isinstance(got, np.ndarray) and got.shape == np.shape(wanted)
         exchanged = fits and np.allclose(np.sort(got), np.sort(wanted), rtol=1e-6)
+        why = " The limits are right, but stand at the wrong numbers." if exchanged else ""
         expect(
             fits and np.allclose(got, wanted, rtol=1e-6),
             f"BalanceBotEnv(): {name}.{side} is {show(got)}, but should be "
-            f"{show(np.array(wanted))}.{' Its limits are those of other numbers.' * exchanged}",
+            f"{show(np.array(wanted))}.{why}",
         )
     expect(kind == "float32", f"BalanceBotEnv(): {name} holds {kind}, but float32 is asked for.")
 
@@ -903,7 +904,7 @@ def compare_episode(student: Student, index: int, gains: np.ndarray) -> None:
     length = min(len(seen), *lengths)
     seen, observations = seen[:length], observations[:length]
     apart = np.max([np.abs(each[:length] - observations) for each, _ in ways], axis=0)
-    spread = np.maximum.accumulate(apart)  # neighbours that part may meet again, but by chance
+    spread = np.maximum.accumulate(apart)  # once they have parted, they meet by chance only
     off = (np.abs(seen - observations) > 0.02 + 3 * spread).any(axis=1)
     if off.any():
         i = int(off.argmax())
@@ -1361,8 +1362,8 @@ def trained(student: Student, seed: int, robot: tuple[bool, int]) -> tuple:
         inputs = neurons
     expect(
         same is True or begun is False,
-        f"{said}: the layers are those of the policy before PPO's first update. Of a network that "
-        "PPO trains further, they are a copy: it does not learn along.",
+        f"{said}: the layers are those of the policy before PPO's first update. PPO trained the "
+        "network after they had been copied.",
     )
     expect(
         same is True,

@@ -457,27 +457,20 @@ def watched(module, name, arguments, stuck):
     leap, five times as long as all steps before it, begins a new walk.
 
     stuck: how many of the first networks that it makes begin with hidden neurons that are all
-    alike, and so stay alike for ever: they learn no more than a single one. Of `learn` also how
-    many of its networks learn from the very weights that an earlier one had from torch.
+    alike, and so stay alike for ever: they learn no more than a single one. Of `learn` also
+    whether a network learns from the very weights that an earlier one had from torch.
     """
     import numpy
     import torch
 
-    gradients, made, walks, beginnings, again, repeated = 0, 0, {}, [], [], 0
-
-    def note_repeated(place):
-        nonlocal repeated
-        for first in again:
-            if numpy.array_equal(numpy.sort(place), first):
-                again.clear()
-                repeated += 1
-                return
+    gradients, made, walks, beginnings, again, repeated = 0, 0, {}, [], [], False
 
     def note(values):
         """values: the parameters as they are now; a walk keeps its start, its end and its steps."""
+        nonlocal repeated
         values = sorted(values, key=lambda each: tuple(each.shape))
         place = numpy.concatenate([numpy.ravel(numpy.array(each, float)) for each in values])
-        note_repeated(place)
+        repeated = repeated or any(numpy.array_equal(numpy.sort(place), each) for each in again)
         own = walks.setdefault(len(place), [])
         step = float(numpy.linalg.norm(place - own[-1]["ends"][-1])) if own else 0.0
         walk = own[-1] if own else None
@@ -507,7 +500,7 @@ def watched(module, name, arguments, stuck):
             nonlocal gradients
             gradients += 1
             if is_own:
-                named = [options[each] for each in options if each not in ("inputs", "targets")]
+                named = (options[each] for each in options if each not in ("inputs", "targets"))
                 values = [*arguments[2:], *named]
             else:
                 values = leaves(next(iter([*arguments, *options.values()]), ()))

@@ -731,7 +731,7 @@ learning = exercise.task("12.6", "Learning from the elite")
 def improved(module, parameters, observations, actions, kind, updates):
     """The student's updates of a network, with an optimiser and a loss of the grader's.
 
-    A fifth one of the parameters is one of the optimiser, but not of the network.
+    If there is a fifth parameter, the optimiser has it, but the network has not.
     """
     import torch
 

@@ -58,7 +58,8 @@ def alive_bonus(
 ) -> np.ndarray:
     """The alive bonus after each step, shape (T,), by the table in README.md; -1 for the fallen.
 
-    Each step is judged by itself: a robot that gets up again has not fallen."""
+    Each step is judged by itself: a robot that has got up again is not a fallen one.
+    """
     ### BEGIN SOLUTION task 9.1: tell the standing from the fallen
     if robot == "Ant":
         return np.where(height > 0.26, 1.0, -1.0)

@@ -176,8 +176,8 @@ class BalanceBotEnv(gymnasium.Env):
         """Makes the world anew, with the robot at rest, and returns (observation, {}).
 
         The world: an empty simulation, gravity -10 along z, steps of TIME_STEP, the file PLANE,
-        and after it (what is loaded first counts in PyBullet) the robot with its base at
-        [0, 0, 0.001]. Its inertias are those of its file
+        and the robot with its base at [0, 0, 0.001]. Load the plane first: the order changes what
+        PyBullet computes. The robot's inertias are those of its file
         (flags=pybullet.URDF_USE_INERTIA_FROM_FILE). The inclination, around x, is the one random
         number of the episode, drawn by self.np_random.uniform(-0.3, 0.3). The target speed of the
         wheels is 0. `options` is not used.

@@ -1365,6 +1365,6 @@ def evolve(seed):
 
 # %% limits_exchanged loses 10.2
 # FASTEST limits the angular velocity, and nothing the speed of the wheels.
-# says: limits are those of other numbers
+# says: stand at the wrong numbers
 # -         limits = np.array([np.pi, np.inf, FASTEST], dtype=np.float32)
 # +         limits = np.array([np.pi, FASTEST, np.inf], dtype=np.float32)
