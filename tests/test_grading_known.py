@@ -328,6 +328,26 @@ def test_a_random_answer_is_not_called_kept(messages, monkeypatch):
     assert "spread(...)" in first and KEPT not in first
 
 
+def test_a_later_failure_shows_that_an_answer_is_random(messages, monkeypatch):
+    """Of the first one, whose answers are few, two calls may agree by chance."""
+    monkeypatch.setattr(replay, "variations", lambda *_: iter(()))
+    exercise = Exercise(3, "Three", FILE)
+    first = exercise.task("3.1", "First", seconds=5)
+
+    @first.check(40)
+    def of_two(student):
+        expect_close("spread(...)", student.call("spread", [1.0, 2.0]), 0.5**0.5)
+
+    @first.check(60)
+    def of_three(student):
+        expect_close("spread(...)", student.call("spread", [1.0, 2.0, 3.0]), 1.0)
+
+    exercise.knows(SOLUTION)
+    random = "import os\ndef spread(x): return 9.5 + (len(x) > 2) * int.from_bytes(os.urandom(4))\n"
+    (told,) = messages(random, exercise)
+    assert "Two calls with the same arguments give different answers" in told
+
+
 numbers = st.one_of(st.booleans(), st.integers(), st.floats(), st.text(max_size=3), st.none())
 arrays = st.integers(0, 3).map(np.ones) | st.just(np.ones((2, 2))) | st.just(np.array("text"))
 answers = st.recursive(

@@ -607,7 +607,9 @@ def followed(said, env, network, seed, actions, maxsteps, precision) -> float:
         _, _, *ends, _ = env.step(action_of(outputs_of(network, observation), space))
         why = "the episode of this seed is not over then."
         if any(ends):
-            why = f"the episode of this seed has {len(actions) + 1}: its last step is missing."
+            why = (
+                f"one more step ends the episode of this seed, its step number {len(actions) + 1}."
+            )
         raise Wrong(f"{said} holds {len(actions)} steps, but {why}")
     return rewards
 

@@ -795,7 +795,7 @@ def forward_batch(networks, observations):
 
 # %% last_step_not_written_down loses 2.5
 # Leaves the loop at the end of the episode before the last action and reward are written down.
-# says: its last step is missing
+# says: ends the episode of this seed
 _run_episode_2 = run_episode
 
 

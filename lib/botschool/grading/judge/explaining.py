@@ -23,7 +23,7 @@ from botschool.sandbox import ForkServer
 SHORT = 120
 """Characters of a call that needs no smaller one."""
 MAX_DIAGNOSED = 2
-"""Failed checks of a task whose calls are repeated."""
+"""Failures of a function whose calls are repeated."""
 
 
 @dataclass
@@ -104,14 +104,20 @@ class SecondLook:
                 self.problems[at] += f"\n  To try it: {text}"
 
     def _add_differences(self, again: Student, ours: Callable[[], Student]) -> None:
-        """Add what more calls show, to each function's first failure without a cause."""
-        by_name = {
-            each.name: (at, each)
-            for at, each in reversed(self.failed)
-            if each.quick and not each.cause
-        }
-        for at, failure in sorted(by_name.values(), key=lambda pair: pair[0])[:MAX_DIAGNOSED]:
-            if kept_something(failure, self.begun, ours):
-                self.problems[at] += f"\n  {KEPT}"
-            else:
-                self.problems[at] += looked_at_again(failure, again, ours)
+        """Add what more calls show to one failure of each function, of those without a cause.
+
+        Two answers that chance decides may be equal, so a later failure may show it.
+        """
+        looked: dict[str, list[tuple[int, Failure]]] = {}
+        for at, failure in self.failed:
+            if failure.quick and not failure.cause:
+                looked.setdefault(failure.name, []).append((at, failure))
+        for failures in looked.values():
+            for at, failure in failures[:MAX_DIAGNOSED]:
+                if kept_something(failure, self.begun, ours):
+                    text = f"\n  {KEPT}"
+                else:
+                    text = looked_at_again(failure, again, ours)
+                self.problems[at] += text
+                if text:
+                    break
