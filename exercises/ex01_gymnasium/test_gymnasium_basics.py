@@ -79,8 +79,8 @@ def expect_space(said: str, got: object, space: gymnasium.Space) -> None:
             "The first choice is subtracted from the number of choices.": space.n - space.start,
             "The last choice is taken for the number of choices.": space.n + space.start - 1,
         }
-        expect_close(f"{said}: choices", choices, space.n, mistakes=mistakes)
-        expect_close(f"{said}: first", first, space.start)
+        expect_close(f"{said}: choices of {space}", choices, space.n, mistakes=mistakes)
+        expect_close(f"{said}: first of {space}", first, space.start)
         return
     kind, size, low, high = expect_fields(said, got, "kind", "size", "low", "high")
     expect(kind == "Box", f"{said}: kind is {show(kind)}, but the space is a Box.")

@@ -50,11 +50,17 @@ def biases_are_zero(student: Student):
     population = student.call("initial_population", 12, 5, 30, seed=3)
     population = expect_array(student.said, population, (12, 35))
     wrong = np.any(population[:, :5] != 0, axis=1) | np.any(population[:, 5:] == 0, axis=1)
-    row = int(wrong.argmax())
+    row, empty = int(wrong.argmax()), np.flatnonzero(~population.any(axis=1))
+    why = ""
+    if len(empty):
+        why = (
+            f"\n  The rows {empty.tolist()} are 0 from end to end: a row is an individual, the "
+            "biases are the first columns."
+        )
     expect(
         not wrong.any(),
         f"{student.said}: the first 5 values of each row are the biases and must be 0, "
-        f"the 30 weights after them must not; row {row} is {show(population[row])}.",
+        f"the 30 weights after them must not; row {row} is {show(population[row])}.{why}",
     )
 
 

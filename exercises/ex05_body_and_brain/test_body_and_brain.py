@@ -384,6 +384,12 @@ class Trial:
             f"{self.said} returned an array of shape {shape}, not {self.wanted.shape}.\n  {what}: "
             "the whole genotype of each run in a row of its own is asked for.",
         )
+        expect(
+            len(shape) != 2 or shape[0] <= len(self.seeds),
+            f"{self.said} returned {shape[0] if shape else 0} rows for {len(self.seeds)} seeds: "
+            "one row for each seed that is given, whatever else is in the folder or was run "
+            "before.",
+        )
         right = self.walkers is not None and np.array_equal(self.walkers, self.wanted)
         expect_close(self.said, self.walkers, self.wanted, mistakes={} if right else self.made())
 

@@ -91,8 +91,8 @@ def one_observation(student: Student):
 
 @state.check(4)
 def many_observations(student: Student):
-    for n in (1, 3, 50):
-        states = random_states(2, n)
+    for n, index in ((1, 2), (3, 2), (3, 29), (50, 2)):
+        states = random_states(index, n)
         answer = student.call("to_state", observed(states))
         expect_close(student.said, answer, states, 1e-5)
 
@@ -472,7 +472,11 @@ def keeps_every_nth_and_the_last(student: Student):
 
 @stages.check(6)
 def keeps_the_best_as_they_were(student: Student):
-    for index, generations, every, least in ((23, 13, 3, 0.0), (24, 16, 5, -50.0)):
+    for index, generations, every, least in (
+        (23, 13, 3, 0.0),
+        (24, 16, 5, -50.0),
+        (30, 9, 4, -50.0),
+    ):
         answer, best, _, made, _ = stages_of(student, index, generations, every, least)
         kept = sorted({*range(0, generations, every), generations - 1})
         mistakes = {text: values[kept] for text, values in made.items()}
@@ -831,6 +835,7 @@ def one_panel_for_each(student: Student):
             f"of the picture, but there the arrows are {', '.join(map('{:.0%}'.format, found))} "
             f"from below. {why}",
         )
+    limits_stay(student)
     titles_stand_above(student, plain)
     path_lies_above(student)
 
@@ -852,6 +857,24 @@ def panels_otherwise(student: Student, what: str, plain: np.ndarray) -> str:
         return "The panels stand one below the other, but one row is asked for."
     same = abs(y - other_y) < 0.05
     return f"{what}[0] and {what}[2] are drawn at the same place." if same else ""
+
+
+def limits_stay(student: Student) -> None:
+    """Arrows near the edges leave what is drawn elsewhere as it is, in each panel."""
+    here = around(*STATES[0])
+    starts = [[-3.1, 7.9], [3.1, 7.9], [1.5, -7.9]]
+    edges = np.vstack([here, [[x, y, -0.05 * x, -0.05 * y] for x, y in starts]])
+    three = [CENTRE] * 3
+    pictures = [pixels_of(student, three, [path] * 3) for path in (here, edges)]
+    for k, third in enumerate(np.array_split(difference(*pictures), 3, axis=1)):
+        height, width = third.shape
+        quarter = third[height // 2 :, : width // 2]
+        expect(
+            np.sum(quarter > VISIBLE) <= 20,
+            f"{student.said}: in the {PLACES[k]} panel, arrows near {show(STATES[0])} move when "
+            "there are others at the angles -3.1 and 3.1, and at the velocities -7.9 and 7.9: each "
+            "panel shows exactly -pi to pi and -8 to 8, whatever is drawn.",
+        )
 
 
 def titles_stand_above(student: Student, plain: np.ndarray) -> None:

@@ -92,7 +92,19 @@ def why_ranked(fitness, i: int) -> str:
     )
 
 
-def mistaken_utilities(fitness) -> dict:
+def equals_exchanged(fitness, answer) -> dict:
+    """A sentence, if candidates of equal fitness have each other's utilities; else nothing."""
+    wanted, fitness = ranked(fitness), np.asarray(fitness, dtype=float)
+    if np.shape(answer) != wanted.shape:
+        return {}
+    among = [fitness == value for value in np.unique(fitness)]
+    if not all(np.allclose(np.sort(answer[equal]), np.sort(wanted[equal])) for equal in among):
+        return {}
+    text = "Candidates of equal fitness have the right ranks in another order: of equals, the one "
+    return {text + "that comes first has the lower rank (np.argsort needs kind='stable').": answer}
+
+
+def mistaken_utilities(fitness, answer=None) -> dict:
     """What slips make of the utilities: sentence -> array."""
     fitness, n = np.asarray(fitness, dtype=float), len(fitness)
     shared = [np.flatnonzero(np.sort(fitness) == each) for each in fitness]
@@ -146,7 +158,7 @@ def mistaken_utilities(fitness) -> dict:
             "The utilities run from -1 to 1; they are to run from -0.5 to 0.5.": 2,
             "The sign is reversed: the best is to have 0.5, the worst -0.5.": -1,
         },
-    )  # fmt: skip
+    ) | equals_exchanged(fitness, answer)  # fmt: skip
 
 
 def why_gradient(samples, utilities, i: int) -> str:

@@ -134,7 +134,8 @@ def equals_in_their_order(student: Student):
         answer = student.call("utilities", fitness)
         if len(fitness) < 10:
             student.said = f"utilities({fitness.tolist()})"
-        mistakes, why = partial(mistaken_utilities, fitness), partial(why_ranked, fitness)
+        mistakes = partial(mistaken_utilities, fitness, answer)
+        why = partial(why_ranked, fitness)
         expect_close(student.said, answer, ranked(fitness), mistakes=mistakes, why=why)
 
 

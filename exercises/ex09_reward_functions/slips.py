@@ -177,7 +177,7 @@ def mistaken_bonus(one: dict) -> dict:
         f"The height is left out: a {robot} at {low} or below has fallen.": upright | (not leans),
         "The touching is left out: a HalfCheetah with shin or thigh on the floor has fallen.":
         upright & high,
-        f"One condition is enough to fall (and), yours lets a {robot} fall by both only (or).":
+        f"One of the conditions is enough to fall; your {robot} falls only if both hold.":
         (high | upright) if leans and not cheetah else (upright | off),
         f"The pitch does not matter for a {robot}.": high & upright,
         f"What touches the floor does not matter for a {robot}.":

@@ -189,7 +189,8 @@ def normalise(inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
     inputs has the shape (n, i) and stays as it is, mean and deviation have (i,). The deviation is
     that of NumPy (which divides by n). A column that never changes gets the deviation 1, and so
-    becomes 0; mind that rounding may make a number such as 1e-17 of its deviation.
+    becomes 0; mind that rounding may make a number such as 1e-17 of its deviation, and that a
+    column of a very small unit does change.
     """
     raise NotImplementedError("task 11.6: normalise each column")
 

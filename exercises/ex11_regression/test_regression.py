@@ -34,7 +34,7 @@ exercise = Exercise(
     imports=("torch", "torch._dynamo"),
     extras=("rl",),
 )
-SIZES = ((1, 1, 1, 1), (4, 2, 2, 1), (7, 3, 5, 2), (30, 4, 9, 3))
+SIZES = ((1, 1, 1, 1), (4, 2, 2, 1), (7, 3, 5, 2), (30, 4, 9, 3), (5, 3, 4, 1))
 """Of patterns, inputs, hidden neurons, outputs."""
 NAMES = ("w1", "b1", "w2", "b2")
 
@@ -153,7 +153,7 @@ def layers_have_their_sizes(student: Student):
 
 def compare_activations(student: Student, index: int, what: str, compute) -> None:
     rng = generator(index)
-    for n, inputs, hiddens, outputs in SIZES:
+    for n, inputs, hiddens, outputs in (*SIZES, (1, 2, 3, 2)):
         parameters = random_network(rng, inputs, hiddens, outputs)
         patterns, _ = random_set(rng, n, inputs, outputs)
         said = f"Network({inputs}, {hiddens}, {outputs})"
@@ -186,6 +186,8 @@ def compare_gradient(student: Student, name: str, index: int, keys: tuple[str, .
     for n, inputs, hiddens, outputs in SIZES:
         parameters = random_network(rng, inputs, hiddens, outputs)
         patterns, targets = random_set(rng, n, inputs, outputs)
+        while np.abs(outputs_of(parameters, patterns) - targets).max() < 0.1:
+            _, targets = random_set(rng, n, inputs, outputs)  # single precision has digits left
         answer = student.call(name, patterns, targets, *parameters)
         said = f"{name}(inputs {patterns.shape}, targets {targets.shape}, w1, b1, w2, b2)"
         values = expect_fields(said, answer, *keys)
@@ -742,7 +744,7 @@ def column_that_never_changes(student: Student):
     deviation[0] = 1.0
     compare_normalised(student, inputs, deviation)
     # a column of a small unit does change
-    inputs[:, 1] *= 1e-6
+    inputs[:, 1] *= 1e-7
     deviation[1] = inputs[:, 1].std()
     compare_normalised(student, inputs, deviation)
 
@@ -836,7 +838,17 @@ LEAST = 0.85
 
 
 def compare_fit(student: Student, index: int, n: int, units, function) -> None:
-    """Trains on n patterns, judges on 500 others. units: (offset, scale) of each input."""
+    """Trains on n patterns, judges on 500 others. units: (offset, scale) of each input.
+
+    One of some hundred honest trainings ends too early by chance: if so, two others decide.
+    """
+    if wrong := not_good_enough(student, index, n, units, function):
+        others = (not_good_enough(student, index + k, n, units, function) for k in (100, 200))
+        expect(not any(others), wrong)
+
+
+def not_good_enough(student: Student, index: int, n: int, units, function) -> str:
+    """Return what is wrong with a network that explains too little, or ""."""
     rng = generator(index)
     offset, scale = np.array(units, dtype=float).T
     plain = rng.uniform(-1, 1, (n + 500, len(units)))
@@ -851,6 +863,12 @@ def compare_fit(student: Student, index: int, n: int, units, function) -> None:
     expect(bool(np.all(deviation != 0)), f"{said}: a deviation is 0.")
     hiddens = len(parameters[1]) if isinstance(parameters[1], np.ndarray) else 0
     expect(0 < hiddens <= 1000, f"{said}: the network needs 1 to 1000 hidden neurons.")
+    outputs = len(parameters[3]) if isinstance(parameters[3], np.ndarray) else 0
+    expect(
+        outputs == targets.shape[1],
+        f"{said}: the outputs of the network are {outputs}, but one for each of the "
+        f"{targets.shape[1]} columns of the targets is needed.",
+    )
     shapes = ((hiddens, len(units)), (hiddens,), (targets.shape[1], hiddens), targets.shape[1:])
     parameters = [
         expect_array(f"{said}: {key}", each, shape)
@@ -858,13 +876,15 @@ def compare_fit(student: Student, index: int, n: int, units, function) -> None:
     ]
     answers = outputs_of(parameters, (inputs[n:] - mean) / deviation)
     explained = 1 - ((answers - targets[n:]) ** 2).mean(axis=0) / targets[n:].var(axis=0)
-    expect(
-        bool(explained.min() >= LEAST),
-        f"{said}: on 500 other patterns the network explains {shown(explained)} % of the variance "
-        "of the targets, but 90 % is asked for. "
-        + measured(parameters, (inputs[:n] - mean) / deviation, targets[:n], answers, targets[n:]),
-    )
+    if not explained.min() >= LEAST:
+        normalised = (inputs[:n] - mean) / deviation
+        return (
+            f"{said}: on 500 other patterns the network explains {shown(explained)} % of the "
+            "variance of the targets, but 90 % is asked for. "
+            + measured(parameters, normalised, targets[:n], answers, targets[n:])
+        )
     expect_trained(said, gradients)
+    return ""
 
 
 def wave(plain, rng):

@@ -152,7 +152,13 @@ def expect_training(student: Student, record: dict, environment: str, variant: s
     for key, value in wanted.items():
         got = getattr(settings, key)
         name = {"given": "params"}.get(key, key)
-        expect(got == value, f"{said} has {name} {show(got, 200)} instead of {show(value, 200)}.")
+        why = ""
+        if key == "given" and isinstance(got, dict) and value.items() < got.items():
+            more = ", ".join(sorted(set(got) - set(value)))
+            why = f" This variation does not set {more}: another one's settings must not stay."
+        expect(
+            got == value, f"{said} has {name} {show(got, 200)} instead of {show(value, 200)}.{why}"
+        )
     return found, said
 
 
@@ -345,6 +351,7 @@ def a_long_log(student: Student):
 def without_nan(student: Student):
     for index, place in ((23, 3), (24, 20)):
         compare_without_nan(student, index, place)
+    kept_infinite(student, 57)
 
 
 def compare_without_nan(student: Student, index: int, place: int) -> None:
@@ -367,6 +374,21 @@ def compare_without_nan(student: Student, index: int, place: int) -> None:
             "NaN are to be left out, of the steps and of the values.",
         )
     compare_log(student.said, answer, log)
+
+
+def kept_infinite(student: Student, index: int) -> None:
+    """A loss may become infinite: such values are kept."""
+    log = drawn_log(index, NAMES[2:4])
+    for (_, values), infinite in zip(log.values(), (float("inf"), -float("inf")), strict=True):
+        values[1] = infinite
+    answer = read(student, event_file(entries_of(log)))
+    for name, (_, values) in log.items():
+        (got,) = expect_fields(f"{student.said}[{name!r}]", answer.get(name), "values")
+        expect(
+            np.size(got) == len(values) and np.isinf(np.ravel(got)[1]),
+            f"{student.said}[{name!r}]: the value {values[1]:g} is missing or another one, but "
+            "only NaN are left out.",
+        )
 
 
 @reading.check(3)
@@ -453,6 +475,7 @@ def solved_for_good(student: Student):
     expect_solved(student, 37, [5.0, 50.0, 110.0, 120.0, 180.0], 2)
     expect_solved(student, 38, [5.0, 130.0, 60.0, 101.0, 150.0], 3)
     expect_solved(student, 39, [120.0, 110.0, 150.0], 0)
+    expect_solved(student, 45, [130.0, 140.0], 0)
     expect_solved(student, 40, [5.0, 130.0, 140.0, 99.0], None)
     expect_solved(student, 41, [5.0, 50.0, 60.0, 100.5], 3)
     expect_solved(student, 42, [5.0, 60.0, 98.0, 120.0], 3)

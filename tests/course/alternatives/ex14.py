@@ -190,7 +190,7 @@ def read_indicators(folder):
     found = {}
     for name in log.scalars.Keys():
         table = np.array([(entry.step, entry.value) for entry in log.Scalars(name)])
-        table = table[np.isfinite(table[:, 1])]
+        table = table[~np.isnan(table[:, 1])]
         found[name] = {"steps": table[:, 0], "values": table[:, 1]}
     return found
 

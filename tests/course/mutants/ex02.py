@@ -935,7 +935,7 @@ def run_episode(environment_id, network, seed, maxsteps=200):
 
 
 # %% a_time_limit_of_its_own loses 2.5
-# Makes the environment with max_episode_steps=maxsteps, which takes the place of its own time limit.
+# Goes on to maxsteps steps although the environment's own time limit ends the episode before.
 # says: this
 def run_episode(environment_id, network, seed, maxsteps=200):
     world = gymnasium.make(environment_id, max_episode_steps=maxsteps)
@@ -950,3 +950,26 @@ def run_episode(environment_id, network, seed, maxsteps=200):
         done = term or trunc
     world.close()
     return result
+
+
+# %% tanh_of_the_bias_neuron loses 2.2
+# Applies tanh to the constant 1 that stands for the bias of the second layer, too: b2 counts 0.76 times.
+# says: this
+def forward(network, observation):
+    first = np.column_stack([network["W1"], network["b1"]])
+    second = np.column_stack([network["W2"], network["b2"]])
+    return np.tanh(second @ np.tanh(np.append(first @ np.append(observation, 1), 1)))
+
+
+# %% widest_limits loses 2.4
+# Stretches all numbers of an action to the lowest and the highest limit of the whole space, but each has its own.
+# says: this
+# -     low, high = action_space.low, action_space.high
+# +     low, high = action_space.low.min(), action_space.high.max()
+
+
+# %% squeezed_batch loses 2.7
+# With one output, the biases are added to outputs that have lost their dimension (squeeze): each network gets the biases of all.
+# says: this
+# -     return np.tanh((networks["W2"] @ hidden[:, :, None])[:, :, 0] + networks["b2"])
+# +     return np.tanh((networks["W2"] @ hidden[:, :, None]).squeeze() + networks["b2"])

@@ -781,3 +781,10 @@ def hill_climb(evaluate, *arguments, **options):
 # says: what evaluate was given|both individuals at first
 # -     return evolve(evaluate, np.array([start, start]), generations, mutrate, seed)
 # +     return evolve(evaluate, np.array([start, 0 * start]), generations, mutrate, seed)
+
+
+# %% last_rows_overwritten loses 3.3
+# Overwrites the last half of the rows instead of the worse individuals, wherever these are.
+# says: this
+# -     following[worst] = population[best] + mutrate * noise
+# +     following[half:] = population[best] + mutrate * noise

@@ -972,3 +972,16 @@ def loss(matrix):
 # +         if not saved.exists():
 # +             evolve(Run(experiment, seed), Path(folder), steps)
 # +         walkers.append(np.load(saved))
+
+
+# %% all_files_of_the_folder loses 5.5
+# Gives the walkers of all files in the folder in the order of their names, not those of the seeds in their order.
+# says: whatever else is in the folder
+def evolve_walkers(
+    experiment_file: str, seeds: list[int], folder: str, steps: int | None = None
+) -> np.ndarray:
+    target = Path(folder)
+    target.mkdir(parents=True, exist_ok=True)
+    for seed in seeds:
+        evolve(Run(config.load(experiment_file), seed), target, steps)
+    return np.array([np.load(file) for file in sorted(target.glob("bestgS*.npy"))])

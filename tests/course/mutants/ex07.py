@@ -782,3 +782,20 @@ def evolve(algorithm, evaluate, generations, every):
         algorithm.tell(fitness)
     result["parameters"] = np.array(result["parameters"])
     return result
+
+
+# %% limits_of_the_last_panel loses 7.7
+# Only the last panel gets the limits of its x axis: the loop is over when they are set.
+# says: whatever is drawn
+# -         axes.set(title=title, xlabel="angle (0 is upright)", xlim=(-np.pi, np.pi), ylim=(-8, 8))
+# +         axes.set(title=title, xlabel="angle (0 is upright)", ylim=(-8, 8))
+# -     panels[0].set_ylabel("velocity (rad/s)")
+# +     panels[0].set_ylabel("velocity (rad/s)")
+# +     axes.set_xlim(-np.pi, np.pi)
+
+
+# %% worst_stage_first loses 7.6
+# The first stage is the worst of those that were kept, not the best of generation 0.
+# -     return parameters[[0, middle, best]]
+# +     worst = int(np.argmin(fitness))
+# +     return parameters[[worst, middle, best]]

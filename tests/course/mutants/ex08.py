@@ -1406,3 +1406,20 @@ def utilities(fitness):
 # says: this
 # -     weights = utilities[0::2] - utilities[1::2]
 # +     weights = utilities[: len(samples)] - utilities[1 : len(samples) + 1]
+
+
+# %% unstable_order_of_equals loses 8.2
+# Ranks with an argsort that is not stable: of equals, the first does not always have the lower rank.
+# says: in another order
+def utilities(fitness):
+    fitness = np.asarray(fitness, dtype=float)
+    order = np.argsort(fitness)
+    ranks = np.argsort(order)
+    return ranks / (len(fitness) - 1) - 0.5
+
+
+# %% divided_by_size loses 8.3
+# Divides by the number of elements in samples (samples.size), not by that of the candidates.
+# says: this
+# -     return weights @ samples / len(utilities)
+# +     return weights @ samples / samples.size

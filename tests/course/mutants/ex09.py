@@ -866,3 +866,37 @@ def components_v0(trajectory):
 # says: this
 # -     if robot in ("Hopper", "Walker2D"):
 # +     if robot == "Hopper":
+
+
+# %% only_around_one loses 9.2
+# Counts joints between 0.99 and 1.01 only: a joint that is bent beyond counts, too.
+# says: this
+# -     return -0.1 * (np.abs(positions) > 0.99).sum(axis=1)
+# +     return -0.1 * np.isclose(np.abs(positions), 1.0, atol=0.01).sum(axis=1)
+
+
+# %% nothing_after_a_fall loses 9.3
+# All components are 0 after the first step in which the robot has fallen: each step is judged by itself.
+# says: this
+def components_v0(trajectory):
+    name = trajectory["robot"]
+    alive = alive_bonus(name, trajectory["height"], trajectory["pitch"], trajectory["touching"])
+    parts = {
+        "progress": progress(trajectory["distance"], trajectory["duration"]),
+        "alive": alive,
+        "electricity": electricity(name, trajectory["actions"], trajectory["speeds"]),
+        "joints_at_limit": joints_at_limit(trajectory["positions"]),
+    }
+    if name != "HalfCheetah":
+        fallen = np.flatnonzero(alive < 0)
+        if len(fallen):
+            for part in parts.values():
+                part[fallen[0] + 1 :] = 0.0
+    return parts
+
+
+# %% beyond_of_the_sum loses 9.4
+# Beyond is taken of the sum over the joints, so that a joint within its limits makes up for one past them.
+# says: this
+# -         beyond = np.maximum(np.abs(positions) - 1, 0).sum(axis=1)
+# +         beyond = np.maximum(np.abs(positions).sum(axis=1) - positions.shape[1], 0)

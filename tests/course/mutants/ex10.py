@@ -1368,3 +1368,11 @@ def evolve(seed):
 # says: stand at the wrong numbers
 # -         limits = np.array([np.pi, np.inf, FASTEST], dtype=np.float32)
 # +         limits = np.array([np.pi, FASTEST, np.inf], dtype=np.float32)
+
+
+# %% arcsine_of_the_matrix loses 10.3
+# The inclination is the arcsine of an element of the rotation matrix, which is never beyond a quarter turn.
+# says: this
+# -         inclination, _, _ = pybullet.getEulerFromQuaternion(orientation)
+# +         matrix = np.reshape(pybullet.getMatrixFromQuaternion(orientation), (3, 3))
+# +         inclination = np.arcsin(np.clip(matrix[2, 1], -1.0, 1.0))

@@ -1007,3 +1007,33 @@ def normalise(inputs):
 # says: this
 # -         return network.features(patterns).numpy().T.reshape(-1, n, n)
 # +         return network.features(patterns).numpy().reshape(-1, n, n)
+
+
+# %% one_pattern_squeezed loses 11.1
+# With one pattern the outputs lose their first dimension (squeeze): (1, outputs) is asked for.
+# says: this
+# -         return self.output(self.features(patterns))
+# +         return self.output(self.features(patterns)).squeeze(0)
+
+
+# %% targets_in_a_row loses 11.3
+# With one output the targets lose a dimension (squeeze), so each output is compared with all targets.
+# says: this
+# -     loss = torch.mean((outputs - torch.tensor(targets, dtype=torch.float64)) ** 2)
+# +     loss = torch.mean((outputs - torch.tensor(targets, dtype=torch.float64).squeeze()) ** 2)
+
+
+# %% tiny_unit_for_constant loses 11.6
+# Takes a column of a very small unit for one that never changes.
+# says: a small unit
+# -     deviation = np.where(np.ptp(inputs, axis=0) == 0, 1.0, deviation)
+# +     deviation = np.where(deviation < 1e-6, 1.0, deviation)
+
+
+# %% single_output_for_all_targets loses 11.8
+# Makes a network with one output, whatever the number of targets: the targets share it.
+# says: one for each of the 2
+# -     network = Network(inputs.shape[1], 20, targets.shape[1])
+# -     patterns = torch.tensor(normalised, dtype=torch.float32)
+# +     network = Network(inputs.shape[1], 20, 1)
+# +     patterns = torch.tensor(normalised, dtype=torch.float32)

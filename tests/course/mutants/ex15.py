@@ -1056,3 +1056,24 @@ def describe(poses):
 # says: this
 # -     for _ in range(resamples):
 # +     for _ in range(resamples // 2):
+
+
+# %% pairs_by_generations loses 15.2
+# The pairs are listed generation by generation on both sides, but the table is filled predator by predator.
+# says: this
+import numpy as np
+
+from botschool.course.coevolution import play
+
+
+def tournament(predators, prey, maxsteps=2000):
+    G, n = len(predators), len(predators[0])
+    H, m = len(prey), len(prey[0])
+    pairs = []
+    for g in range(G):
+        for h in range(H):
+            for i in range(n):
+                for j in range(m):
+                    pairs.append((g * n + i, h * m + j))
+    scores = play(np.vstack(predators), np.vstack(prey), np.array(pairs), maxsteps)
+    return np.reshape(scores, (G, n, H, m))
