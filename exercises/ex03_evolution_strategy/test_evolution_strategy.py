@@ -14,6 +14,8 @@ and 20 unseen episodes a controller, on robots whose parameters count with gains
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from botschool.course import Robot
@@ -167,6 +169,10 @@ def mistaken_ranking(fitness, order) -> dict:
     """What mistakes make of the order of individuals; order: the student's."""
     fitness = np.asarray(fitness)
     rising, stable = np.argsort(fitness), np.argsort(fitness, kind="stable")
+    falling = np.argsort(-fitness, kind="stable")
+    order = np.asarray(order)
+    complete = np.array_equal(np.sort(order, axis=None), np.arange(len(fitness)))
+    only_equals = complete and np.array_equal(fitness[order.astype(int)], fitness[falling])
     return {
         "The worst comes first: the best is asked for first.": (
             rising if np.array_equal(rising, order) else stable
@@ -177,6 +183,8 @@ def mistaken_ranking(fitness, order) -> dict:
         np.argsort(np.argsort(-fitness, kind="stable"), kind="stable"),
         "argsort keeps the order of equals only with kind='stable'; a few values do not show "
         "that.": np.argsort(-fitness),
+        "Equal ones do not stay in the order in which they stand.":
+        order if only_equals else falling,
     }  # fmt: skip
 
 
@@ -187,7 +195,7 @@ def best_comes_first(student: Student):
         small, large = rng.normal(size=size), rng.permutation(size) - 4
         for fitness in (small, 7 + 1e-4 * small, 1e9 * large, -3e9 - 1e8 * (large + 4), small[:2]):
             order = student.call("rank", fitness)
-            mistakes = mistaken_ranking(fitness, order)
+            mistakes = partial(mistaken_ranking, fitness, order)
             expect_close(student.said, order, np.argsort(-fitness), mistakes=mistakes)
 
 
@@ -195,7 +203,7 @@ def best_comes_first(student: Student):
 def equals_keep_their_order(student: Student):
     for fitness, expected in (([1.0, 2.0, 2.0, 1.0], [1, 2, 0, 3]), ([-5.0] * 6, list(range(6)))):
         order = student.call("rank", np.array(fitness))
-        mistakes = mistaken_ranking(fitness, order)
+        mistakes = partial(mistaken_ranking, fitness, order)
         expect_close(f"rank({fitness})", order, expected, mistakes=mistakes)
     fitness = np.random.default_rng(exercise.seed(18)).integers(-2, 3, size=60).astype(float)
     order = student.call("rank", fitness)
@@ -205,7 +213,7 @@ def equals_keep_their_order(student: Student):
     )
     expect_close(
         f"{student.said}: 60 fitnesses, of which many are equal; the order",
-        order, np.argsort(-fitness, kind="stable"), mistakes=mistaken_ranking(fitness, order),
+        order, np.argsort(-fitness, kind="stable"), mistakes=partial(mistaken_ranking, fitness, order),
     )  # fmt: skip
 
 
@@ -545,7 +553,7 @@ class Evolved:
             f"{self.said}: fitness", self.run["fitness"], highest.max(), 1e-6,
             mistakes={
                 "This is the highest fitness of the first generation only.": highest[0],
-                "This is the highest fitness of the last generation only.": highest[-1],
+                "This is the highest fitness of the last generation.": highest[-1],
                 "This is the lowest fitness that was met.": table.min(),
                 "This is the lowest of the generations' highest fitness.": highest.min(),
             },

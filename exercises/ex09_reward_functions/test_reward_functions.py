@@ -148,7 +148,7 @@ def measures_progress(student: Student):
 
 @first.check(8)
 def tells_the_fallen(student: Student):
-    for i, robot in enumerate(ROBOTS):
+    for i, robot in enumerate((*ROBOTS, "HalfCheetah")):
         one = made_up(robot, 3 + i)
         seen = [one[key] for key in ("height", "pitch", "touching")]
         answer = student.call("alive_bonus", robot, *seen)

@@ -788,3 +788,74 @@ def hill_climb(evaluate, *arguments, **options):
 # says: this
 # -     following[worst] = population[best] + mutrate * noise
 # +     following[half:] = population[best] + mutrate * noise
+
+
+# %% swapping_sort loses 3.2
+# Sorts by exchanging individuals, so that equal ones do not stay in the order in which they stand.
+# says: order in which they stand
+import numpy as np
+
+
+def rank(fitness):
+    values = list(fitness)
+    numbers = list(range(len(values)))
+    for place in range(len(values)):
+        top = place
+        for other in range(place + 1, len(values)):
+            if values[other] > values[top]:
+                top = other
+        values[place], values[top] = values[top], values[place]
+        numbers[place], numbers[top] = numbers[top], numbers[place]
+    return np.array(numbers)
+
+
+# %% equals_left_out loses 3.2
+# Leaves out all but the first of equal ones, as np.unique does.
+# says: this
+# -     return np.argsort(-np.asarray(fitness), kind="stable")
+# +     _, places = np.unique(-np.asarray(fitness), return_index=True)
+# +     return places
+
+
+# %% copies_are_no_copies loses 3.3
+# The copies are the better half itself, not copies: it gets the noise, too.
+# says: this
+import numpy as np
+
+
+def next_population(population, fitness, mutrate, rng):
+    survivors = len(population) // 2
+    parents = population[rank(fitness)[:survivors]]
+    children = parents
+    children += rng.normal(0.0, mutrate, size=children.shape)
+    return np.concatenate([parents, children])
+
+
+# %% better_than_the_last_generation loses 3.4
+# Keeps a new best whenever a generation beats the one before it, not the best so far.
+# says: this
+# -         if fitness[winner] > best_fitness:
+# +         if generation == 0 or history[-1] > history[-2]:
+
+
+# %% start_varied_again loses 3.5
+# Varies the start in each generation, not the solution that was kept.
+# says: this
+import numpy as np
+
+
+def hill_climb(evaluate, start, generations, mutrate, seed):
+    rng = np.random.default_rng(seed)
+    pair = np.array([start, start], dtype=float)
+    top, top_fitness, history = np.array(start), -np.inf, []
+    for g in range(generations):
+        left, right = evaluate(pair, seed + g)
+        if right > left:
+            current, value = pair[1], right
+        else:
+            current, value = pair[0], left
+        history.append(float(value))
+        if value > top_fitness:
+            top, top_fitness = current.copy(), float(value)
+        pair = np.array([current, start + mutrate * rng.standard_normal(len(start))])
+    return {"best": top, "fitness": top_fitness, "history": history, "population": pair}

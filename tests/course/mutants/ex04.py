@@ -572,3 +572,64 @@ def decode(observation):
 
     c1, s1, c2, s2, w1, w2 = [float(v) for v in observation]
     return {"angle1": angle(c1, s1), "angle2": angle(c2, s2), "speed1": w1, "speed2": w2}
+
+
+# %% how_far_to_the_side loses 4.2
+# Gives how far the end is to the side, not how high.
+# says: this
+def height(observation: np.ndarray) -> float:
+    cos1, sin1, cos2, sin2 = (float(x) for x in observation[:4])
+    elbow = complex(cos1, sin1)
+    tip = elbow + elbow * complex(cos2, sin2)
+    return tip.imag
+
+
+# %% turned_back_by_half loses 4.2
+# Brings the sum of the angles back by half a turn, but a whole turn is 2 pi.
+# says: this
+def height(observation: np.ndarray) -> float:
+    arm = decode(observation)
+    first = arm["angle1"]
+    second = first + arm["angle2"]
+    if second > np.pi:
+        second -= np.pi
+    elif second < -np.pi:
+        second += np.pi
+    h = 0.0
+    for angle in (first, second):
+        h -= np.cos(angle)
+    return float(h)
+
+
+# %% first_run_decides loses 4.5
+# Looks the generation of a budget up in the first run, and takes it for all runs: each has steps of its own.
+# says: this
+def curves(stats: list[dict], column: str, budgets: np.ndarray) -> dict:
+    budgets = np.asarray(budgets)
+    generation = np.array([np.count_nonzero(stats[0]["steps"] <= b) - 1 for b in budgets])
+    values = np.vstack(
+        [stat[column][np.minimum(generation, len(stat[column]) - 1)] for stat in stats]
+    )
+    return {"mean": values.mean(axis=0), "deviation": values.std(axis=0, ddof=1)}
+
+
+# %% one_dict_for_all_rows loses 4.6
+# All rows are one and the same dict, with the numbers of the last seed: make a new one for each.
+# says: this
+def compare(
+    experiment_file: str, folder: str, seeds: list[int], episodes: int, test_seed: int
+) -> list[dict]:
+    def worth(name):
+        robot = SavedRobot(experiment_file, np.load(Path(folder, name)))
+        returns = robot.evaluate(test_seed, episodes)
+        return float(sum(returns) / len(returns))
+
+    table = []
+    row = {}
+    for seed in seeds:
+        row["seed"] = seed
+        row["promised"] = float(max(read_stat(f"{folder}/statS{seed}.npy")["best post-evaluated"]))
+        row["best"] = worth(f"bestS{seed}.npy")
+        row["bestg"] = worth(f"bestgS{seed}.npy")
+        table.append(row)
+    return table

@@ -1423,3 +1423,23 @@ def utilities(fitness):
 # says: this
 # -     return weights @ samples / len(utilities)
 # +     return weights @ samples / samples.size
+
+
+# %% decays_added_up loses 8.4
+# With wdecay 2, both pulls act: that in proportion to the centre belongs to wdecay 1 alone.
+# says: this
+# -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
+# -     return -gradient + 0.005 * pull
+# +     d = -gradient
+# +     if wdecay >= 1:
+# +         d = d + 0.005 * centre
+# +     if wdecay >= 2:
+# +         d = d + 0.005 * np.sign(centre)
+# +     return d
+
+
+# %% correction_after_the_root loses 8.5
+# The bias correction divides the root of v: correct v first, and take the root then.
+# says: this
+# -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
+# +     step = (m / (1 - 0.9**t)) / (np.sqrt(v) / (1 - 0.999**t) + 1e-8)

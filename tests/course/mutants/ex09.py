@@ -900,3 +900,25 @@ def components_v0(trajectory):
 # says: this
 # -         beyond = np.maximum(np.abs(positions) - 1, 0).sum(axis=1)
 # +         beyond = np.maximum(np.abs(positions).sum(axis=1) - positions.shape[1], 0)
+
+
+# %% one_touch_for_all_steps loses 9.1
+# A HalfCheetah that touches the floor in one step counts as fallen in all.
+# says: this
+# -         return np.where(upright & (touching == 0), 1.0, -1.0)
+# +         return np.where(upright & (not touching.any()), 1.0, -1.0)
+
+
+# %% only_the_outermost_joints loses 9.2
+# Looks at the lowest and the highest position only: each joint at its limit costs 0.1.
+# says: this
+def joints_at_limit(positions: np.ndarray) -> np.ndarray:
+    costs = []
+    for row in positions:
+        cost = 0.0
+        if row.min() < -0.99:
+            cost -= 0.1
+        if row.max() > 0.99:
+            cost -= 0.1
+        costs.append(cost)
+    return np.array(costs)

@@ -1037,3 +1037,117 @@ def normalise(inputs):
 # -     patterns = torch.tensor(normalised, dtype=torch.float32)
 # +     network = Network(inputs.shape[1], 20, 1)
 # +     patterns = torch.tensor(normalised, dtype=torch.float32)
+
+
+# %% errors_of_the_last_output loses 11.2
+# The hidden neurons get the error of the last output only: add up those of all outputs.
+# says: this
+import numpy as np
+
+
+def gradient_by_hand(inputs, targets, w1, b1, w2, b2):
+    n, m = targets.shape
+    h = 1.0 / (1.0 + np.exp(-(np.dot(inputs, w1.T) + b1)))
+    y = np.dot(h, w2.T) + b2
+    slope = h * (1.0 - h)
+    g_w2, g_b2 = np.zeros(w2.shape), np.zeros(b2.shape)
+    for j in range(m):
+        delta = 2.0 * (y[:, j] - targets[:, j]) / (n * m)
+        g_w2[j] = np.dot(delta, h)
+        g_b2[j] = delta.sum()
+        back = np.outer(delta, w2[j]) * slope
+    return {
+        "loss": ((y - targets) ** 2).sum() / (n * m),
+        "w1": np.dot(back.T, inputs),
+        "b1": back.sum(axis=0),
+        "w2": g_w2,
+        "b2": g_b2,
+    }
+
+
+# %% bias_without_the_slope loses 11.2
+# The gradient of the hidden biases lacks the slope of the logistic function.
+# says: this
+# -         "b1": d1.sum(axis=0),
+# +         "b1": (d2 @ w2).sum(axis=0),
+
+
+# %% backward_output_by_output loses 11.3
+# Calls backward for the error of each output: the gradients add up, but the loss is their mean.
+# says: this
+import torch
+
+
+def gradient_by_torch(inputs, targets, w1, b1, w2, b2):
+    def tensor(array, grad=False):
+        return torch.tensor(array, dtype=torch.float64, requires_grad=grad)
+
+    x, t = tensor(inputs), tensor(targets)
+    parameters = {
+        "w1": tensor(w1, True),
+        "b1": tensor(b1, True),
+        "w2": tensor(w2, True),
+        "b2": tensor(b2, True),
+    }
+    h = torch.sigmoid(x @ parameters["w1"].T + parameters["b1"])
+    losses = []
+    for j in range(t.shape[1]):
+        y = h @ parameters["w2"][j] + parameters["b2"][j]
+        loss = ((y - t[:, j]) ** 2).mean()
+        loss.backward(retain_graph=True)
+        losses.append(loss.item())
+    result = {name: p.grad.numpy() for name, p in parameters.items()}
+    result["loss"] = sum(losses) / len(losses)
+    return result
+
+
+# %% best_weights_loaded loses 11.4
+# Puts back the weights of the epoch with the lowest loss: those after the last step are asked for.
+# says: this
+import copy
+
+import torch
+
+
+def train(network, inputs, targets, epochs, learning_rate, momentum):
+    optimizer = torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)
+    losses, lowest, best = [], float("inf"), None
+    for _ in range(epochs):
+        optimizer.zero_grad()
+        loss = torch.nn.functional.mse_loss(network(inputs), targets)
+        losses.append(loss.item())
+        if losses[-1] < lowest:
+            lowest, best = losses[-1], copy.deepcopy(network.state_dict())
+        loss.backward()
+        optimizer.step()
+    if best is not None:
+        network.load_state_dict(best)
+    return losses
+
+
+# %% shuffles_what_is_shuffled loses 11.7
+# Shuffles the patterns that the epoch before has shuffled: the order of each epoch is that of the training set as it was given.
+# says: this
+import numpy as np
+import torch
+
+
+def train_in_batches(network, inputs, targets, epochs, batch_size, learning_rate, momentum, seed):
+    generator = np.random.default_rng(seed)
+    sgd = torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)
+    mse = torch.nn.MSELoss()
+    history = []
+    for _ in range(epochs):
+        batches = minibatches(len(inputs), batch_size, generator)
+        order = np.concatenate(batches)
+        inputs, targets = inputs[order], targets[order]
+        start = 0
+        for batch in batches:
+            stop = start + len(batch)
+            sgd.zero_grad()
+            mse(network(inputs[start:stop]), targets[start:stop]).backward()
+            sgd.step()
+            start = stop
+        with torch.no_grad():
+            history.append(mse(network(inputs), targets).item())
+    return history
