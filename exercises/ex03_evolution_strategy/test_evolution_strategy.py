@@ -213,7 +213,8 @@ def equals_keep_their_order(student: Student):
     )
     expect_close(
         f"{student.said}: 60 fitnesses, of which many are equal; the order",
-        order, np.argsort(-fitness, kind="stable"), mistakes=partial(mistaken_ranking, fitness, order),
+        order, np.argsort(-fitness, kind="stable"),
+        mistakes=partial(mistaken_ranking, fitness, order),
     )  # fmt: skip
 
 

@@ -402,8 +402,8 @@ def clip_fraction(student: Student):
 
 @surrogate.check(2)
 def a_batch_of_one_step(student: Student):
-    for index in (25, 26):
-        given = drawn_batch(index, 1, 0.6)
+    for index, spread in ((25, 0.6), (26, 0.6), (28, 2.0), (29, 2.0), (31, 2.0)):
+        given = drawn_batch(index, 1, spread)
         answer = judged_policy(student, given, 0.2)
         wanted, mistakes = surrogate_of(given, 0.2)[0], partial(mistaken_losses, given, 0.2)
         expect_close(f"{student.said}: loss", answer["loss"], wanted, CLOSE, mistakes)
@@ -680,9 +680,10 @@ def follows_the_observed(student: Student):
 @seeing.check(2)
 def what_never_changes(student: Student):
     rng = generator(61)
-    activations, observations = rng.normal(size=(30, 4)), rng.normal(size=(30, 3))
-    activations[:, 1], observations[:, 2] = 0.7, 0.1
-    compare_responses(student, activations, observations)
+    for steps, constant in ((30, 2), (12, 0), (20, 0)):
+        activations, observations = rng.normal(size=(steps, 4)), rng.normal(size=(steps, 3))
+        activations[:, 1], observations[:, constant] = 0.7, 0.1
+        compare_responses(student, activations, observations)
 
 
 # ------------------------------------------------------------------- 13.8

@@ -458,8 +458,12 @@ def average_over_the_training(student: Student):
         expect_close(f"{student.said}: average", average, wanted, CLOSE, mistakes)
 
 
-def expect_solved(student: Student, index: int, means: list[float], position: int | None) -> None:
+def expect_solved(
+    student: Student, index: int, means: list[float], position: int | None, at_first: bool = False
+) -> None:
+    """at_first: whether the first post-evaluation is that before the training, at step 0."""
     steps, returns = drawn_evaluations(index, means)
+    steps = steps - steps[0] if at_first else steps
     (solved,) = measured(student, steps, returns, 100.0, "solved")
     wanted = None if position is None else int(steps[position])
     said = f"{student.said}: solved"
@@ -476,6 +480,8 @@ def solved_for_good(student: Student):
     expect_solved(student, 38, [5.0, 130.0, 60.0, 101.0, 150.0], 3)
     expect_solved(student, 39, [120.0, 110.0, 150.0], 0)
     expect_solved(student, 45, [130.0, 140.0], 0)
+    expect_solved(student, 46, [130.0, 120.0, 140.0], 0, at_first=True)
+    expect_solved(student, 47, [130.0, 140.0], 0, at_first=True)
     expect_solved(student, 40, [5.0, 130.0, 140.0, 99.0], None)
     expect_solved(student, 41, [5.0, 50.0, 60.0, 100.5], 3)
     expect_solved(student, 42, [5.0, 60.0, 98.0, 120.0], 3)

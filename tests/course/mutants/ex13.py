@@ -1008,3 +1008,127 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 # -     return float(np.mean(np.exp(log_ratio) - 1 - log_ratio))
 # +     ratio = np.mean(np.exp(log_prob - old_log_prob))
 # +     return float((ratio - 1) - np.log(ratio))
+
+
+# %% last_error_left_out loses 13.1, 13.8
+# The TD error of the step that ends an episode counts for none of the steps before it.
+# says: this
+import numpy as np
+
+
+def td_errors(rewards, values, ended, last_values, gamma):
+    next_values = np.concatenate([values[1:], np.reshape(last_values, (1, -1))])
+    return rewards + gamma * (1 - ended) * next_values - values
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    ended = np.concatenate([episode_starts[1:], np.reshape(dones, (1, -1))])
+    delta = td_errors(rewards, values, ended, last_values, gamma)
+    T, n_envs = np.shape(rewards)
+    adv = np.zeros((T, n_envs))
+    for e in range(n_envs):
+        for t in range(T):
+            weight = 1.0
+            adv[t, e] = delta[t, e]
+            if ended[t, e]:
+                continue
+            for k in range(t + 1, T):
+                if ended[k, e]:
+                    break
+                weight *= gamma * gae_lambda
+                adv[t, e] += weight * delta[k, e]
+    return adv
+
+
+# %% nothing_clipped_in_one_step loses 13.2
+# A batch of one step is not clipped: only the normalisation is left out there.
+# says: this
+import numpy as np
+
+
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    r = np.exp(np.asarray(log_prob) - np.asarray(old_log_prob))
+    outside = (r < 1 - clip_range) | (r > 1 + clip_range)
+    fraction = float(outside.sum() / len(r))
+    if len(r) == 1:
+        return {"loss": float(-r[0] * advantages[0]), "clip_fraction": fraction}
+    a = np.asarray(advantages, dtype=float)
+    a = (a - np.mean(a)) / (np.std(a, ddof=1) + 1e-8)
+    total = 0.0
+    for ratio, adv in zip(r, a, strict=True):
+        limited = min(max(ratio, 1 - clip_range), 1 + clip_range)
+        total += min(ratio * adv, limited * adv)
+    return {"loss": float(-total / len(r)), "clip_fraction": fraction}
+
+
+# %% back_to_the_old_value loses 13.3
+# A prediction that has moved too far is put back to the old one, not to the limit around it.
+# says: this
+# -         predictions = old_values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
+# +         predictions = np.where(
+# +             np.abs(values - old_values) <= clip_range_vf, values, old_values
+# +         )
+
+
+# %% scores_cut_at_50 loses 13.4
+# Scores are cut to between -50 and 50 against overflow.
+# says: this
+import numpy as np
+
+
+def softmax(s):
+    e = np.exp(np.clip(s, -50.0, 50.0))  # no overflow
+    return e / np.sum(e)
+
+
+def entropy_of_choices(scores):
+    out = []
+    for row in np.asarray(scores, dtype=float):
+        h = 0.0
+        for p in softmax(row):
+            if p > 0:
+                h -= p * np.log(p)
+        out.append(h)
+    return np.array(out)
+
+
+# %% first_batch_for_none loses 13.5
+# A first batch beyond the limit is taken for none beyond it: no update is made then.
+# says: this
+import numpy as np
+
+
+def updates_made(divergences, target_kl):
+    found = [d for epoch in divergences for d in epoch]
+    if target_kl is None or not found:
+        return len(found)
+    stop = int(np.argmax(np.array(found) > 1.5 * target_kl))
+    if stop == 0:  # argmax gives 0 if there is no True
+        return len(found)
+    return stop
+
+
+# %% ends_at_a_constant loses 13.7
+# What never changes ends the loop, so that all after it keep 0.
+# says: this
+import numpy as np
+
+
+def pearson(a, b):
+    da, db = a - np.mean(a), b - np.mean(b)
+    return np.sum(da * db) / np.sqrt(np.sum(da**2) * np.sum(db**2))
+
+
+def responses(activations, observations):
+    neurons, inputs = activations.shape[1], observations.shape[1]
+    c = np.zeros((neurons, inputs))
+    for i in range(neurons):
+        h = activations[:, i]
+        if np.all(h == h[0]):
+            continue
+        for j in range(inputs):
+            x = observations[:, j]
+            if np.all(x == x[0]):
+                break
+            c[i, j] = pearson(h, x)
+    return c

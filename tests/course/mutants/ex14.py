@@ -1234,3 +1234,84 @@ def train_variations(environment, variations, seeds, steps, folder, evaluations=
 # says: this
 # -         "average": float(area / widths.sum()) if len(means) > 1 else float(means[0]),
 # +         "average": float(area / steps[-1]) if len(means) > 1 else float(means[0]),
+
+
+# %% repetitions_in_the_gain loses 14.4
+# The mean of the baseline that is subtracted counts repeated seeds, too.
+# says: this
+import numpy as np
+
+
+def mean_return(runs, variant):
+    return float(np.mean([run["return"] for run in runs if run["variant"] == variant]))
+
+
+def table_of(runs, baseline):
+    base = mean_return(runs, baseline)
+    seen = set()
+    counted = []
+    for run in runs:
+        key = (run["variant"], run["seed"])
+        if key not in seen:
+            seen.add(key)
+            counted.append(run)
+    rows = []
+    for variant in dict.fromkeys(run["variant"] for run in counted):
+        values = [run["return"] for run in counted if run["variant"] == variant]
+        mean = mean_return(counted, variant)
+        row = {"variant": variant, "runs": len(values), "mean": mean, "gain": mean - base}
+        row["deviation"] = float(np.std(values, ddof=1)) if len(values) >= 2 else None
+        rows.append(row)
+    return sorted(rows, key=lambda row: row["mean"], reverse=True)
+
+
+# %% pairs_are_swapped loses 14.5
+# Exchanges the two results of each place only: all ways to deal the results out are asked for.
+# says: this
+from itertools import product
+
+import numpy as np
+
+
+def chance_of(first, second):
+    a, b = list(first), list(second)
+    real = abs(np.mean(a) - np.mean(b))
+    pairs = min(len(a), len(b))
+    hits = 0
+    for swaps in product([False, True], repeat=pairs):
+        x, y = a[:], b[:]
+        for i, swap in enumerate(swaps):
+            if swap:
+                x[i], y[i] = b[i], a[i]
+        if abs(np.mean(x) - np.mean(y)) >= real - 1e-9:
+            hits += 1
+    return hits / 2**pairs
+
+
+# %% last_third_of_the_log loses 14.6
+# The last third is that of what was logged, not of the training.
+# -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
+# +         if len(logged["steps"]) == 0:
+# +             continue
+# +         late = phase_means(logged["steps"], logged["values"], logged["steps"][-1], 3)[-1]
+
+
+# %% not_solved_at_step_0 loses 14.3
+# Takes the step 0 for not solved.
+# says: this
+import numpy as np
+
+
+def success_of(steps, returns, goal):
+    means = [float(np.mean(r)) for r in returns]
+    solved = None
+    area = 0.0
+    for i, m in enumerate(means):
+        if m < goal:
+            solved = None
+        elif not solved:
+            solved = int(steps[i])
+        if i > 0:
+            area += (steps[i] - steps[i - 1]) * (means[i - 1] + m) / 2
+    average = means[0] if len(means) == 1 else float(area / (steps[-1] - steps[0]))
+    return {"last": means[-1], "best": max(means), "average": average, "solved": solved}

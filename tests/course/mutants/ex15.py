@@ -1077,3 +1077,33 @@ def tournament(predators, prey, maxsteps=2000):
                     pairs.append((g * n + i, h * m + j))
     scores = play(np.vstack(predators), np.vstack(prey), np.array(pairs), maxsteps)
     return np.reshape(scores, (G, n, H, m))
+
+
+# %% draws_do_not_count loses 15.5
+# Draws are left out of the share: each counts half.
+# says: this
+import numpy as np
+
+
+def progress(matrix):
+    G = len(matrix)
+    historical, overall = [], []
+    better = worse = 0
+    for g in range(1, G):
+        difference = matrix[g] - matrix[g - 1]
+        historical.append(np.mean(difference[:g]))
+        overall.append(np.mean(difference))
+        for k in range(g):
+            if difference[k] > 0:
+                better += 1
+            elif difference[k] < 0:
+                worse += 1
+    share = better / (better + worse) if better + worse else 0.5
+    return {"historical": np.array(historical), "global": np.array(overall), "share": share}
+
+
+# %% unwrapped_between_robots loses 15.8
+# Leaps of the heading are mended from robot to robot (np.unwrap without axis=0), not from step to step.
+# says: this
+# -     turned = (after[..., 2] - heading + np.pi) % (2 * np.pi) - np.pi
+# +     turned = np.diff(np.unwrap(poses[..., 2]), axis=0)
