@@ -356,6 +356,21 @@ def without_nan(student: Student):
     for index, place in ((23, 3), (24, 20)):
         compare_without_nan(student, index, place)
     kept_infinite(student, 57)
+    name, nan = "train/explained_variance", float("nan")
+    answer = read(student, event_file([("train/loss", 5, 0.5), (name, 5, nan), (name, 9, nan)]))
+    expect(
+        name in answer,
+        f"{student.said}: {name!r}, which holds nothing but NaN, is missing: it stays, empty.",
+    )
+    for key, kept in zip(
+        ("steps", "values"),
+        expect_fields(student.said, answer[name], "steps", "values"),
+        strict=True,
+    ):
+        expect(
+            np.size(kept) == 0,
+            f"{student.said}[{name!r}]: {key} is {show(kept)}, but nothing but NaN was logged.",
+        )
 
 
 def compare_without_nan(student: Student, index: int, place: int) -> None:

@@ -82,7 +82,8 @@ def read_indicators(folder: str) -> dict:
 
     Returns a dict: name -> {"steps": array, "values": array}, both of the same length. Entries
     whose value is NaN are left out: the explained variance is NaN if there is no variance to
-    explain. All others are kept, also two of the same step.
+    explain. All others are kept, also two of the same step. An indicator of which nothing is left
+    stays, with two empty arrays.
     """
     raise NotImplementedError("task 14.2: read the event files")
 
