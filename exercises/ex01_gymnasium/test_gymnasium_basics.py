@@ -713,20 +713,25 @@ def looked_at(student: Student) -> str:
     """Which numbers of the observation change the student's action."""
     rng = np.random.default_rng(exercise.seed(43))
     observations, others = rng.normal(size=(2, 200, 4)) * (1, 1, 0.05, 0.3)
-    actions, found = actions_for(student, observations), []
+    actions, found, shares = actions_for(student, observations), [], []
     if actions_for(student, observations[::-1])[::-1] != actions:
         return "It gives other actions for the same observations when it is called again."
     names = ("the cart's position", "the cart's speed", "the angle", "the angle's speed")
     for number, name in enumerate(names):
         changed = observations.copy()
         changed[:, number] = others[:, number]
-        if actions_for(student, changed) != actions:
+        share = np.mean(np.not_equal(actions_for(student, changed), actions))
+        if share:
             found.append(f"{name} ([{number}])")
+            shares.append(f"{share:.0%}")
     if not found and len(set(actions)) == 1:
         return f"Your rule gave the action {actions[0]} for each of 200 other observations."
     if not found:
         return ""
-    return f"Your rule looks at {' and '.join(found)}."
+    return (
+        f"Your rule looks at {' and '.join(found)}: another value there changes "
+        f"{' and '.join(shares)} of its actions."
+    )
 
 
 @balancing.check(6)

@@ -411,7 +411,7 @@ def compare(student: Student, genotype: np.ndarray, where: tuple, seed: int, way
     for step, name, got in sorted(apart, key=lambda each: each[0]):
         what = CAUSES[name].format(t=step)
         if step < (many := min(len(got), len(expected[name]))):
-            what = f" (all that comes before is right; this is {what})"
+            what = f" (all that comes before is right; here it should be {what})"
             made = partial(wrong_parts, wrong, expected, name, many)
             expect_close(f"{said}: {name}{what}", got[:many], expected[name][:many], 1e-3, made)
         steps = len(expected["rewards"])

@@ -1027,3 +1027,12 @@ def gaussian_loss(means, log_deviation, actions):
     for i in range(z.shape[1]):
         per_step = per_step + 0.5 * z[:, i] ** 2 + log_deviation[i] + 0.5 * np.log(2 * np.pi)
     return per_step.mean()
+
+
+# %% constant_of_one_number loses 12.7
+# The constant ln(2 pi) / 2 counts once, but it counts for each number of the action.
+# says: this
+# -     surprise = distance**2 / 2 + log_deviation + np.log(2 * np.pi) / 2
+# -     return surprise.sum(dim=1).mean()
+# +     surprise = distance**2 / 2 + log_deviation
+# +     return surprise.sum(dim=1).mean() + np.log(2 * np.pi) / 2
