@@ -57,9 +57,9 @@ def numbers_of(element: ElementTree.Element | None, attribute: str, default: lis
 def describe(urdf: str) -> dict:
     """What a robot is made of. urdf: the text of a URDF file.
 
-    Every link has an inertial part with a mass; none is turned (no rpy); a link comes before the
-    joint that hangs another one on it. What the file leaves out has its default: an origin
-    "0 0 0", an axis "1 0 0".
+    Every link has an inertial part with a mass; none is turned (no rpy); a link and its own joint
+    come before the joint that hangs another link on it. What the file leaves out has its default:
+    an origin "0 0 0", an axis "1 0 0".
 
     Returns a dict with
     - "links": a dict, the name of each link -> its mass in kg;

@@ -56,7 +56,7 @@ def bootstrapped(
 ) -> np.ndarray:
     """The rewards, with what the critic expects after the steps at which time ran out.
 
-    All arrays have the shape (steps, envs), and stay as they are.
+    All arrays hold floats, have the shape (steps, envs), and stay as they are.
 
     - terminated, truncated: 1.0 or 0.0, as Gymnasium says after each step. If both are 1.0 (the
       pole falls in the last step that the time limit allows), the episode has ended by itself.
@@ -78,7 +78,7 @@ def advantages(
     gamma: float,
     gae_lambda: float,
 ) -> np.ndarray:
-    """A of each step, by the formulas above; shape (steps, envs).
+    """A of each step, by the formulas above; shape (steps, envs). All arrays hold floats.
 
     - rewards, values: shape (steps, envs); the critic's value V of what was observed before a step.
     - episode_starts: shape (steps, envs); 1.0 where a step is the first of an episode, else 0.0.
