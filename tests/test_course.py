@@ -1,5 +1,6 @@
 """What exercises import keeps its names; a new exercise is two folders and nothing else."""
 
+import ast
 import importlib
 import re
 import runpy
@@ -30,7 +31,12 @@ from botschool.evolution.run import Run, evolve
 from botschool.grading.classes import batch
 from botschool.grading.copies.skeleton import skeleton
 from botschool.grading.declare import exercise as declared
-from botschool.grading.declare.exercise import exercise_numbers, load_exercise, submission_file
+from botschool.grading.declare.exercise import (
+    exercise_numbers,
+    folder_of,
+    load_exercise,
+    submission_file,
+)
 from botschool.grading.declare.trust import trust
 from botschool.grading.judge.submission import grade
 from botschool.grading.report.screen import Screen
@@ -84,6 +90,33 @@ def sixteen(tmp_path):
         (root / name).parent.mkdir(exist_ok=True)
         (root / name).write_text(text, encoding="utf-8")
     return root, environment_of_command() | {"BOTSCHOOL_COURSE": str(root)}
+
+
+@pytest.mark.parametrize("number", exercise_numbers(ROOT))
+def test_no_grader_keeps_what_follows_from_the_seeds_of_one_submission(number):
+    """Only exercise.cached does; functools.cache gave right answers the numbers of others."""
+    folder = folder_of(number, ROOT)
+    functions = {
+        node.name: node
+        for file in folder.glob("*.py")
+        if file.name.startswith("test_") or file.name == "slips.py"
+        for node in ast.parse(file.read_text()).body
+        if isinstance(node, ast.FunctionDef)
+    }
+    used = {
+        name: {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}
+        for name, node in functions.items()
+    }
+    draws = {n for n, node in functions.items() if "exercise.seed(" in ast.unparse(node)}
+    while more := {name for name, names in used.items() if names & draws} - draws:
+        draws |= more
+    kept = {
+        name
+        for name, node in functions.items()
+        for decorator in map(ast.unparse, node.decorator_list)
+        if "cache" in decorator and decorator != "exercise.cached"
+    }
+    assert not kept & draws
 
 
 def test_a_sixteenth_exercise_is_two_folders(sixteen, tmp_path):

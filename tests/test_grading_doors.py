@@ -255,6 +255,22 @@ def test_equal_submissions_have_equal_seeds_and_others_have_others(course, monke
     assert exercise.seed(1) != one
 
 
+def test_what_a_grader_keeps_belongs_to_the_submission(course, monkeypatch):
+    exercise, drawn = load_exercise(3, course), []
+
+    @exercise.cached
+    def number(index):
+        drawn.append(index)
+        return exercise.seed(index)
+
+    assert number(1) == number(1) and drawn == [1]
+    monkeypatch.setenv("BOTSCHOOL_GRADING_SEED", "some secret")
+    for work in ("a digest", "another digest", "a digest"):
+        exercise.work = work
+        assert number(1) == number(1) == exercise.seed(1)
+    assert len(drawn) == 4
+
+
 def test_grade_cell_draws_from_the_secret_where_an_instructor_grades(
     course, tmp_path, monkeypatch, capsys
 ):

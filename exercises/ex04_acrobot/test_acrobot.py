@@ -66,7 +66,7 @@ def number(said: str, value: object) -> float:
     return float(expect_array(said, value, ()))
 
 
-@lru_cache
+@exercise.cached
 def moves(index: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """States before and observations and rewards after steps of Gymnasium's Acrobot."""
     rng = rng_of(index)
@@ -581,7 +581,7 @@ def compare_saved(module, text, files, folder, seeds, episodes, test_seed):
     return module.compare("trial.ini", folder, seeds, episodes, test_seed)
 
 
-@lru_cache
+@exercise.cached
 def made_up_runs(text: str, index: int):
     """Seeds and files of three runs; the robots are evolved ones with some noise."""
     rng = rng_of(index)

@@ -567,7 +567,7 @@ def walking(hidden: int, maxsteps: int) -> str:
     )
 
 
-@lru_cache
+@exercise.cached
 def walkers_of(index: int) -> np.ndarray:
     """The pre-evolved walkers, each with brain and body varied a little."""
     evolved = np.array([np.load(genotype_file(f"bodybrainS{seed}.npy")) for seed in (1, 2, 3)])

@@ -1085,7 +1085,7 @@ def trained(module, environment, seed, signs, side, most):
         torch.autograd.backward, torch.autograd.grad = kept[2:]
 
 
-@functools.cache
+@exercise.cached
 def starts(environment: str) -> list[int]:
     return [exercise.seed(1000 + i) for i in range(50)]
 

@@ -54,7 +54,7 @@ class References:
     """Of each hidden layer, for the observations of the rollout."""
 
 
-@functools.cache
+@exercise.cached
 def references() -> References:
     import torch
 

@@ -78,7 +78,7 @@ def folder() -> tempfile.TemporaryDirectory:
     return tempfile.TemporaryDirectory(prefix="botschool-")
 
 
-@functools.cache
+@exercise.cached
 def training(environment: str, index: int, rate: float):
     """A short training by the grader: its RunFolder."""
     from botschool.rl.training import train
@@ -186,15 +186,8 @@ def one_trained(student: Student, environment: str, variant: str, rate, index: i
     return record, *expect_training(student, record, environment, variant, rate, index)
 
 
-def expect_same_numbers(said: str, found, reference, again: Callable) -> None:
-    """The post-evaluations are those of the grader's own training.
-
-    again: as one_trained, to train once more. One right training in about 200 differed, for a
-    cause that is not known yet; other settings or another seed differ both times.
-    """
-    one, other = found.returns, reference.returns
-    if one.shape != other.shape or not np.allclose(one, other, rtol=1e-4, atol=1e-4):
-        _, found, _ = again()
+def expect_same_numbers(said: str, found, reference) -> None:
+    """The post-evaluations are those of the grader's own training."""
     for name in ("steps", "returns", "lengths"):
         got, wanted = getattr(found, name), getattr(reference, name)
         same = got.shape == wanted.shape and np.allclose(got, wanted, rtol=1e-4, atol=1e-4)
@@ -229,9 +222,8 @@ def one_training(student: Student):
         reference = training("Pendulum-v1", index, rate).evaluations()
         if reference.last < reference.returns.mean(axis=1).max():
             break
-    one = student, "Pendulum-v1", "only", rate, index
-    record, found, said = one_trained(*one)
-    expect_same_numbers(said, found, reference, partial(one_trained, *one))
+    record, found, said = one_trained(student, "Pendulum-v1", "only", rate, index)
+    expect_same_numbers(said, found, reference)
     got, mistakes = record["return"], mistaken_return(reference.returns)
     expect_close(f"{student.said}: return", got, reference.last, CLOSE, mistakes)
 
@@ -255,8 +247,7 @@ def every_variation_with_every_seed(student: Student):
             student, records[key], "CartPole-v1", variant, rates[variant], index
         )
         if (variant, index) == ("varied", 5):
-            one = student, "CartPole-v1", variant, rates[variant], index
-            expect_same_numbers(said, found, reference, partial(one_trained, *one))
+            expect_same_numbers(said, found, reference)
         got, mistakes = records[key]["return"], mistaken_return(found.returns)
         expect_close(f"{student.said}: return", got, found.last, CLOSE, mistakes)
 
