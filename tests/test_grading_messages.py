@@ -20,7 +20,7 @@ from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.trust import trust
 from botschool.grading.declare.values import apart, kind, pasted, show
 from botschool.grading.judge.known import VARIED
-from botschool.grading.judge.looking import same
+from botschool.grading.judge.looking import Failure, look_for_causes, same
 from botschool.grading.judge.submission import grade
 from tiny_course import FILE, SOLUTION, make_course, submit
 
@@ -327,3 +327,14 @@ def test_single_precision_is_accepted_where_numbers_are_fractions():
         expect_close("f()", (wanted * 1.0001).astype(np.float32), wanted)
     with pytest.raises(Mismatch):
         expect_close("f()", [1_000_001, 3], [1_000_000, 3])
+
+
+@pytest.mark.parametrize("made, told", [([5.0, 6.0, 7.0], True), ([5.0, 6.0, 8.0], False)])
+def test_a_slow_check_names_the_mistake_of_its_first_answer(made, told):
+    """It is not run again to its end, so the message does not depend on how busy the machine is."""
+    wrong = Mismatch(
+        "", np.array([5.0, 6.0, 7.0]), np.array([7.0, 5.0, 6.0]), {"Sorted.": np.array(made)}
+    )
+    failure = Failure("", quick=False, wrong=wrong)
+    look_for_causes([failure], [], None)
+    assert (failure.cause, failure.named) == (("Sorted.", True) if told else ("", False))

@@ -23,6 +23,8 @@ from botschool.sandbox.protocol import pack
 
 MAX_SECONDS = 0.5
 """Largest processor time, in seconds, of a check whose call is repeated."""
+MISTAKES_SECONDS = 10.0
+"""Largest processor time in which a check tells what mistakes make of one answer."""
 MAX_CASES = 50
 """Wrong answers of a task to look at."""
 MAX_RIGHT = 4
@@ -55,6 +57,8 @@ class Failure:
     """This answer."""
     raised: bool = False
     """Whether the last call ended with an exception."""
+    wrong: Mismatch | None = None
+    """What the check raised, if it is a wrong number or array."""
     cause: str = ""
     """A sentence on the likely cause."""
     named: bool = False
@@ -89,7 +93,7 @@ def failure_of(error: Wrong, check: Check, student: Student, seconds: float) -> 
     quick = answered and seconds < MAX_SECONDS
     failure = Failure(text, check, quick, student.request, pasted, answered)
     failure.direct, failure.shown = student.direct, bool(student.pasted) and not pasted
-    failure.got = student.answer
+    failure.got, failure.wrong = student.answer, error if isinstance(error, Mismatch) else None
     failure.raised = not isinstance(error, NotDone) and bool(student.raised)
     if _of_another(text, failure.direct):
         failure.pasted, failure.direct = "", {}
@@ -138,6 +142,8 @@ def look_for_causes(failures: list[Failure], passed: list[Check], student: Stude
         calls.setdefault(_DIGITS.sub("", case.cause), set()).add(case.request)
     for failure in failures:
         own = sorted((c for c in cases if c.check is failure.check), key=lambda c: len(c.request))
+        if not own:
+            _name_at_once(failure, right)
         for case in own[:1]:
             failure.text, failure.direct = case.text, case.direct
             failure.shown = bool(case.pasted) and case.pasted in case.text
@@ -157,6 +163,21 @@ def look_for_causes(failures: list[Failure], passed: list[Check], student: Stude
                 continue  # a count is one too large by chance
             elif case.certain or len(calls[_DIGITS.sub("", case.cause)]) >= INPUTS:
                 failure.cause, failure.named = case.cause, case.cause in case.named
+
+
+def _name_at_once(failure: Failure, right: list[Mismatch]) -> None:
+    """Name the mistake of a check that takes too long to run again, if one answer proves it."""
+    if (wrong := failure.wrong) is None:
+        return
+    others = [each for each in right if each.part == wrong.part]
+    try:
+        with processor_time_limit(MISTAKES_SECONDS):
+            fit = fitting(wrong.got, wrong.wanted, wrong.mistakes)
+    except TookTooLong:
+        return
+    told = [text for text in fit if not _contradicted(text, others)]
+    if told and _certain(wrong.got, wrong.wanted):
+        failure.cause, failure.named = told[0], True
 
 
 def _explained(cause: str, case: Case) -> bool:
