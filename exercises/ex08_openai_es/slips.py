@@ -97,6 +97,7 @@ def equals_exchanged(fitness, answer) -> dict:
     wanted, fitness = ranked(fitness), np.asarray(fitness, dtype=float)
     if np.shape(answer) != wanted.shape:
         return {}
+    answer = np.asarray(answer, dtype=float)
     among = [fitness == value for value in np.unique(fitness)]
     if not all(np.allclose(np.sort(answer[equal]), np.sort(wanted[equal])) for equal in among):
         return {}

@@ -347,6 +347,11 @@ def without_nan(student: Student):
     for index, place in ((23, 3), (24, 20)):
         compare_without_nan(student, index, place)
     kept_infinite(student, 57)
+    stays_empty(student)
+
+
+def stays_empty(student: Student) -> None:
+    """An indicator that holds nothing but NaN keeps its name."""
     name, nan = "train/explained_variance", float("nan")
     answer = read(student, event_file([("train/loss", 5, 0.5), (name, 5, nan), (name, 9, nan)]))
     expect(
