@@ -1025,7 +1025,6 @@ def normalise(inputs):
 
 # %% tiny_unit_for_constant loses 11.6
 # Takes a column of a very small unit for one that never changes.
-# says: a small unit
 # -     deviation = np.where(np.ptp(inputs, axis=0) == 0, 1.0, deviation)
 # +     deviation = np.where(deviation < 1e-6, 1.0, deviation)
 

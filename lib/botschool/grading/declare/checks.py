@@ -42,7 +42,8 @@ class Mismatch(Wrong):
         A right answer shows which mistakes the submission has not made.
         """
         super().__init__(sentence)
-        self.got, self.wanted, self._mistakes = got, wanted, mistakes or {}
+        self.got, self.wanted = np.asarray(got), np.asarray(wanted)
+        self._mistakes = mistakes or {}
         self._said, self.right = said, right
 
     @property
