@@ -167,7 +167,7 @@ def look_for_causes(failures: list[Failure], passed: list[Check], student: Stude
 
 def _name_at_once(failure: Failure, right: list[Mismatch]) -> None:
     """Name the mistake of a check that takes too long to run again, if one answer proves it."""
-    if (wrong := failure.wrong) is None:
+    if (wrong := failure.wrong) is None or wrong.got.shape != wrong.wanted.shape:
         return
     others = [each for each in right if each.part == wrong.part]
     try:
@@ -221,9 +221,11 @@ def _common(own: list[Case], cases: list[Case], others: list[Mismatch]) -> str:
 
 def _certain(got: np.ndarray, wanted: np.ndarray) -> bool:
     """Return whether one array is enough to prove a check's own sentence that explains it."""
+    if got.shape != wanted.shape:
+        return len(np.unique(got)) > 2
     if Comparison(got, wanted).varied > 2:
         return True
-    return got.shape == wanted.shape and np.sum(got != wanted) >= MANY and len(np.unique(got)) > 1
+    return np.sum(got != wanted) >= MANY and len(np.unique(got)) > 1
 
 
 def _cases(checks: list[Check], student: Student) -> tuple[list[Case], list[Mismatch]]:
