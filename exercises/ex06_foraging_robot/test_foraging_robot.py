@@ -501,9 +501,12 @@ EDGES = np.array(
     [
         [(40, 200), (72.4, 200), (360, 190), (327.6, 210), (190, 40), (210, 72.4), (200, 360)],
         [(200, 327.6), (72.5, 200), (327.5, 190), (210, 72.5), (200, 327.5), (150, 90), (180, 300)],
+        [(45, 50), (350, 345), (50, 340), (340, 60), (42, 357), (60, 66), (333, 40)],
     ]
 ).reshape(-1, 2)
-"""Places: eight nearer to each of the walls than sensors see, four exactly as near, two farther."""
+"""Places: eight nearer to each of the walls than sensors see, four exactly as near, two farther,
+and seven in the corners, near two walls.
+"""
 
 
 def wandering(rng: np.random.Generator, steps: int, first: int, last: int) -> tuple:

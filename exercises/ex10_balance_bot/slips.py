@@ -193,7 +193,7 @@ MOTORS = {
     "Both motors get -self.speed, but motor 0 is to get self.speed.": ((0, -1), (1, -1)),
     "Motor 1 gets no target velocity.": ((0, 1),),
     "Motor 0 gets no target velocity.": ((1, -1),),
-    "No motor gets a target velocity.": (),
+    "The motors get no target velocity, or 0.": (),
     "The motors get the change, not the speed that comes of it.":
     lambda before, change: ((0, change), (1, -change)),
     "The motors get the speed from before the action.":
