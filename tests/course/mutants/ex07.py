@@ -792,10 +792,3 @@ def evolve(algorithm, evaluate, generations, every):
 # -     panels[0].set_ylabel("velocity (rad/s)")
 # +     panels[0].set_ylabel("velocity (rad/s)")
 # +     axes.set_xlim(-np.pi, np.pi)
-
-
-# %% worst_stage_first loses 7.6
-# The first stage is the worst of those that were kept, not the best of generation 0.
-# -     return parameters[[0, middle, best]]
-# +     worst = int(np.argmin(fitness))
-# +     return parameters[[worst, middle, best]]

@@ -1010,7 +1010,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 # +     return float((ratio - 1) - np.log(ratio))
 
 
-# %% last_error_left_out loses 13.1, 13.8
+# %% last_error_left_out loses 13.1
 # The TD error of the step that ends an episode counts for none of the steps before it.
 # says: this
 import numpy as np
