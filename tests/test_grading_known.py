@@ -11,15 +11,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from botschool.grading import Exercise, expect, expect_close
+from botschool.grading import Exercise, Wrong, expect, expect_close
 from botschool.grading.declare.beside import importable, slips_beside
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.mistakes import Known, read_cases
 from botschool.grading.judge import explaining, judging
 from botschool.grading.judge import known as replay
-from botschool.grading.judge.afresh import KEPT
+from botschool.grading.judge.afresh import AGAIN, KEPT, kept_something
 from botschool.grading.judge.alike import distance, fits, weight
 from botschool.grading.judge.known import TOLD
+from botschool.grading.judge.looking import Failure
 from botschool.grading.judge.smallest import _smaller, difference, smallest_case
 from botschool.grading.packed import pack
 from botschool.grading.run.student import Student
@@ -559,3 +560,29 @@ def test_files_of_one_mistake_do_not_hide_another(messages, monkeypatch):
     monkeypatch.setattr(replay, "_near", lambda ours, texts, *_: [True] * len(texts))
     (told,) = messages(SAVED.replace('"sum"', '"total"'), exercise)
     assert told.splitlines()[0] == f"{TOLD} The file has another name."
+
+
+def test_a_random_answer_is_not_taken_for_one_that_stays_from_call_to_call():
+    """Of few values it is right by chance, two times and more, and wrong again likewise."""
+    answers = iter([2.0, 2.0, 2.0, 1.0])
+
+    class Child:
+        answer = 1.0
+
+        def ask(self, request):
+            return next(answers)
+
+        def close(self):
+            pass
+
+    class Ours(Child):
+        def ask(self, request):
+            return 2.0
+
+    def wrong(student):
+        raise Wrong("It is 1.")
+
+    failure = Failure("It is 1.", wrong, got=1.0)
+    assert not kept_something(failure, Child, Ours)
+    answers = iter([2.0] * AGAIN)
+    assert kept_something(failure, Child, Ours)

@@ -22,6 +22,8 @@ KEPT = (
     "Look for a variable of the module, a default argument, an array that is changed in place, or "
     "a file."
 )
+AGAIN = 6
+"""Right answers in new processes that show this: a random one of few values is right by chance."""
 Start = Callable[[], Student]
 
 
@@ -47,7 +49,7 @@ def kept_something(failure: Failure, submission: Start, ours: Start) -> bool:
 
     A random answer is right by chance, but hardly wrong in the same way again.
     """
-    for _ in range(2):
+    for _ in range(AGAIN):
         answers = answers_afresh(failure.request, submission, ours)
         if answers is None or distance(*answers) > TIE or distance(failure.got, answers[0]) <= TIE:
             return False
