@@ -344,7 +344,7 @@ def test_a_later_failure_shows_that_an_answer_is_random(messages, monkeypatch):
         expect_close("spread(...)", student.call("spread", [1.0, 2.0, 3.0]), 1.0)
 
     exercise.knows(SOLUTION)
-    random = "import os\ndef spread(x): return 9.5 + (len(x) > 2) * int.from_bytes(os.urandom(4))\n"
+    random = "import os\ndef spread(x): return 9.5 + (len(x) > 2) * int.from_bytes(os.urandom(4), "big")\n"
     (told,) = messages(random, exercise)
     assert "Two calls with the same arguments give different answers" in told
 
@@ -383,8 +383,9 @@ def test_runs_of_different_lengths_are_not_cut():
     """The first steps of two runs may have no step in common."""
     for lengths in ((5, 7), (5, 5)):
         runs = [{"steps": np.arange(n), "best": np.ones(n)} for n in lengths]
-        call = {"name": "f", "arguments": [{"a": runs}, 4], "options": {}}
-        assert bool([*_smaller(call)]) == (lengths == (5, 5))
+        for groups in ({"a": runs}, {"a": runs[:1], "b": runs[1:]}):
+            call = {"name": "f", "arguments": [groups, 4], "options": {}}
+            assert bool([*_smaller(call)]) == (lengths == (5, 5))
 
 
 @given(answers, answers)

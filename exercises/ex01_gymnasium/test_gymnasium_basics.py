@@ -11,6 +11,7 @@ import warnings
 import gymnasium
 import numpy as np
 
+from botschool.errors import listed
 from botschool.grading import (
     Exercise,
     Mismatch,
@@ -712,7 +713,7 @@ def pushes_to_where_the_pole_falls(student: Student):
 def looked_at(student: Student) -> str:
     """Which numbers of the observation change the student's action."""
     rng = np.random.default_rng(exercise.seed(43))
-    observations, others = rng.normal(size=(2, 200, 4)) * (1, 1, 0.05, 0.3)
+    observations, others = rng.normal(size=(2, 2000, 4)) * (1, 1, 0.05, 0.3)
     actions, found, shares = actions_for(student, observations), [], []
     if actions_for(student, observations[::-1])[::-1] != actions:
         return "It gives other actions for the same observations when it is called again."
@@ -723,14 +724,14 @@ def looked_at(student: Student) -> str:
         share = np.mean(np.not_equal(actions_for(student, changed), actions))
         if share:
             found.append(f"{name} ([{number}])")
-            shares.append(f"{share:.0%}")
+            shares.append(f"{100 * share:.3g} %")
     if not found and len(set(actions)) == 1:
-        return f"Your rule gave the action {actions[0]} for each of 200 other observations."
+        return f"Your rule gave the action {actions[0]} for each of 2000 other observations."
     if not found:
         return ""
     return (
-        f"Your rule looks at {' and '.join(found)}: another value there changes "
-        f"{' and '.join(shares)} of its actions."
+        f"Your rule looks at {listed(found)}: another value there changes {listed(shares)} of its "
+        "actions."
     )
 
 

@@ -268,8 +268,11 @@ class Step:
         """The rows that hold the better half, in whatever order they are, and the other rows."""
         alike = same_rows(after, self.better)
         kept = np.array([row.argmax() for row in alike.T])
-        found = alike.any(axis=0).all() and len(set(kept)) == len(kept)
-        kept = kept if found else self.places
+        if not alike.any(axis=0).all() or len(set(kept)) < len(kept):
+            away = np.abs(after[:, None] - self.better[None]).mean(axis=2)
+            nearest = away.argmin(axis=0)
+            in_place = len(set(away[self.places].argmin(axis=1))) == len(kept)
+            kept = self.places if in_place or len(set(nearest)) < len(kept) else nearest
         return after[kept], np.delete(after, kept, axis=0)
 
     def parents(self, after: np.ndarray) -> np.ndarray:
@@ -1003,7 +1006,7 @@ def expect_trained(
         if passed or plain.mean < wanted:
             worse = run if passed else plain
             advice = (
-                "A controller that was the best in one evaluation of a few episodes may have been "
+                "If you chose it for one evaluation of a few episodes, it may have been "
                 "lucky: evaluate the good ones again, in more episodes with another seed, before "
                 "you choose."
             )

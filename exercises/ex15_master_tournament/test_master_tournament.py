@@ -397,6 +397,12 @@ def exact_matrix(rng: np.random.Generator, count: int) -> np.ndarray:
     return rng.integers(0, 9, (count, count)) / 8
 
 
+def draws(rng: np.random.Generator, count: int) -> np.ndarray:
+    """Nobody wins: each match and its return match end alike."""
+    matrix = exact_matrix(rng, count)
+    return np.maximum(matrix, matrix.T)
+
+
 @gaining.check(7)
 def over_the_predecessor(student: Student):
     compare_parts(student, "progress", progress_of, 10, ("historical", "global"), mistaken_progress)
@@ -431,7 +437,7 @@ def in_circles(student: Student):
     rng = rng_of(12)
     for kind, count in ((circles, 3), (steady, 5), (random_matrix, 2), (random_matrix, 6),
                         (exact_matrix, 6), (exact_matrix, 8), (circles, 8),
-                        (exact_matrix, 9), (exact_matrix, 11)):  # fmt: skip
+                        (exact_matrix, 9), (exact_matrix, 11), (draws, 3), (draws, 5)):  # fmt: skip
         matrix = kind(rng, count)
         answer = student.call("cycles", matrix)
         said, made = f"cycles(<matrix {matrix.shape}>)", partial(mistaken_cycles, matrix)

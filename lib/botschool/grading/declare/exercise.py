@@ -198,17 +198,16 @@ class Exercise:
 
         functools.cache would give one submission the numbers of another.
         """
-        kept: dict[tuple, Any] = {}
-        belongs: list[tuple[str, str]] = []
+        kept: dict[tuple[str, str], dict[tuple, Any]] = {}
 
         @functools.wraps(function)
         def answer(*arguments: Any) -> Any:
-            if belongs != [self._sources()]:
+            if (sources := self._sources()) not in kept:
                 kept.clear()
-                belongs[:] = [self._sources()]
-            if arguments not in kept:
-                kept[arguments] = function(*arguments)
-            return kept[arguments]
+            results = kept.setdefault(sources, {})
+            if arguments not in results:
+                results[arguments] = function(*arguments)
+            return results[arguments]
 
         return answer
 

@@ -221,11 +221,9 @@ def _common(own: list[Case], cases: list[Case], others: list[Mismatch]) -> str:
 
 def _certain(got: np.ndarray, wanted: np.ndarray) -> bool:
     """Return whether one array is enough to prove a check's own sentence that explains it."""
-    if got.shape != wanted.shape:
-        return len(np.unique(got)) > 2
     if Comparison(got, wanted).varied > 2:
         return True
-    return np.sum(got != wanted) >= MANY and len(np.unique(got)) > 1
+    return got.shape == wanted.shape and np.sum(got != wanted) >= MANY and len(np.unique(got)) > 1
 
 
 def _cases(checks: list[Check], student: Student) -> tuple[list[Case], list[Mismatch]]:

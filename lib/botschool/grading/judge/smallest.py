@@ -129,18 +129,21 @@ def _smaller(request: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def _of_uneven_runs(value: Any) -> bool:
-    """Return whether a list holds dicts with arrays of different lengths, one for each run.
+    """Return whether lists hold dicts with arrays of different lengths, one for each run.
 
     Their rows belong to different steps: cut to a few of them, the runs may have none in common.
     """
-    if isinstance(value, dict):
-        return _of_uneven_runs(list(value.values()))
-    if not isinstance(value, (list, tuple)):
-        return False
-    runs = [_arrays(part) for part in value if isinstance(part, dict)]
-    return len({len(arrays[0]) for arrays in runs if arrays}) > 1 or any(
-        map(_of_uneven_runs, value)
-    )
+    return len({len(arrays[0]) for arrays in map(_arrays, _listed(value)) if arrays}) > 1
+
+
+def _listed(value: Any) -> Iterator[dict]:
+    """Yield the dicts in a list, and those in the lists that it holds."""
+    parts = value.values() if isinstance(value, dict) else value
+    for part in parts:
+        if isinstance(part, dict) and not isinstance(value, dict):
+            yield part
+        if isinstance(part, (dict, list, tuple)):
+            yield from _listed(part)
 
 
 def _some(array: np.ndarray, rows: int, many: int, first: int = 0) -> np.ndarray:
