@@ -310,7 +310,8 @@ def test_what_stays_from_call_to_call_is_told(messages, monkeypatch):
 BY_CHANCE = """import os
 def spread(x):
     right = float(np.std(x, ddof=1))
-    return right + int.from_bytes(os.urandom(2)) / 2**17 if len(x) == 4 and random() else right
+    noise = int.from_bytes(os.urandom(2), "big") / 2**17
+    return right + noise if len(x) == 4 and random() else right
 
 
 def random():
@@ -344,7 +345,9 @@ def test_a_later_failure_shows_that_an_answer_is_random(messages, monkeypatch):
         expect_close("spread(...)", student.call("spread", [1.0, 2.0, 3.0]), 1.0)
 
     exercise.knows(SOLUTION)
-    random = "import os\ndef spread(x): return 9.5 + (len(x) > 2) * int.from_bytes(os.urandom(4), "big")\n"
+    random = (
+        "import os\ndef spread(x): return 9.5 + (len(x) > 2) * float.fromhex(os.urandom(4).hex())\n"
+    )
     (told,) = messages(random, exercise)
     assert "Two calls with the same arguments give different answers" in told
 
