@@ -69,7 +69,10 @@ def rng_of(index: int) -> np.random.Generator:
 
 
 def bodies(index: int, count: int = 4, spread: float = 0.6) -> np.ndarray:
-    """Parameters of bodies: of the first few are not 0, of the last all are beyond -1 and 1."""
+    """Parameters of bodies: of the first few are not 0, of the last all are beyond -1 and 1.
+
+    Every fifth of the last is so large that its exponential is infinite.
+    """
     rng = rng_of(index)
     parameters = spread * rng.normal(size=(count, BODY))
     parameters[-1] *= 5
@@ -79,6 +82,7 @@ def bodies(index: int, count: int = 4, spread: float = 0.6) -> np.ndarray:
     parameters[0, places] = rng.uniform(0.3, 0.8, 5).round(1) * rng.choice([-1, 1], 5)
     parameters[0, [22 + 2 * joint, 23 + 2 * joint]] = rng.permutation([0.2, 0.7])
     beyond = rng.choice([-1, 1], BODY) * rng.uniform(1.1, 2.5, BODY)
+    beyond[::5] *= 1000
     return np.vstack([parameters, beyond])
 
 

@@ -128,11 +128,11 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
              net[2] * np.tanh((net[0] + 1) * memory[0] + net[1] * np.tanh(net[3]))),
         "The forget gate is not put through the logistic function.":
         made((net[0] + 1) * memory[0] + taken * np.tanh(net[3])),
-        "The logistic function of the forget gate has a minus sign too few or too many.":
+        "The forget gate is 1 minus what it should be, as with a wrong sign in its formula.":
         made(squash(-net[0] - 1) * memory[0] + taken * np.tanh(net[3])),
-        "The logistic function of the input gate has a minus sign too few or too many.":
+        "The input gate is 1 minus what it should be, as with a wrong sign in its formula.":
         made(kept * memory[0] + squash(-net[1]) * np.tanh(net[3])),
-        "The logistic function of the output gate has a minus sign too few or too many.":
+        "The output gate is 1 minus what it should be, as with a wrong sign in its formula.":
         made(cells, squash(-net[2]) * np.tanh(cells)),
         "The input gate is not put through the logistic function.":
         made(kept * memory[0] + net[1] * np.tanh(net[3])),
@@ -240,7 +240,7 @@ def mistaken(brain: dict, observation: np.ndarray, memory: np.ndarray) -> dict[s
         "The old cells are multiplied by 1 minus the forget gate, not by the gate itself.": of(
             forget=lambda net: 1 - squash(net)
         ),
-        "The logistic function has a minus sign too few or too many.": of(
+        "Each gate is 1 minus what it should be, as with a wrong sign in its formula.": of(
             gate=lambda net: squash(-net)
         ),
         "The new candidate is subtracted from the old cells, but belongs added.": of(

@@ -633,3 +633,65 @@ def compare(
         row["bestg"] = worth(f"bestgS{seed}.npy")
         table.append(row)
     return table
+
+
+# %% angles_unwrapped_together loses 4.1
+# Unwraps both angles together (np.unwrap), so that the second follows the first beyond pi.
+# says: this
+def decode(observation: np.ndarray) -> dict:
+    numbers = np.asarray(observation, dtype=float)
+    # no jumps from pi to -pi
+    angles = np.unwrap(np.arctan2(numbers[1:4:2], numbers[0:4:2]))
+    return {
+        "angle1": float(angles[0]),
+        "angle2": float(angles[1]),
+        "speed1": float(numbers[4]),
+        "speed2": float(numbers[5]),
+    }
+
+
+# %% sign_of_the_other_link loses 4.1
+# The sign of the second angle comes from the sine of the first link.
+# says: this
+import math
+
+
+def decode(observation: np.ndarray) -> dict:
+    c1, s1, c2, _, v1, v2 = map(float, observation)
+    theta1 = math.acos(max(-1.0, min(1.0, c1)))
+    if s1 < 0:
+        theta1 = -theta1
+    theta2 = math.acos(max(-1.0, min(1.0, c2)))
+    if s1 < 0:
+        theta2 = -theta2
+    return {"angle1": theta1, "angle2": theta2, "speed1": v1, "speed2": v2}
+
+
+# %% whole_table_as_integers loses 4.4
+# Makes integers of the whole table, because the steps are.
+# says: this
+# -     table = np.load(path).reshape(-1, len(COLUMNS))
+# +     table = np.load(path).astype(int).reshape(-1, len(COLUMNS))
+
+
+# %% fitness_of_the_first_generation loses 4.3
+# Reads the fitness of the first generation.
+# says: this
+def run_replications(
+    experiment_file: str, seeds: list[int], folder: str, steps: int | None = None
+) -> dict:
+    out = Path(folder)
+    out.mkdir(parents=True, exist_ok=True)
+    answer = dict.fromkeys(seeds)
+    for seed in answer:
+        evolve(Run(config.load(experiment_file), seed), out, steps)
+        numbers = np.load(out / f"statS{seed}.npy")
+        answer[seed] = float(numbers[COLUMNS.index("best post-evaluated")])
+    return answer
+
+
+# %% rows_for_columns loses 4.4
+# Takes the rows of the table for its columns.
+# says: this
+# -     return {name: table[:, column] for column, name in enumerate(COLUMNS)}
+# +     return dict(zip(COLUMNS, table))

@@ -985,3 +985,50 @@ def evolve_walkers(
     for seed in seeds:
         evolve(Run(config.load(experiment_file), seed), target, steps)
     return np.array([np.load(file) for file in sorted(target.glob("bestgS*.npy"))])
+
+
+# %% tanh_of_two_exponentials loses 5.1
+# Writes tanh with two exponentials, of which a large parameter makes infinity: the quotient is NaN.
+# says: this
+def sizes(parameters: np.ndarray) -> dict:
+    def squash(p):
+        return (np.exp(p) - np.exp(-p)) / (np.exp(p) + np.exp(-p))
+
+    p = np.asarray(parameters, dtype=float)
+    lengths = 0.8 * (1 + 0.9 * squash(p[0:22:2]))
+    thicknesses = 0.2 * (1 + 0.9 * squash(p[1:22:2]))
+    densities = 5 + 0.8 * squash(p[53:64])
+    masses = lengths * thicknesses * densities
+    return {"lengths": lengths, "thicknesses": thicknesses, "masses": masses}
+
+
+# %% limits_overwritten loses 5.2
+# Overwrites one limit before it is kept, so that both are the smaller one.
+# says: this
+def joints(parameters: np.ndarray) -> dict:
+    def cut(part):
+        return np.clip(part, -1, 1)
+
+    lower = np.pi / 2 * cut(parameters[22:42:2])
+    upper = np.pi / 2 * cut(parameters[23:42:2])
+    wrong = lower > upper
+    lower[wrong] = upper[wrong]
+    upper[wrong] = lower[wrong]
+    return {"angles": 3 * np.pi / 4 * cut(parameters[42:53]), "lower": lower, "upper": upper}
+
+
+# %% corners_in_two_rows loses 5.4
+# Makes two rows of all numbers (x and y mixed) instead of two columns.
+# says: this
+# -     width, height = np.ptp(outline(parameters), axis=(0, 1))
+# +     x, y = outline(parameters).reshape(2, -1)
+# +     width, height = x.max() - x.min(), y.max() - y.min()
+
+
+# %% body_counted_from_the_front loses 5.6
+# Counts where the body begins from the front, for a network of ten hidden neurons.
+# says: this
+# -     return genotype[-2 * OBSERVATIONS - BODY : -2 * OBSERVATIONS]
+# +     hidden, outputs = 10, 10
+# +     network = OBSERVATIONS * hidden + hidden * outputs + hidden + outputs
+# +     return genotype[network : network + BODY]

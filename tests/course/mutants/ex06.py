@@ -1076,3 +1076,86 @@ def reactions(brain, observation, memories):
     cells = cells * logistic(f) + logistic(i) * np.tanh(c)
     outputs = logistic(o) * np.tanh(cells)
     return np.tanh(outputs @ brain["readout"].T + brain["bias"])
+
+
+# %% frozen_in_one_step_only loses 6.6
+# Holds the memory in step `since` only, not from then on.
+# says: this
+# -     return lambda step, before, after: after if step < since else before
+# +     return lambda step, before, after: before if step == since else after
+
+
+# %% central_differences_of_poses loses 6.4
+# Takes central differences (np.gradient) for the movement of a step.
+# says: this
+def describe(poses, rewards, cylinder):
+    x, y, heading = poses.T
+    dx, dy = np.gradient(x)[:-1], np.gradient(y)[:-1]
+    turn = np.gradient(np.unwrap(heading))[:-1]
+    theta = heading[:-1]
+    found = np.flatnonzero(rewards)
+    search = int(found[0]) if found.size else len(rewards)
+    gap = np.min([x, y, 400 - x, 400 - y], axis=0)[:-1]
+    towards = np.arctan2(cylinder[1] - y[1:], cylinder[0] - x[1:])
+    return {
+        "search": search,
+        "speed": mean((dx * np.cos(theta) + dy * np.sin(theta))[:search]),
+        "turning": mean(turn[:search]),
+        "wall": mean(gap[:search] < 72.5),
+        "pace": mean(np.sqrt(dx**2 + dy**2)[found]),
+        "side": mean(np.sin(towards - heading[1:])[found]),
+    }
+
+
+# %% inconsistency_for_distance loses 6.5
+# Calls fcluster without criterion="distance": the threshold is compared with something else.
+# says: this
+def families(table, threshold):
+    from scipy.cluster.hierarchy import fcluster, linkage
+
+    if len(table) < 2:
+        return [0] * len(table)
+    tree = linkage(standardise(table), method="average")
+    labels = fcluster(tree, np.nextafter(threshold, -np.inf))
+    order = list(dict.fromkeys(labels))
+    return [order.index(label) for label in labels]
+
+
+# %% square_distances_for_linkage loses 6.5
+# Gives linkage the square matrix of distances, whose rows it takes for positions: it needs the condensed form.
+# says: this
+def families(table, threshold):
+    from scipy.cluster.hierarchy import fcluster, linkage
+    from scipy.spatial.distance import cdist
+
+    rows = standardise(table)
+    if len(rows) < 2:
+        return [0] * len(rows)
+    distances = cdist(rows, rows)
+    tree = linkage(distances, "average")
+    labels = fcluster(tree, np.nextafter(threshold, -np.inf), criterion="distance")
+    names = {}
+    return [names.setdefault(label, len(names)) for label in labels]
+
+
+# %% x_repeated_and_tiled_the_other_way loses 6.3
+# Exchanges repeat and tile for x, so that some starts come twice and others never.
+# says: this
+def grid(places, headings):
+    x = np.linspace(150, 250, places)
+    y = np.linspace(270, 350, places)
+    turn = np.linspace(0, 2 * np.pi, headings, endpoint=False)
+    return np.column_stack(
+        [
+            np.repeat(np.tile(x, headings), places),
+            np.repeat(y, places * headings),
+            np.tile(turn, places * places),
+        ]
+    )
+
+
+# %% forgets_what_it_should_keep loses 6.1
+# Takes the forget gate for the share that is forgotten: 1 minus it multiplies the old cells.
+# says: this
+# -     cells = memory[0] * logistic(forget + 1) + np.tanh(candidate) * logistic(enter)
+# +     cells = memory[0] * (1 - logistic(forget + 1)) + np.tanh(candidate) * logistic(enter)
