@@ -423,8 +423,8 @@ def noise_is_gaussian(student: Student):
         )
         expect(
             0.93 < noise.std() < 1.07 and abs(noise.mean()) < 0.1,
-            f"{step.said}: the noise has mean {mutrate * noise.mean():.3f} and standard deviation "
-            f"{mutrate * noise.std():.3f}, but 0 and {mutrate:g} are asked for."
+            f"{step.said}: the noise has mean {mutrate * noise.mean():.2g} and standard deviation "
+            f"{mutrate * noise.std():.3g}, but 0 and {mutrate:g} are asked for."
             f"{slip_of_noise(amounts, mutrate)}",
         )
         beyond = float(np.mean(np.abs(noise) > 2))

@@ -1115,9 +1115,14 @@ def wrong_memories(first: np.ndarray, afters: np.ndarray, episode: int) -> dict:
 
 def changed_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: str) -> dict:
     """What comes of changed poses, rewards or places of the cylinder."""
-    late = np.append(rewards[1:], 0)
-    early = np.append(0, rewards[:-1])
+    near = name in ("pace", "side")
     other = {
+        "The rewards are one step too early." if near else
+        "The search ends one step too early: it is all steps before the first one with a reward.":
+        (poses, np.append(rewards[1:], 0), cylinder),
+        "The rewards are one step too late." if near else
+        "The search goes one step too far: the first step with a reward is not part of it.":
+        (poses, np.append(0, rewards[:-1]), cylinder),
         "x and y of the poses are exchanged.": (poses[:, [1, 0, 2]], rewards, cylinder),
         "x and y of the cylinder are exchanged.": (poses, rewards, cylinder[::-1]),
         "The headings are turned into degrees: NumPy takes radians.":
@@ -1127,8 +1132,6 @@ def changed_described(poses: np.ndarray, rewards: np.ndarray, cylinder, name: st
         "The headings have the opposite sign.": (poses * [1, 1, -1], rewards, cylinder),
         "The headings count from the y axis, not from the x axis.":
         (np.add(poses, [0, 0, np.pi / 2]), rewards, cylinder),
-        "The rewards are one step too early.": (poses, late, cylinder),
-        "The rewards are one step too late.": (poses, early, cylinder),
         "Steps with a reward are taken for those without, and the reverse.":
         (poses, 1 - rewards, cylinder),
         "The poses stand in the opposite order.": (poses[::-1], rewards, cylinder),

@@ -811,12 +811,6 @@ def wrong_means(case: tuple, ways: dict, name: str, maxsteps: int) -> dict:
         found["maxsteps is not handed on: the episodes last up to 500 steps."] = np.mean(
             returns_of(case, way, 500)
         )
-    if name == "freeze":
-        others = {0: "0", since + 1: "`since` + 1", since - 1: "`since` - 1", 100: "100"}
-        found |= {
-            f"The memory is frozen from step {text} on, not from `since` on.":
-            np.mean(returns_of(case, other, maxsteps)) for other, text in others.items()
-        }  # fmt: skip
     if name == "forget":
         later = [outcome(case, i, seed + i, f"forget {since}", maxsteps)[0] for i in range(many)]
         found[

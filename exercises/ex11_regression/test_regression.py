@@ -747,6 +747,17 @@ def column_that_never_changes(student: Student):
     inputs[:, 1] *= 1e-7
     deviation[1] = inputs[:, 1].std()
     compare_normalised(student, inputs, deviation)
+    # and so does one of large numbers, of which single precision gives the deviation roughly
+    numbers = 1_000_000 + rng.permutation(np.arange(12) - 5.0)
+    answer = student.call("normalise", numbers[:, None])
+    expect(isinstance(answer, (list, tuple)) and len(answer) == 3, f"{student.said} gave no three.")
+    found = float(expect_array(student.said, answer[2], (1,))[0])
+    expect(
+        abs(found - numbers.std()) < 0.5,
+        f"normalise(inputs), whose only column holds the numbers from 999995 to 1000006: the "
+        f"deviation is {found:.6g}, but {numbers.std():.6g} was expected. These numbers do change: "
+        "a column never changes only if all of its numbers are equal.",
+    )
 
 
 # ------------------------------------------------------------------- 11.7

@@ -684,6 +684,18 @@ def what_never_changes(student: Student):
         activations, observations = rng.normal(size=(steps, 4)), rng.normal(size=(steps, 3))
         activations[:, 1], observations[:, constant] = 0.7, 0.1
         compare_responses(student, activations, observations)
+    # a neuron that has nearly reached 1 changes, too; single precision knows it roughly
+    for steps, change, right in ((30, 3e-7, 1), (25, -3e-7, -1)):
+        observed = rng.permutation(np.arange(float(steps)))
+        answer = student.call("responses", 0.99999 + change * observed[:, None], observed[:, None])
+        found = float(expect_array(student.said, answer, (1, 1))[0, 0])
+        expect(
+            abs(found - right) < 0.1,
+            "responses(activations, observations), where the activation goes evenly with what is "
+            f"observed, from 0.99999 to {0.99999 + change * (steps - 1):.7f}: the correlation is "
+            f"{found:.6g}, but {right} was expected. This neuron does change: only numbers that "
+            "are all equal never do.",
+        )
 
 
 # ------------------------------------------------------------------- 13.8

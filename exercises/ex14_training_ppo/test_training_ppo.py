@@ -388,6 +388,13 @@ def compare_without_nan(student: Student, index: int, place: int) -> None:
             f"{student.said}[{name!r}]: {key} has {np.size(kept)} entries: the two whose value is "
             "NaN are to be left out, of the steps and of the values.",
         )
+    for other, (steps, _) in log.items():
+        (got,) = expect_fields(f"{student.said}[{other!r}]", answer.get(other), "steps")
+        expect(
+            other == name or not np.array_equal(got, steps[steps != 20_000]) or 20_000 not in steps,
+            f"{student.said}[{other!r}]: the entry of step 20000 is missing. It is a number; "
+            f"NaN at this step is the value of {name!r}.",
+        )
     compare_log(student.said, answer, log)
 
 
@@ -831,6 +838,11 @@ def expect_no_sign_at_limits(student: Student, level: float) -> None:
             why = ": a mean that equals the limit gives no sign."
         elif level == 0:
             why = ". A mean of 0 is a number like any other."
+        elif name not in answer:
+            others = [other for other in answer if other.split()[0] == name.split()[0]]
+            why = (
+                f", but names another one of the same indicator: {others[0]!r}." if others else "."
+            )
         expect(
             (name in answer) == (name in wanted),
             f"{student.said} {'names' if name in answer else 'leaves out'} a sign {side} {limit}"

@@ -1132,3 +1132,136 @@ def responses(activations, observations):
                 break
             c[i, j] = pearson(h, x)
     return c
+
+
+# %% return_behind_the_last_step_is_zero loses 13.1, 13.8
+# Takes 0 for the return behind the last step, but it is last_values where the episode goes on.
+# says: this
+import numpy as np
+
+
+def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
+    alive = 1 - np.vstack([episode_starts[1:], dones])
+    v_next = np.vstack([values[1:], last_values])
+    G = np.zeros(len(last_values))
+    targets = []
+    for r, v, n in zip(rewards[::-1], v_next[::-1], alive[::-1], strict=True):
+        G = r + gamma * n * ((1 - gae_lambda) * v + gae_lambda * G)
+        targets.append(G)
+    return np.array(targets[::-1]) - values
+
+
+# %% sides_before_normalising loses 13.2
+# Decides which side is clipped by the advantage before it is normalised.
+# says: this
+import numpy as np
+
+
+def policy_loss(log_prob, old_log_prob, advantages, clip_range):
+    A = np.array(advantages, dtype=float)
+    good = A > 0
+    limit = np.full(len(A), 1 - clip_range)
+    limit[good] = 1 + clip_range
+    if A.size > 1:
+        A -= np.mean(A)
+        A /= np.std(advantages, ddof=1) + 1e-8
+    rho = np.exp(np.subtract(log_prob, old_log_prob))
+    gains = [min(r * a, c * a) for r, a, c in zip(rho, A, limit, strict=True)]
+    outside = np.logical_or(rho > 1 + clip_range, rho < 1 - clip_range)
+    return {"loss": -float(np.mean(gains)), "clip_fraction": float(outside.mean())}
+
+
+# %% log_sum_without_the_largest loses 13.4
+# Subtracts the largest score for ln Z and does not add it back.
+# says: this
+import numpy as np
+
+
+def log_sum(row):
+    return np.log(np.sum(np.exp(row - np.max(row))))
+
+
+def entropy_of_choices(scores):
+    H = []
+    for row in np.asarray(scores, dtype=float):
+        p = np.exp(row - np.max(row))
+        p = p / p.sum()
+        H.append(log_sum(row) - np.dot(p, row))
+    return np.array(H)
+
+
+# %% constant_by_allclose loses 13.7
+# Asks np.allclose whether a number changes: one that changes by little counts as constant.
+# says: all equal never do
+import numpy as np
+
+
+def constant(column):
+    return np.allclose(column, column[0])
+
+
+def responses(activations, observations):
+    table = []
+    for h in activations.T:
+        row = []
+        for x in observations.T:
+            if constant(h) or constant(x):
+                row.append(0.0)
+            else:
+                row.append(np.corrcoef(h, x)[0, 1])
+        table.append(row)
+    return np.array(table)
+
+
+# %% returns_of_normalised_advantages loses 13.8
+# Normalises the advantages before the returns are made of them.
+# says: this
+# -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
+# +         found = (found - found.mean()) / (found.std() + 1e-8)
+# +         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
+
+
+# %% ended_as_a_factor loses 13.8
+# Uses 1 - ended as a factor, but ended is 2 where time ran out.
+# says: this
+import numpy as np
+
+
+def gae_of(rollout, hp):
+    ended = rollout.ended.astype(np.float64)
+    starts = np.ones(ended.shape)
+    starts[1:] = ended[:-1]
+    return advantages(
+        rollout.rewards,
+        rollout.values,
+        starts,
+        rollout.last_values,
+        ended[-1],
+        hp.gamma,
+        hp.gae_lambda,
+    )
+
+
+def train_on(ppo, rollout, hp, rng):
+    n = rollout.rewards.size
+    for _ in range(hp.n_epochs):
+        order = np.arange(n)
+        rng.shuffle(order)
+        for i in range(0, n, hp.batch_size):
+            batch = ppo.minibatch(order[i : i + hp.batch_size])
+            loss = ppo.loss(batch)
+            kl = approx_kl(loss.log_probs, batch.log_probs)
+            if hp.target_kl is not None and kl > 1.5 * hp.target_kl:
+                return
+            ppo.step(loss.gradient)
+
+
+def learn(ppo, steps, seed):
+    rng = np.random.default_rng(seed)
+    hp = ppo.hyperparameters
+    while ppo.steps < steps:
+        rollout = ppo.collect()
+        a = gae_of(rollout, hp)
+        rollout.advantages[...] = a
+        rollout.returns[...] = a + rollout.values
+        train_on(ppo, rollout, hp, rng)

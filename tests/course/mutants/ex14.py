@@ -1330,3 +1330,176 @@ def success_of(steps, returns, goal):
 # +             "steps": np.array([entry.step for entry in entries]),
 # +             "values": np.array([entry.value for entry in entries]),
 # +         }
+
+
+# %% folder_by_the_seed loses 14.1
+# Makes the folder's number of the seed, not of the place among the trainings.
+# says: this
+# -             records.append(
+# -                 {"variant": name, "seed": seed, "return": result, "folder": str(run.path)}
+# -             )
+# +             path = Path(folder) / name / "ppo" / f"{environment}_{seed}"
+# +             records.append(
+# +                 {"variant": name, "seed": seed, "return": result, "folder": str(path)}
+# +             )
+
+
+# %% nan_of_all_indicators_so_far loses 14.2
+# Leaves out, in each indicator, the steps of NaN in those before it.
+# says: NaN at this step
+import math
+
+import numpy as np
+from tensorboard.backend.event_processing.event_accumulator import EventAccumulator
+
+
+def read_indicators(folder):
+    acc = EventAccumulator(str(folder), size_guidance={"scalars": 0})
+    acc.Reload()
+    bad = set()
+    out = {}
+    for tag in acc.Tags()["scalars"]:
+        events = acc.Scalars(tag)
+        for e in events:
+            if math.isnan(e.value):
+                bad.add(e.step)
+        out[tag] = {
+            "steps": np.array([e.step for e in events if e.step not in bad]),
+            "values": np.array([e.value for e in events if e.step not in bad]),
+        }
+    return out
+
+
+# %% ends_with_whole_pieces loses 14.3
+# Weights both ends with a whole piece instead of half of it (np.gradient).
+# says: this
+import numpy as np
+
+
+def first_for_good(steps, good):
+    if not good[-1]:
+        return None
+    bad = np.flatnonzero(~good)
+    return int(steps[bad[-1] + 1]) if bad.size else int(steps[0])
+
+
+def success_of(steps, returns, goal):
+    m = np.asarray(returns).mean(axis=1)
+    if m.size > 1:
+        average = np.average(m, weights=np.gradient(np.asarray(steps, dtype=float)))
+    else:
+        average = m[0]
+    return {
+        "last": float(m[-1]),
+        "best": float(np.max(m)),
+        "average": float(average),
+        "solved": first_for_good(steps, m >= goal),
+    }
+
+
+# %% sorted_before_repetitions_are_left_out loses 14.4
+# Sorts the runs first, so that of a repeated seed the lowest return counts, not the first.
+# says: this
+from statistics import mean, stdev
+
+
+def table_of(runs, baseline):
+    data = sorted((run["variant"], run["seed"], run["return"]) for run in runs)
+    values = {}
+    previous = None
+    for variant, seed, result in data:
+        if (variant, seed) != previous:
+            values.setdefault(variant, []).append(float(result))
+        previous = (variant, seed)
+    table = []
+    for variant, v in values.items():
+        table.append(
+            {
+                "variant": variant,
+                "runs": len(v),
+                "mean": mean(v),
+                "deviation": stdev(v) if len(v) > 1 else None,
+                "gain": mean(v) - mean(values[baseline]),
+            }
+        )
+    return sorted(table, key=lambda row: row["mean"], reverse=True)
+
+
+# %% first_result_never_exchanged loses 14.5
+# Leaves the first result in its group, which is right for groups of the same size only.
+# says: this
+# -     ways = np.array(list(combinations(range(n + m), n)))
+# +     ways = np.array([(0, *rest) for rest in combinations(range(1, n + m), n - 1)])
+
+
+# %% nan_for_nothing_but_nan loses 14.6
+# Gives NaN instead of None for a part that holds nothing but NaN.
+# says: nothing but NaN
+# -         these = values[inside & ~np.isnan(values)]
+# -         means.append(float(these.mean()) if len(these) else None)
+# +         these = values[inside]
+# +         means.append(float(np.nanmean(these)) if len(these) else None)
+
+
+# %% last_sign_of_an_indicator loses 14.6
+# Keeps the last sign of each indicator only.
+# says: another one of the same
+def warning_signs(indicators, total, signs):
+    rules = {tag: (sign, side, limit) for sign, (tag, side, limit) in signs.items()}
+    shown = set()
+    for tag, log in indicators.items():
+        if tag not in rules:
+            continue
+        sign, side, limit = rules[tag]
+        mean = phase_means(log["steps"], log["values"], total)[2]
+        if mean is None:
+            continue
+        if side == "above" and mean > limit:
+            shown.add(sign)
+        if side == "below" and mean < limit:
+            shown.add(sign)
+    return [sign for sign in signs if sign in shown]
+
+
+# %% means_while_they_change loses 14.7
+# Takes the means from the array that it is changing.
+# says: this
+import numpy as np
+
+
+def within_variants(numbers, variants):
+    x = np.array(numbers, dtype=float)
+    names = np.array(variants)
+    for i, name in enumerate(variants):
+        x[i] -= x[names == name].mean()
+    return x.round(9)
+
+
+# %% best_so_far_of_each_episode loses 14.8
+# Takes the best so far of each episode by itself, then their mean.
+# says: this
+# -         "best": np.maximum.accumulate(found.returns.mean(axis=1)),
+# +         "best": np.maximum.accumulate(found.returns, axis=0).mean(axis=1),
+
+
+# %% equal_steps_of_each_group loses 14.8
+# Takes start and end of the runs of each group, not of all runs.
+# says: this
+import bisect
+
+import numpy as np
+
+
+def at_equal_steps(groups, points):
+    result = {}
+    for name, runs in groups.items():
+        start = max(run["steps"][0] for run in runs)
+        end = min(run["steps"][-1] for run in runs)
+        steps = np.linspace(start, end, points)
+        values = np.empty((len(runs), points))
+        for i, run in enumerate(runs):
+            for j, s in enumerate(steps):
+                values[i, j] = run["best"][bisect.bisect_right(list(run["steps"]), s) - 1]
+        result["steps"] = steps
+        result[name] = values
+    return result

@@ -1127,3 +1127,119 @@ def cycles(matrix):
         if beats(a, b) == beats(b, c) == beats(c, a):
             around += 1
     return around / len(groups)
+
+
+# %% one_array_for_all_predators loses 15.2
+# Fills one array for all predators, so that all have the results of the last one.
+# says: this
+import numpy as np
+
+from botschool.course.coevolution import play
+
+
+def tournament(predators, prey, maxsteps=2000):
+    everybody = np.vstack(prey)
+    H, m = len(prey), len(prey[0])
+    row = np.zeros((H, m))
+    table = []
+    for group in predators:
+        against = []
+        for i in range(len(group)):
+            pairs = np.array([(i, j) for j in range(H * m)])
+            row[:] = np.reshape(play(group, everybody, pairs, maxsteps), (H, m))
+            against.append(row)
+        table.append(against)
+    return np.array(table)
+
+
+# %% one_minus_in_the_view loses 15.3
+# Changes the transposed view in place, so that the predators' matrix is 1 minus itself, too.
+# says: this
+import numpy as np
+
+
+def master(table):
+    G, n, H, m = table.shape
+    predators = table.transpose(0, 2, 1, 3).reshape(G, H, n * m).mean(axis=2)
+    prey = predators.T
+    prey *= -1
+    prey += 1
+    return {"predators": predators, "prey": prey}
+
+
+# %% future_backwards loses 15.4
+# Gives the future competitors from the last generation to the first.
+# says: this
+import numpy as np
+
+
+def before(matrix):
+    return np.array([np.mean(row[:g]) for g, row in enumerate(matrix) if g > 0])
+
+
+def profile(matrix):
+    matrix = np.asarray(matrix)
+    return {
+        "ancient": before(matrix),
+        "present": np.array([matrix[g, g] for g in range(len(matrix))]),
+        "future": before(np.flip(matrix)),
+    }
+
+
+# %% share_of_generation_means loses 15.5
+# Counts the generations with a mean above 0, not the cases.
+# says: this
+# -     cases = np.concatenate(ancient)
+# +     cases = np.array([row.mean() for row in ancient])
+
+
+# %% one_direction_for_facing loses 15.8
+# Takes the direction from predator to prey for both robots.
+# says: this
+import numpy as np
+
+
+def wrap(angle):
+    return np.arctan2(np.sin(angle), np.cos(angle))
+
+
+def describe(poses):
+    start, end = poses[:-1], poses[1:]
+    line = start[:, 1, :2] - start[:, 0, :2]
+    bearing = np.arctan2(line[:, 1], line[:, 0])
+    found = {key: np.zeros(2) for key in ("speed", "turning", "backwards", "facing", "wall")}
+    for k in range(2):
+        x, y, heading = start[:, k].T
+        dx, dy, turn = (end[:, k] - start[:, k]).T
+        found["speed"][k] = np.mean(np.hypot(dx, dy)) * 10
+        found["turning"][k] = np.mean(np.abs(wrap(turn))) * 10
+        found["backwards"][k] = np.mean(dx * np.cos(heading) + dy * np.sin(heading) < 0)
+        found["facing"][k] = np.mean(np.abs(wrap(bearing - heading)) < np.pi / 4)
+        found["wall"][k] = np.mean(np.min([x, y, 3000 - x, 3000 - y], axis=0) < 300)
+    found["distance"] = float(np.mean(np.hypot(*line.T)))
+    return found
+
+
+# %% walls_of_x_and_y_apart loses 15.8
+# Counts x and y as a case each for the walls.
+# says: this
+# -     to_wall = np.minimum(before[..., :2], 3000 - before[..., :2]).min(axis=-1)
+# +     to_wall = np.minimum(before[..., :2], 3000 - before[..., :2])
+# -         "wall": (to_wall < 300).mean(axis=0),
+# +         "wall": (to_wall < 300).mean(axis=(0, 2)),
+
+
+# %% means_until_that_generation loses 15.6
+# Takes the means over the generations up to g, not over all.
+# says: this
+import numpy as np
+
+
+def red_queen(matrix):
+    G = matrix.shape[0]
+    change, own, others = [], [], []
+    for g in range(1, G):
+        change.append(matrix[g, g] - matrix[0, 0])
+        own.append(np.mean([matrix[g, k] - matrix[0, k] for k in range(g + 1)]))
+        others.append(np.mean([matrix[k, g] - matrix[k, 0] for k in range(g + 1)]))
+    return {"change": np.array(change), "own": np.array(own), "others": np.array(others)}
