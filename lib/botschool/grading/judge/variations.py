@@ -247,11 +247,13 @@ class _Slips:
     ) -> Iterator[tuple[str, list[Edit]]]:
         """Yield slips of a list of steps: left out, in another order, inside or outside a loop."""
         inside = [any(step.lineno in region for region in self._regions) for step in steps]
+        needed = ast.Return, ast.Import, ast.ImportFrom, ast.FunctionDef
+        for i, step in enumerate(steps):
+            if inside[i] and not isinstance(step, needed):
+                yield f"A step is left out{self._about(step)}.", [Edit(node, field, i, ast.Pass())]
         for i, step in enumerate(steps):
             if not inside[i]:
                 continue
-            if not isinstance(step, (ast.Return, ast.Import, ast.ImportFrom, ast.FunctionDef)):
-                yield f"A step is left out{self._about(step)}.", [Edit(node, field, i, ast.Pass())]
             if isinstance(step, ast.AugAssign):
                 yield (
                     (
