@@ -688,10 +688,3 @@ def run_replications(
         numbers = np.load(out / f"statS{seed}.npy")
         answer[seed] = float(numbers[COLUMNS.index("best post-evaluated")])
     return answer
-
-
-# %% rows_for_columns loses 4.4
-# Takes the rows of the table for its columns.
-# says: this
-# -     return {name: table[:, column] for column, name in enumerate(COLUMNS)}
-# +     return dict(zip(COLUMNS, table))
