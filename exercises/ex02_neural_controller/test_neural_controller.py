@@ -159,6 +159,14 @@ def weights_are_gaussian(student: Student):
             f"{student.said}: {key} has mean {weights.mean():.3f} and standard deviation "
             f"{weights.std():.3f}, but 0 and 0.1 are asked for. {why}".rstrip(),
         )
+        moment = "sum up to 0" if abs(weights.mean(dtype=float)) < 1e-8 else ""
+        if abs(weights.std(dtype=float) - 0.1) < 1e-8:
+            moment = "have the standard deviation 0.1"
+        expect(
+            not moment,
+            f"{student.said}: the weights in {key} {moment} to the last place, which random "
+            "numbers never do: each must be drawn on its own, not changed because of the others.",
+        )
         beyond = float(np.mean(np.abs(weights) > 0.2))
         expect(
             0.03 < beyond < 0.06,
@@ -254,6 +262,7 @@ def changed_by(module, network, observation):
     ]
 
 
+@np.errstate(all="ignore")
 def mistaken_outputs(network: dict, observation: np.ndarray) -> dict:
     """What mistakes make of the outputs."""
     W1, b1, W2, b2 = (network[key] for key in ("W1", "b1", "W2", "b2"))
@@ -310,9 +319,14 @@ def biases_count(student: Student):
 
 @passing.check(4)
 def large_sums_saturate(student: Student):
-    compare_outputs(
-        student, 12, lambda network: network.update(W1=8 * network["W1"], W2=8 * network["W2"])
-    )
+    for index, factor in ((12, 8), (14, 5000)):  # e to the power of some of the latter is infinite
+        compare_outputs(
+            student,
+            index,
+            lambda network, factor=factor: network.update(
+                W1=factor * network["W1"], W2=factor * network["W2"]
+            ),
+        )
 
 
 @passing.check(2)
@@ -772,10 +786,11 @@ def upon(network: dict, hidden: np.ndarray) -> np.ndarray:
     return np.tanh(network["b2"] + network["W2"].dot(hidden))
 
 
-def expect_batch(student: Student, index: int, sizes: tuple) -> None:
+def expect_batch(student: Student, index: int, sizes: tuple, factor: float = 1) -> None:
+    """factor: of all parameters."""
     rng = np.random.default_rng(exercise.seed(index))
     for n, *layers in sizes:
-        networks = drawn(rng, *layers, many=(n,))
+        networks = {k: factor * each for k, each in drawn(rng, *layers, many=(n,)).items()}
         observations = rng.normal(size=(n, layers[0]))
         said = f"forward_batch(...) for {n} networks of {layers} neurons"
         got = student.run(batched, networks, observations, said=said)
@@ -825,6 +840,7 @@ def equals_each_network_alone(student: Student):
 @batching.check(2)
 def few_and_square(student: Student):
     expect_batch(student, 81, ((1, 4, 5, 2), (4, 4, 4, 4), (5, 1, 1, 1)))
+    expect_batch(student, 86, ((3, 4, 5, 2),), factor=5000)
     rng = np.random.default_rng(exercise.seed(85))
     networks, said = drawn(rng, 4, 5, 2, many=(3,)), "forward_batch(networks, observations)"
     changed = student.run(changed_by_batch, networks, rng.normal(size=(3, 4)), said=said)

@@ -49,8 +49,13 @@ def has_one_row_per_individual(student: Student):
 
 @initial.check(3)
 def biases_are_zero(student: Student):
-    population = student.call("initial_population", 12, 5, 30, seed=3)
-    population = expect_array(student.said, population, (12, 35))
+    answer = student.call("initial_population", 12, 5, 30, seed=3)
+    population = expect_array(student.said, answer, (12, 35))
+    expect(
+        not isinstance(answer, np.ndarray) or answer.dtype.kind == "f",
+        f"{student.said} returned an array of whole numbers, which cut off what stands behind the "
+        "decimal point: make an array of floats.",
+    )
     wrong = np.any(population[:, :5] != 0, axis=1) | np.any(population[:, 5:] == 0, axis=1)
     row, empty = int(wrong.argmax()), np.flatnonzero(~population.any(axis=1))
     why = ""
@@ -1010,7 +1015,12 @@ def expect_trained(
                 "lucky: evaluate the good ones again, in more episodes with another seed, before "
                 "you choose."
             )
-            if worse.mean < (random + wanted) / 2:
+            if worse.mean < random - 0.3 * abs(random) < 0:
+                advice = (
+                    "That is worse than random ones: look whether the better ones are kept, and "
+                    "which sign the fitness has."
+                )
+            elif worse.mean < (random + wanted) / 2:
                 advice = (
                     "It is nearer to random ones than to the aim: look at the curve of such a run, "
                     "and try another mutation rate, more generations or a larger population."

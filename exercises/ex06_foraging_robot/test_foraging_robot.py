@@ -301,6 +301,8 @@ def brains(rng: np.random.Generator):
         yield f"of the gates, only {gate} has weights", {**full, "gates": gates}
     for which in range(3):
         yield f"variation {which + 1} of an evolved robot", weights(evolved(rng, which))
+    large = {name: 5000 * rng.normal(size=values.shape) for name, values in full.items()}
+    yield "weights in thousands", large  # e to the power of such sums is infinite
 
 
 @network.check(10)
@@ -470,8 +472,9 @@ starts = exercise.task("6.3", "A grid of starts")
 
 
 GRID = (
-    "x goes from 150 to 250 in {places} even steps, both ends included; it changes faster than y.",
-    "y goes from 270 to 350 in {places} even steps, both ends included; it changes slowest.",
+    "x takes {places} evenly spaced values from 150 to 250, with both ends; it changes faster "
+    "than y.",
+    "y takes {places} evenly spaced values from 270 to 350, with both ends; it changes slowest.",
     "{headings} headings divide the whole turn evenly, from 0; the heading changes fastest.",
 )
 """What the text says about the columns of a grid."""

@@ -162,8 +162,9 @@ def three_stages(seed: int) -> np.ndarray:
 
     The return of one evaluation depends on luck: measure those that you have kept once more, with
     robot.evaluate(parameters, seed, episodes=100), before you choose. Return candidates as they
-    were evaluated. Everything random follows from the seed. The grader tries two seeds on robots of
-    its own, whose parameters count with other signs and sizes.
+    were evaluated. Everything random follows from the seed, and another seed gives another
+    evolution. The grader tries two seeds on robots of its own, whose parameters count with other
+    signs and sizes.
 
     Returns an array of shape (3, parameters).
     """

@@ -1,6 +1,6 @@
 """Compute what slips make of answers, and why right answers are right; for the grader."""
 
-from functools import cache
+from functools import cache, reduce
 
 import numpy as np
 
@@ -808,6 +808,8 @@ def mistaken_means(runner, rows: np.ndarray, seed: int, episodes: int) -> dict:
             for word, function in (("median", np.median), ("highest", np.max), ("lowest", np.min),
                                    ("last", lambda found: found[-1]), ("deviation", np.std))
         },
+        "The last episode counts half, the one before it a quarter: all are to count alike.":
+        table(usual, lambda found: reduce(lambda mean, new: (mean + new) / 2, found)),
         "Each row has a number of its own, the mean over its episodes: this is the mean over "
         "all rows.": {name: np.full(len(rows), np.mean(wanted[name])) for name in wanted},
         "Each row is another robot: these are the numbers of the first one again.": {

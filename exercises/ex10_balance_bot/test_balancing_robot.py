@@ -300,7 +300,10 @@ reading = exercise.task("10.1", "Read the robot", packages=())
 
 
 def random_robot(index: int, nlinks: int) -> tuple[str, dict]:
-    """A description of a robot that nobody has seen, and what there is to say about it."""
+    """A description of a robot that nobody has seen, and what there is to say about it.
+
+    From index 2 on, all links come first, and the joints of siblings in another order than these.
+    """
     rng = rng_of(index)
     names = [f"part_{letter}" for letter in rng.permutation(list("abcdefgh"))[:nlinks]]
     masses = {name: float(rng.integers(1, 400)) / 100 for name in names}
@@ -341,6 +344,13 @@ def random_robot(index: int, nlinks: int) -> tuple[str, dict]:
         axis = axis.tolist() if given else [1.0, 0.0, 0.0]
         joint = {"name": own, "type": kind, "parent": parent, "child": name, "axis": axis}
         joints.append(joint | {"default": not given})
+    if index >= 2:
+        depths = [0]
+        for parent in parents[1:]:
+            depths.append(depths[parent] + 1)
+        order = sorted(range(len(joints)), key=lambda i: (depths[i + 1], -i))
+        joints = [joints[i] for i in order]
+        lines = lines[:1] + lines[1::2] + [lines[2::2][i] for i in order]
     mass = sum(masses.values())
     urdf = f'<?xml version="1.0"?>\n<robot name="random">{"".join(lines)}</robot>'
     parts = list(masses.values()), parents, offsets, centres

@@ -153,8 +153,11 @@ def layers_have_their_sizes(student: Student):
 
 def compare_activations(student: Student, index: int, what: str, compute) -> None:
     rng = generator(index)
-    for n, inputs, hiddens, outputs in (*SIZES, (1, 2, 3, 2)):
-        parameters = random_network(rng, inputs, hiddens, outputs)
+    for n, inputs, hiddens, outputs, factor in (
+        *((*sizes, 1) for sizes in (*SIZES, (1, 2, 3, 2))),
+        (9, 2, 5, 1, 1000),  # single precision has no e to the power of 100
+    ):
+        parameters = [factor * each for each in random_network(rng, inputs, hiddens, outputs)]
         patterns, _ = random_set(rng, n, inputs, outputs)
         said = f"Network({inputs}, {hiddens}, {outputs})"
         said += ".features(patterns)" if what == "features" else "(patterns)"
@@ -197,6 +200,20 @@ def compare_gradient(student: Student, name: str, index: int, keys: tuple[str, .
             expect_close(f"{said}: {key}", value, right[key], 1e-9)
 
 
+def compare_saturated(student: Student, name: str, index: int) -> None:
+    """Net inputs are so large that e to their power is infinite."""
+    rng, (n, inputs, hiddens, outputs) = generator(index), SIZES[1]
+    w1, b1, w2, b2 = random_network(rng, inputs, hiddens, outputs)
+    patterns, targets = random_set(rng, n, inputs, outputs)
+    parameters = [5000 * w1, 5000 * b1, w2, b2]
+    answer = student.call(name, patterns, targets, *parameters)
+    right = dict(zip(NAMES, gradient_of(parameters, patterns, targets)[1], strict=True))
+    said = f"{name}(inputs {patterns.shape}, targets {targets.shape}, w1 and b1 in thousands, ...)"
+    for key in ("w2", "b2"):
+        (value,) = expect_fields(said, answer, key)
+        expect_close(f"{said}: {key}", value, right[key], 1e-6)
+
+
 def compare_where_differences_fail(student: Student, name: str, index: int) -> None:
     """Targets are large and hidden neurons are off: quotients of differences lose their digits."""
     rng = generator(index)
@@ -228,6 +245,7 @@ def loss_by_hand(student: Student):
 @by_hand.check(6)
 def output_layer_by_hand(student: Student):
     compare_gradient(student, "gradient_by_hand", 4, ("w2", "b2"))
+    compare_saturated(student, "gradient_by_hand", 42)
 
 
 @by_hand.check(9)
@@ -240,6 +258,7 @@ def hidden_layer_by_hand(student: Student):
 @by_torch.check(7)
 def gradient_by_torch(student: Student):
     compare_gradient(student, "gradient_by_torch", 6, ("loss", *NAMES))
+    compare_saturated(student, "gradient_by_torch", 43)
 
 
 def multiplied(module, factor, arguments):
@@ -737,6 +756,10 @@ def column_that_never_changes(student: Student):
     deviation[2] = 1.0
     compare_normalised(student, inputs, deviation)
     compare_normalised(student, inputs[:1], np.ones(4))
+    inputs[-1] = inputs[0]  # a column may begin and end with the same number
+    deviation = inputs.std(axis=0)
+    deviation[2] = 1.0
+    compare_normalised(student, inputs, deviation)
     # the mean of such a column is not always exactly what is in it, so its computed deviation is
     # not always exactly 0
     inputs[:, 2] = 0.1

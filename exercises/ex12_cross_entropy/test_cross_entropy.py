@@ -891,10 +891,13 @@ def measured_gaussian(module, means, log_deviation, actions):
     return [loss.detach().numpy(), *(grad.numpy() for grad in grads)]
 
 
-def compare_gaussian(student: Student, index: int, steps: int, actuators: int, part: int) -> None:
-    """part: 0 for the loss, 1 for its gradients."""
+def compare_gaussian(
+    student: Student, index: int, steps: int, actuators: int, part: int, far: float = 0
+) -> None:
+    """part: 0 for the loss, 1 for its gradients. far: how much farther the actions are away."""
     rng = generator(index)
     means, actions = rng.normal(size=(2, steps, actuators))
+    actions += far
     log_deviation = 0.5 * rng.normal(size=actuators)
     said = f"gaussian_loss(...) for {steps} steps and {actuators} actuators"
     answer = student.run(measured_gaussian, means, log_deviation, actions, said=said)
@@ -941,6 +944,7 @@ def compare_gaussian(student: Student, index: int, steps: int, actuators: int, p
 def loss_of_continuous_actions(student: Student):
     for index, steps, actuators in ((120, 1, 1), (121, 30, 1), (122, 20, 4)):
         compare_gaussian(student, index, steps, actuators, 0)
+    compare_gaussian(student, 125, 3, 2, 0, far=300)  # the density is 0 there, to the last place
 
 
 @continuous.check(3)
@@ -970,12 +974,14 @@ def trained(module, environment, seed, signs, side, most):
     and whether W2 is among those after a step (W1 may hold a scale of the observations, too). Last
     the seeds of the episodes, and for each function of task 12.7 that was called whether its
     log_deviation ever changed, and for outputs_of how often it got other parameters than before.
-    After `most` episodes the training is broken off: the answer is None.
+    After `most` episodes the training is broken off: the answer is None. The counts hold the
+    defaults of `goal` and `iterations`, too, if these are arguments.
 
     The environment is changed: each number observed is multiplied by its sign, and with side -1
     left and right of the action are exchanged. Who trains in it does not notice.
     """
     import contextlib
+    import inspect
 
     import gymnasium
     import numpy
@@ -986,6 +992,9 @@ def trained(module, environment, seed, signs, side, most):
     spec = gymnasium.spec(environment)
     creator = gymnasium.envs.registration.load_env_creator(spec.entry_point)
     played, counts = [], {"gradients": 0, "losses": 0}
+    for name, argument in inspect.signature(module.train).parameters.items():
+        if name in ("goal", "iterations") and isinstance(argument.default, (int, float)):
+            counts[name] = argument.default
     actions, learnt, tables = [], [], []
     given, noted, noise = [], {}, {}
 
@@ -1181,6 +1190,12 @@ def expect_balanced(student: Student, environment: str, index: int, left: int = 
         f"{said}: without chance, the policy keeps the pole up for {mean:.1f} steps on "
         "average over 50 new episodes, but 180 are asked for. "
         + progress(played, noise, len(returns), mean),
+    )
+    last, aim = np.mean(returns[-1]), counts.get("goal", 0)
+    expect(
+        last > 0.75 * aim or len(returns) >= counts.get("iterations", 0),
+        f"{said} ended after {len(returns)} iterations, though the mean return of the last one is "
+        f"only {last:.1f}: training goes on until this mean reaches the goal, {aim:g} here.",
     )
     gradients, losses = fields("the grader's driver", counts, "gradients", "losses")
     if left and (gradients == 0 or balanced_before(learnt, arrays, environment, (signs, side))):

@@ -263,8 +263,9 @@ def responses(activations: np.ndarray, observations: np.ndarray) -> np.ndarray:
 # - `ppo.collect()` acts for a rollout and returns it. Its arrays `rewards` (bootstrapped as in
 #   13.1), `values` and `ended` have the shape (steps, envs), `last_values` the shape (envs,).
 #   `ended` is 1 where the episode ended with this step, 2 where time ran out, else 0.
-# - `rollout.advantages` and `rollout.returns` are arrays of the same shape, and hold zeros. Write
-#   your numbers into them: the critic learns the returns, which are the advantages plus the values.
+# - `rollout.advantages` and `rollout.returns` are arrays of the same shape. `collect` fills them in
+#   as a rule, but in this exercise they hold zeros. Write your numbers into them: the critic learns
+#   the returns, which are the advantages plus the values.
 # - `ppo.minibatch(rows)` returns the steps with these numbers, from 0 to steps times envs - 1;
 #   `batch.log_probs` are the log-probabilities of the rollout.
 # - `ppo.loss(batch)` returns `log_probs`, those of the present policy, and `gradient`.

@@ -617,10 +617,18 @@ seeing = exercise.task("13.7", "What the hidden neurons respond to")
 
 @seeing.check(2)
 def activations_of_drawn_layers(student: Student):
-    for index, steps, sizes in ((62, 5, (3, 4, 2)), (63, 1, (3, 2)), (63, 4, (3, 3, 3, 3, 2))):
+    for index, steps, sizes, factor in (
+        (62, 5, (3, 4, 2), 1),
+        (63, 1, (3, 2), 1),
+        (63, 4, (3, 3, 3, 3, 2), 1),
+        (64, 5, (3, 4, 2), 5000),  # e to the power of such sums is infinite
+    ):
         rng = generator(index)
         shapes = list(zip(sizes[1:], sizes[:-1], strict=True))
-        layers = [(rng.normal(size=shape), rng.normal(size=shape[0])) for shape in shapes]
+        layers = [
+            (factor * rng.normal(size=shape), factor * rng.normal(size=shape[0]))
+            for shape in shapes
+        ]
         signal = rng.normal(size=(steps, 3))
         answer = student.call("hidden_activations", layers, signal)
         many = len(layers)

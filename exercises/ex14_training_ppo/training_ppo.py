@@ -125,7 +125,7 @@ def success_of(steps: np.ndarray, returns: np.ndarray, goal: float) -> dict:
 
 # %%
 def table_of(runs: list[dict], baseline: str) -> list[dict]:
-    """A row for each variation, the highest mean first.
+    """A row for each variation, the highest mean first (equal ones in any order).
 
     runs: dicts with "variant", "seed" and "return", in any order. Of several with the same variant
     and seed only the first one counts.

@@ -149,9 +149,9 @@ def episode(brain: dict, start, cylinder, seed: int, remember=keep, maxsteps: in
 def grid(places: int, headings: int) -> np.ndarray:
     """Starts, shape (places * places * headings, 3): rows x, y, heading.
 
-    x goes from 150 to 250 and y from 270 to 350 in `places` even steps, both ends included. The
-    headings divide the whole turn evenly, from 0; 2 pi is 0 again, and is left out. The heading
-    changes fastest, then x; y changes slowest.
+    x takes `places` evenly spaced values from 150 to 250, and y from 270 to 350, both ends included
+    (`places` is at least 2). The headings divide the whole turn evenly, from 0; 2 pi is 0 again,
+    and is left out. The heading changes fastest, then x; y changes slowest.
     """
     ### BEGIN SOLUTION task 6.3: lay out the starts
     angles = np.arange(headings) * 2 * np.pi / headings

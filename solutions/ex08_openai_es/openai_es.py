@@ -62,7 +62,7 @@ def candidates_around(centre: np.ndarray, samples: np.ndarray, noiseStdDev: floa
 def utilities(fitness: np.ndarray) -> np.ndarray:
     """Centred ranks of the candidates, in the order of the candidates.
 
-    utilities([10, 40, 20, 30, 0]) returns [-0.25, 0.5, 0.0, 0.25, -0.5]. Of equals, the one that
+    utilities([10, 90, 12, 30, 0]) returns [-0.25, 0.5, 0.0, 0.25, -0.5]. Of equals, the one that
     comes first gets the lower rank. There are at least two candidates.
     """
     ### BEGIN SOLUTION task 8.2: turn fitness into utilities

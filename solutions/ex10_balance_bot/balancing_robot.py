@@ -162,8 +162,9 @@ class BalanceBotEnv(gymnasium.Env):
     def observe(self) -> np.ndarray:
         """Inclination (rad), angular velocity (rad/s) and target speed of the wheels (rad/s).
 
-        The inclination is the first of the base's three Euler angles (around x), the angular
-        velocity that of the base around the world's x axis. Returns float32, shape (3,).
+        The inclination is the first of the base's three Euler angles (around x), as PyBullet counts
+        them; the angular velocity is that of the base around the world's x axis. Returns float32,
+        shape (3,).
         """
         ### BEGIN SOLUTION task 10.3: observe the robot
         _, orientation = pybullet.getBasePositionAndOrientation(self.robot, self.client)

@@ -107,6 +107,8 @@ def choose(probabilities: np.ndarray, rng: np.random.Generator) -> int:
 def run_episode(environment: str, act: Callable, seed: int, maxsteps: int = 200) -> dict:
     """An episode of at most `maxsteps` steps, from reset(seed=seed).
 
+    The environment keeps its own limit of steps, too: an episode ends with the lower one.
+
     act(observation) chooses the actions: an int, or an array of the action space's shape. An
     array is cut to the limits of the space before the environment gets it, since Gaussian noise
     knows no limits; what is recorded is what was chosen, not cut.

@@ -829,3 +829,55 @@ def compare(environment_ids, episodes, seed):
 # says: this
 # -         low, high = space.low.ravel().tolist(), space.high.ravel().tolist()
 # +         low, high = (np.nan_to_num(limits.ravel()).tolist() for limits in (space.low, space.high))
+
+
+# %% square_of_the_mean_once loses 1.6
+# Subtracts the square of the mean once from the sum of squares, not n times.
+# says: this
+def compare(environment_ids, episodes, seed):
+    def play(name):
+        total = squares = steps = 0.0
+        for i in range(episodes):
+            rewards = random_episode(name, seed + i, 10**6)["rewards"]
+            gained = sum(rewards)
+            total += gained
+            squares += gained**2
+            steps += len(rewards)
+        mean = total / episodes
+        deviation = 0.0 if episodes == 1 else float(np.sqrt((squares - mean**2) / (episodes - 1)))
+        return {
+            "environment": name,
+            "mean": mean,
+            "deviation": deviation,
+            "length": steps / episodes,
+        }
+
+    return list(map(play, environment_ids))
+
+
+# %% one_dict_filled_twice loses 1.1
+# Fills one and the same dict for both spaces.
+# says: this
+def describe(environment_id):
+    env = gymnasium.make(environment_id)
+    result, details = {}, {}
+    for key in ("observation", "action"):
+        space = getattr(env, key + "_space")
+        details["kind"] = type(space).__name__
+        if isinstance(space, spaces.Box):
+            details["size"] = int(space.low.size)
+            details["low"] = [float(v) for v in space.low.flat]
+            details["high"] = [float(v) for v in space.high.flat]
+        else:
+            details["choices"], details["first"] = int(space.n), int(space.start)
+        result[key] = details
+    result["maxsteps"] = env.spec.max_episode_steps
+    env.close()
+    return result
+
+
+# %% zero_for_no_limit loses 1.1
+# Gives 0 where there is no time limit.
+# says: None was expected
+# -         "maxsteps": env.spec.max_episode_steps,
+# +         "maxsteps": int(env.spec.max_episode_steps or 0),

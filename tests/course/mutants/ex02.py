@@ -973,3 +973,93 @@ def forward(network, observation):
 # says: this
 # -     return np.tanh((networks["W2"] @ hidden[:, :, None])[:, :, 0] + networks["b2"])
 # +     return np.tanh((networks["W2"] @ hidden[:, :, None]).squeeze() + networks["b2"])
+
+
+# %% weights_over_the_root_of_the_inputs loses 2.1
+# Divides the weights by the root of the layer's inputs.
+def parameters(ninputs, nhiddens, noutputs, seed):
+    rng = np.random.default_rng(seed)
+
+    def dense(fan_in, fan_out):
+        scale = 0.1 / np.sqrt(fan_in)
+        return rng.normal(loc=0.0, scale=scale, size=(fan_out, fan_in)), np.zeros(fan_out)
+
+    W1, b1 = dense(ninputs, nhiddens)
+    W2, b2 = dense(nhiddens, noutputs)
+    return {"W1": W1, "b1": b1, "W2": W2, "b2": b2}
+
+
+# %% weights_of_exact_mean loses 2.1
+# Subtracts the mean of the weights drawn, so that they sum up to 0.
+# says: sum up to 0
+# -         "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
+# -         "b1": np.zeros(nhiddens),
+# -         "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
+# -         "b2": np.zeros(noutputs),
+# -     }
+# +         name: weights - weights.mean() if name.startswith("W") else weights
+# +         for name, weights in {
+# +             "W1": 0.1 * rng.standard_normal((nhiddens, ninputs)),
+# +             "b1": np.zeros(nhiddens),
+# +             "W2": 0.1 * rng.standard_normal((noutputs, nhiddens)),
+# +             "b2": np.zeros(noutputs),
+# +         }.items()
+# +     }
+
+
+# %% first_weights_reshaped loses 2.2
+# Reshapes W1 where rows and columns must be exchanged.
+# says: this
+# -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
+# +     weights = network["W1"].reshape(len(observation), -1)
+# +     hidden = np.tanh(observation @ weights + network["b1"])
+
+
+# %% tanh_written_out loses 2.2
+# Writes tanh with exponentials, which overflow for large sums: the quotient is NaN.
+# says: this
+def forward(network, observation):
+    def squeeze(z):
+        up, down = np.exp(z), np.exp(-z)
+        return (up - down) / (up + down)
+
+    signal = observation
+    for layer in "12":
+        signal = squeeze(np.dot(network["W" + layer], signal) + network["b" + layer])
+    return signal
+
+
+# %% outputs_from_lowest_to_highest loses 2.4
+# Stretches from the lowest to the highest of the outputs, not from -1 to 1.
+# says: this
+def act(outputs, action_space):
+    if isinstance(action_space, spaces.Discrete):
+        values = list(outputs)
+        return values.index(max(values)) + int(action_space.start)
+    span = [min(outputs), max(outputs)]
+    motors = []
+    for output, lower, upper in zip(outputs, action_space.low, action_space.high, strict=False):
+        motors.append(np.interp(output, span, [lower, upper]))
+    return np.array(motors, dtype=action_space.dtype)
+
+
+# %% rewards_discounted loses 2.5
+# Discounts the rewards: the return is their plain sum.
+# says: this
+# -         actions.append(action)
+# -         total += float(reward)
+# +         total += 0.99 ** len(actions) * float(reward)
+# +         actions.append(action)
+
+
+# %% last_return_counts_half loses 2.6
+# Takes (mean + new return) / 2 from episode to episode, so that the last one counts half.
+# says: this
+def fitness(environment_id, network, seeds, maxsteps=200):
+    def play(seed):
+        return run_episode(environment_id, network, seed, maxsteps)["return"]
+
+    average = play(seeds[0])
+    for seed in seeds[1:]:
+        average = (average + play(seed)) / 2
+    return float(average)

@@ -859,3 +859,72 @@ def hill_climb(evaluate, start, generations, mutrate, seed):
             top, top_fitness = current.copy(), float(value)
         pair = np.array([current, start + mutrate * rng.standard_normal(len(start))])
     return {"best": top, "fitness": top_fitness, "history": history, "population": pair}
+
+
+# %% relatives_of_one_founder loses 3.1
+# Draws one individual and varies copies of it.
+import numpy as np
+
+
+def initial_population(popsize, nbiases, nweights, seed):
+    rng = np.random.default_rng(seed)
+    founder = rng.normal(0.0, 0.1, nweights)
+    rows = [founder]
+    while len(rows) < popsize:
+        rows.append(founder + rng.normal(0.0, 0.1, nweights))
+    return np.pad(np.array(rows), ((0, 0), (nbiases, 0)))
+
+
+# %% reciprocals_sorted loses 3.2
+# Sorts 1 / fitness, which is the falling order only among values of one sign.
+# says: this
+# -     return np.argsort(-np.asarray(fitness), kind="stable")
+# +     with np.errstate(divide="ignore"):
+# +         return np.argsort(1.0 / np.asarray(fitness, dtype=float), kind="stable")
+
+
+# %% neighbours_in_pairs loses 3.3
+# Compares each individual with its neighbour only.
+# says: this
+import numpy as np
+
+
+def next_population(population, fitness, mutrate, rng):
+    result = np.array(population, dtype=float)
+    for first in range(0, len(population), 2):
+        second = first + 1
+        if fitness[first] >= fitness[second]:
+            winner, loser = first, second
+        else:
+            winner, loser = second, first
+        epsilon = rng.standard_normal(population.shape[1])
+        result[loser] = population[winner] + mutrate * epsilon
+    return result
+
+
+# %% old_mean_twice loses 3.6
+# Adds the square of the distance from the mean before the update, so that the deviation is too large.
+# says: this
+import numpy as np
+
+
+def replicate(experiment, seeds):
+    mean, squares, best = 0.0, 0.0, []
+    for count, seed in enumerate(seeds, start=1):
+        run = experiment(seed)
+        best.append(run["fitness"])
+        distance = np.array(run["history"], dtype=float) - mean
+        mean = mean + distance / count
+        squares = squares + distance**2 if count > 1 else np.zeros(len(distance))
+    deviation = np.sqrt(squares / max(len(seeds) - 1, 1))
+    return {"mean": mean, "deviation": deviation, "best": best}
+
+
+# %% integers_for_weights loses 3.1
+# Makes the array of whole numbers, which cut the weights off to 0.
+# -     biases = np.zeros((popsize, nbiases))
+# -     weights = 0.1 * rng.standard_normal((popsize, nweights))
+# -     return np.hstack([biases, weights])
+# +     population = np.full((popsize, nbiases + nweights), 0)
+# +     population[:, nbiases:] = 0.1 * rng.standard_normal((popsize, nweights))
+# +     return population

@@ -1443,3 +1443,21 @@ def utilities(fitness):
 # says: this
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # +     step = (m / (1 - 0.9**t)) / (np.sqrt(v) / (1 - 0.999**t) + 1e-8)
+
+
+# %% pairs_around_the_last_candidate loses 8.1
+# Lays each pair around the last candidate of the pair before, not around the centre.
+# says: this
+import numpy as np
+
+
+def candidates_around(centre, samples, noiseStdDev):
+    place = np.array(centre, dtype=float)
+    rows = []
+    for e in samples:
+        leg = noiseStdDev * e
+        place = place + leg
+        rows.append(place)
+        place = place - 2 * leg
+        rows.append(place)
+    return np.array(rows)

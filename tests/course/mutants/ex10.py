@@ -1421,3 +1421,46 @@ def evolve(seed):
 # +             pybullet.resetBaseVelocity(
 # +                 self.robot, [0, 0, 0], [0, 0, 0], physicsClientId=self.client
 # +             )
+
+
+# %% joints_in_the_order_of_links loses 10.1
+# Pairs the links with the joints in the order of the file, not by the name of the child.
+# says: this
+def describe(urdf):
+    root = ElementTree.fromstring(urdf)
+    all_links, all_joints = root.findall("link"), root.findall("joint")
+
+    def vector(element, default):
+        return np.array(numbers_of(element, "xyz", default))
+
+    joints = []
+    for j in all_joints:
+        joints.append(
+            {
+                "name": j.attrib["name"],
+                "type": j.attrib["type"],
+                "parent": j.find("parent").attrib["link"],
+                "child": j.find("child").attrib["link"],
+                "axis": vector(j.find("axis"), [1.0, 0.0, 0.0]).tolist(),
+            }
+        )
+    frames = {all_links[0].attrib["name"]: np.zeros(3)}
+    for link, j in zip(all_links[1:], all_joints, strict=False):
+        above = frames.get(j.find("parent").attrib["link"], np.zeros(3))
+        frames[link.attrib["name"]] = above + vector(j.find("origin"), [0.0, 0.0, 0.0])
+    masses, centre = {}, np.zeros(3)
+    for link in all_links:
+        name, inertial = link.attrib["name"], link.find("inertial")
+        masses[name] = float(inertial.find("mass").attrib["value"])
+        centre += masses[name] * (frames[name] + vector(inertial.find("origin"), [0.0, 0.0, 0.0]))
+    total = sum(masses.values())
+    return {"links": masses, "joints": joints, "mass": total, "centre": list(centre / total)}
+
+
+# %% joints_from_the_centre_of_mass loses 10.1
+# Counts a joint's origin from the parent's centre of mass, not from its frame.
+# says: this
+# -         frames[child] = frames[parent] + origin
+# +         above = root.find(f"link[@name='{parent}']/inertial/origin")
+# +         inside = numbers_of(above, "xyz", [0.0, 0.0, 0.0])
+# +         frames[child] = frames[parent] + inside + origin

@@ -1164,3 +1164,119 @@ def normalise(inputs):
         if np.allclose(inputs[:, i], inputs[0, i], atol=0):
             deviation[i] = 1.0
     return (inputs - mean) / deviation, mean, deviation
+
+
+# %% quotient_of_exponentials loses 11.1
+# Writes the logistic function as e^z / (1 + e^z), which is NaN for large z.
+# says: this
+import torch
+from torch import nn
+
+
+class Network(nn.Module):
+    def __init__(self, inputs, hiddens, outputs):
+        super().__init__()
+        self.hidden = nn.Linear(inputs, hiddens)
+        self.output = nn.Linear(hiddens, outputs)
+
+    def features(self, patterns):
+        z = self.hidden(patterns)
+        return torch.exp(z) / (1 + torch.exp(z))
+
+    def forward(self, patterns):
+        h = self.features(patterns)
+        return self.output(h)
+
+
+# %% logistic_of_twice_z loses 11.3
+# Takes (1 + tanh z) / 2 for the logistic function: it is that of 2 z.
+# says: this
+import numpy as np
+import torch
+
+
+def gradient_by_torch(inputs, targets, w1, b1, w2, b2):
+    x = torch.from_numpy(np.asarray(inputs, dtype=np.float64))
+    t = torch.from_numpy(np.asarray(targets, dtype=np.float64))
+    params = {}
+    for name, array in [("w1", w1), ("b1", b1), ("w2", w2), ("b2", b2)]:
+        params[name] = torch.tensor(array, dtype=torch.float64, requires_grad=True)
+    net = torch.nn.functional.linear(x, params["w1"], params["b1"])
+    hidden = 0.5 * (1 + net.tanh())
+    y = torch.nn.functional.linear(hidden, params["w2"], params["b2"])
+    loss = torch.nn.MSELoss()(y, t)
+    loss.backward()
+    out = {name: p.grad.detach().numpy() for name, p in params.items()}
+    out["loss"] = loss.item()
+    return out
+
+
+# %% hidden_of_the_last_pattern loses 11.2
+# Uses the hidden neurons of the last pattern for all in the way back.
+# says: this
+import numpy as np
+
+
+def gradient_by_hand(inputs, targets, w1, b1, w2, b2):
+    n, m = targets.shape
+    outputs = []
+    for x in inputs:
+        h = 1 / (1 + np.exp(-(w1 @ x + b1)))
+        outputs.append(w2 @ h + b2)
+    errors = np.array(outputs) - targets
+    result = {"w1": np.zeros_like(w1), "b1": np.zeros_like(b1)}
+    result |= {"w2": np.zeros_like(w2), "b2": np.zeros_like(b2)}
+    for x, error in zip(inputs, errors, strict=False):
+        delta2 = 2 * error / (n * m)
+        delta1 = (w2.T @ delta2) * h * (1 - h)
+        result["w2"] += np.outer(delta2, h)
+        result["b2"] += delta2
+        result["w1"] += np.outer(delta1, x)
+        result["b1"] += delta1
+    result["loss"] = float((errors**2).sum() / (n * m))
+    return result
+
+
+# %% constant_if_ends_are_equal loses 11.6
+# Takes a column for one that never changes if its first and last values are equal.
+# says: this
+import numpy as np
+
+
+def normalise(inputs):
+    n, columns = inputs.shape
+    mean, deviation = np.zeros(columns), np.ones(columns)
+    result = np.zeros((n, columns))
+    for c in range(columns):
+        column = np.array(inputs[:, c], dtype=float)
+        mean[c] = column.sum() / n
+        if column[0] != column[-1]:
+            deviation[c] = np.sqrt(((column - mean[c]) ** 2).sum() / n)
+        result[:, c] = (column - mean[c]) / deviation[c]
+    return result, mean, deviation
+
+
+# %% mean_of_batch_losses loses 11.7
+# Gives the mean of the losses of the minibatches for the loss of all patterns.
+# says: this
+import numpy as np
+import torch
+
+
+def train_in_batches(network, inputs, targets, epochs, batch_size, learning_rate, momentum, seed):
+    rng = np.random.default_rng(seed)
+    sgd = torch.optim.SGD(network.parameters(), lr=learning_rate, momentum=momentum)
+
+    def error(batch):
+        return torch.mean((network(inputs[batch]) - targets[batch]) ** 2)
+
+    losses = []
+    for _epoch in range(epochs):
+        batches = minibatches(len(inputs), batch_size, rng)
+        for batch in batches:
+            sgd.zero_grad()
+            error(batch).backward()
+            sgd.step()
+        with torch.no_grad():
+            losses.append(float(np.mean([error(batch).item() for batch in batches])))
+    return losses

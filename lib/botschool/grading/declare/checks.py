@@ -141,6 +141,9 @@ def expect_close(
     close = np.abs(got - wanted) <= _allowed(got, wanted, tolerance)
     if not close.all():
         sentence = _unequal(said, got, wanted, close)
+        whole = isinstance(value, np.ndarray) and value.dtype.kind in "iu"
+        if whole and np.isfinite(wanted).all() and (wanted % 1).any():
+            sentence += f"\n  It is an array of {value.dtype}, which holds no fractions."
         if why:
             place = np.unravel_index(int(np.argmin(close)), close.shape)
             reason = why(*map(int, place))

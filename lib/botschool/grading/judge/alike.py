@@ -27,9 +27,22 @@ def distance(one: Any, other: Any) -> float:
 
 
 def fits(got: Any, made: Any, ours: Any) -> bool:
-    """Return whether `made` equals `got` to rounding, unless both are nearly `ours`."""
+    """Return whether `made` equals `got` to rounding, unless both are nearly `ours`.
+
+    An array that cannot hold the fractions of ours equals only another one that cannot.
+    """
+    if _cut(got, ours) != _cut(made, ours):
+        return False
     error, effect = distance(got, made), distance(got, ours)
     return error <= TIE and (effect <= TIE or error <= SHARE * effect)
+
+
+def _cut(answer: Any, ours: Any) -> bool:
+    """Return whether an answer is an array of whole numbers, but ours has fractions."""
+    if not (isinstance(answer, np.ndarray) and isinstance(ours, np.ndarray)):
+        return False
+    fractions = ours.dtype.kind == "f" and bool((ours != np.round(ours)).any())
+    return answer.dtype.kind in "iu" and fractions
 
 
 def weight(got: Any, made: Any, ours: Any) -> float:
