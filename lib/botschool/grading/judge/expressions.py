@@ -33,7 +33,7 @@ _PARTS: dict[type, tuple[str, str]] = {
     ast.FloorDiv: ("number", "whole-number division (//)"), ast.MatMult: ("matrix", "matrix"),
 }  # fmt: skip
 _ALIKE = (
-    ("mean", "sum", "median", "max", "min", "prod", "ptp"), ("sin", "cos"), ("argmax", "argmin"),
+    ("mean", "sum", "median", "max", "min", "prod"), ("sin", "cos"), ("argmax", "argmin"),
     ("maximum", "minimum"), ("floor", "ceil", "round", "trunc", "rint"), ("any", "all"),
     ("zeros", "ones"), ("zeros_like", "ones_like"), ("std", "var"), ("argsort", "sort"),
     ("vstack", "hstack"), ("log", "log2", "log10", "log1p"), ("normal", "uniform"),
@@ -179,7 +179,7 @@ class Expressions:
                 yield f"`.{name}()` is left out.", part.func.value  # type: ignore[attr-defined]
             elif part.args:
                 yield f"`{name}` is left out.", part.args[0]
-        for i in range(len(part.args) - 1):
+        for i in range(len(part.args) - 1 if name != "range" else 0):
             args = [*part.args]
             args[i], args[i + 1] = args[i + 1], args[i]
             yield (

@@ -77,8 +77,8 @@ def a_known_factor(c: Comparison) -> str | None:
     known = (
         (
             2.0,
-            "twice what was expected: is a factor 1/2 missing, or is it a sum instead of a mean "
-            "of 2?",
+            "twice what was expected: is a factor 1/2 missing, is something added twice, or is it "
+            "a sum instead of a mean of 2?",
         ),
         (
             0.5,
