@@ -182,7 +182,7 @@ def drawn_again(module, *arguments):
     one = module.parameters(*arguments)
     before = {key: numpy.array(array) for key, array in one.items()}
     for array in one.values():
-        if isinstance(array, numpy.ndarray):
+        if isinstance(array, numpy.ndarray) and array.flags.writeable:
             array += 1
         elif isinstance(array, list):
             array.clear()

@@ -102,7 +102,7 @@ def drawn_again(module, *arguments):
 
     one = module.initial_population(*arguments)
     before = numpy.array(one)
-    if isinstance(one, numpy.ndarray):
+    if isinstance(one, numpy.ndarray) and one.flags.writeable:
         one += 1
     return bool(numpy.array_equal(module.initial_population(*arguments), before))
 

@@ -436,7 +436,9 @@ def read_saved(module, path, numbers):
 
 
 def expect_columns(student: Student, generations: int, columns: tuple[str, ...]) -> None:
-    table = rng_of(20 + generations).normal(size=(generations, 6)).round(3)
+    rng = rng_of(20 + generations)
+    table = rng.normal(size=(generations, 6)).round(3)
+    table[:, COLUMNS.index("steps")] = np.cumsum(rng.integers(100, 900, generations))
     path = f"runs{generations}/statS{exercise.seed(20 + generations) % 1000}.npy"
     said = f"read_stat({path!r}), a file of {generations} generation{'s' * (generations > 1)}"
     stat = student.run(read_saved, path, table.ravel(), said=said)

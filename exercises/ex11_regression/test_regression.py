@@ -201,14 +201,17 @@ def compare_gradient(student: Student, name: str, index: int, keys: tuple[str, .
 
 
 def compare_saturated(student: Student, name: str, index: int) -> None:
-    """Net inputs are so large that e to their power is infinite."""
+    """Net inputs are so large that e to their power is infinite.
+
+    None is as far below 0: who takes math.exp of minus the net input may do so.
+    """
     rng, (n, inputs, hiddens, outputs) = generator(index), SIZES[1]
     w1, b1, w2, b2 = random_network(rng, inputs, hiddens, outputs)
     patterns, targets = random_set(rng, n, inputs, outputs)
-    parameters = [5000 * w1, 5000 * b1, w2, b2]
+    parameters = [w1, b1 + 2000, w2, b2]
     answer = student.call(name, patterns, targets, *parameters)
     right = dict(zip(NAMES, gradient_of(parameters, patterns, targets)[1], strict=True))
-    said = f"{name}(inputs {patterns.shape}, targets {targets.shape}, w1 and b1 in thousands, ...)"
+    said = f"{name}(inputs {patterns.shape}, targets {targets.shape}, w1, b1 of about 2000, ...)"
     for key in ("w2", "b2"):
         (value,) = expect_fields(said, answer, key)
         expect_close(f"{said}: {key}", value, right[key], 1e-6)
@@ -265,7 +268,7 @@ def multiplied(module, factor, arguments):
     """The student's answer where torch multiplies all gradients that it computes by a factor."""
     import torch
 
-    kept = torch.autograd.backward, torch.autograd.grad
+    from botschool.grading.run.replaced import replaced
 
     def scaled(given, tensors):
         tensors = [tensors] if isinstance(tensors, torch.Tensor) else list(tensors)
@@ -274,17 +277,23 @@ def multiplied(module, factor, arguments):
         pairs = zip(given, tensors, strict=True)
         return [factor * (torch.ones_like(of) if one is None else one) for one, of in pairs]
 
-    def backward(tensors, grad_tensors=None, *more, **options):
-        return kept[0](tensors, scaled(grad_tensors, tensors), *more, **options)
+    def backwards(own):
+        def backward(tensors, grad_tensors=None, *more, **options):
+            return own(tensors, scaled(grad_tensors, tensors), *more, **options)
 
-    def grad(outputs, inputs, grad_outputs=None, *more, **options):
-        return kept[1](outputs, inputs, scaled(grad_outputs, outputs), *more, **options)
+        return backward
 
-    torch.autograd.backward, torch.autograd.grad = backward, grad
-    try:
+    def gradients(own):
+        def grad(outputs, inputs, grad_outputs=None, *more, **options):
+            return own(outputs, inputs, scaled(grad_outputs, outputs), *more, **options)
+
+        return grad
+
+    with (
+        replaced(torch.autograd, "backward", backwards),
+        replaced(torch.autograd, "grad", gradients),
+    ):
         return module.gradient_by_torch(*arguments)
-    finally:
-        torch.autograd.backward, torch.autograd.grad = kept
 
 
 @by_torch.check(3)
@@ -481,8 +490,12 @@ def watched(module, name, arguments, stuck):
     alike, and so stay alike for ever: they learn no more than a single one. Of `learn` also
     whether a network learns from the very weights that an earlier one had from torch.
     """
+    import contextlib
+
     import numpy
     import torch
+
+    from botschool.grading.run.replaced import replaced
 
     gradients, made, walks, beginnings, again, repeated = 0, 0, {}, [], [], False
 
@@ -516,20 +529,23 @@ def watched(module, name, arguments, stuck):
             ahead += [before for before, _ in node.next_functions]
         return found
 
-    def counting(function, is_own):
-        def counted(*arguments, **options):
-            nonlocal gradients
-            gradients += 1
-            if is_own:
-                named = (options[each] for each in options if each not in ("inputs", "targets"))
-                values = [*arguments[2:], *named]
-            else:
-                values = leaves(next(iter([*arguments, *options.values()]), ()))
-            if values:
-                note(values)
-            return function(*arguments, **options)
+    def counting(is_own):
+        def instead(function):
+            def counted(*arguments, **options):
+                nonlocal gradients
+                gradients += 1
+                if is_own:
+                    named = (options[each] for each in options if each not in ("inputs", "targets"))
+                    values = [*arguments[2:], *named]
+                else:
+                    values = leaves(next(iter([*arguments, *options.values()]), ()))
+                if values:
+                    note(values)
+                return function(*arguments, **options)
 
-        return counted
+            return counted
+
+        return instead
 
     def begin(self, *arguments, **options):
         nonlocal made
@@ -549,19 +565,15 @@ def watched(module, name, arguments, stuck):
 
     own = [each for each in ("gradient_by_hand", "gradient_by_torch") if hasattr(module, each)]
     places = [(torch.autograd, "backward"), (torch.autograd, "grad"), *((module, n) for n in own)]
-    kept = [(place, each, getattr(place, each)) for place, each in places]
     initialise = module.Network.__init__
-    try:
+    if name == "learn":
+        arguments[:2] = [torch.tensor(each, dtype=torch.float32) for each in arguments[:2]]
+    with contextlib.ExitStack() as stack:
+        stack.callback(setattr, module.Network, "__init__", initialise)
         module.Network.__init__ = begin
-        for place, each, function in kept:
-            setattr(place, each, counting(function, place is module))
-        if name == "learn":
-            arguments[:2] = [torch.tensor(each, dtype=torch.float32) for each in arguments[:2]]
+        for place, each in places:
+            stack.enter_context(replaced(place, each, counting(place is module)))
         answer = getattr(module, name)(*arguments)
-    finally:
-        module.Network.__init__ = initialise
-        for place, each, function in kept:
-            setattr(place, each, function)
     found, *more = answer if name == "fit" else (answer,)
     layers = (found.hidden.weight, found.hidden.bias, found.output.weight, found.output.bias)
     parameters = [layer.detach().numpy() for layer in layers]

@@ -989,6 +989,8 @@ def trained(module, environment, seed, signs, side, most):
     from torch.optim.optimizer import register_optimizer_step_post_hook as last_hook
     from torch.optim.optimizer import register_optimizer_step_pre_hook as first_hook
 
+    from botschool.grading.run.replaced import replaced
+
     spec = gymnasium.spec(environment)
     creator = gymnasium.envs.registration.load_env_creator(spec.entry_point)
     played, counts = [], {"gradients": 0, "losses": 0}
@@ -1054,34 +1056,40 @@ def trained(module, environment, seed, signs, side, most):
         first = noted.setdefault(name, value)
         noise[name] = not numpy.array_equal(first, value)
 
-    def noting(function, name):
-        def noting(*arguments, **options):
-            with contextlib.suppress(Exception):
-                note(name, arguments, options)
-            return function(*arguments, **options)
+    def noting(name):
+        def instead(function):
+            def noted(*arguments, **options):
+                with contextlib.suppress(Exception):
+                    note(name, arguments, options)
+                return function(*arguments, **options)
 
-        return noting
+            return noted
 
-    def counting(function, what):
-        def counted(*arguments, **options):
-            counts[what] += 1
-            return function(*arguments, **options)
+        return instead
 
-        return counted
+    def counting(what):
+        def instead(function):
+            def counted(*arguments, **options):
+                counts[what] += 1
+                return function(*arguments, **options)
 
-    kept = spec.entry_point, spec.vector_entry_point, torch.autograd.backward, torch.autograd.grad
+            return counted
+
+        return instead
+
+    kept = spec.entry_point, spec.vector_entry_point
     spec.entry_point, spec.vector_entry_point = Changed, None
-    torch.autograd.backward = counting(kept[2], "gradients")
-    torch.autograd.grad = counting(kept[3], "gradients")
-    for name in ("cross_entropy", "gaussian_loss"):
-        if callable(loss := getattr(module, name, None)):
-            setattr(module, name, counting(loss, "losses"))
-    for name in ("gaussian_loss", "gaussian_action", "outputs_of"):
-        if callable(function := getattr(module, name, None)):
-            setattr(module, name, noting(function, name))
+    places = [(torch.autograd, each, counting("gradients")) for each in ("backward", "grad")]
+    places += [(module, each, counting("losses")) for each in ("cross_entropy", "gaussian_loss")]
+    for each in ("gaussian_loss", "gaussian_action", "outputs_of"):
+        places.append((module, each, noting(each)))
     hooks = [first_hook(before), last_hook(after)]
     try:
-        answer = module.train(environment, seed=seed)
+        with contextlib.ExitStack() as stack:
+            for place, each, instead in places:
+                if callable(getattr(place, each, None)):
+                    stack.enter_context(replaced(place, each, instead))
+            answer = module.train(environment, seed=seed)
         if learnt:
             learnt.append(reached(answer["parameters"]))
         return [answer, counts, played, actions, learnt, given, noise]
@@ -1090,8 +1098,7 @@ def trained(module, environment, seed, signs, side, most):
     finally:
         for hook in hooks:
             hook.remove()
-        spec.entry_point, spec.vector_entry_point = kept[:2]
-        torch.autograd.backward, torch.autograd.grad = kept[2:]
+        spec.entry_point, spec.vector_entry_point = kept
 
 
 @exercise.cached

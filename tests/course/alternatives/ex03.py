@@ -564,3 +564,14 @@ def replicate(experiment, seeds):
         for c, m in zip(columns, means)
     ]
     return {"mean": means, "deviation": spread, "best": [run["fitness"] for run in runs]}
+
+
+# %% read_only_population
+# Nobody can write into the population that is returned.
+def initial_population(popsize, nbiases, nweights, seed):
+    rng = np.random.default_rng(seed)
+    population = np.zeros((popsize, nbiases + nweights), dtype=np.float32, order="F")
+    population[:, nbiases:] = rng.standard_normal((popsize, nweights), dtype=np.float32)
+    population *= np.float32(0.1)
+    population.flags.writeable = False
+    return population

@@ -397,3 +397,12 @@ def compare(experiment_file, folder, seeds, episodes, test_seed):
         }
         for s in seeds
     ]
+
+
+# %% steps_are_integers
+# The steps are whole numbers, and the columns cannot be written into.
+def read_stat(path):
+    table = np.load(path, mmap_mode="r").reshape(-1, len(COLUMNS))
+    answer = {name: table[:, i] for i, name in enumerate(COLUMNS)}
+    answer["steps"] = answer["steps"].astype(np.int64)
+    return answer
