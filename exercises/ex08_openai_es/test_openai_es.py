@@ -626,7 +626,7 @@ def trained(module, environment, seed, signs, least):
         order, half = numpy.arange(len(found)), len(found) // 2
         if len(found) == 2 * half and half > 1:  # all on one side, then all on the other
             middles = (found[:half] + found[half:]) / 2
-            if numpy.allclose(middles, middles[0], atol=1e-9):
+            if numpy.allclose(middles, middles[0], atol=1e-6):
                 order = order.reshape(2, half).T.ravel()
         if begins:
             begun[-1].extend(found[order])
@@ -657,7 +657,7 @@ def trained(module, environment, seed, signs, least):
 def generations_of(rows: np.ndarray, scores: np.ndarray) -> list[tuple]:
     """The generations of symmetric candidates among all: (centre, directions, fitness) of each."""
     middles = (rows[:-1] + rows[1:]) / 2
-    near = 1e-9 if len(rows) <= 100_000 else 1e-6
+    near = 1e-6 if np.array_equal(rows, rows.astype(np.float32)) else 1e-9
     same = np.zeros(len(rows) + 2, dtype=bool)
     same[: len(rows) - 3] = np.isclose(middles[:-2], middles[2:], near, near).all(axis=1)
     found, at = [], 0

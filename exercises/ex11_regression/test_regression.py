@@ -871,7 +871,7 @@ def measured(parameters: list, normalised, targets, answers, others) -> str:
             f"On its own patterns it explains {shown(own)} %: with {many} hidden neurons, it has "
             "not learnt them yet. For example, it needs more epochs, another learning rate, "
             "smaller minibatches or more neurons, or was trained on patterns that were not "
-            "normalised."
+            "normalised, or that did not belong to the targets."
         )
     return (
         f"On its own patterns it explains {shown(own)} %: with {many} hidden neurons, it does "

@@ -119,7 +119,13 @@ def evidence(student: Student, record: dict, variant: str):
         f"in trainings/{variant}.",
     )
     for name in ("evaluations.npz", "config.yaml"):
-        found = student.scratch(os.path.join(place, name))
+        try:
+            found = student.scratch(os.path.join(place, name))
+        except Wrong:
+            raise Wrong(
+                f"{student.said}: the folder of a training of {variant!r} is {show(place)}, but "
+                f"there is no {name} in it. `run.path` is the folder that a training has made."
+            ) from None
         expect(size_of(found) < LARGEST, f"{student.said}: {name} in {show(place)} is too large.")
     return RunFolder(found.parent)
 

@@ -282,4 +282,7 @@ def went_on(terminated: bool, truncated: bool) -> str:
     if terminated == truncated:
         return ""
     one, other = ENDS if terminated else ENDS[::-1]
-    return f"It was {one} there, not {other}: an episode ends when either of the two is True."
+    return (
+        f"As gymnasium.make makes the environment, it says {one} in that step, and not {other}: an "
+        "episode ends when either of the two is True."
+    )
