@@ -200,13 +200,13 @@ def _not_finite(said: str, array: np.ndarray, bad: np.ndarray) -> str:
     what = "NaN" if np.isnan(array[where]) else "infinity"
     causes = {
         "NaN": (
-            "0 / 0, 0 * log(0), infinity / infinity, infinity minus infinity, or the root of a "
-            "negative number"
+            "0 / 0, 0 * log(0), infinity / infinity, infinity minus infinity, the root of a "
+            "negative number, or np.nan"
         ),
-        "infinity": "a division by 0, the logarithm of 0, or np.exp of a large number",
+        "infinity": "a division by 0, the logarithm of 0, np.exp of a large number, or np.inf",
     }
     many = f" ({int(bad.sum())} of {bad.size} numbers are NaN or infinity)" if bad.size > 1 else ""
-    return f"{said} holds NaN or infinity: {what}{place}{many}. The cause is {causes[what]}."
+    return f"{said} holds NaN or infinity: {what}{place}{many}. It may come from {causes[what]}."
 
 
 def _unequal(said: str, got: np.ndarray, wanted: np.ndarray, close: np.ndarray) -> str:

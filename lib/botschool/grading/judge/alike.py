@@ -26,6 +26,11 @@ def distance(one: Any, other: Any) -> float:
     return max((_apart(a, b) for a, b in zip(first, second, strict=True)), default=0.0)
 
 
+def one(answers: list[Any]) -> bool:
+    """Return whether all answers are the same."""
+    return all(distance(each, answers[0]) <= TIE for each in answers)
+
+
 def fits(got: Any, made: Any, ours: Any) -> bool:
     """Return whether `made` equals `got` to rounding, unless both are nearly `ours`.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import copy
 import re
+from difflib import SequenceMatcher
 
 EXCHANGED = " is used where "
 """Words of a slip that takes one name for another: without this name in its place it is false."""
@@ -37,6 +38,39 @@ def holds(text: str, expression: str, names: set[str]) -> bool:
         return any(isinstance(p, ast.expr) and pattern(p, names) == expression for p in parts)
     except (SyntaxError, ValueError, RecursionError):
         return False
+
+
+LIKE = 0.8
+"""Likeness, from 0 to 1, of functions that count as written in the same way."""
+LEFT_OUT = re.compile(r"A step is left out: `([^`]*\W[^`]*)`")
+"""Words of a slip that leaves out an assignment to a part: where there is one, it is false."""
+
+
+def alike(text: str, other: str, function: str) -> bool:
+    """Return whether two texts have a function of this name that is written in the same way."""
+    one, another = _words(text, function), _words(other, function)
+    matcher: SequenceMatcher[str] = SequenceMatcher(a=one, b=another, autojunk=False)
+    return bool(one) and matcher.ratio() >= LIKE
+
+
+def _words(text: str, function: str) -> list[str]:
+    """Return the words of a function's body and what stands between them; [] without it."""
+    try:
+        nodes = [each for each in ast.walk(ast.parse(text)) if isinstance(each, ast.FunctionDef)]
+    except (SyntaxError, ValueError, RecursionError):
+        return []
+    bodies = [node.body for node in nodes if node.name == function]
+    return re.findall(r"\w+|\W", "\n".join(map(ast.unparse, bodies[-1]))) if bodies else []
+
+
+def assigns(text: str, target: str) -> bool:
+    """Return whether a text assigns something to this very expression."""
+    try:
+        nodes = [n for n in ast.walk(ast.parse(text)) if isinstance(n, (ast.Assign, ast.AugAssign))]
+    except (SyntaxError, ValueError, RecursionError):
+        return False
+    targets = [t for n in nodes for t in (n.targets if isinstance(n, ast.Assign) else [n.target])]
+    return any(ast.unparse(each) == target for each in targets)
 
 
 def asks_for(text: str, function: str, expression: str) -> bool:

@@ -25,8 +25,16 @@ from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Case, Known
-from botschool.grading.judge.alike import TIE, counts, distance, fits, weight
-from botschool.grading.judge.evidence import CONDITION, asks_for, holds, quoted
+from botschool.grading.judge.alike import TIE, counts, distance, fits, one, weight
+from botschool.grading.judge.evidence import (
+    CONDITION,
+    LEFT_OUT,
+    alike,
+    asks_for,
+    assigns,
+    holds,
+    quoted,
+)
 from botschool.grading.judge.looking import TookTooLong, processor_time_limit
 from botschool.grading.judge.sentences import Variation
 from botschool.grading.judge.variations import variations
@@ -230,12 +238,19 @@ def _is_there(slip: Variation, text: str) -> bool:
     _, is_condition, condition = slip.what.partition(CONDITION)
     if is_condition and asks_for(text, slip.function, condition.strip("`.")):
         return False
+    if (step := LEFT_OUT.search(slip.what)) and assigns(text, step[1]):
+        return False
+    if (slip.vague or "pass of a loop" in slip.what) and not alike(text, slip.text, slip.function):
+        return False
     return not slip.shown or holds(text, slip.shown, quoted(slip.what))
 
 
 def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterator[Variation]:
     """Yield the slips that explain a submission's answers: in our solution, then in others."""
     telling = _wrong(calls)
+    quick = [call for call in calls if not call.slow]
+    if len(quick) > COUNTS and one([c.got for c in quick]) and not one([c.ours for c in quick]):
+        return  # whatever is asked, it gives the same: any slip might lead to it
     if _few(telling):
         return
     whole = all(counts(call.got, math.inf) for call in telling)  # the same for a limit a bit away
