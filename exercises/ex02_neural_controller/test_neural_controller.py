@@ -759,6 +759,16 @@ def batched(module, networks, observations):
     return module.forward_batch(networks, observations)
 
 
+def kept_after_another_batch(module, networks, observations):
+    """Whether an answer is as it was after a later call for other observations."""
+    import numpy
+
+    first = module.forward_batch(networks, observations)
+    before = numpy.array(first)
+    module.forward_batch(networks, observations + 1)
+    return bool(numpy.array_equal(first, before))
+
+
 def changed_by_batch(module, networks, observations):
     """Names of arrays that are no longer as they were after a call."""
     import numpy
@@ -848,6 +858,8 @@ def few_and_square(student: Student):
         changed == [],
         f"{said} changed {show(changed)} of what it was given, in values or in shape.",
     )
+    kept = student.run(kept_after_another_batch, networks, rng.normal(size=(3, 4)), said=said)
+    expect(kept is True, f"{said} changes what an earlier call has returned: make a new array.")
 
 
 @batching.check(3)

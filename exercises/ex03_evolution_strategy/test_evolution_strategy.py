@@ -1027,8 +1027,8 @@ def expect_trained(
                 )
             if worse.another_reaches(wanted):
                 advice = (
-                    "Another of the candidates that were evaluated last is good enough: look at "
-                    "how you choose the one that you return."
+                    "A candidate that was evaluated last is good enough, but it is not the one "
+                    "that was returned: look at how you choose that."
                 )
             raise Wrong(
                 f"{worse.said}: {told.format(worse.mean)} Of the {len(runs)} seeds that are "

@@ -350,10 +350,12 @@ def wrong_grids(places: int, headings: int, column: int) -> dict:
         np.array(table).reshape(-1, 3)[:, column],
     } | slips(
         made,
-        order={"": (0, 1, 2)} | {
+        order={"": (0, 1, 2)} | ({
             f"{names[a]} changes slowest here, then {names[b]}, and {names[c]} fastest.": (a, b, c)
             for a, b, c in permutations(range(3)) if (a, b, c) != (0, 1, 2)
-        },
+        } if headings > 1 else {
+            "Not x changes faster here, but y, or both go together.": (1, 0, 2)
+        }),
         rows={
             "": [0, 1, 2],
             "x and y are exchanged: a row holds x, y, heading.": [1, 0, 2],

@@ -768,7 +768,8 @@ def column_that_never_changes(student: Student):
     deviation[2] = 1.0
     compare_normalised(student, inputs, deviation)
     compare_normalised(student, inputs[:1], np.ones(4))
-    inputs[-1] = inputs[0]  # a column may begin and end with the same number
+    inputs[-1] = inputs[0]  # a column may begin and end with the same number, and stay for once
+    inputs[5] = inputs[4]
     deviation = inputs.std(axis=0)
     deviation[2] = 1.0
     compare_normalised(student, inputs, deviation)

@@ -256,6 +256,9 @@ def every_variation_with_every_seed(student: Student):
             expect_same_numbers(said, found, reference)
         got, mistakes = records[key]["return"], mistaken_return(found.returns)
         expect_close(f"{student.said}: return", got, found.last, CLOSE, mistakes)
+    rate = rates["varied"]  # a later call finds the trainings of earlier ones there
+    (record,) = varied(student, "CartPole-v1", {"varied": rate}, [6])
+    expect_training(student, record, "CartPole-v1", "varied", rate, 6)
 
 
 # ------------------------------------------------------------------- 14.2

@@ -42,6 +42,8 @@ def holds(text: str, expression: str, names: set[str]) -> bool:
 
 LIKE = 0.8
 """Likeness, from 0 to 1, of functions that count as written in the same way."""
+ONLY_IF_ALIKE = re.compile("pass of a loop|Two steps are done")
+"""Words of slips that only those recognise whose function is written in the same way."""
 LEFT_OUT = re.compile(r"A step is left out: `([^`]*\W[^`]*)`")
 """Words of a slip that leaves out an assignment to a part: where there is one, it is false."""
 

@@ -29,6 +29,7 @@ from botschool.grading.judge.alike import TIE, counts, distance, fits, one, weig
 from botschool.grading.judge.evidence import (
     CONDITION,
     LEFT_OUT,
+    ONLY_IF_ALIKE,
     alike,
     asks_for,
     assigns,
@@ -240,7 +241,9 @@ def _is_there(slip: Variation, text: str) -> bool:
         return False
     if (step := LEFT_OUT.search(slip.what)) and assigns(text, step[1]):
         return False
-    if (slip.vague or "pass of a loop" in slip.what) and not alike(text, slip.text, slip.function):
+    if (slip.vague or ONLY_IF_ALIKE.search(slip.what)) and not alike(
+        text, slip.text, slip.function
+    ):
         return False
     return not slip.shown or holds(text, slip.shown, quoted(slip.what))
 
