@@ -176,6 +176,8 @@ def on_stage(module, urdf, call, scenes):
     import pybullet
     import pybullet_data
 
+    from botschool.course.robots import use_robot
+
     def seen():
         base = pybullet.getBasePositionAndOrientation(env.robot, env.client)
         turning = pybullet.getBaseVelocity(env.robot, env.client)[1]
@@ -194,9 +196,7 @@ def on_stage(module, urdf, call, scenes):
                 physicsClientId=env.client,
             )
 
-    with open("balance_bot.urdf", "w") as file:
-        file.write(urdf)
-    module.robot_file = lambda name: os.path.abspath("balance_bot.urdf")
+    use_robot(module, urdf)
     plane = os.path.join(pybullet_data.getDataPath(), "plane.urdf")
     decoy = pybullet.connect(pybullet.DIRECT)
     pybullet.loadURDF(plane, physicsClientId=decoy)
@@ -833,10 +833,10 @@ def registered(module, urdf, seed, gains=None):
     import numpy
     from gymnasium.utils.env_checker import check_env
 
+    from botschool.course.robots import use_robot
+
     name = "BalanceBotBulletEnv-v0"
-    with open("balance_bot.urdf", "w") as file:
-        file.write(urdf)
-    module.robot_file = lambda name: os.path.abspath("balance_bot.urdf")
+    use_robot(module, urdf)
     gymnasium.registry.pop(name, None)
     module.register_robot()
     if name not in gymnasium.registry:

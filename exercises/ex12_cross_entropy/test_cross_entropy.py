@@ -105,7 +105,8 @@ def compare_softmax(student: Student, scores: np.ndarray) -> None:
     if scores.ndim > 1:
         sums = np.maximum(powers.sum(axis=0), 1e-300)
         mistakes["The sum runs over the steps, but it is to run over the actions."] = powers / sums
-    expect_close(student.said, answer, np.exp(logarithms_of(scores)), mistakes=mistakes)
+    tolerance = 1e-4 if np.abs(scores).max() > 100 else 1e-9  # what single precision leaves
+    expect_close(student.said, answer, np.exp(logarithms_of(scores)), tolerance, mistakes)
 
 
 def overflown(scores: np.ndarray, answer) -> str:
@@ -384,9 +385,9 @@ def rewarded(module, rewards, maxsteps):
             seen = numpy.full(3, self.steps, dtype=numpy.float32)
             return seen, rewards[self.steps - 1], ended, False, {}
 
-    gymnasium.registry.pop("grader/Rewarding-v0", None)  # of a call before
-    gymnasium.register(id="grader/Rewarding-v0", entry_point=Rewarding)
-    return module.run_episode("grader/Rewarding-v0", lambda observation: 1, 1, maxsteps)
+    name = f"grader/Rewarding{len(gymnasium.registry)}-v0"  # new: one may be kept for another call
+    gymnasium.register(id=name, entry_point=Rewarding)
+    return module.run_episode(name, lambda observation: 1, 1, maxsteps)
 
 
 @episodes.check(3)
@@ -441,12 +442,10 @@ def cut(module, lows, highs, chosen):
             ended = len(self.got) == len(chosen)
             return numpy.zeros(3, dtype=numpy.float32), 1.0, ended, False, {}
 
-    gymnasium.registry.pop("grader/Motors-v0", None)  # of a call before
-    gymnasium.register(id="grader/Motors-v0", entry_point=Motors)
+    name = f"grader/Motors{len(gymnasium.registry)}-v0"
+    gymnasium.register(id=name, entry_point=Motors)
     waiting = iter(chosen)
-    answer = module.run_episode(
-        "grader/Motors-v0", lambda observation: next(waiting).copy(), 1, 100
-    )
+    answer = module.run_episode(name, lambda observation: next(waiting).copy(), 1, 100)
     return [answer, Motors.got]
 
 
@@ -1249,7 +1248,9 @@ def expect_balanced(student: Student, environment: str, index: int, left: int = 
             "(a variable of the module, or an array that is changed in place).",
         )
         expect(
-            not same or other == seed,
+            not same
+            or other == seed
+            or not shared,  # none are seen of an environment that was kept
             f"train({environment!r}, seed={other}) chooses the same actions as with "
             f"seed={seed} in its first {FIRST} episodes, but another seed must give another "
             "training.",

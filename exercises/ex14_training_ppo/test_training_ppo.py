@@ -108,6 +108,8 @@ def evidence(student: Student, record: dict, variant: str):
     (place,) = expect_fields(student.said, record, "folder")
     expect(isinstance(place, str), f"{student.said}: folder is {show(place)}, but text is needed.")
     place = os.path.normpath(place)
+    if os.path.isabs(place):  # the same folder: the submission's own one is another each time
+        place = place[place.rfind(os.sep + "trainings" + os.sep) + 1 :]
     expect(
         place != os.path.join("trainings", variant),
         f"{student.said}: the folder of a training of {variant!r} is {show(place)}, which is that "

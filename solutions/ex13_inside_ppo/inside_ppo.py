@@ -163,7 +163,7 @@ def value_loss(
 
     values are those of the critic now, old_values those in the rollout. Without clip_range_vf the
     predictions are `values`; with it, old_values + (values - old_values), where the difference in
-    brackets is cut to -clip_range_vf ... clip_range_vf.
+    brackets is cut to -clip_range_vf ... clip_range_vf. A range of 0 is a range, too.
     """
     ### BEGIN SOLUTION task 13.3: compute the loss of the critic
     predictions = values

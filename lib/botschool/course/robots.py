@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 
@@ -42,6 +43,19 @@ def write_package(folder: str | Path, files: dict[str, str], parts: list) -> Non
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text, encoding="utf-8")
     print(f"package: {folder}  (install it with: pip install -e {folder.resolve()})")
+
+
+def use_robot(module: ModuleType, urdf: str) -> None:
+    """Write a robot's file, and have a submission's module take it for the course's own.
+
+    This is for a grader. A path that the module has kept since it was loaded changes, too.
+    """
+    own = Path("balance_bot.urdf").absolute()
+    own.write_text(urdf, encoding="utf-8")
+    module.robot_file = lambda name: own  # type: ignore[attr-defined]
+    for name, value in list(vars(module).items()):
+        if isinstance(value, (str, Path)) and Path(value).name == own.name:
+            setattr(module, name, type(value)(own))
 
 
 def draw_balance(file: str | Path, panels: dict[str, list[np.ndarray]]) -> None:

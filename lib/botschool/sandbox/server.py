@@ -20,6 +20,7 @@ import time
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from botschool.paths import material
 from botschool.sandbox import child, namespace
 from botschool.sandbox.confine import end_with
 from botschool.sandbox.errors import SandboxError
@@ -171,6 +172,7 @@ def _environment(home: str) -> dict[str, str]:
         "OMP_NUM_THREADS": "1",
         "PYTHONDONTWRITEBYTECODE": "1",
         "PYTHONHASHSEED": "0",
+        "BOTSCHOOL_COURSE": str(material()),
     } | homes(home)
 
 
