@@ -339,3 +339,10 @@ def package_files():
         "max_episode_steps=500)\n"
     )
     return {"pyproject.toml": "\n".join(lines), "balance_bot/__init__.py": init}
+
+
+# %% path_at_the_top_of_the_file
+# The path of the robot is a constant of the module.
+# -             str(robot_file("balance_bot.urdf")),
+# +             ROBOT_FILE,
+ROBOT_FILE = str(robot_file("balance_bot.urdf"))
