@@ -17,10 +17,9 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-from botschool.paths import material
 from botschool.sandbox import child, namespace
 from botschool.sandbox.confine import end_with
 from botschool.sandbox.errors import SandboxError
@@ -37,10 +36,13 @@ _FORK_AFTER_IMPORTS = sys.platform == "linux"  # on other systems, libraries may
 class ForkServer:
     """Start children and report how they ended; a context manager."""
 
-    def __init__(self, imports: Iterable[str] = ()) -> None:
+    def __init__(
+        self, imports: Iterable[str] = (), environment: Mapping[str, str] | None = None
+    ) -> None:
         """Start the server. Raises SandboxError.
 
-        imports: names of modules that every child has imported from the beginning.
+        imports: names of modules that every child has imported from the beginning. environment:
+        variables that it has besides the few that all children have.
         """
         if not hasattr(os, "killpg"):
             raise SandboxError(
@@ -57,7 +59,7 @@ class ForkServer:
             self._process = subprocess.Popen(
                 interpreter("botschool.sandbox.server", str(theirs.fileno()), *imports),
                 cwd=self._home.name,
-                env=_environment(self._home.name),
+                env={**(environment or {}), **_environment(self._home.name)},
                 stdin=subprocess.DEVNULL,
                 stdout=self._log,
                 stderr=subprocess.STDOUT,
@@ -172,7 +174,6 @@ def _environment(home: str) -> dict[str, str]:
         "OMP_NUM_THREADS": "1",
         "PYTHONDONTWRITEBYTECODE": "1",
         "PYTHONHASHSEED": "0",
-        "BOTSCHOOL_COURSE": str(material()),
     } | homes(home)
 
 

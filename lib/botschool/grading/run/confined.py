@@ -79,7 +79,7 @@ def machine_fault(error: OSError | MemoryError) -> MachineFault | Exception:
 def fork_server(imports: Iterable[str] = ()) -> ForkServer:
     """Start a fork server; imports: modules beside IMPORTS. Raises BotschoolError."""
     with translated():
-        return ForkServer([*IMPORTS, *imports])
+        return ForkServer([*IMPORTS, *imports], {"BOTSCHOOL_COURSE": str(material())})
 
 
 def start_child(
