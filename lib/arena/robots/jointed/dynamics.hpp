@@ -43,32 +43,6 @@ BOTSCHOOL_INLINE void unrolled([[maybe_unused]] F f, std::index_sequence<I...>) 
 template <int I>
 using Constant = std::integral_constant<int, I>;
 
-/// A vector in the plane, in lanes.
-template <class V>
-struct Vector2 {
-  V x, z;
-  friend BOTSCHOOL_INLINE Vector2 operator+(Vector2 a, Vector2 b) { return {a.x + b.x, a.z + b.z}; }
-  friend BOTSCHOOL_INLINE Vector2 operator-(Vector2 a, Vector2 b) { return {a.x - b.x, a.z - b.z}; }
-  friend BOTSCHOOL_INLINE Vector2 operator*(V s, Vector2 a) { return {s * a.x, s * a.z}; }
-};
-
-template <class V>
-BOTSCHOOL_INLINE V dot(Vector2<V> a, Vector2<V> b) {
-  return a.x * b.x + a.z * b.z;
-}
-
-/// A quarter turn counter-clockwise: how a point at `a` moves when its angle grows.
-template <class V>
-BOTSCHOOL_INLINE Vector2<V> turn(Vector2<V> a) {
-  return {-a.z, a.x};
-}
-
-/// A symmetric 2 x 2 matrix: resistance to motion in the plane.
-template <class V>
-struct Resistance {
-  V xx = V(0), xz = V(0), zz = V(0);
-};
-
 template <class Body, class T, int W>
 struct Dynamics {
   using V = Lanes<T, W>;

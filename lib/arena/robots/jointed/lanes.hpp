@@ -1,4 +1,5 @@
-// Arithmetic on numbers side by side, one a lane: what formulas of jointed bodies are written in.
+// Arithmetic on numbers side by side, one a lane, and on vectors of them: what formulas of jointed
+// bodies are written in.
 #pragma once
 
 #include <cmath>
@@ -109,5 +110,31 @@ BOTSCHOOL_INLINE void sine_cosine(Lanes<T, W> x, Lanes<T, W>& sine, Lanes<T, W>&
   sine = Lanes<T, W>::from(s);
   cosine = Lanes<T, W>::from(c);
 }
+
+/// A vector in the plane, in lanes.
+template <class V>
+struct Vector2 {
+  V x, z;
+  friend BOTSCHOOL_INLINE Vector2 operator+(Vector2 a, Vector2 b) { return {a.x + b.x, a.z + b.z}; }
+  friend BOTSCHOOL_INLINE Vector2 operator-(Vector2 a, Vector2 b) { return {a.x - b.x, a.z - b.z}; }
+  friend BOTSCHOOL_INLINE Vector2 operator*(V s, Vector2 a) { return {s * a.x, s * a.z}; }
+};
+
+template <class V>
+BOTSCHOOL_INLINE V dot(Vector2<V> a, Vector2<V> b) {
+  return a.x * b.x + a.z * b.z;
+}
+
+/// A quarter turn counter-clockwise: how a point at `a` moves when its angle grows.
+template <class V>
+BOTSCHOOL_INLINE Vector2<V> turn(Vector2<V> a) {
+  return {-a.z, a.x};
+}
+
+/// A symmetric 2 x 2 matrix: resistance to motion in the plane.
+template <class V>
+struct Resistance {
+  V xx = V(0), xz = V(0), zz = V(0);
+};
 
 BOTSCHOOL_END
