@@ -141,8 +141,7 @@ def expect_close(
     close = np.abs(got - wanted) <= _allowed(got, wanted, tolerance)
     if not close.all():
         sentence = _unequal(said, got, wanted, close)
-        whole = isinstance(value, np.ndarray) and value.dtype.kind in "iu"
-        if whole and np.isfinite(wanted).all() and (wanted % 1).any():
+        if cuts_fractions(value, wanted):
             sentence += f"\n  It is an array of {value.dtype}, which holds no fractions."
         if why:
             place = np.unravel_index(int(np.argmin(close)), close.shape)
@@ -151,6 +150,14 @@ def expect_close(
         _found(Mismatch(sentence, got, wanted, mistakes, said))
     elif isinstance(mistakes, (dict, partial)):  # a lambda may be of another case later
         _found(Mismatch("", got, wanted, mistakes, said, right=True))
+
+
+def cuts_fractions(value: Any, wanted: Any) -> bool:
+    """Return whether a value is an array of whole numbers, but the wanted array has fractions."""
+    if not (isinstance(value, np.ndarray) and isinstance(wanted, np.ndarray)):
+        return False
+    fractions = wanted.dtype.kind == "f" and bool((wanted != np.round(wanted)).any())
+    return value.dtype.kind in "iu" and fractions
 
 
 def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:

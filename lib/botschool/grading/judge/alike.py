@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from botschool.grading.declare.checks import cuts_fractions
+
 MAX_LEAVES = 20_000
 """Largest number of arrays, numbers and texts to compare in an answer."""
 TIE, TINY = 1e-6, 1e-9
@@ -26,7 +28,7 @@ def distance(one: Any, other: Any) -> float:
     return max((_apart(a, b) for a, b in zip(first, second, strict=True)), default=0.0)
 
 
-def one(answers: list[Any]) -> bool:
+def equal(answers: list[Any]) -> bool:
     """Return whether all answers are the same."""
     return all(distance(each, answers[0]) <= TIE for each in answers)
 
@@ -36,18 +38,10 @@ def fits(got: Any, made: Any, ours: Any) -> bool:
 
     An array that cannot hold the fractions of ours equals only another one that cannot.
     """
-    if _cut(got, ours) != _cut(made, ours):
+    if cuts_fractions(got, ours) != cuts_fractions(made, ours):
         return False
     error, effect = distance(got, made), distance(got, ours)
     return error <= TIE and (effect <= TIE or error <= SHARE * effect)
-
-
-def _cut(answer: Any, ours: Any) -> bool:
-    """Return whether an answer is an array of whole numbers, but ours has fractions."""
-    if not (isinstance(answer, np.ndarray) and isinstance(ours, np.ndarray)):
-        return False
-    fractions = ours.dtype.kind == "f" and bool((ours != np.round(ours)).any())
-    return answer.dtype.kind in "iu" and fractions
 
 
 def weight(got: Any, made: Any, ours: Any) -> float:

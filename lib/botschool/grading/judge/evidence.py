@@ -1,4 +1,4 @@
-"""Tell whether a submission holds the expression that a slip would have made or left out."""
+"""Tell whether a submission may have a slip, by its text."""
 
 from __future__ import annotations
 
@@ -7,10 +7,31 @@ import copy
 import re
 from difflib import SequenceMatcher
 
+from botschool.grading.judge.sentences import Variation
+
 EXCHANGED = " is used where "
 """Words of a slip that takes one name for another: without this name in its place it is false."""
 CONDITION = "One of several conditions is left out: "
 """Words of a slip that leaves out what a condition asks for: where one asks for it, it is false."""
+LIKE = 0.8
+"""Likeness, from 0 to 1, of functions that count as written in the same way."""
+ONLY_IF_ALIKE = re.compile("pass of a loop|Two steps are done")
+"""Words of slips that only those recognise whose function is written in the same way."""
+LEFT_OUT = re.compile(r"A step is left out: `([^`]*\W[^`]*)`")
+"""Words of a slip that leaves out an assignment to a part: where there is one, it is false."""
+
+
+def may_be_true(slip: Variation, text: str) -> bool:
+    """Return whether the sentence of a slip may be true of a submission's text."""
+    _, is_condition, condition = slip.what.partition(CONDITION)
+    if is_condition and asks_for(text, slip.function, condition.strip("`.")):
+        return False
+    if (step := LEFT_OUT.search(slip.what)) and assigns(text, step[1]):
+        return False
+    only_if_alike = slip.vague or ONLY_IF_ALIKE.search(slip.what)
+    if only_if_alike and not written_alike(text, slip.text, slip.function):
+        return False
+    return not slip.shown or holds(text, slip.shown, quoted(slip.what))
 
 
 def quoted(what: str) -> set[str]:
@@ -40,15 +61,7 @@ def holds(text: str, expression: str, names: set[str]) -> bool:
         return False
 
 
-LIKE = 0.8
-"""Likeness, from 0 to 1, of functions that count as written in the same way."""
-ONLY_IF_ALIKE = re.compile("pass of a loop|Two steps are done")
-"""Words of slips that only those recognise whose function is written in the same way."""
-LEFT_OUT = re.compile(r"A step is left out: `([^`]*\W[^`]*)`")
-"""Words of a slip that leaves out an assignment to a part: where there is one, it is false."""
-
-
-def alike(text: str, other: str, function: str) -> bool:
+def written_alike(text: str, other: str, function: str) -> bool:
     """Return whether two texts have a function of this name that is written in the same way."""
     one, another = _words(text, function), _words(other, function)
     matcher: SequenceMatcher[str] = SequenceMatcher(a=one, b=another, autojunk=False)

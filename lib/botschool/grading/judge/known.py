@@ -25,17 +25,8 @@ from botschool.errors import BotschoolError
 from botschool.grading.declare.checks import Wrong
 from botschool.grading.declare.exercise import Task
 from botschool.grading.declare.mistakes import Case, Known
-from botschool.grading.judge.alike import TIE, counts, distance, fits, one, weight
-from botschool.grading.judge.evidence import (
-    CONDITION,
-    LEFT_OUT,
-    ONLY_IF_ALIKE,
-    alike,
-    asks_for,
-    assigns,
-    holds,
-    quoted,
-)
+from botschool.grading.judge.alike import TIE, counts, distance, equal, fits, weight
+from botschool.grading.judge.evidence import may_be_true
 from botschool.grading.judge.looking import TookTooLong, processor_time_limit
 from botschool.grading.judge.sentences import Variation
 from botschool.grading.judge.variations import variations
@@ -114,7 +105,7 @@ def known_mistake(
                 if _explains(ours, text, calls):
                     return f"{TOLD} {what}"
             slips = _slips(ours, task, known, calls)
-            slip = _clearest(each for each in slips if _is_there(each, submission.text))
+            slip = _clearest(each for each in slips if may_be_true(each, submission.text))
             if slip:
                 return f"{VARIED} {slip.what}"
             return _pair(ours, [case for case in cases if case.loses[0] == task.id], known, calls)
@@ -234,28 +225,13 @@ def _clearest(slips: Iterator[Variation]) -> Variation | None:
         return first
 
 
-def _is_there(slip: Variation, text: str) -> bool:
-    """Return whether a sentence may be true of a submission's text."""
-    _, is_condition, condition = slip.what.partition(CONDITION)
-    if is_condition and asks_for(text, slip.function, condition.strip("`.")):
-        return False
-    if (step := LEFT_OUT.search(slip.what)) and assigns(text, step[1]):
-        return False
-    if (slip.vague or ONLY_IF_ALIKE.search(slip.what)) and not alike(
-        text, slip.text, slip.function
-    ):
-        return False
-    return not slip.shown or holds(text, slip.shown, quoted(slip.what))
-
-
 def _slips(ours: Student, task: Task, known: Known, calls: list[Call]) -> Iterator[Variation]:
     """Yield the slips that explain a submission's answers: in our solution, then in others."""
     telling = _wrong(calls)
     quick = [call for call in calls if not call.slow]
-    if len(quick) > COUNTS and one([c.got for c in quick]) and not one([c.ours for c in quick]):
-        return  # whatever is asked, it gives the same: any slip might lead to it
-    if _few(telling):
-        return
+    always = len(quick) > COUNTS and equal([call.got for call in quick])
+    if _few(telling) or (always and not equal([call.ours for call in quick])):
+        return  # any slip might lead to it
     whole = all(counts(call.got, math.inf) for call in telling)  # the same for a limit a bit away
     styles = [text for text in known.styles() if _imports_little(text, known.solution)]
     slips = (
