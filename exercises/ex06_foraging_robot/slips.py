@@ -354,7 +354,7 @@ def wrong_grids(places: int, headings: int, column: int) -> dict:
             f"{names[a]} changes slowest here, then {names[b]}, and {names[c]} fastest.": (a, b, c)
             for a, b, c in permutations(range(3)) if (a, b, c) != (0, 1, 2)
         } if headings > 1 else {
-            "Not x changes faster here, but y, or both go together.": (1, 0, 2)
+            "y changes faster than x here, or both change together.": (1, 0, 2)
         }),
         rows={
             "": [0, 1, 2],

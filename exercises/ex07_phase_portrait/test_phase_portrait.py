@@ -963,18 +963,19 @@ def drawn_otherwise(extent: np.ndarray, sizes) -> str:
         ),
         "They point the other way: the changes are to be added.": (states, states - changes),
     }  # fmt: skip
-    for length in (0.2, 0.5, 1, 2):
-        text = "All are equally long: each is to be as long as its change."
-        ends = states + length * changes / np.hypot(*changes.T)[:, None]
-        ways[text + " " * len(ways)] = (states, ends)
     for factor in (0.1, 0.2, 0.5, 2, 5, 10):
         text = f"They are {factor:g} times as long as their change."
         ways[text] = (states, states + factor * changes)
     off = {text: max(misfits(extent, *within_axes(*ends), sizes)) for text, ends in ways.items()}
     exchanged = (states[:, ::-1], (states + changes)[:, ::-1])
     off["Angles and velocities are exchanged."] = max(misfits(extent, *exchanged, sizes))
+    directions = changes / np.hypot(*changes.T)[:, None]
+    off["All are equally long: each is to be as long as its change."] = min(
+        max(misfits(extent, *within_axes(states, states + length * directions), sizes))
+        for length in (0.2, 0.5, 1, 2)
+    )
     best = min(off, key=lambda text: off[text])
-    return f"\n  {best.rstrip()}" if off[best] < 0.05 else ""
+    return f"\n  {best}" if off[best] < 0.05 else ""
 
 
 def drawn_arrows(different: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:

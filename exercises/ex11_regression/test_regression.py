@@ -754,13 +754,19 @@ def mistaken_deviations(inputs: np.ndarray, got) -> dict:
     return found
 
 
-def compare_normalised(student: Student, inputs: np.ndarray, deviation: np.ndarray) -> None:
+def normalised(student: Student, inputs: np.ndarray) -> tuple | list:
+    """The student's inputs, mean and deviation."""
     answer = student.call("normalise", inputs)
-    said = student.said
     expect(
         isinstance(answer, (list, tuple)) and len(answer) == 3,
-        f"{said} must return the inputs, the mean and the deviation, not {show(answer)}.",
+        f"{student.said} must return the inputs, the mean and the deviation, not {show(answer)}.",
     )
+    return answer
+
+
+def compare_normalised(student: Student, inputs: np.ndarray, deviation: np.ndarray) -> None:
+    answer = normalised(student, inputs)
+    said = student.said
     mean = inputs.sum(axis=0) / len(inputs)
     expect_close(f"{said}: the mean", answer[1], mean, 1e-6)
     mistakes = partial(mistaken_deviations, inputs, answer[2])
@@ -807,9 +813,8 @@ def column_that_never_changes(student: Student):
     compare_normalised(student, inputs, deviation)
     # and so does one of large numbers, of which single precision gives the deviation roughly
     numbers = 1_000_000 + rng.permutation(np.arange(12) - 5.0)
-    answer = student.call("normalise", numbers[:, None])
-    expect(isinstance(answer, (list, tuple)) and len(answer) == 3, f"{student.said} gave no three.")
-    found = float(expect_array(student.said, answer[2], (1,))[0])
+    deviations = normalised(student, numbers[:, None])[2]
+    found = float(expect_array(student.said, deviations, (1,))[0])
     expect(
         abs(found - numbers.std()) < 0.5,
         f"normalise(inputs), whose only column holds the numbers from 999995 to 1000006: the "
