@@ -391,6 +391,13 @@ def test_runs_of_different_lengths_are_not_cut():
             assert bool([*_smaller(call)]) == (lengths == (5, 5))
 
 
+def test_an_array_that_cuts_fractions_fits_only_another_one():
+    ours, cut = np.array([0.25, 0.75]), np.array([0, 0])
+    assert fits(cut, np.array([0, 0]), ours)
+    assert not fits(cut, np.zeros(2), ours)
+    assert fits(np.array([1, 2]), np.array([1.0, 2.0]), np.array([3.0, 4.0]))
+
+
 @given(answers, answers)
 def test_any_two_answers_can_be_told_apart(got, right):
     """Rows of dicts were taken for numbers, and the whole submission was not graded."""

@@ -312,6 +312,14 @@ def test_ends_that_are_right():
         expect_ends("f(1)", ends, ends, "it should be")
 
 
+def test_whole_numbers_where_fractions_belong_are_said():
+    with pytest.raises(Wrong, match="an array of int64, which holds no fractions"):
+        expect_close("f(1)", np.array([0, 0]), [0.25, 0.75])
+    with pytest.raises(Wrong) as wrong:
+        expect_close("f(1)", np.array([0, 0]), [1.0, 2.0])
+    assert "fractions" not in str(wrong.value)
+
+
 def test_an_episode_that_went_on():
     assert "it says truncated in that step, and not terminated" in went_on(False, True)
     assert "it says terminated in that step, and not truncated" in went_on(True, False)

@@ -4,7 +4,9 @@ import pytest
 
 from botschool.grading import Exercise, expect, expect_close
 from botschool.grading.judge import known as replay
+from botschool.grading.judge.evidence import may_be_true
 from botschool.grading.judge.known import TOLD
+from botschool.grading.judge.sentences import Variation
 from tiny_course import FILE
 
 BOUNDS = '''"""A solution."""
@@ -213,3 +215,44 @@ def test_two_known_mistakes_at_once_are_named(messages, monkeypatch):
     monkeypatch.setattr(replay, "_likely_first", lambda *_: [])  # no time for single ones
     (told,) = messages(WITH_BOTH.replace("2 * v", "v"), exercise)
     assert told.splitlines()[0] == f"{TOLD} The values outside are counted, too."
+
+
+DOUBLED = "def told(x):\n    first = 2 * x\n    second = first + 1\n    return second\n"
+
+
+def test_a_vague_slip_is_named_only_where_the_function_is_written_alike():
+    without, other = DOUBLED.replace("2 * ", ""), "def told(values):\n    return 1 + values\n"
+    for what, elsewhere in (
+        ("A factor is left out.", False),
+        ("The first pass of a loop is left out.", False),
+        ("Two steps are done in the wrong order: `first`.", False),
+        ("A factor is left out: `scale`.", True),
+    ):
+        slip = Variation(what, without, function="told")
+        assert may_be_true(slip, without.replace("second", "end"))
+        assert may_be_true(slip, other) == elsewhere
+        assert may_be_true(slip, "no Python (") == elsewhere
+
+
+def test_a_step_that_is_there_is_not_said_to_be_left_out():
+    slip = Variation("A step is left out: `table[:, 1:]`.", DOUBLED, function="told")
+    assert may_be_true(slip, "def told(table):\n    table[:, 1] = 3\n")
+    for sign in ("=", "+="):
+        assert not may_be_true(slip, f"def told(table):\n    table[:, 1:] {sign} 3\n")
+
+
+def test_no_slip_is_named_for_an_answer_that_never_changes(messages):
+    ours = (
+        "def told(x):\n    ### BEGIN SOLUTION task 3.1: told\n"
+        "    return 0.75 * x + 8.5 if x > 1 else 3.25\n    ### END SOLUTION\n"
+    )
+    exercise = Exercise(3, "Three", FILE)
+    first = exercise.task("3.1", "First", seconds=5)
+
+    @first.check(100)
+    def many(student):
+        for x in (0.5, 1.25, 7.5, 2.25, 9.5):
+            expect_close("told(...)", student.call("told", x), 0.75 * x + 8.5 if x > 1 else 3.25)
+
+    exercise.knows(ours)
+    assert replay.VARIED not in messages("def told(x):\n    return 3.25\n", exercise)[0]

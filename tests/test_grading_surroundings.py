@@ -1,0 +1,103 @@
+"""What a submission finds around it while it is graded: functions and files of the grader's."""
+
+from functools import partial, wraps
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+
+from botschool.course.robots import use_robot
+from botschool.grading import Exercise, expect
+from botschool.grading.run.replaced import replaced
+from tiny_course import FILE
+
+
+def power(base, exponent=2, *, scale=1):
+    return scale * base**exponent
+
+
+KEPT_ELSEWHERE = [power, partial(power, exponent=3)]
+
+
+def by_default(base, function=power):
+    return function(base)
+
+
+def counted(seen):
+    def instead(function):
+        def counting(*arguments, **options):
+            seen.append((arguments, options))
+            return function(*arguments, **options)
+
+        return counting
+
+    return instead
+
+
+def test_all_references_to_a_function_call_the_other_one():
+    module, seen = SimpleNamespace(power=power), []
+    with replaced(module, "power", counted(seen)):
+        assert module.power(3) == 9
+        assert KEPT_ELSEWHERE[0](3, scale=2) == 18
+        assert KEPT_ELSEWHERE[1](2) == 8
+        assert by_default(5) == 25
+    assert seen == [((3,), {}), ((3,), {"scale": 2}), ((2,), {"exponent": 3}), ((5,), {})]
+    assert power(3, scale=3) == 27
+    assert len(seen) == 4
+
+
+def test_a_function_may_be_replaced_twice():
+    module, seen = SimpleNamespace(power=power), []
+    with replaced(module, "power", counted(seen)), replaced(module, "power", counted(seen)):
+        assert by_default(2) == 4
+    assert len(seen) == 2
+    assert power(2) == 4
+
+
+def test_what_is_no_plain_function_is_replaced_by_name():
+    @wraps(power)
+    def decorated(*arguments):
+        return power(*arguments)
+
+    for function in (decorated, partial(power, 2), abs):
+        module, seen = SimpleNamespace(function=function), []
+        with replaced(module, "function", counted(seen)):
+            module.function(2)
+        assert len(seen) == 1
+        assert module.function is function
+
+
+def test_another_robot_takes_the_place_of_the_courses_own(tmp_path, monkeypatch):
+    """Also where the submission has kept the path since it was loaded, as a text or a Path."""
+    monkeypatch.chdir(tmp_path)
+    module = ModuleType("submission")
+    module.kept = Path("data/robots/balance_bot.urdf")
+    module.as_text, module.other = str(module.kept), "data/robots/other.urdf"
+    use_robot(module, "<robot/>")
+    own = tmp_path / "balance_bot.urdf"
+    assert own.read_text() == "<robot/>"
+    assert module.robot_file("balance_bot.urdf") == module.kept == own
+    assert (module.as_text, module.other) == (str(own), "data/robots/other.urdf")
+
+
+def test_the_course_is_found_while_a_file_is_loaded(messages):
+    """A path of the course may stand at the top of a submission; the graders stay closed."""
+    exercise = Exercise(3, "Three", FILE)
+    first = exercise.task("3.1", "First", seconds=5)
+
+    @first.check(100)
+    def sizes(student):
+        body, grader = student.call("sizes")
+        expect(body > 0 and grader == "PermissionError", f"{body} {grader}")
+
+    text = """from botschool.course.files import experiment_file, robot_file
+from botschool.paths import course_root
+EXPERIMENT, BODY = experiment_file("acrobot.ini"), robot_file("balance_bot.urdf")
+
+
+def sizes():
+    grader = course_root() / "exercises/ex01_gymnasium/test_gymnasium_basics.py"
+    try:
+        grader.read_text()
+    except OSError as error:
+        return len(EXPERIMENT.read_text()) * len(BODY.read_text()), type(error).__name__
+"""
+    assert messages(text, exercise) == [""]
