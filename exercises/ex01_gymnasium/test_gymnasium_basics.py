@@ -240,8 +240,11 @@ def told(student: Student, case: int) -> tuple[dict, np.ndarray, dict]:
     )
     with gymnasium.make(name) as env:
         observations, rewards, ends = [env.reset(seed=seed)[0]], [], [False, False]
-        actions = expect_array(
-            f"{student.said}: actions", actions, (len(actions), *env.action_space.shape)
+        actions = np.array(
+            [
+                expect_array(f"{student.said}: actions: [{index}]", action, env.action_space.shape)
+                for index, action in enumerate(actions)
+            ]
         )
         for step, action in enumerate(actions):
             if any(ends):

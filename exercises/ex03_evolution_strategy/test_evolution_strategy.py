@@ -304,6 +304,18 @@ def expect_overwritten(step: Step) -> None:
     )
 
 
+def expect_unlimited(step: Step) -> None:
+    """Copies without noise have one largest number, limited ones have it in several columns."""
+    sizes = np.abs(step.after)
+    largest, at_limit = sizes.max(), sizes == sizes.max()
+    expect(
+        at_limit.any(axis=0).sum() < 3 or not largest,
+        f"{step.said}: no parameter of the new population is beyond {largest:.4g}, and "
+        f"{at_limit.sum()} are exactly there (or at minus this number), but nothing limits "
+        "parameters.",
+    )
+
+
 @following.check(4)
 def better_half_stays(student: Student):
     for popsize, scale in ((10, 1), (6, 1), (2, 1), (10, 100)):
@@ -314,8 +326,9 @@ def better_half_stays(student: Student):
         stayed, many = int(alike.any(axis=0).sum()), len(step.better)
         expect(
             stayed > 0 or not 0.5 < moved / 0.02 < 2,
-            f"{step.said}: none of the better half is as it was, but noise with standard deviation "
-            f"{moved:.3f} was added to it. The better half stays; only its copies get noise.",
+            f"{step.said}: none of the better half is as it was; the rows that resemble it differ "
+            f"by {moved:.3f} (standard deviation). The better half stays; only its copies get "
+            "noise.",
         )
         elsewhere = int(alike[np.setdiff1d(np.arange(popsize), step.places)].any(axis=0).sum())
         expect(
@@ -357,12 +370,13 @@ def worse_half_becomes_mutated_copies(student: Student):
     for scale in (1, 100):
         step = Step(student, 20, 0.02, 7, scale)
         expect_overwritten(step)
+        expect_unlimited(step)
         away = np.abs(step.noise(step.after)).mean(axis=1)
         expect(
             bool(np.all(away < 0.05)),
-            f"{step.said}: a row that is new differs from the nearest one of the better half by "
-            f"{away.max():.3f} on average, but a copy with noise of standard deviation 0.02 "
-            "differs by 0.016.",
+            f"{step.said}: a row that is new differs from each one of the better half by "
+            f"{away.max():.3f} or more on average over its parameters, but a copy with noise of "
+            "standard deviation 0.02 differs by 0.016.",
         )
         copies = np.bincount(step.parents(step.after), minlength=10).tolist()
         expect(
@@ -396,6 +410,7 @@ def noise_is_gaussian(student: Student):
     for mutrate in (0.02, 0.3, 1.5):
         step = Step(student, 200, mutrate, 8, max(1, 20 * mutrate))
         expect_overwritten(step)
+        expect_unlimited(step)
         noise = step.noise(step.after) / mutrate
         none = float(np.mean(noise[:, ZEROS:] == 0))
         share = ""
@@ -428,8 +443,9 @@ def noise_is_gaussian(student: Student):
         )
         expect(
             0.93 < noise.std() < 1.07 and abs(noise.mean()) < 0.1,
-            f"{step.said}: the noise has mean {mutrate * noise.mean():.2g} and standard deviation "
-            f"{mutrate * noise.std():.3g}, but 0 and {mutrate:g} are asked for."
+            f"{step.said}: between copies and those that they were copied from, the differences "
+            f"have mean {mutrate * noise.mean():.2g} and standard deviation "
+            f"{mutrate * noise.std():.3g}, but noise with 0 and {mutrate:g} is asked for."
             f"{slip_of_noise(amounts, mutrate)}",
         )
         beyond = float(np.mean(np.abs(noise) > 2))

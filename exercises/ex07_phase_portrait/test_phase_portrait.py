@@ -280,7 +280,7 @@ def grid_of_states(student: Student):
         expect_close(student.said, answer, expected, 1e-6, mistakes)
 
 
-def stepped(module, gains, states):
+def stepped(module, gains, states, strongest=2):
     import numpy
 
     gains = numpy.asarray(gains)
@@ -289,7 +289,7 @@ def stepped(module, gains, states):
         if numpy.shape(seen) != (3,):
             text = f"the controller was given {seen}, but an observation has the shape (3,)"
             raise ValueError(text)
-        return numpy.clip([gains @ seen], -2, 2)
+        return numpy.clip([gains @ seen], -strongest, strongest)
 
     return module.next_states(controller, states)
 
@@ -361,6 +361,10 @@ def pendulum_with_controller(student: Student):
                 raise Wrong(f"{error}\n  {why}") from error
             student.run(stepped, gains, states, said=said)  # for a second look at this call
             raise
+    strong, states = np.array([3.0, 8.0, 2.0]), random_states(19, 20)
+    said = "next_states(a controller that asks for up to 25, of which the motor gives 2, states)"
+    answer = student.run(stepped, strong, states, 25, said=said)
+    expect_states(said, answer, one_step(strong, states))
 
 
 # ------------------------------------------------------------------- 7.5

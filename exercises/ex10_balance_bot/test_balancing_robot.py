@@ -749,7 +749,10 @@ def of_fallen(student: Student) -> str:
             "to change at LOWEST, 0.15 m."
         )
     if low in (0, 10):
-        return f"\n  fallen() is {low == 10} at each height from 0.02 m to 0.4 m."
+        return (
+            f"\n  fallen() is {low == 10} at each height from 0.02 m to 0.4 m (of a body that was "
+            "put there, before any step of the simulation)."
+        )
     if said[0] == [False] * 5 + [True] * 5:
         return "\n  fallen() is False below LOWEST, and True above: it is the other way round."
     if said[0] == [True] * 5 + [False] * 5:

@@ -861,7 +861,7 @@ def one_batch_an_epoch(student: Student):
         away, moved = np.abs(got - right).max(), np.abs(right - begun).max()
         expect(
             away < 0.02 * moved,
-            f"{student.said}: the parameters end {away:.3g} away from where they should (they "
+            f"{student.said}: the parameters end {away:.3g} away from the right ones (which "
             f"move by {moved:.3g} in all). Each rollout needs its advantages and returns, "
             f"{epochs} epochs, and an early stop where target_kl asks for one."
             + ("" if away < 0.02 * moved else of_first_rollout(rollout)),
@@ -881,7 +881,7 @@ def one_batch_an_epoch(student: Student):
     )
     expect(
         away < 0.02 * moved,
-        f"{student.said}: the parameters end {away:.3g} away from where they should (they move by "
+        f"{student.said}: the parameters end {away:.3g} away from the right ones (which move by "
         f"{moved:.3g} in all).{written}",
     )
 
@@ -896,8 +896,7 @@ def the_stop_ends_the_rollout(student: Student):
         np.array_equal(sizes, [128] * 4),
         f"{student.said}: the second batch of each rollout already has too large a divergence, so "
         "2 batches of 128 steps of each of the 2 rollouts were expected, but those taken have "
-        f"{show(sizes)} steps. The early stop ends all epochs of a rollout, and the next rollout "
-        "begins anew.",
+        f"{show(sizes)} steps.",
     )
 
 

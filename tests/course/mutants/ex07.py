@@ -827,3 +827,17 @@ def evolve(algorithm, evaluate, generations, every):
         "parameters": np.array(list(stages.values())),
         "history": history,
     }
+
+
+# %% motor_without_limit loses 7.4
+# The motor gives as much as the controller asks for, not 2 at most.
+# says: this
+def next_states(controller, states):
+    following = []
+    for angle, velocity in states:
+        seen = np.array([np.cos(angle), np.sin(angle), velocity], dtype=np.float32)
+        torque = float(controller(seen)[0])
+        velocity = np.clip(velocity + (15.0 * np.sin(angle) + 3.0 * torque) * 0.05, -8, 8)
+        angle = angle + velocity * 0.05
+        following.append([np.cos(angle), np.sin(angle), velocity])
+    return to_state(np.array(following))
