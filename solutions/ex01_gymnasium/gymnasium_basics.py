@@ -47,7 +47,7 @@ def describe(environment_id: str) -> dict:
     Returns a dict with
     - "observation" and "action": a dict for each of the two spaces. For a Box
       {"kind": "Box", "size": how many numbers, "low": [...], "high": [...]}, where low and high
-      are lists of `size` floats; for a Discrete
+      are lists of `size` floats, of Python or NumPy; for a Discrete
       {"kind": "Discrete", "choices": how many, "first": the lowest choice};
     - "maxsteps": the time limit in steps, or None.
 

@@ -236,7 +236,7 @@ def _unequal(said: str, got: np.ndarray, wanted: np.ndarray, close: np.ndarray) 
 
 def _came(said: str) -> str:
     """Return the verb after a call, "rank(x)", or after a part of an answer, "play(x): best"."""
-    return "is" if "): " in said or "]: " in said else "returned"
+    return "is" if re.search(r"[)\]]: |: [\w ]+$", said) else "returned"
 
 
 def plain(text: str) -> str:
