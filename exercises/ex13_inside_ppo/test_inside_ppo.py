@@ -690,9 +690,12 @@ def follows_the_observed(student: Student):
 @seeing.check(2)
 def what_never_changes(student: Student):
     rng = generator(61)
-    for steps, constant in ((30, 2), (12, 0), (20, 0)):
+    # the mean of 0.7 and that of 0.1 are rounded, those of 0.5 and 0.25 are exact
+    for steps, constant, values in (
+        (16, 1, (0.5, 0.25)), (30, 2, (0.7, 0.1)), (12, 0, (0.7, 0.1)), (20, 0, (0.7, 0.1))
+    ):  # fmt: skip
         activations, observations = rng.normal(size=(steps, 4)), rng.normal(size=(steps, 3))
-        activations[:, 1], observations[:, constant] = 0.7, 0.1
+        activations[:, 1], observations[:, constant] = values
         activations[4], observations[5] = activations[3], observations[4]  # now and then it stays
         compare_responses(student, activations, observations)
     # a neuron that has nearly reached 1 changes, too; single precision knows it roughly

@@ -1265,3 +1265,13 @@ def learn(ppo, steps, seed):
         rollout.advantages[...] = a
         rollout.returns[...] = a + rollout.values
         train_on(ppo, rollout, hp, rng)
+
+
+# %% rounded_mean_counts_as_change loses 13.7
+# A number that never changes counts as one that does where its mean is rounded, as with 0.1.
+# says: this
+def responses(activations, observations):
+    neurons = activations.shape[1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        both = np.corrcoef(activations.T, observations.T)
+    return np.nan_to_num(both[:neurons, neurons:])
