@@ -70,6 +70,8 @@ class Call:
 
     request: bytes
     ours: Any
+    seconds: float = 0.0
+    """Processor seconds that our solution took."""
     got: Any = None
     slow: bool = False
     """Whether the check takes long: a mistake must explain the answer, which is no proof of it."""
@@ -98,7 +100,7 @@ def known_mistake(
             calls = [call for call in calls if _answered(submission, call)]
             if not _tells(calls, [call.got for call in calls]):
                 return ""
-            calls += [Call(pack(request), None, got, slow=True) for request, got in others]
+            calls += [Call(pack(request), None, got=got, slow=True) for request, got in others]
             for what, text, likely in _likely_first(ours, cases, known.solution, calls):
                 if ours.seconds_left < 2 * SECONDS and not likely:
                     break  # so much is for slips and for pairs
@@ -123,7 +125,7 @@ def _calls(ours: Student, checks: Iterable[Check]) -> list[Call]:
         except (Wrong, TookTooLong):
             continue
     found, ours.trace = ours.trace, None
-    return [Call(request, unpack(answer)) for request, answer in found]
+    return [Call(request, unpack(answer), seconds) for request, answer, seconds in found]
 
 
 def _answered(submission: Student, call: Call) -> bool:
@@ -179,13 +181,18 @@ def _likely_first(
 
 
 def _telling(calls: list[Call]) -> Call:
-    """Return the call with the shortest request among those whose answers are wrong.
+    """Return the call with the shortest request among the quick ones whose answers are wrong.
 
     An exception comes after other wrong answers, because many mistakes raise it.
     """
     return min(
         (call for call in calls if not call.slow),
-        key=lambda c: (distance(c.got, c.ours) <= TIE, _raised(c.got), len(c.request)),
+        key=lambda c: (
+            distance(c.got, c.ours) <= TIE,
+            _raised(c.got),
+            c.seconds > CASE_SECONDS / 2,
+            len(c.request),
+        ),
     )
 
 

@@ -79,7 +79,7 @@ class Student:
         """What the last request raised, "raised" and "text" of the exception; else {}."""
         self.changed = ""
         """A sentence on the first call that changed an array, list or dict of its caller."""
-        self.trace: list[tuple[bytes, bytes]] | None = None
+        self.trace: list[tuple[bytes, bytes, float]] | None = None
         """Packed requests and their packed answers, if this is a list."""
         self._references = references
         self._source = SourceLines(self._file, origin or Origin(), quiet=references is not None)
@@ -181,7 +181,7 @@ class Student:
         self.request, self.answer, self.raised = request, None, {}
         if self.seconds_left <= 0:
             raise Wrong("the task's time was used up by the checks before.")
-        first = self._child is None
+        first, before = self._child is None, self.seconds_left
         if first:
             if self._server is None:
                 self._server = self._own = fork_server()
@@ -225,7 +225,7 @@ class Student:
                 "using: work on a copy (.copy())."
             )
         if self.trace is not None:
-            self.trace.append((pack(request), pack(self.answer)))
+            self.trace.append((pack(request), pack(self.answer), before - self.seconds_left))
         return self.answer
 
     def _blame_the_machine_for_a_kill(self) -> None:
