@@ -207,6 +207,18 @@ def test_a_slow_answer_must_be_explained_too(messages, monkeypatch):
         assert (TOLD in messages(wrong, exercise)[0]) == (wrong != text)
 
 
+def test_mistakes_are_tried_on_a_call_that_takes_little_time():
+    """A long call may be as short a text; mistakes would be cut short there."""
+    long, quick = b"a", b"abcd"
+    calls = [
+        replay.Call(long, 1.0, seconds=0.4, got=2.0),
+        replay.Call(quick, 1.0, seconds=0.01, got=2.0),
+        replay.Call(b"ab", 1.0, seconds=0.01, got=1.0),  # a right answer tells nothing
+    ]
+    assert replay._telling(calls).request == quick
+    assert replay._telling(calls[::2]).request == long
+
+
 def test_right_answers_start_no_trial(messages, monkeypatch):
     monkeypatch.setattr(replay, "_calls", None)
     right = RIGHT + BY_N.replace("len(x)", "(len(x) - 1)")
