@@ -464,7 +464,7 @@ def keeps_every_nth_and_the_last(student: Student):
             "These are the numbers of generations counted from 1, but they count from 0.": [
                 each + 1 for each in expected
             ],
-            "The last generation is kept twice where it is the turn of it anyway.": [
+            "The last generation is kept twice if it is a multiple of every.": [
                 *range(0, generations, every), last
             ],
             "The last generation is left out.": [*range(0, generations, every)],

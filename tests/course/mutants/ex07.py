@@ -841,3 +841,14 @@ def next_states(controller, states):
         angle = angle + velocity * 0.05
         following.append([np.cos(angle), np.sin(angle), velocity])
     return to_state(np.array(following))
+
+
+# %% state_at_the_end_lost loses 7.2
+# The loop ends before the state after the last step of an episode is appended.
+# says: this
+# -         observations.append(observation)
+# -         if terminated or truncated:
+# -             break
+# +         if terminated or truncated:
+# +             break
+# +         observations.append(observation)
