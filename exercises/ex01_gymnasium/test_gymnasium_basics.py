@@ -718,8 +718,6 @@ def looked_at(student: Student) -> str:
     rng = np.random.default_rng(exercise.seed(43))
     observations, others = rng.normal(size=(2, 2000, 4)) * (1, 1, 0.05, 0.3)
     actions, found, shares = actions_for(student, observations), [], []
-    if actions_for(student, observations[::-1])[::-1] != actions:
-        return "It gives other actions for the same observations when it is called again."
     names = ("the cart's position", "the cart's speed", "the angle", "the angle's speed")
     for number, name in enumerate(names):
         changed = observations.copy()
@@ -740,6 +738,7 @@ def looked_at(student: Student) -> str:
 
 @balancing.check(6)
 def balances_for_half_of_the_time(student: Student):
+    expect_no_memory(student)
     mean, said = mean_steps(student), student.said
     if mean < 100:
         raise Wrong(
@@ -750,6 +749,7 @@ def balances_for_half_of_the_time(student: Student):
 
 @balancing.check(8)
 def balances(student: Student):
+    expect_no_memory(student)
     mean, said = mean_steps(student), student.said
     if mean < 195:
         raise Wrong(

@@ -186,8 +186,8 @@ def mistaken_ranking(fitness, order) -> dict:
         stable[::-1],
         "It returns the place of each individual instead of the numbers in order.":
         np.argsort(np.argsort(-fitness, kind="stable"), kind="stable"),
-        "argsort keeps the order of equals only with kind='stable'; a few values do not show "
-        "that.": np.argsort(-fitness),
+        "argsort keeps the order of equals only with kind='stable'; without it, a few values may "
+        "be right by luck.": np.argsort(-fitness),
         "Equal ones do not stay in the order in which they stand.":
         order if only_equals else falling,
     }  # fmt: skip
@@ -1012,9 +1012,9 @@ def expect_trained(
         )
         expect(
             run.was_evaluated,
-            f"{run.said} returned parameters that it has not evaluated ({run.many} others were): "
-            "return one of the candidates that you gave to robot.evaluate, and not, for example, "
-            "their mean, a changed copy or one of a later population.",
+            f"{run.said} returned parameters that it has not evaluated: they are none of the "
+            f"{run.many} rows that robot.evaluate was given. Return one of those, and not, for "
+            "example, their mean, a changed copy or one of a later population.",
         )
     good = [run for run in runs if run.mean >= wanted]
     passed = len(good)

@@ -158,7 +158,9 @@ WORLDS = {
     "Gravity pulls along y, but it is to pull along z.": {"gravity": (0, -10, 0)},
     "There is no gravity: it is to be set in this simulation (physicsClientId), and after "
     "resetSimulation, which ends it.": {"gravity": (0, 0, 0)},
-    "The time step is PyBullet's own: see setTimeStep.": {"time_step": 1 / 240},
+    "The time step is PyBullet's own: see setTimeStep and its physicsClientId.": {
+        "time_step": 1 / 240
+    },
     "The time step is 0.1, not TIME_STEP.": {"time_step": 0.1},
     "The time step is 0.001, not TIME_STEP.": {"time_step": 0.001},
     "PyBullet computes the inertias anew: the flag is missing.": {"flag": False},

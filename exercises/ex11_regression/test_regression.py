@@ -653,7 +653,7 @@ def compare_corners(
         because += "each output from its target."
     expect(
         wrong <= 0.05,
-        f"{said}: the outputs are {show(outputs.ravel())}, one of them {wrong:.3f} away from its "
+        f"{said}: the outputs are {show(outputs.ravel())}, the farthest {wrong:.3f} away from its "
         f"target, but 0.05 is allowed.{because}",
     )
     expect(

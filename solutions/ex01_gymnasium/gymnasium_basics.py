@@ -42,7 +42,7 @@ from gymnasium import spaces
 
 # %%
 def describe(environment_id: str) -> dict:
-    """Describe the spaces and the time limit of an environment, as plain Python data.
+    """Describe the spaces and the time limit of an environment, in a dict.
 
     Returns a dict with
     - "observation" and "action": a dict for each of the two spaces. For a Box

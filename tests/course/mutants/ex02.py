@@ -414,7 +414,7 @@ def parameters(ninputs, nhiddens, noutputs, seed):
 
 
 # %% bias_after_tanh loses 2.2
-# Adds the biases after tanh.
+# Adds the biases of the hidden neurons after tanh.
 # says: this
 # -     hidden = np.tanh(network["W1"] @ observation + network["b1"])
 # +     hidden = np.tanh(network["W1"] @ observation) + network["b1"]

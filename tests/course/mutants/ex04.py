@@ -688,3 +688,11 @@ def run_replications(
         numbers = np.load(out / f"statS{seed}.npy")
         answer[seed] = float(numbers[COLUMNS.index("best post-evaluated")])
     return answer
+
+
+# %% best_of_the_stat_file loses 4.6
+# The best is not measured: it is the best fitness of the run, taken from its stat file.
+# says: this
+# -         for kind in ("best", "bestg"):
+# +         row["best"] = float(stat["best fitness"][-1])
+# +         for kind in ("bestg",):

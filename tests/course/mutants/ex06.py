@@ -893,10 +893,10 @@ def describe(poses, rewards, cylinder):
 # Brings each row to one scale instead of each column.
 # says: not that of each column
 # -     deviation = table.std(axis=0)
-# -     alike = deviation < 1e-12
+# -     alike = np.ptp(table, axis=0) == 0  # their deviation may be a rounding error
 # -     return np.where(alike, 0.0, (table - table.mean(axis=0)) / np.where(alike, 1.0, deviation))
 # +     deviation = table.std(axis=1, keepdims=True)
-# +     alike = deviation < 1e-12
+# +     alike = np.ptp(table, axis=1, keepdims=True) == 0
 # +     return np.where(alike, 0.0, (table - table.mean(axis=1, keepdims=True)) / np.where(alike, 1.0, deviation))
 
 
