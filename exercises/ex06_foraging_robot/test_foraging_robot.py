@@ -832,7 +832,7 @@ def what_memory_is_worth(student: Student):
         ways = {"keep": "keep", "forget": "forget", "freeze": since}
         for name, value in zip(ways, expect_fields(student.said, answer, *ways), strict=True):
             each = returns_of(case, ways[name], maxsteps)
-            why = f"The returns of these episodes are {each}, and their mean is asked for."
+            why = f"The returns of these episodes should be {each}, with this mean."
             mistakes = partial(wrong_means, case, ways, name, maxsteps)
             said = f"memory_test(brain, {many} starts, {cylinder.tolist()}, {seed}, since={since}, "
             said += f"maxsteps={maxsteps}): {name}"
