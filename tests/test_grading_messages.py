@@ -188,6 +188,21 @@ def wrong(value, wanted, **options):
     return str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("said", "verb"),
+    [
+        ("f(1)", "returned"),
+        ("f([1, 2])", "returned"),
+        ("f(1): best", "is"),
+        ("f(1): actions: [3]", "is"),
+        ("reset(seed=0) after another episode: observation", "is"),
+    ],
+)
+def test_a_call_returns_and_a_part_of_its_answer_is(said, verb):
+    with pytest.raises(Wrong, match=rf"{verb} 1, but 2 was expected"):
+        expect_close(said, 1, 2)
+
+
 def test_types_and_shapes_are_said():
     assert wrong([1, 2], np.zeros(3)) == (
         "f(1) returned a list of 2 numbers, but an array of shape (3,) was expected."

@@ -443,9 +443,9 @@ def noise_is_gaussian(student: Student):
         )
         expect(
             0.93 < noise.std() < 1.07 and abs(noise.mean()) < 0.1,
-            f"{step.said}: between copies and those that they were copied from, the differences "
-            f"have mean {mutrate * noise.mean():.2g} and standard deviation "
-            f"{mutrate * noise.std():.3g}, but noise with 0 and {mutrate:g} is asked for."
+            f"{step.said}: the noise of the copies (the difference from their parents) has mean "
+            f"{mutrate * noise.mean():.2g} and standard deviation {mutrate * noise.std():.3g}, "
+            f"but should have mean 0 and standard deviation {mutrate:g}."
             f"{slip_of_noise(amounts, mutrate)}",
         )
         beyond = float(np.mean(np.abs(noise) > 2))

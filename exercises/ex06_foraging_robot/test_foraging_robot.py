@@ -678,7 +678,7 @@ def clear_families(student: Student):
     exactly = ", which is exactly the distance of two families, so they are not nearer than it"
     for low, high, many in ((3.0, 7.0, 1), (-6.0, 6.0, 1), (1.0, 5.0, 2), (-2.0, 4.0, 3)):
         table = np.repeat([[low], [high]], many, axis=0)
-        for threshold in (1.9, 2.1):  # only then a difference is one of the very threshold
+        for threshold in (1.9, 2.1):  # who is wrong here is not wrong about equality
             compare_grouped(student, table, threshold)
         compare_grouped(student, table, 2.0, exactly)
 

@@ -362,7 +362,7 @@ def pendulum_with_controller(student: Student):
             student.run(stepped, gains, states, said=said)  # for a second look at this call
             raise
     strong, states = np.array([3.0, 8.0, 2.0]), random_states(19, 20)
-    said = "next_states(a controller that asks for up to 25, of which the motor gives 2, states)"
+    said = "next_states(controller, states), a controller that asks the motor for up to 25"
     answer = student.run(stepped, strong, states, 25, said=said)
     expect_states(said, answer, one_step(strong, states))
 

@@ -616,8 +616,7 @@ def compare_drives(student: Student, courses: list[tuple[float, list[float]]]) -
 
 
 def call_of(i: int, action: float, speed: float) -> str:
-    before = f" after {i - 1} other{'s' * (i > 2)}" if i > 1 else ""
-    return f"drive([{action:.3f}]){before}, the first call with self.speed = {speed:.2f}"
+    return f"drive([{action:.3f}]), call {i} since self.speed was {speed:.2f}"
 
 
 def compare_wheels(speed: float, actions: list[float], answers: list) -> None:

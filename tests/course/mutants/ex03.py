@@ -928,3 +928,10 @@ def replicate(experiment, seeds):
 # +     population = np.full((popsize, nbiases + nweights), 0)
 # +     population[:, nbiases:] = 0.1 * rng.standard_normal((popsize, nweights))
 # +     return population
+
+
+# %% limited_parameters loses 3.3
+# The parameters of the copies are limited to between -1 and 1.
+# says: nothing limits
+# -     following[worst] = population[best] + mutrate * noise
+# +     following[worst] = np.clip(population[best] + mutrate * noise, -1, 1)

@@ -277,7 +277,7 @@ def evolve_both(robot, steps, seeds):
 
 
 # %% net_progress loses 9.5
-# Steps backwards are subtracted from the income: only steps forward are income.
+# Steps backwards are subtracted from the income, but they should be left out.
 # -     alive, moved = (float(np.maximum(parts[key], 0).sum()) for key in ("alive", "progress"))
 # +     alive, moved = (max(0.0, float(parts[key].sum())) for key in ("alive", "progress"))
 

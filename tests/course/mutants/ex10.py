@@ -264,7 +264,7 @@ class BalanceBotEnv(BalanceBotEnv):
 
 
 # %% no_step_of_its_own loses 10.4, 10.7
-# The time step stays PyBullet's own: none is set, or it is set in another simulation (physicsClientId).
+# The time step stays PyBullet's own: none is set in this simulation (physicsClientId).
 # says: this
 # -         pybullet.setTimeStep(TIME_STEP, physicsClientId=self.client)
 

@@ -181,9 +181,10 @@ def _likely_first(
 
 
 def _telling(calls: list[Call]) -> Call:
-    """Return the call with the shortest request among the quick ones whose answers are wrong.
+    """Return the call with the shortest request among those whose answers are wrong.
 
-    An exception comes after other wrong answers, because many mistakes raise it.
+    An exception comes after other wrong answers, because many mistakes raise it. So does a call
+    that takes our solution long: mistakes would run out of time.
     """
     return min(
         (call for call in calls if not call.slow),
