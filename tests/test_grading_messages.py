@@ -14,7 +14,7 @@ from botschool.grading import (
     expect_fields,
     went_on,
 )
-from botschool.grading.declare.checks import Mismatch
+from botschool.grading.declare.checks import Mismatch, came
 from botschool.grading.declare.exercise import Exercise as Declared
 from botschool.grading.declare.exercise import load_exercise
 from botschool.grading.declare.trust import trust
@@ -225,7 +225,16 @@ def test_types_and_shapes_are_said():
 def test_numbers_have_the_digits_in_which_they_differ():
     assert wrong(1 / 3, 1 / 3 + 1e-8) == "f(1) returned 0.33333333, but 0.33333334 was expected."
     assert wrong(0.5, 0.25) == "f(1) returned 0.5, but 0.25 was expected."
-    assert "[1., 2.0000001], but [1., 2." in wrong([1, 2.0000001], [1.0, 2.0])
+    assert "returned [1., 2.0000001], but [1, 2] was" in wrong([1, 2.0000001], [1.0, 2.0])
+    assert "returned [1, 3], but [1, 2] was" in wrong([1.0, 3.0], [1.0, 2.0])
+    assert wrong(False, True) == "f(1) returned False, but True was expected."
+
+
+def test_a_part_of_an_answer_is_and_a_call_returned():
+    calls = ("f", "f(1)", "f(1), again,", "f({'a': 1}, 'b: c') on a rollout", "f(g(1: 2))[0]")
+    parts = ("f(1): best", "f(1) of one: first of Box(2)", "the sum of f(1)", "fitness of 1")
+    assert {came(said) for said in calls} == {"returned"}
+    assert {came(said) for said in parts} == {"is"}
     many = np.arange(20.0)
     assert "at [7] it is 7.000001, but 7 was expected (1 of 20 numbers differ)" in wrong(
         many + 1e-6 * (many == 7), many
@@ -242,7 +251,7 @@ def test_values_are_described():
         == "a list of one array, the first of which is an array of shape (2,) (float64)"
     )
     assert kind(True) == "the truth value True" and kind(0.5) == "the number 0.5"
-    assert show(np.zeros((3, 4))) == "an array of shape (3, 4) that starts [0., 0., 0., 0.]..."
+    assert show(np.zeros((3, 4))) == "an array of shape (3, 4) that starts [0, 0, 0, 0]..."
 
 
 def test_a_call_can_be_pasted():

@@ -98,8 +98,8 @@ def test_one_mistake_costs_once(graded):
     result = graded(BROKEN + SUMS + LAST)
     assert [task.points for task in result.tasks] == [0, 30, 30]
     note = (
-        "It calls yours of task 3.1 (smaller), which does not pass yet: graded with ours in its "
-        "place, and gets all of its points."
+        "This task builds on task 3.1 (smaller), which does not pass yet. With our solution in its "
+        "place, it gets all of its points."
     )
     assert [task.message for task in result.tasks[1:]] == [note, note]
     alone = graded(BROKEN + SUMS + LAST, "3.3")
@@ -111,12 +111,12 @@ def test_a_mistake_of_its_own_is_said(graded):
     assert [task.points for task in result.tasks] == [0, 0, 30]
     sentence, *_, end = result.tasks[1].message.splitlines()
     assert sentence == "sums(6.5) returned 5.25, but 4.25 was expected."
-    assert end.endswith("with ours in their place this task fails as well.")
-    assert "tasks" not in end and "3.1 (smaller) and 3.2 (sums)" in result.tasks[2].message
+    assert end.endswith("With our solution in its place, it fails as well.")
+    assert "tasks 3.1 (smaller) and 3.2 (sums), which do not" in result.tasks[2].message
     result = graded(BROKEN + SUMS.replace("1", "(x > 0)") + LAST)
     assert [task.points for task in result.tasks] == [0, 20, 30]
     note, sentence, *_ = result.tasks[1].message.splitlines()
-    assert note.endswith("graded with ours in its place, and still loses points.")
+    assert note.endswith("With our solution in its place, it still loses some of its points.")
     assert sentence == "sums(0) returned 0, but 1 was expected."
 
 

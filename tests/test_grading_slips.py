@@ -217,6 +217,25 @@ def test_two_known_mistakes_at_once_are_named(messages, monkeypatch):
     assert told.splitlines()[0] == f"{TOLD} The values outside are counted, too."
 
 
+UNDONE = """# %% in_a_list loses 3.1
+# The number is in a list.
+# -     many = len(hidden)
+# +     many = [len(hidden) + 1]
+# %% out_of_the_list loses 3.1
+# The number is taken from a list.
+# -     return {"kept": hidden, "many": many, "below": float(below)}
+# +     many = many[0] if isinstance(many, list) else many / 2
+# +     return {"kept": hidden, "many": many, "below": float(below)}
+"""
+
+
+def test_a_mistake_that_another_one_undoes_is_not_named(messages):
+    exercise = bounded()
+    exercise.knows(BOUNDS, UNDONE)
+    (told,) = messages(BOUNDS.replace("len(hidden)", "len(hidden) + 1"), exercise)
+    assert "in a list" not in told
+
+
 DOUBLED = "def told(x):\n    first = 2 * x\n    second = first + 1\n    return second\n"
 
 

@@ -95,12 +95,12 @@ def expect(condition: bool, sentence: str) -> None:
 
 def expect_fields(said: str, value: Any, *keys: str) -> list[Any]:
     """Return the values of these keys of a dict, which may have other keys."""
-    expect(isinstance(value, dict), f"{said} {_came(said)} {kind(value)}, but a dict is needed.")
+    expect(isinstance(value, dict), f"{said} {came(said)} {kind(value)}, but a dict is needed.")
     for key in keys:
         if key not in value:
             near = nearest(key, list(value)[:100])
             has = f" (it has {near!r}: rename that)" if near else ""
-            raise Wrong(f"{said} {_came(said)} a dict without {key!r}{has}.")
+            raise Wrong(f"{said} {came(said)} a dict without {key!r}{has}.")
     return [value[key] for key in keys]
 
 
@@ -141,6 +141,8 @@ def expect_close(
     close = np.abs(got - wanted) <= _allowed(got, wanted, tolerance)
     if not close.all():
         sentence = _unequal(said, got, wanted, close)
+        if all(isinstance(each, (bool, np.bool_)) for each in (value, expected)):
+            sentence = f"{said} {came(said)} {bool(value)}, but {bool(expected)} was expected."
         if cuts_fractions(value, wanted):
             sentence += f"\n  It is an array of {value.dtype}, which holds no fractions."
         if why:
@@ -170,7 +172,7 @@ def _array(said: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
         array = np.asarray(None)
     if array.dtype.kind not in "biuf":
         raise Wrong(
-            f"{said} {_came(said)} {kind(value)}, which is not an array of numbers: one of "
+            f"{said} {came(said)} {kind(value)}, which is not an array of numbers: one of "
             f"shape {shape} is needed."
         )
     return array.astype(np.float64)
@@ -193,12 +195,12 @@ def _but(said: str, value: Any, shape: tuple[int, ...]) -> str:
     """Return the sentence about a value of another kind or shape."""
     needed = f"an array of shape {shape}" if shape else "a single number"
     if value is None:
-        end = "" if _came(said) == "is" else ": does it end without `return`?"
-        return f"{said} {_came(said)} None, but {needed} is needed{end}"
+        end = "" if came(said) == "is" else ": does it end without `return`?"
+        return f"{said} {came(said)} None, but {needed} is needed{end}"
     was = kind(value)
     if isinstance(value, list) and (inner := np.shape(np.asarray(value))) and len(inner) > 1:
         was += f" (shape {inner})"
-    return f"{said} {_came(said)} {was}, but {needed} was expected."
+    return f"{said} {came(said)} {was}, but {needed} was expected."
 
 
 def _not_finite(said: str, array: np.ndarray, bad: np.ndarray) -> str:
@@ -217,26 +219,33 @@ def _not_finite(said: str, array: np.ndarray, bad: np.ndarray) -> str:
 
 
 def _unequal(said: str, got: np.ndarray, wanted: np.ndarray, close: np.ndarray) -> str:
-    came = f"{said} {_came(said)}"
+    start = f"{said} {came(said)}"
     if got.ndim == 0:
         one, other = apart(float(got), float(wanted))
-        return f"{came} {one}, but {other} was expected."
+        return f"{start} {one}, but {other} was expected."
     if got.size <= FEW:
         one, other = arrays_apart(got, wanted)
-        return f"{came} {one}, but {other} was expected."
+        return f"{start} {one}, but {other} was expected."
     where = np.unravel_index(int(np.argmin(close)), close.shape)
     place = ", ".join(map(str, where))
     one, other = apart(float(got[where]), float(wanted[where]))
     wrong = int((~close).sum())
     return (
-        f"{came} {show(got)}; at [{place}] it is {one}, but {other} was expected "
+        f"{start} {show(got)}; at [{place}] it is {one}, but {other} was expected "
         f"({'all' if wrong == got.size else wrong} of {got.size} numbers differ)."
     )
 
 
-def _came(said: str) -> str:
+_CALL = re.compile(r"[\w.]+(?:[(,]|$)")
+_INSIDE = re.compile(r"\([^()]*\)|\[[^][]*\]|'[^']*'")
+
+
+def came(said: str) -> str:
     """Return the verb after a call, "rank(x)", or after a part of an answer, "play(x): best"."""
-    return "is" if re.search(r"[)\]]: |: [\w ]+$", said) else "returned"
+    outside = said
+    while (shorter := _INSIDE.sub("", outside)) != outside:
+        outside = shorter
+    return "returned" if _CALL.match(said) and ": " not in outside else "is"
 
 
 def plain(text: str) -> str:

@@ -59,8 +59,15 @@ def show(value: Any, longest: int = 60) -> str:
 
 def numbers(array: np.ndarray, digits: int) -> str:
     """Return a small array in one line; digits: after the point, at most."""
+    array = _without_points(array)
     text = np.array2string(array, precision=digits, separator=", ", threshold=8)
-    return " ".join(text.split()).replace("[ ", "[").replace(" ,", ",")
+    return " ".join(text.split()).replace("[ ", "[").replace(" ,", ",").replace(" ]", "]")
+
+
+def _without_points(array: np.ndarray) -> np.ndarray:
+    """Return whole numbers as integers, so that they are shown as 2 and not as 2."""
+    whole = array.dtype.kind == "f" and (abs(array) < 1e15).all() and (array % 1 == 0).all()
+    return array.astype(np.int64) if whole else array
 
 
 def kind(value: Any) -> str:
@@ -103,7 +110,7 @@ def arrays_apart(one: np.ndarray, other: np.ndarray) -> tuple[str, str]:
     """Return two small arrays of the same shape, with as many digits as they need to differ."""
     for digits in range(5, 18):
         texts = numbers(one, digits), numbers(other, digits)
-        if texts[0] != texts[1]:
+        if texts[0].replace(".,", ",").replace(".]", "]") != texts[1]:
             return texts
     return texts
 

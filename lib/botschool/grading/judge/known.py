@@ -260,10 +260,10 @@ def _pair(ours: Student, cases: list[Case], known: Known, calls: list[Call]) -> 
     """
     if _few(_wrong(calls)):
         return ""
-    alone = [(case, text) for case in cases if (text := _changed(case, known.solution))]
+    changed = [(case, text) for case in cases if (text := _changed(case, known.solution))]
     pairs = (
         (one[0], two[0], text)
-        for one, two in combinations(alone, 2)
+        for one, two in combinations(changed, 2)
         if (text := _changed(two[0], one[1])) and _imports_little(text, known.solution)
     )
     for batch in _batches(ours, pairs):
@@ -271,11 +271,24 @@ def _pair(ours: Student, cases: list[Case], known: Known, calls: list[Call]) -> 
         near = _near(ours, texts, _telling(calls), SLIP_SECONDS, "two known mistakes")
         for (*both, text), fitting in zip(batch, near, strict=True):
             if fitting and _explains(ours, text, calls):
-                for case in both:
-                    if _explains(ours, _changed(case, known.solution), calls):
+                alone = [_changed(case, known.solution) for case in both]
+                for case, single in zip(both, alone, strict=True):
+                    if _explains(ours, single, calls):
                         return f"{TOLD} {case.what}"
-                return f"{BOTH} {both[0].what} {both[1].what}"
+                if not _undone(ours, alone, _telling(calls)):
+                    return f"{BOTH} {both[0].what} {both[1].what}"
     return ""
+
+
+def _undone(ours: Student, texts: list[str], call: Call) -> bool:
+    """Return whether a mistake alone changes the form of an answer, and the submission does not.
+
+    Then the other mistake puts this one right, and its sentence would be false.
+    """
+    if math.isinf(distance(call.got, call.ours)):
+        return False
+    made = ours.run(tried, texts, unpack(call.request), SLIP_SECONDS, said="known mistakes")
+    return any(answers and math.isinf(distance(answers[0], call.ours)) for answers in made)
 
 
 def _wrong(calls: list[Call]) -> list[Call]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from botschool.errors import BotschoolError
-from botschool.grading.declare.checks import Wrong, expect_close
+from botschool.grading.declare.checks import Wrong, came, expect_close
 from botschool.grading.declare.values import pasted, show
 from botschool.grading.judge.alike import distance
 from botschool.grading.run.student import Student
@@ -101,7 +101,7 @@ def difference(said: str, got: Any, right: Any) -> str:
             return str(error)
         except (TypeError, ValueError, OverflowError):  # no numbers, or rows of different lengths
             pass
-    return f"{said} returned {show(got)}, but {show(right)} was expected."
+    return f"{said} {came(said)} {show(got)}, but {show(right)} was expected."
 
 
 def _of_parts(answer: Any) -> bool:

@@ -28,7 +28,7 @@ LOADING_SECONDS = 10
 _CELL = re.compile(r"^(?=# %%)", re.MULTILINE)
 _DEFINITION = re.compile(r"^(async def|def|class)\b", re.MULTILINE)
 _NAME = re.compile(r"^\s*(?:async\s+def|def|class)\s+(\w+)", re.MULTILINE)
-_DOES, _PLACE = ("does", "do"), ("its", "their")
+_WORDS = ("task", "does", "solution", "its"), ("tasks", "do", "solutions", "their")
 _NOT_GRADED = "Not graded: mend the file first, as said above."
 
 
@@ -193,14 +193,15 @@ class Submission:
         source = pruned(exercise.references, [each.id for each in needed])
         again = self._attempt(task, {"source": source, "names": names})
         which = " and ".join(f"{each.id} ({', '.join(functions[each.id])})" for each in broken)
-        yours = f"It calls yours of task {which}, which {_DOES[len(broken) > 1]} not pass yet"
+        task_or_tasks, do, solution, place = _WORDS[len(broken) > 1]
+        yours = f"This task builds on {task_or_tasks} {which}, which {do} not pass yet."
+        with_ours = f"With our {solution} in {place} place, it"
         if again.points <= result.points:
-            lines = [f"{yours}; with ours in their place this task fails as well.", again.message]
+            lines = [f"{yours} {with_ours} fails as well.", again.message]
             result.message = "\n".join(filter(None, [lines[1] or result.message, lines[0]]))
             return result
         full = again.points == again.max_points
-        end = "and gets all of its points" if full else "and still loses points"
-        note = f"{yours}: graded with ours in {_PLACE[len(names) > 1]} place, {end}."
+        note = f"{yours} {with_ours} {'gets all' if full else 'still loses some'} of its points."
         result.points = again.points
         result.message = "\n".join(filter(None, [note, again.message]))
         return result
