@@ -215,7 +215,8 @@ def _not_finite(said: str, array: np.ndarray, bad: np.ndarray) -> str:
         "infinity": "a division by 0, the logarithm of 0, np.exp of a large number, or np.inf",
     }
     many = f" ({int(bad.sum())} of {bad.size} numbers are NaN or infinity)" if bad.size > 1 else ""
-    return f"{said} holds NaN or infinity: {what}{place}{many}. It may come from {causes[what]}."
+    verb = "holds" if array.ndim else came(said)
+    return f"{said} {verb} {what}{place}{many}. It may come from {causes[what]}."
 
 
 def _unequal(said: str, got: np.ndarray, wanted: np.ndarray, close: np.ndarray) -> str:

@@ -285,9 +285,9 @@ def looked_at_again(failure: Failure, student: Student, ours: Callable[[], Stude
     text = ""
     if not same(first, second) and _steady(failure.request, ours):
         text += (
-            "\n  Two calls with the same arguments give different answers: random numbers "
-            "do not come from the seed or another argument, or something that stays from call to "
-            "call (a variable, an object, a file) changes them."
+            "\n  Two calls with the same arguments give different answers. Either random numbers "
+            "come from somewhere else than an argument (as those of np.random.normal do), or "
+            "something that stays from call to call (a variable, an object, a file) changes them."
         )
     if "driver" not in failure.request and isinstance(found["arguments"], list):
         for number, (before, after) in enumerate(
@@ -295,8 +295,8 @@ def looked_at_again(failure: Failure, student: Student, ours: Callable[[], Stude
         ):
             if isinstance(before, (np.ndarray, list, dict)) and not same(before, after):
                 text += (
-                    f"\n  It changes its argument number {number} in place, which others go "
-                    "on using: work on a copy (.copy())."
+                    f"\n  It changes its argument number {number} in place, but the caller still "
+                    "needs it as it was: work on a copy (.copy())."
                 )
     return text
 

@@ -221,8 +221,8 @@ class Student:
         if answer.get("changed") and not self.changed:
             number = answer["changed"][0] if isinstance(answer["changed"], list) else "?"
             self.changed = (
-                f"{self.said} changed its argument number {number} in place, which others go on "
-                "using: work on a copy (.copy())."
+                f"{self.said} changed its argument number {number} in place, but the caller still "
+                "needs it as it was: work on a copy (.copy())."
             )
         if self.trace is not None:
             self.trace.append((pack(request), pack(self.answer), before - self.seconds_left))
