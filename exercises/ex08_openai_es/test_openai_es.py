@@ -75,7 +75,7 @@ def expect_unchanged(student: Student, name: str, arguments: list) -> None:
     answer = student.run(changed, name, arguments, said=f"{name}(...)")
     expect(
         answer == [False] * len(arguments),
-        f"{student.said} changed an array that it was given: make a new one.",
+        f"{student.said} changed an array that it was given; it should make a new one.",
     )
 
 
@@ -167,7 +167,8 @@ def points_uphill(student: Student):
     length = float(np.linalg.norm(answer) * np.linalg.norm(uphill))
     expect(
         length > 0 and float(answer @ uphill) > 0.98 * length,
-        f"{student.said}: fitness rises along {show(uphill)}, but the gradient is {show(answer)}.",
+        f"{student.said} returned {show(answer)}, but the gradient should point to where fitness "
+        f"rises, along {show(uphill)}.",
     )
     expect_close(student.said, answer, estimated(samples, weights))
 
@@ -215,7 +216,7 @@ def compare_adam(student: Student, arguments: list) -> None:
     answer = student.call("adam", *arguments)
     expect(
         isinstance(answer, (list, tuple)) and len(answer) == 3,
-        f"{student.said} must return the centre, m and v, not {show(answer)}.",
+        f"{student.said} should return three arrays, the centre, m and v, not {show(answer)}.",
     )
     wanted = adam_step(*arguments)
     mistakes = partial(mistaken_means, *arguments)
@@ -313,28 +314,31 @@ def departure(seeds: list, seen: list, seed: int, right: list, *_: int) -> str:
     """Where a run departs from the right one; right: the candidates of each generation."""
     if len(seeds) != len(right):
         return (
-            f"evaluate is called {len(seeds)} times; one call in each of the {len(right)} "
-            "generations is asked for."
+            f"The number of calls of evaluate is {len(seeds)}, but should be {len(right)}, one in "
+            "each generation."
         )
     for g, (own, wanted) in enumerate(zip(seen, right, strict=False)):
         own, where = np.asarray(own, dtype=float), f"generation {g}"
         if own.shape != wanted.shape:
             return (
-                f"In {where}, evaluate gets an array of shape {own.shape}; the candidates of a "
-                f"generation are one of shape {wanted.shape}."
+                f"In {where}, evaluate gets an array of shape {own.shape}, but the candidates of a "
+                f"generation should have the shape {wanted.shape}."
             )
         if seeds[g] != seed + g:
-            return f"In {where}, evaluate gets the seed {seeds[g]}; seed + {g} is {seed + g}."
+            return (
+                f"In {where}, evaluate gets the seed {seeds[g]}, but should get seed + {g} = "
+                f"{seed + g}."
+            )
         if np.allclose(own, wanted, 1e-6, 1e-9):
             continue
         if not np.isfinite(own).all():
-            return f"In {where}, evaluate gets candidates with NaN or infinity."
+            return f"In {where}, evaluate gets candidates that hold NaN or infinity."
         own_centre, centre = own[:2].mean(axis=0), wanted[:2].mean(axis=0)
         if not np.allclose(own_centre, own[-2:].mean(axis=0), 1e-6, 1e-9):
             return (
                 f"In {where}, evaluate gets candidates of which the first two have another middle "
-                "than the last two: rows 2 b and 2 b + 1 are c + s e and c - s e, around one "
-                "centre c for all b."
+                "than the last two: rows 2 b and 2 b + 1 should be c + s e and c - s e, with the "
+                "same centre c for all b."
             )
         if np.allclose(own_centre, centre, 1e-6, 1e-9):
             far = float(np.linalg.norm(own - centre) / np.linalg.norm(wanted - centre))
@@ -344,36 +348,38 @@ def departure(seeds: list, seen: list, seed: int, right: list, *_: int) -> str:
                     "as they should."
                 )
             return (
-                f"The candidates of {where} lie around the right centre, but at other places. "
-                "Asked for: rng = np.random.default_rng(seed), and for each generation one "
-                "rng.standard_normal((samplesize, n))."
+                f"The candidates of {where} lie around the right centre, but at other places than "
+                "they should. They should be candidates_around(centre, samples, noiseStdDev), with "
+                "samples from one call of rng.standard_normal((samplesize, n)) in each generation, "
+                "and rng should be made once, by np.random.default_rng(seed)."
             )
         if g == 0:
             return "The candidates of generation 0 do not lie around the first centre."
         for k in range(g):
             if np.allclose(own_centre, right[k][:2].mean(axis=0), 1e-6, 1e-9):
                 return (
-                    f"{where.capitalize()} begins at the centre where generation {k} began, but "
-                    "every generation is to begin where the last step led."
+                    f"{where.capitalize()} begins at the centre at which generation {k} began, but "
+                    "each generation should begin at the centre to which the step before it led."
                 )
         before = right[g - 1][:2].mean(axis=0)
         ratio = (own_centre - before) / np.where(centre == before, np.nan, centre - before)
         if np.ptp(ratio) < 1e-4 and ratio[0] < 0:
             return (
-                f"The step of generation {g - 1} is {ratio[0]:.4g} times the right one: it leads "
-                "the opposite way."
+                f"The step of generation {g - 1} is {ratio[0]:.4g} times the right one, so it "
+                "leads the opposite way."
             )
         if np.ptp(ratio) < 1e-4:
             return (
                 f"The step of generation {g - 1} is {ratio[0]:.4g} times as long as it should be."
             )
         return (
-            f"What evaluate is given is right up to generation {g - 1}, but the step of generation "
+            f"What evaluate gets is right up to generation {g - 1}, but the step of generation "
             f"{g - 1} leads to another centre than it should."
         )
     return (
-        "What evaluate is given is right. history[g] is to be the mean fitness of generation g "
-        "alone, and the centre the one after the last step."
+        "What evaluate gets is right. history[g] should be the mean fitness of the candidates of "
+        "generation g, and the centre should be the one after the last step, or the first centre "
+        "if generations is 0."
     )
 
 
@@ -404,10 +410,10 @@ def compare_run(
     expect_close(f"{said}: centre", answer["centre"], centre, 1e-5, wrong[1], why)
     expect(
         len(calls) == generations,
-        f"{said} called evaluate {len(calls)} times; one call in each of the {generations} "
-        "generations is asked for.",
+        f"{said} called evaluate {len(calls)} time{'s' * (len(calls) != 1)}, but should call it "
+        f"once in each generation, so {generations} time{'s' * (generations != 1)}.",
     )
-    expect(kept is True, f"{said} changed the centre that it was given: make a new one.")
+    expect(kept is True, f"{said} changed the centre that it was given; it should make a new one.")
 
 
 @whole.check(6)
@@ -438,36 +444,39 @@ def compare_smooth(student: Student, curve: np.ndarray, width: int) -> None:
     answer = student.call("smooth", curve, width)
     ones = np.ones(width)
     mistakes = {
-        "The means of whole numbers are cut off to whole numbers.": np.trunc(expected),
-        "The last window is missing: there are len(curve) - width + 1.": expected[:-1],
-        "The first window is missing: there are len(curve) - width + 1.": expected[1:],
-        "These are sums of neighbours: divide by width.": width * expected,
-        "These are medians of neighbours; means are asked for.":
+        "The means are cut off to whole numbers, but their fractions should stay.":
+        np.trunc(expected),
+        "The last window is missing: there should be len(curve) - width + 1 means.": expected[:-1],
+        "The first window is missing: there should be len(curve) - width + 1 means.": expected[1:],
+        "These are sums of neighbours; they should be divided by width.": width * expected,
+        "These are medians of neighbours, but means are asked for.":
         np.array([np.median(window) for window in windows]),
-        "The curve keeps its length, with zeros beyond its ends: take whole windows only.":
+        "The curve keeps its length, with zeros beyond its ends; only whole windows should count.":
         np.convolve(curve, ones / width, mode="same"),
-        "The curve grows, with zeros beyond its ends: take whole windows only (mode='valid').":
+        "The curve becomes longer, with zeros beyond its ends; only whole windows should count "
+        "(mode='valid' of np.convolve).":
         np.convolve(curve, ones / width, mode="full"),
-        "Means over fewer than width neighbours at the end are left out.":
+        "Some means at the end are over fewer than width numbers; they should be left out.":
         np.array([curve[i : i + width].mean() for i in range(len(curve))]),
-        "Means over fewer than width neighbours at the beginning are left out.":
+        "Some means at the beginning are over fewer than width numbers; they should be left out.":
         np.array([curve[max(0, i - width + 1) : i + 1].mean() for i in range(len(curve))]),
-        "Each window begins at its own place, and does not reach to both sides of it.":
+        "The windows reach to both sides of their places, but window i should begin at place i.":
         np.array([curve[max(0, i - width // 2) : i + width // 2 + 1].mean()
                   for i in range(len(expected))]),
-        "Windows overlap: each begins one place after the one before.": expected[::width],
-        "Each window has width numbers, not one more.":
+        "The windows do not overlap, but each should begin one place after the one before.":
+        expected[::width],
+        "Each window has one more number than width; it should have width numbers.":
         np.array([curve[i : i + width + 1].mean() for i in range(len(curve) - width)]),
-        "Each window has width numbers; yours have one more, where there is one.":
+        "Each window but the last has one more number than width; it should have width numbers.":
         np.array([curve[i : i + width + 1].mean() for i in range(len(expected))]),
-        "This is a running mean from the beginning on: take the last width numbers only.":
+        "Each mean goes over all numbers from the beginning on, but should go over width numbers.":
         np.cumsum(curve)[width - 1 :] / np.arange(width, len(curve) + 1),
-        "The window is divided by width - 1: divide by width.":
+        "The sums are divided by width - 1, but should be divided by width.":
         width * expected / max(width - 1, 1),
     }  # fmt: skip
 
     def why(i: int) -> str:
-        return f"Number {i} is the mean of curve[{i}], ..., curve[{i + width - 1}]: of " + (
+        return f"Number {i} should be the mean of curve[{i}:{i + width}], that is of " + (
             f"{show(windows[i])}."
         )
 
@@ -561,8 +570,8 @@ def verdicts(student: Student):
     drop = answer["drop"] if isinstance(answer["drop"], (int, float)) else np.nan
     expect(
         bool(np.isclose(drop, right["drop"], 1e-6, 1e-9)),
-        f"{said}: the verdict is {show(answer['verdict'])}, but should be {right['verdict']!r}: "
-        f"the drop is {right['drop']:.3g}, but yours is {show(answer['drop'])}. Mend that first.",
+        f"{said}: the verdict is {show(answer['verdict'])}, but should be {right['verdict']!r}. "
+        f"The drop is {show(answer['drop'])}, but should be {right['drop']:.3g}; mend that first.",
     )
     fits = [
         text
@@ -570,7 +579,7 @@ def verdicts(student: Student):
         if all(VERDICTS[int(made(one[2]["drop"]))] == str(one[1]["verdict"]) for one in judgements)
     ]
     if str(answer["verdict"]) not in VERDICTS:
-        fits = [f"The verdicts are {', '.join(map(repr, VERDICTS))}, written exactly so."]
+        fits = [f"A verdict should be exactly one of {', '.join(map(repr, VERDICTS))}."]
     elif all(str(one[1]["verdict"]) in VERDICTS for one in judgements):
         places = [VERDICTS.index(str(one[1]["verdict"])) for one in judgements]
         fits += [why_verdicts([one[2]["drop"] for one in judgements], places)]
@@ -578,8 +587,8 @@ def verdicts(student: Student):
     where = limits[VERDICTS.index(right["verdict"])]
     expect(
         False,
-        f"{said}: the verdict is {show(answer['verdict'])}, but should be {right['verdict']!r}: "
-        f"the drop is {right['drop']:.3g}, {where}. {fits[0] if fits else ''}".rstrip(),
+        f"{said}: the verdict is {show(answer['verdict'])}, but should be {right['verdict']!r}, "
+        f"as the drop, {right['drop']:.3g}, is {where}. {fits[0] if fits else ''}".rstrip(),
     )
 
 
@@ -713,13 +722,13 @@ def expect_other_beginning(said: str, seed: int, first: np.ndarray, other: np.nd
     expect(
         not np.allclose(centre, next_centre, 1e-6, 1e-9),
         f"{said} and seed={seed + 1} begin at the same centre, {show(centre)}, but its weights "
-        "are to be drawn anew from each seed.",
+        "should be drawn from the seed.",
     )
     few = min(len(samples), len(next_samples))
     expect(
         not np.allclose(samples[:few], next_samples[:few], 1e-6, 1e-9),
-        f"{said} and seed={seed + 1} begin with the same samples around the first centre, but "
-        "these are to follow from the seed.",
+        f"{said} and seed={seed + 1} begin with the same samples around their first centres, "
+        "but the samples should follow from the seed, too.",
     )
 
 
@@ -743,9 +752,9 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
         means.append(mean_of(signs * centre))
         expect(
             means[-1] >= goal or mean_of(centre) < goal,
-            f"{said}: with its own signs the controller does as asked, but not with those that "
-            "robot.evaluate gave to the parameters while train ran. A centre that evolves in "
-            "train, by the fitness that robot.evaluate returns, fits the given signs.",
+            f"{said}: the controller reaches the goal with the parameters as they were returned, "
+            "but not with the signs that robot.evaluate gave to them while train ran. A centre "
+            "that is evolved in train, by the fitness from robot.evaluate, should fit these signs.",
         )
         rows, scores, first, again, other, calls = (
             np.asarray(each, dtype=float) for each in answer[1:]
@@ -761,42 +770,46 @@ def expect_mean(student: Student, environment: str, index: int, goal: float, wha
     why = partial(why_untrained, rows, generations, centre, share, calls, robot.nbiases, goal)
     results = f"With the three seeds {tried}, the means are {np.round(means, 1).tolist()}"
     by_luck = (
-        "where the centre from which the generations set out reaches the goal before any step, a "
-        "seed does not count"
+        "a seed does not count if the centre from which the generations begin reaches the goal "
+        "before any step"
     )
     if means[-1] < goal:
-        passed = f"{results}; {by_luck}." if luck else f"0 of the 3 seeds {tried} passed."
+        passed = f"{results}; {by_luck}." if luck else f"None of the three seeds {tried} passed."
         expect(
             False,
             f"{said}: the controller {what.format(means[-1])} on average over 100 new episodes, "
-            f"but {goal:g} is asked for. {passed} {why()}",
+            f"but at least {goal:g} is asked for. {passed} {why()}",
         )
-    expect(not lucky or luck > 1, f"{said}: {by_luck}. {results}; {goal:g} is asked for. {why()}")
+    expect(
+        not lucky or luck > 1,
+        f"{said}: {by_luck}. {results}, but at least {goal:g} is asked for. {why()}",
+    )
     if generations:
         expect(
             not is_candidate(generations, centre),
             f"{said} returned a candidate, centre + noiseStdDev * sample or centre - "
             "noiseStdDev * sample. Return a centre: the steps of the algorithm lead to it.",
         )
-    found = f"{said}: the controller was found, but not by this algorithm:"
+    found = f"{said}: the controller reaches the goal, but should be evolved by OpenAI-ES."
     expect(bool(generations), f"{found} {why()}")
     expect(
         share > EXPLAINED and not lucky,
-        f"{found} the gradients of the pairs of candidates that were evaluated do not lead to it "
-        "from a centre that cannot do it yet.",
+        f"{found} The gradients of the pairs of candidates that were evaluated should lead to it "
+        "from a centre that does not reach the goal yet.",
     )
     expect(
         len(again) > 0 and len(other) > 0,
         f"{said} evolves a centre, but a call of train after it returns without any call of "
-        "robot.evaluate. Each call is to evolve anew.",
+        "robot.evaluate. Each call should evolve anew.",
     )
     expect(
         np.array_equal(first, again),
-        f"{said}, called again, begins with other candidates: the seed decides about all of them.",
+        f"{said}, called again, begins with other candidates; the seed should decide about all of "
+        "them.",
     )
     expect(
         not np.array_equal(first, other),
-        f"{said} and seed={tried[-1] + 1} begin with the same candidates, but another seed is to "
+        f"{said} and seed={tried[-1] + 1} begin with the same candidates, but another seed should "
         "give another evolution.",
     )
     expect_other_beginning(said, tried[-1], first, other)
@@ -809,4 +822,4 @@ def keeps_the_pole_up(student: Student):
 
 @training.check(5)
 def swings_the_pendulum_up(student: Student):
-    expect_mean(student, "Pendulum-v1", 52, -400, "reaches {:.0f}")
+    expect_mean(student, "Pendulum-v1", 52, -400, "reaches a return of {:.0f}")

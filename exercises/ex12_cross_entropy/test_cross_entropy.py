@@ -46,7 +46,7 @@ def generator(index: int) -> np.random.Generator:
 
 def fields(said: str, value: object, *keys: str) -> list:
     """The values of these keys of a dict, which may have others."""
-    expect(isinstance(value, dict), f"{said} must return a dict, not {show(value)}.")
+    expect(isinstance(value, dict), f"{said} should return a dict, not {show(value)}.")
     for key in keys:
         expect(key in value, f"{said} returned a dict without {key!r}.")
     return [value[key] for key in keys]
@@ -79,17 +79,17 @@ def compare_softmax(student: Student, scores: np.ndarray) -> None:
     if isinstance(answer, np.ndarray) and answer.shape == scores.shape and np.any(lost):
         expect(
             answer.dtype.kind != "f" or not np.array_equal(np.isnan(answer).all(axis=-1), lost),
-            f"{student.said}: the rows are NaN of which all scores are far below the largest one "
-            "of all steps. Each row has its own largest score (axis=-1).",
+            f"{student.said} holds NaN in the rows whose scores are all far below the largest "
+            "score of all rows: subtract from each row its own largest score (axis=-1).",
         )
     overflow = overflown(scores, answer)
     expect(not overflow, f"{student.said} holds NaN: {overflow}")
     mistakes = {
-        "One sum is taken over all steps, but each row has its own (axis=-1).": powers
-        / powers.sum()
+        "This is divided by one sum over all rows, but each row should be divided by its own "
+        "(axis=-1).": powers / powers.sum()
     }
     if scores.dtype.kind == "i":
-        text = "The result has the type of the scores: whole numbers cut probabilities off to 0."
+        text = "All probabilities are 0. They should be floats, whatever the type of the scores."
         mistakes[text] = 0 * powers
     limits = [20, 30, 50, 80, 100, 200, 250, 300, 350, 400, 500, 600, 650, *range(680, 746), 900]
     cuts = [np.clip(scores, low, limit) for limit in limits for low in (-limit, -np.inf)]
@@ -98,13 +98,13 @@ def compare_softmax(student: Student, scores: np.ndarray) -> None:
             made = np.exp(each) / np.exp(each).sum(axis=-1, keepdims=True)
         if np.shape(answer) == made.shape and np.allclose(answer, made, rtol=1e-6, atol=1e-9):
             text = (
-                "Large scores are cut off at a limit, which makes them equally probable: subtract "
+                "Large scores are cut off at a limit, which makes them equally probable, but the "
             )
-            mistakes[text + "the largest one of each row instead."] = made
+            mistakes[text + "largest score of each row should be subtracted instead."] = made
             break
     if scores.ndim > 1:
         sums = np.maximum(powers.sum(axis=0), 1e-300)
-        mistakes["The sum runs over the steps, but it is to run over the actions."] = powers / sums
+        mistakes["The sum goes over the rows, but it should go over the actions."] = powers / sums
     tolerance = 1e-4 if np.abs(scores).max() > 100 else 1e-9  # what single precision leaves
     expect_close(student.said, answer, np.exp(logarithms_of(scores)), tolerance, mistakes)
 
@@ -130,8 +130,8 @@ def overflown(scores: np.ndarray, answer) -> str:
             made = powers / powers.sum(**of_rows)
         if np.isnan(made).any() and np.allclose(answer, made, equal_nan=True):
             return (
-                "what is subtracted from the scores is not the largest one of their row, or "
-                "nothing is. The powers are then too large for a number, or all of them are 0."
+                "the largest score of each row should be subtracted before the exponential. "
+                "Otherwise powers are too large for a floating-point number, or all of them are 0."
             )
     return ""
 
@@ -190,20 +190,25 @@ def compare_choices(student: Student, index: int, shares: np.ndarray, times: int
     darts = np.random.default_rng(seed).random(times)
     before = np.cumsum(shares) - shares
     mistakes = {
-        "All actions are equally probable: use the probabilities.": darts * len(shares) // 1,
-        "The probabilities are laid down from the last to the first.": len(shares) - 1
+        "All actions are equally probable, but the probabilities given should decide.":
+        darts * len(shares) // 1,
+        "Action 0 comes with the largest u, but it should come with the smallest.": len(shares) - 1
         - np.searchsorted(np.cumsum(shares[::-1]), darts, side="right").clip(0, len(shares) - 1),
-        "The sum that is compared with u is that before the action: its own probability belongs "
-        "to it.": np.searchsorted(before, darts, side="right").clip(0, len(shares) - 1),
-        "The action is the one before: the first whose sum is greater than u is asked for.":
+        "This is the action after the right one: the first whose sum, its own probability "
+        "included, is greater than u is asked for.":
+        np.searchsorted(before, darts, side="right").clip(0, len(shares) - 1),
+        "This is the action before the right one: the first whose sum is greater than u is asked "
+        "for.":
         np.searchsorted(np.cumsum(shares), darts, side="right").clip(1, len(shares)) - 1,
-        "The probabilities are sorted: the part of action i is to be number i on the ruler.":
+        "This is a place among the sorted probabilities, but on the ruler the part of action i "
+        "should be number i.":
         np.searchsorted(np.cumsum(np.sort(shares)), darts, side="right").clip(0, len(shares) - 1),
-        "u is compared with each probability alone, not with the sum up to it.":
+        "u is compared with each probability alone, but it should be compared with the sum up to "
+        "it.":
         [next((i for i, p in enumerate(shares) if p > u), len(shares) - 1) for u in darts],
     }  # fmt: skip
     if whole and len(set(answer)) == 1:  # many mistakes lead to it
-        mistakes = {"It is the same action each time: draw one.": answer}
+        mistakes = {"The action is the same each time, but it should be drawn.": answer}
     if np.any(shares == 1):  # so do they here, where one action is certain
         mistakes = {}
     lines = [text for text, made in mistakes.items() if whole and np.array_equal(answer, made)]
@@ -214,8 +219,8 @@ def compare_choices(student: Student, index: int, shares: np.ndarray, times: int
         near = bool(np.any(np.abs(edges - dart) < 1e-9))
         expect(
             near or (type(got) is int and got == wanted),
-            f"{said}, call {number}, returned {show(got)}. Its dart, number {number} of "
-            f"rng.random(), is {dart:.4f}, so {wanted} was expected.{hint}",
+            f"{said}, call {number}, returned {show(got)}. Its u should be number {number} of "
+            f"rng.random(), {dart:.4f}, so {wanted} was expected.{hint}",
         )
 
 
@@ -237,8 +242,8 @@ def unlikely_and_certain_actions(student: Student):
     expect(
         type(got) is int and got == 9,
         f"{said} returned {show(got)}, but 9 was expected if rng.random() gives {most!r}, its "
-        "largest number: by rounding the sum of the probabilities is not greater than that, and "
-        "the last action owns the rest of the ruler.",
+        "largest number: by rounding, the sum of the probabilities is not greater than that, and "
+        "then the last action owns the rest of the ruler.",
     )
     seed = exercise.seed(17)
     dart = float(np.random.default_rng(seed).random())
@@ -318,18 +323,19 @@ def expect_steps(found: dict, key: str) -> None:
         rows = np.array(value, dtype=float)
         both = min(len(right), steps)
         if key == "observations" and not np.allclose(rows[0], right[0], atol=1e-4):
-            why = "Its first row is not what reset(seed=seed) returns."
+            why = "Its first row should be what reset(seed=seed) returns."
             if np.allclose(rows[0], right[1], atol=1e-4):
-                why = "Its first row is what was seen after the first step, not before it."
+                why = "Its first row is what was seen after the first step instead of before it."
         elif steps > wanted and not any(found["ends"]) and np.size(found["actions"]) > wanted:
-            why = "It goes on after `maxsteps` steps."
+            why = "The episode goes on after maxsteps steps, but it should end there."
         elif steps == wanted + 1 == len(right) and np.allclose(rows, right, atol=1e-4):
-            why = "Its last row is what was seen after the last step."
+            why = "Its last row is what was seen after the last step, but it should not be there."
         elif steps > wanted and np.allclose(rows[:both], right[:both], atol=1e-4):
             why = went_on(*found["ends"])
     expect(
         steps == wanted,
-        f"{found['said']}: {key} has {steps} rows, but the episode has {wanted} steps."
+        f"{found['said']}: the number of rows in {key} is {steps}, but it should be {wanted}, the "
+        "number of steps."
         f"\n  {why}".rstrip(),
     )
 
@@ -339,12 +345,12 @@ def expect_episode(found: dict, key: str) -> None:
         expect_steps(found, key)
     wanted, mistakes = np.array(found["wanted"][key]), {}
     if key == "observations":
-        mistakes["What was seen after each step is recorded, not what was seen before it."] = (
-            np.array([*wanted[1:], found["last"]])
+        mistakes["This is what was seen after each step instead of before it."] = np.array(
+            [*wanted[1:], found["last"]]
         )
     if key == "return":
         steps = len(found["wanted"]["actions"])
-        mistakes["The mean of the rewards is not their sum."] = wanted / steps
+        mistakes["This is the mean of the rewards instead of their sum."] = wanted / steps
     expect_close(f"{found['said']}: {key}", found[key], wanted, SINGLE, mistakes)
 
 
@@ -400,10 +406,10 @@ def adds_up_the_rewards(student: Student):
         answer = student.run(rewarded, rewards, 400, said=said)
         (total,) = fields(said, answer, "return")
         mistakes = {
-            "The steps are counted, but their rewards are to be added up.": steps,
-            "The mean of the rewards is not their sum.": rewards.mean(),
-            "Only the last reward counts.": rewards[-1],
-            "Negative rewards are left out.": rewards.clip(min=0).sum(),
+            "The steps are counted, but the rewards should be added up.": steps,
+            "This is the mean of the rewards instead of their sum.": rewards.mean(),
+            "This is the last reward instead of the sum of all.": rewards[-1],
+            "Negative rewards are left out, but they count, too.": rewards.clip(min=0).sum(),
         }
         expect_close(f"{said}: return", total, rewards.sum(), SINGLE, mistakes)
 
@@ -516,18 +522,18 @@ def told_by_order(observations, found: list[dict], best: list[dict]) -> list[str
     returns = [found[i]["return"] for i in kept]
     if missing and len(set(returns)) == len(returns):
         said.append(
-            "Of several episodes with the same return only one is kept: all with at least the "
-            "bound are to be kept."
+            "Of several episodes with the same return only one is kept, but all with at least the "
+            "bound should be kept."
         )
     elif missing:
         said.append(
-            "Of several episodes with the same return, some are kept and some are not: all with at "
-            "least the bound are to be kept, however many they are."
+            "Of several episodes with the same return, some are kept and some are not, but all "
+            "with at least the bound should be kept, however many they are."
         )
     if kept != sorted(kept):
         by_return = returns in (sorted(returns), sorted(returns, reverse=True))
-        sorted_by = " (they are sorted by their returns)" if by_return else ""
-        said.append(f"The episodes do not stand in the order of the list{sorted_by}.")
+        sorted_by = ", but they are sorted by their returns" if by_return else ""
+        said.append(f"The episodes should stand in the order of the list{sorted_by}.")
     return said
 
 
@@ -542,25 +548,26 @@ def compare_elite(student: Student, found: list[dict], percentile: float, *keys:
     wanted["bound"] = bound
     turned = np.percentile(returns, 100 - percentile)
     upside_down = (
-        "The percentile counts from the best: np.percentile counts from the lowest return."
+        "The percentile is counted from the highest return, but it should be counted from the "
+        "lowest, as np.percentile does."
     )
     bounds = {
         upside_down: turned,
-        "This is the lowest return that is kept, not the percentile.": min(
+        "This is the lowest return of the elite instead of the percentile.": min(
             e["return"] for e in best
         ),
-        "This is the percentile of the numbers of steps, not of the returns.": np.percentile(
+        "This is the percentile of the numbers of steps instead of the returns.": np.percentile(
             [len(e["actions"]) for e in found], percentile
         ),
-        "This is a share of the highest return, not a percentile of all returns.": percentile
+        "This is a share of the highest return instead of the percentile of all.": percentile
         / 100
         * max(returns),
     }
     kinds = {upside_down: [e for e in found if e["return"] >= turned]}
     if isinstance(values[2], (int, float, np.ndarray)) and np.all(np.isclose(values[2], bound)):
         kinds |= {
-            "All episodes are kept.": found,
-            "Episodes exactly at the bound are left out.": [
+            "All episodes are kept, but only those with at least the bound should be.": found,
+            "Episodes exactly at the bound are left out, but they should be kept.": [
                 e for e in found if e["return"] > bound
             ],
             "The worst are kept instead of the best.": [e for e in found if e["return"] <= bound],
@@ -624,10 +631,10 @@ def measured(module, scores, actions):
     scores = torch.tensor(scores, requires_grad=True)
     loss = module.cross_entropy(scores, torch.tensor(actions))
     if not isinstance(loss, torch.Tensor):
-        raise TypeError(f"the loss is a {type(loss).__name__}, but a tensor of torch is needed")
+        raise TypeError(f"the type of the loss is {type(loss).__name__}, but a tensor is needed")
     if not loss.requires_grad:
-        text = "torch cannot follow the loss back to the scores, as after NumPy, .item(), .detach()"
-        raise ValueError(f"{text}, torch.tensor(...) or torch.no_grad()")
+        text = "torch cannot follow the loss back to the scores, as happens after NumPy, .item()"
+        raise ValueError(f"{text}, .detach(), torch.tensor(...) or torch.no_grad()")
     loss.backward()
     return [loss.detach().numpy(), scores.grad.numpy()]
 
@@ -638,30 +645,32 @@ def mistaken_surprise(scores: np.ndarray, done: np.ndarray) -> dict:
     powers, chosen = np.exp(logarithms), logarithms[row, done]
     over_steps = scores - np.log(np.exp(scores).sum(axis=0))
     return {
-        "This is the sum over the steps, not their mean.": -chosen.sum(),
-        "The mean goes over the actions, too: divide by the number of steps alone.": -chosen.sum()
+        "This is the sum over the steps instead of their mean.": -chosen.sum(),
+        "The sum is divided by the number of scores instead of the number of steps.": -chosen.sum()
         / scores.size,
-        "This is 1 minus the probability of what was done; asked for is minus its logarithm.": (
+        "This is 1 minus the probability of what was done instead of minus its logarithm.": (
             1 - powers[row, done]
         ).mean(),
-        "This is minus the probability of what was done; its logarithm is missing.": -powers[
+        "This is minus the probability of what was done instead of minus its logarithm.": -powers[
             row, done
         ].mean(),
-        "This is minus the logarithm of the mean probability: take the logarithm of each step's "
-        "probability first, then the mean.": -np.log(powers[row, done].mean()),
-        "The scores themselves are taken for logarithms of probabilities: softmax is missing.": (
+        "This is minus the logarithm of the mean probability instead of minus the mean of the "
+        "logarithms.": -np.log(powers[row, done].mean()),
+        "s_a is used as ln p(a), but ln of the sum of exponentials should be subtracted.": (
             -scores[row, done].mean()
         ),
-        "This is the entropy of the policy: only the action that was done counts in each step.": (
+        "This is the entropy of the policy, but only the action done should count.": (
             -(powers * logarithms).sum(axis=1).mean()
         ),
-        "The probabilities add up to 1 along the steps, not along the actions (dim).": (
+        "The probabilities add up to 1 over the steps instead of the actions (dim=1).": (
             -over_steps[row, done].mean()
         ),
-        "All actions count in each step, not only the one that was done.": -logarithms.sum(
+        "All actions count in each step instead of only the one that was done.": -logarithms.sum(
             axis=1
         ).mean(),
-        "softmax is applied twice.": -logarithms_of(powers)[row, done].mean(),
+        "softmax is applied twice, but it should be applied once.": -logarithms_of(powers)[
+            row, done
+        ].mean(),
     }
 
 
@@ -673,9 +682,9 @@ def shortened(chosen: np.ndarray, loss) -> dict:
         made += [-np.maximum(chosen, np.log(each)).mean() for each in tiny]
     if np.shape(loss) == () and np.isclose(made, float(loss), rtol=1e-5, atol=0).any():
         return {
-            "A tiny number is added to the probabilities, or put in the place of smaller ones, so "
-            "that no surprise is larger than minus its logarithm. Take ln p(a) from the scores, by "
-            "the formula.": loss
+            "A tiny number is added to the probabilities, or replaces smaller ones, so that no "
+            "surprise is larger than minus the logarithm of this number. ln p(a) should be "
+            "computed from the scores by the formula.": loss
         }
     return {}
 
@@ -684,8 +693,8 @@ def surprised(student: Student, index: int, steps: int, actions: int, scale: flo
     """[loss, gradient] of the student's, then what they should be, and mistaken losses."""
     rng = generator(index)
     scores, done = scale * rng.normal(size=(steps, actions)), rng.integers(0, actions, steps)
-    said = f"cross_entropy(scores, actions) for {steps} steps and {actions} actions"
-    said += ", the scores in hundreds" if scale > 100 else ""
+    said = f"cross_entropy(scores, actions) for N={steps} and {actions} actions"
+    said += " with scores in the hundreds" if scale > 100 else ""
     answer = student.run(measured, scores, done, said=said)
     expect(isinstance(answer, list) and len(answer) == 2, f"{said} gave no answer.")
     logarithms, row = logarithms_of(scores), np.arange(steps)
@@ -708,8 +717,8 @@ def gradients_flow(student: Student):
     for index, steps, actions in ((84, 40, 2), (85, 25, 6)):
         _, gradient, _, wanted, _ = surprised(student, index, steps, actions, 1.0)
         mistakes = {
-            "No gradient arrives at the scores. For example, torch cannot follow .detach().": 0
-            * wanted,
+            "The gradient is 0: torch should be able to follow the whole computation from the "
+            "scores to the loss, and .detach(), for example, prevents that.": 0 * wanted,
         }
         expect_close(f"{student.said}: gradient of the scores", gradient, wanted, SINGLE, mistakes)
 
@@ -801,13 +810,13 @@ def compare_updates(student: Student, index: int, kind: str, whole: bool, update
     wanted = "torch.int64" if whole else "torch.float32"
     expect(
         isinstance(kinds, list) and len(kinds) == updates,
-        f"{said} called the loss {len(kinds)} times: call it once for each update, before the "
-        "optimiser's step, for what is returned and for the gradient.",
+        f"{said} should call loss once for each update, before the optimiser's step, both for "
+        f"what it returns and for the gradients, but the number of calls is {len(kinds)}.",
     )
     expect(
         kinds == [wanted] * updates,
-        f"{said} must call loss(outputs, actions) {updates} times, with actions of {wanted}, but "
-        f"the calls had {show(kinds)}.",
+        f"{said} should call loss(outputs, actions) with actions of {wanted} in each update, but "
+        f"their types were {show(kinds)}.",
     )
     expect(isinstance(after, list) and len(after) == len(parameters), f"{said} gave no parameters.")
     return said, losses, after, *right
@@ -815,7 +824,7 @@ def compare_updates(student: Student, index: int, kind: str, whole: bool, update
 
 PARAMETERS = (
     *(f"{name} of the network" for name in ("W1", "b1", "W2", "b2")),
-    "a parameter that the optimiser has beside the network's (as ln sigma in 12.8)",
+    "a parameter of the optimiser that is not in the network (as ln sigma in 12.8)",
 )
 LEARNING_CASES = (("SGD", True, 1), ("Adam", True, 12), ("SGD", False, 5), ("Adam", False, 8))
 
@@ -826,7 +835,8 @@ def parameters_after_the_updates(student: Student):
         said, _, after, _, right = compare_updates(student, 90 + number, *case)
         for name, got, wanted in zip(PARAMETERS, after, right, strict=False):
             mistakes = {
-                "Gradients of before are added: set them to zero first (zero_grad).": wanted - 0.02
+                "Gradients from before are added, but each update should use its own alone (clear "
+                "the others by zero_grad).": wanted - 0.02
             }  # of the first case: one step of SGD, and the gradients left over are all 1
             expect_close(f"{said}: {name} afterwards", got, wanted, 1e-4, mistakes)
 
@@ -862,12 +872,12 @@ def draws_actions(student: Student):
         for got in answer:
             drawn = noise.standard_normal(actuators)
             mistakes = {
-                "log_deviation is taken for the logarithm of the variance.": mean
-                + np.exp(log_deviation / 2) * drawn,
-                "log_deviation is taken for the deviation itself: np.exp is missing.": mean
+                "log_deviation is used as the logarithm of the variance, but it should be used as "
+                "that of the deviation.": mean + np.exp(log_deviation / 2) * drawn,
+                "log_deviation is used as the deviation instead of np.exp(log_deviation).": mean
                 + log_deviation * drawn,
-                "The noise is left out.": mean,
-                "One number is drawn for all actuators, but each needs its own.": mean
+                "The noise is left out, but it should be added to the mean.": mean,
+                "One number is drawn for all actuators, but each should have its own.": mean
                 + np.exp(log_deviation) * single.standard_normal(),
             }
             wanted = mean + np.exp(log_deviation) * drawn
@@ -881,10 +891,10 @@ def measured_gaussian(module, means, log_deviation, actions):
     means, log_deviation = (torch.tensor(x, requires_grad=True) for x in (means, log_deviation))
     loss = module.gaussian_loss(means, log_deviation, torch.tensor(actions))
     if not isinstance(loss, torch.Tensor):
-        raise TypeError(f"the loss is a {type(loss).__name__}, but a tensor of torch is needed")
+        raise TypeError(f"the type of the loss is {type(loss).__name__}, but a tensor is needed")
     if not loss.requires_grad:
-        text = "torch cannot follow the loss back, as after NumPy, .item(), .detach()"
-        raise ValueError(f"{text}, torch.tensor(...) or torch.no_grad()")
+        text = "torch cannot follow the loss back, as happens after NumPy, .item()"
+        raise ValueError(f"{text}, .detach(), torch.tensor(...) or torch.no_grad()")
     loss.backward()
     grads = [torch.zeros_like(x) if x.grad is None else x.grad for x in (means, log_deviation)]
     return [loss.detach().numpy(), *(grad.numpy() for grad in grads)]
@@ -898,7 +908,7 @@ def compare_gaussian(
     means, actions = rng.normal(size=(2, steps, actuators))
     actions += far
     log_deviation = 0.5 * rng.normal(size=actuators)
-    said = f"gaussian_loss(...) for {steps} steps and {actuators} actuators"
+    said = f"gaussian_loss(...) for N={steps} and actuators={actuators}"
     answer = student.run(measured_gaussian, means, log_deviation, actions, said=said)
     expect(isinstance(answer, list) and len(answer) == 3, f"{said} gave no answer.")
     distance = (actions - means) / np.exp(log_deviation)
@@ -906,23 +916,30 @@ def compare_gaussian(
         surprises = distance**2 / 2 + log_deviation + np.log(2 * np.pi) / 2
         constant = np.log(2 * np.pi) / 2
         mistakes = {
-            "The constant ln(2 pi) / 2 is left out.": (surprises - constant).sum(axis=1).mean(),
-            "ln(2 pi) is added whole, not half of it.": (surprises + constant).sum(axis=1).mean(),
-            "The mean is taken over the actuators, too: their surprises add up.": surprises.mean(),
-            "The sum goes over the steps, too: the loss is their mean.": surprises.sum(),
-            "ln sigma (log_deviation) is not added.": (surprises - log_deviation)
+            "The constant ln(2 pi) / 2 is left out, but it should be added for each number of the "
+            "action.": (surprises - constant).sum(axis=1).mean(),
+            "ln(2 pi) is added instead of ln(2 pi) / 2.": (surprises + constant).sum(axis=1).mean(),
+            "The mean goes over the actuators, too, but their sum is asked for.": surprises.mean(),
+            "The sum goes over the steps, too, but their mean is asked for.": surprises.sum(),
+            "ln sigma (log_deviation) is left out, but it should be added.": (
+                surprises - log_deviation
+            )
             .sum(axis=1)
             .mean(),
-            "The squared distance is not halved.": (surprises + distance**2 / 2).sum(axis=1).mean(),
-            "The distance is not squared.": (surprises - distance**2 / 2 + distance / 2)
+            "The squared distance is not halved, but it should be.": (surprises + distance**2 / 2)
             .sum(axis=1)
             .mean(),
-            "The distance is not divided by the deviation.": (
+            "Half of the distance is added instead of half of its square.": (
+                surprises - distance**2 / 2 + distance / 2
+            )
+            .sum(axis=1)
+            .mean(),
+            "The distance is not divided by the deviation, but it should be.": (
                 surprises - distance**2 / 2 + (actions - means) ** 2 / 2
             )
             .sum(axis=1)
             .mean(),
-            "The distance is divided by log_deviation itself: np.exp is missing.": (
+            "The distance is divided by log_deviation instead of its exponential.": (
                 surprises - distance**2 / 2 + ((actions - means) / log_deviation) ** 2 / 2
             )
             .sum(axis=1)
@@ -933,7 +950,7 @@ def compare_gaussian(
     slope = -distance / np.exp(log_deviation) / steps
     spread = (1 - distance**2).sum(axis=0) / steps
     for name, got, wanted in (("means", answer[1], slope), ("log_deviation", answer[2], spread)):
-        text = f"No gradient arrives at {name}. For example, torch cannot follow .detach()."
+        text = f"The gradient is 0: torch should be able to follow {name} to the loss."
         mistakes = {text: 0 * wanted}
         expect_close(f"{said}: gradient of {'the ' * (name == 'means')}{name}", got, wanted, SINGLE,
                      mistakes)  # fmt: skip
@@ -1130,21 +1147,24 @@ def progress(played: object, noise: object, iterations: int, mean: float) -> str
     changes = noise.get("outputs_of") if isinstance(noise, dict) else None
     if isinstance(changes, int) and iterations >= 10 and changes < iterations / 3:
         return (
-            f"In {len(had)} episodes outputs_of got new parameters {changes} times: the policy "
-            "that acts stays as it was. Either its parameters are not taken from the network again "
-            "after the updates, or the updates do not change the network."
+            f"In {len(had)} episodes the number of times that outputs_of got new parameters is "
+            f"only {changes}. After the updates of each iteration the parameters should be taken "
+            "from the network again, and the updates should change the network."
         )
     first, last = had[:20].mean(), had[-20:].mean()
-    text = f"Its first 20 of {len(had)} episodes had {first:.0f} steps on average, the last 20"
+    text = (
+        f"On average, the first episodes of the training (at most 20 of {len(had)}) had "
+        f"{first:.0f} steps, the last ones (also at most 20)"
+    )
     if last > mean + 20:
         return f"{text} {last:.0f}, more than this policy: are its parameters those of the end?"
     if last < 2 * first:
         return (
-            f"{text} {last:.0f}: it has hardly learnt. Look, for example, whether the episodes "
-            "come from the network as it is after each update, their actions are drawn at random, "
-            "the elite holds the best only, and the learning rate is large enough."
+            f"{text} {last:.0f}: it has learnt little. Check, for example, whether each iteration "
+            "acts with the parameters learnt so far, the actions are drawn at random, the elite "
+            "holds only the best episodes, and the learning rate is large enough."
         )
-    return f"{text} {last:.0f}: it learns, but too little, or ends too soon."
+    return f"{text} {last:.0f}: it learns, but too little, or it ends too soon."
 
 
 def expect_balanced(student: Student, environment: str, index: int, left: int = 2) -> None:
@@ -1164,7 +1184,7 @@ def expect_balanced(student: Student, environment: str, index: int, left: int = 
     parameters, returns = fields(said, answer, "parameters", "returns")
     expect(
         isinstance(parameters, list) and len(parameters) == 4,
-        f"{said}: parameters must be a list of W1, b1, W2 and b2.",
+        f"{said}: parameters should be a list of W1, b1, W2 and b2.",
     )
     nhiddens = np.size(parameters[1])
     noutputs = 2 if discrete else 1
@@ -1176,7 +1196,8 @@ def expect_balanced(student: Student, environment: str, index: int, left: int = 
     expect(
         isinstance(returns, list)
         and all(isinstance(each, (list, np.ndarray)) and len(each) for each in returns),
-        f"{said}: returns must be a list with a list of returns for each iteration.",
+        f"{said}: returns should be a list that holds a list for each iteration, with the returns "
+        "of its episodes (at least one).",
     )
     mean = mean_return(environment, arrays, signs, side)
     had = np.array(played, dtype=float)[:, 0]
@@ -1184,9 +1205,9 @@ def expect_balanced(student: Student, environment: str, index: int, left: int = 
     known = mean < 180 and risen and mean_return(environment, arrays, np.ones(4), 1) >= 180
     expect(
         not known,
-        f"{said}: the policy balances the usual environment, but not the one that it was asked to "
-        "learn in, where the grader has changed the signs of what is observed or done. It must be "
-        "learnt there: train anew, in what gymnasium.make gives.",
+        f"{said}: the policy keeps the pole up in the usual environment, but not in the one that "
+        "gymnasium.make gives here, in which the grader has changed some signs of observations or "
+        "actions. The policy should be learnt there.",
     )
     if 100 <= mean < 180 and left:
         expect_balanced(student, environment, index + 10, left=0)
@@ -1194,14 +1215,14 @@ def expect_balanced(student: Student, environment: str, index: int, left: int = 
     expect(
         mean >= 180,
         f"{said}: without chance, the policy keeps the pole up for {mean:.1f} steps on "
-        "average over 50 new episodes, but 180 are asked for. "
+        "average over 50 new episodes, but at least 180 are asked for. "
         + progress(played, noise, len(returns), mean),
     )
     last, aim = np.mean(returns[-1]), counts.get("goal", 0)
     expect(
         last > 0.75 * aim or len(returns) >= counts.get("iterations", 0),
-        f"{said} ended after {len(returns)} iterations, though the mean return of the last one is "
-        f"only {last:.1f}: training goes on until this mean reaches the goal, {aim:g} here.",
+        f"{said} ended with iteration number {len(returns)}, whose mean return is only {last:.1f}, "
+        f"but training should go on until this mean reaches the goal, {aim:g} here.",
     )
     gradients, losses = fields("the grader's driver", counts, "gradients", "losses")
     if left and (gradients == 0 or balanced_before(learnt, arrays, environment, (signs, side))):
@@ -1209,13 +1230,13 @@ def expect_balanced(student: Student, environment: str, index: int, left: int = 
         return
     expect(
         isinstance(gradients, int) and gradients >= UPDATES,
-        f"{said} has computed {show(gradients)} gradients, but who learns by the cross-entropy "
-        f"loss computes at least {UPDATES}.",
+        f"{said}: the number of times that torch computed gradients is {show(gradients)}, but "
+        f"learning by your losses should need at least {UPDATES}.",
     )
     expect(
         isinstance(losses, int) and losses >= UPDATES,
-        f"{said} has called your cross_entropy and gaussian_loss {show(losses)} times, but who "
-        f"learns by them does so at least {UPDATES} times: hand one of them to improve.",
+        f"{said}: the number of calls of your cross_entropy and gaussian_loss is {show(losses)}, "
+        f"but the policy should learn by one of them, which needs at least {UPDATES} calls.",
     )
     count = sum(map(len, returns))
     told = expect_array(f"{said}: returns", [r for each in returns for r in each], (count,))
@@ -1238,21 +1259,22 @@ def expect_balanced(student: Student, environment: str, index: int, left: int = 
         expect(
             other == seed or None in seeds[0] or seeds[0] != seeds[1],
             f"train({environment!r}, seed={other}) begins its episodes with the same seeds as with "
-            f"seed={seed}: episode e of iteration i has the seed `seed + i * starts + e % starts`.",
+            f"seed={seed}, but `seed + i * starts + e % starts` is asked for.",
         )
         same = np.array_equal(actions[:shared], again[3][:shared])
         expect(
             same or other != seed,
-            f"{said}, called twice, chooses other actions in its first {FIRST} episodes: either "
-            "something random does not come from the seed, or something stays from call to call "
-            "(a variable of the module, or an array that is changed in place).",
+            f"{said}, called twice, chooses different actions in its first {FIRST} episodes, but "
+            "the same seed should give the same training. Either something random does not come "
+            "from the seed, or something stays from call to call (a variable of the module, or an "
+            "array that is changed in place).",
         )
         expect(
             not same
             or other == seed
             or not shared,  # none are seen of an environment that was kept
             f"train({environment!r}, seed={other}) chooses the same actions as with "
-            f"seed={seed} in its first {FIRST} episodes, but another seed must give another "
+            f"seed={seed} in its first {FIRST} episodes, but another seed should give another "
             "training.",
         )
 
@@ -1265,13 +1287,13 @@ def expect_learnt(said: str, environment: str, arrays: list, learnt: list, chang
     """What is returned is what the optimiser made, of a network that could not balance before."""
     expect(
         learnt[1] is True,
-        f"{said}: W2 is not that of the network after one of the optimiser's steps: return the "
-        "parameters that your losses have led to.",
+        f"{said}: W2 is none of those that the optimiser's steps have made, but the parameters "
+        "returned should be those that your losses have led to.",
     )
     expect(
         not balanced_before(learnt, arrays, environment, changed),
-        f"{said}: before the optimiser's first step the policy stays up already, with several "
-        "seeds. It is to learn this by your losses.",
+        f"{said}: the policy keeps the pole up already before the optimiser's first step, but it "
+        "should learn this by your losses.",
     )
 
 
@@ -1294,13 +1316,13 @@ def expect_noise(said: str, noise: dict, iterations: int) -> None:
     """The deviation of the noise is learnt, and the actions have the one that is learnt."""
     expect(
         noise.get("gaussian_loss") is not False,
-        f"{said}: ln sigma is the same number in all calls of gaussian_loss, but it is to be "
+        f"{said}: ln sigma is the same number in all calls of gaussian_loss, but it should be "
         "learnt like any other parameter.",
     )
     expect(
         iterations < 2 or noise.get("gaussian_action") is not False,
-        f"{said}: ln sigma changes from call to call of gaussian_loss, but gaussian_action gets "
-        "the same number in all calls: the policy always acts with one deviation.",
+        f"{said}: gaussian_action gets the same log_deviation in all calls, so that the policy "
+        "always acts with one deviation, but it should get the ln sigma that is learnt.",
     )
 
 
@@ -1313,7 +1335,7 @@ def expect_starts(said: str, given: list, returns: list) -> None:
     seeds = [seed for seed in given if isinstance(seed, int)]
     episodes = len(returns[0])
     first, later = set(seeds[:episodes]), set(seeds[episodes + 1 :])
-    formula = "episode e of iteration i has the seed `seed + i * starts + e % starts`."
+    formula = "episode e of iteration i should have the seed `seed + i * starts + e % starts`."
     if not episodes or len(seeds) < 2 * episodes:
         return
     expect(
@@ -1326,7 +1348,8 @@ def expect_starts(said: str, given: list, returns: list) -> None:
     expect(
         episodes < 2 or len(first) > 1 or len(second) > 1 or stride == 1,
         f"{said}: all {episodes} episodes of an iteration begin with one seed, which is right only "
-        f"if starts is 1, but the seed of the next iteration is {stride} higher: {formula}",
+        "if starts is 1; but then the seed of the next iteration should be higher by 1, not by "
+        f"{stride}, since {formula}",
     )
     together = len(set(seeds[: 3 * episodes]))
     expect(

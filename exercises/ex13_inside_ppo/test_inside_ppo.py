@@ -128,7 +128,10 @@ def compare_advantages(student: Student, index: int, steps: int, envs: int, **sp
     expect_close(student.said, answer, buffer.advantages, CLOSE, mistakes)
 
 
-LAMBDA_OF_ONE = "gae_lambda is left out: later TD errors count less by gamma alone."
+LAMBDA_OF_ONE = (
+    "gae_lambda is left out: later TD errors are multiplied by gamma alone at each step, but "
+    "should be by gamma * gae_lambda."
+)
 
 
 def mistaken(rewards, values, starts, last_values, dones, gamma, gae_lambda) -> dict:
@@ -148,20 +151,23 @@ def mistaken(rewards, values, starts, last_values, dones, gamma, gae_lambda) -> 
 
     return {
         LAMBDA_OF_ONE: estimated(1.0),
-        "Only the first TD error counts: those of later steps are left out.": estimated(0.0),
-        "What comes after the last step (last_values) is left out.": estimated(
+        "Only the TD error of the step itself is taken: those of later steps are left out.": (
+            estimated(0.0)
+        ),
+        "The value of what comes after the last step (last_values) is left out.": estimated(
             last=0 * last_values
         ),
-        "Whether the last step ended its episode (dones) is left out.": estimated(dones=0 * dones),
-        "Ends of episodes on the way (starts) are left out.": estimated(starts=0 * starts),
-        "A step ends its episode if the next one starts one, not if it does itself.": estimated(
-            shift=0
+        "The last step counts as if its episode went on, even where it has ended (dones).": (
+            estimated(dones=0 * dones)
         ),
-        "TD errors leak over ends of episodes: n belongs into the sum of the later ones, too.": (
+        "Ends of episodes on the way (episode_starts) are left out.": estimated(starts=0 * starts),
+        "The first step of an episode is taken for its last one, but step t is the last one if "
+        "step t + 1 starts an episode.": estimated(shift=0),
+        "TD errors leak over ends of episodes: those of later steps are added even where n is 0.": (
             estimated(leaks="errors")
         ),
         "": estimated(),
-        "Values leak over ends of episodes: n belongs to the next value, too.": estimated(
+        "Values leak over ends of episodes: the next value is added even where n is 0.": estimated(
             leaks="values"
         ),
     }
@@ -225,21 +231,22 @@ def compare_bootstrapped(student: Student, index: int, steps: int, envs: int) ->
     wanted = np.where(cut, rewards + gamma * values, rewards)
     ended, limit = terminated + truncated > 0, truncated == 1
     mistakes = {
-        "Nothing is added where time ran out.": rewards,
-        "Ends are bootstrapped as well, but no reward comes after an end.": rewards
-        + gamma * ended * values,
-        "A step that is both terminated and truncated has ended: nothing comes after it.": rewards
-        + gamma * limit * values,
-        "gamma is left out: what comes after the step counts gamma times.": rewards + cut * values,
-        "The value takes the place of the reward, but is to be added to it.": np.where(
-            cut, gamma * values, rewards
+        "Nothing is added where time ran out, but gamma times the value should be.": rewards,
+        "Ends are bootstrapped as well, but nothing should be added where an episode ended by "
+        "itself.": rewards + gamma * ended * values,
+        "The value is added in steps that are both terminated and truncated, but nothing should be "
+        "added there.": rewards + gamma * limit * values,
+        "gamma is left out: the value is added without being multiplied by it.": rewards
+        + cut * values,
+        "The reward is replaced by gamma times the value, but this should be added to it.": (
+            np.where(cut, gamma * values, rewards)
         ),
-        "Ends are bootstrapped instead of episodes that were cut.": rewards
-        + gamma * terminated * values,
+        "The value is added where an episode ended by itself, but should be added where time ran "
+        "out.": rewards + gamma * terminated * values,
     }
     expect_close(said, answer[0], wanted, CLOSE, mistakes)
     same = np.array_equal(answer[1], rewards)
-    expect(same, f"{said} has changed the rewards that it was given: make a new array.")
+    expect(same, f"{said} has changed the rewards that it was given, but should make a new array.")
 
 
 @estimating.check(4)
@@ -256,7 +263,7 @@ def judged_policy(student: Student, given: dict, clip_range: float) -> dict:
     answer = student.call(
         "policy_loss", given["log_prob"], given["old_log_prob"], given["advantages"], clip_range
     )
-    expect(isinstance(answer, dict), f"{student.said} must return a dict, not {show(answer)}.")
+    expect(isinstance(answer, dict), f"{student.said} should return a dict, not {show(answer)}.")
     for key in ("loss", "clip_fraction"):
         expect(key in answer, f"{student.said} returned a dict without {key!r}.")
     return answer
@@ -301,48 +308,53 @@ def mistaken_losses(given: dict, clip_range: float) -> dict:
         loss,
         ratio={
             "": np.exp(log - old),
-            "The ratio is turned around: the probability now is divided by the one before.": np.exp(
-                old - log
-            ),
-            "This is the difference of the logarithms: the ratio is its exponential.": log - old,
-            "The logarithms are divided: the ratio is that of the probabilities.": log / old,
+            "The ratio is upside down: the old probability is divided by the new one.":
+            np.exp(old - log),
+            "The ratio is the difference of the logarithms, but should be its exponential.":
+            log - old,
+            "The logarithms are divided by each other, but the probabilities should be.": log / old,
         },
         cut={
             "": lambda ratio: np.clip(ratio, low, high),
-            "The ratio is not clipped.": lambda ratio: ratio,
-            "The logarithm of the ratio is clipped: clip the ratio itself, around 1.":
+            "The ratio is not clipped, but should be.": lambda ratio: ratio,
+            "The logarithm of the ratio is clipped, but the ratio itself should be.":
             lambda ratio: np.exp(np.clip(log - old, -clip_range, clip_range)),
-            "The ratio is clipped around 0, but it is clipped around 1.":
+            "The ratio is clipped around 0, but should be clipped around 1.":
             lambda ratio: np.clip(ratio, -clip_range, clip_range),
-            "The ratio is clipped from above only.": lambda ratio: np.minimum(ratio, high),
-            "The ratio is clipped from below only.": lambda ratio: np.maximum(ratio, low),
-            "The lower limit is 1 / (1 + clip_range) here, not 1 - clip_range.":
+            "The ratio is clipped from above only, but should be from below, too.":
+            lambda ratio: np.minimum(ratio, high),
+            "The ratio is clipped from below only, but should be from above, too.":
+            lambda ratio: np.maximum(ratio, low),
+            "The lower limit of the ratio is 1 / (1 + clip_range), but should be 1 - clip_range.":
             lambda ratio: np.clip(ratio, 1 / high, high),
         },
         advantages={
             "": raw if single else centred / (spread + 1e-8),
-            "The advantages are not normalised.": raw,
-            "The advantage of a single step counts as 0: a single step is not normalised."
-            if single else "The deviation of the advantages divides by N, not by N - 1 (ddof=1).":
+            "The advantages are not normalised, but should be.": raw,
+            "The advantage of a single step counts as 0, but should be taken as it is."
+            if single else
+            "The deviation of the advantages divides by N, but should divide by N - 1 (ddof=1).":
             0.0 * raw if single else centred / (raw.std() + 1e-8),
-            "The mean of the advantages is not subtracted.": raw / (spread + 1e-8),
-            "The advantages are not divided by their deviation.": centred,
-            "The advantages are divided by their variance, not by their deviation.":
+            "The mean of the advantages is not subtracted from them, but should be.":
+            raw / (spread + 1e-8),
+            "The advantages are not divided by their standard deviation, but should be.": centred,
+            "The advantages are divided by their variance instead of their standard deviation.":
             centred / (spread**2 + 1e-8),
         },
         taken={
             "": np.minimum,
-            "The clipped product counts always, instead of the smaller of the two.":
+            "The clipped product is always taken, instead of the smaller one of the two products.":
             lambda first, second: second,
-            "The larger of the two products counts, instead of the smaller.": np.maximum,
-            "The product that is smaller without its sign counts: compare them with their signs.":
+            "The larger one of the two products is taken, instead of the smaller one.": np.maximum,
+            "The product with the smaller absolute value is taken, but signs should count, too.":
             lambda first, second: np.where(np.abs(first) < np.abs(second), first, second),
         },
         whole={
             "": lambda products: -products.mean(),
-            "The sign is reversed: the products are to become large, the loss small.":
+            "The sign of the loss is reversed: it should be minus the mean of the products.":
             lambda products: products.mean(),
-            "This is the sum over the batch, not the mean.": lambda products: -products.sum(),
+            "The sum over the batch is taken instead of the mean.":
+            lambda products: -products.sum(),
         },
     )  # fmt: skip
 
@@ -382,7 +394,7 @@ def clip_fraction(student: Student):
         said = f"{student.said}: clip_fraction"
         distance = given["log_prob"] - given["old_log_prob"]
         mistakes = {
-            "The logarithm of the ratio is compared with clip_range, instead of the ratio's "
+            "The distance of ln(ratio) from 0 is compared with clip_range, instead of the ratio's "
             "distance from 1.": np.mean(np.abs(distance) > chosen["clip_range"]),
         }
         expect_close(said, answer["clip_fraction"], logged["clip_fraction"], CLOSE, mistakes)
@@ -394,9 +406,12 @@ def clip_fraction(student: Student):
         given = drawn_batch(27, steps, 0.6)
         given["log_prob"][:unchanged] = given["old_log_prob"][:unchanged]
         answer = judged_policy(student, given, 0.0)
-        mistakes = {"A ratio exactly clip_range away from 1 is not farther than it.": 1.0}
+        mistakes = {
+            "Ratios exactly clip_range away from 1 are counted, too, but only those that are "
+            "farther should be.": 1.0
+        }
         said = (
-            f"{student.said}: clip_fraction of {unchanged} unchanged actions of {steps}, and "
+            f"{student.said}: clip_fraction with {unchanged} of {steps} ratios equal to 1 and "
             "clip_range=0"
         )
         expect_close(said, answer["clip_fraction"], 1 - unchanged / steps, CLOSE, mistakes)
@@ -422,10 +437,15 @@ def compare_critic(student: Student, clipping: bool) -> None:
             arguments += [chosen["clip_range_vf"]] if clipping else []
             answer = student.call("value_loss", *arguments)
             away = given["values"] - given["returns"]
-            mistakes = {"The movement of the values is not clipped.": np.mean(away**2)}
+            mistakes = {
+                "The movement of the values is not clipped, but should be.": np.mean(away**2)
+            }
             if clipping:
                 cut = np.clip(away, -arguments[3], arguments[3])
-                mistakes["The error is clipped, instead of the values' movement."] = np.mean(cut**2)
+                mistakes[
+                    "The difference of values and returns is clipped, instead of that of values "
+                    "and old_values."
+                ] = np.mean(cut**2)
             expect_close(student.said, answer, logged["value_loss"], CLOSE, mistakes)
 
 
@@ -443,7 +463,7 @@ def with_clipping(student: Student):
         answer = student.call("value_loss", values, old_values, returns, 0.0)
         wanted = np.mean((old_values - returns) ** 2)
         mistakes = {
-            "clip_range_vf=0 allows no movement at all; None means no clipping.": np.mean(
+            "Nothing is clipped, but clip_range_vf=0 allows no movement at all.": np.mean(
                 (values - returns) ** 2
             )
         }
@@ -517,8 +537,8 @@ def estimates_the_divergence(student: Student):
     for _, _, given, logged in references().updates:
         answer = student.call("approx_kl", given["log_prob"], given["old_log_prob"])
         mistakes = {
-            "It is the mean of minus the logarithm of the ratio: right on average only.": np.mean(
-                given["old_log_prob"] - given["log_prob"]
+            "The mean of -ln(ratio) is taken, but that of (ratio - 1) - ln(ratio) should be.": (
+                np.mean(given["old_log_prob"] - given["log_prob"])
             )
         }
         expect_close(student.said, answer, logged["approx_kl"], CLOSE, mistakes)
@@ -585,9 +605,10 @@ def adds_up_the_losses(student: Student):
         )  # fmt: skip
         entropy = chosen["ent_coef"] * np.mean(given["entropy"])
         mistakes = {
-            "The entropy is added: it is to be large, so it makes the loss smaller.": logged["loss"]
-            + 2 * entropy,
-            "The entropy is left out.": logged["loss"] + entropy,
+            "The entropy is added, but should be subtracted.": logged["loss"] + 2 * entropy,
+            "The entropy is left out, but ent_coef times its mean should be subtracted.": (
+                logged["loss"] + entropy
+            ),
         }
         expect_close(student.said, answer, logged["loss"], CLOSE, mistakes)
 
@@ -634,17 +655,20 @@ def activations_of_drawn_layers(student: Student):
         signal = rng.normal(size=(steps, 3))
         answer = student.call("hidden_activations", layers, signal)
         many = len(layers)
-        said = f"hidden_activations(<{many} layers>, <{steps} observations>)"
+        said = (
+            f"hidden_activations(<{many} layer{'s' * (many > 1)}>, "
+            f"<{steps} observation{'s' * (steps > 1)}>)"
+        )
         expect(
             isinstance(answer, list) and len(answer) == many,
-            f"{said} must return a list of {many} arrays, not {show(answer)}.",
+            f"{said} should return a list with an array for each layer ({many}), not "
+            f"{show(answer)}.",
         )
         made = {"the observations": signal}
         for number, ((weights, biases), got) in enumerate(zip(layers, answer, strict=True), 1):
             mistakes = {
-                f"Layer {number} gets {name}, not what comes out of the layer before it.": (
-                    np.tanh(other @ weights.T + biases)
-                )
+                f"Layer {number} gets {name}, but should get the activations of the layer before "
+                "it.": np.tanh(other @ weights.T + biases)
                 for name, other in list(made.items())[:-1]
                 if other.shape == signal.shape
             }
@@ -661,7 +685,8 @@ def activations_of_the_layers(student: Student):
         said = f"hidden_activations(layers, observations) of a policy for {environment}"
         expect(
             isinstance(answer, list) and len(answer) == len(wanted),
-            f"{said} must return a list of {len(wanted)} arrays, not {show(answer)}.",
+            f"{said} should return a list with an array for each layer ({len(wanted)}), not "
+            f"{show(answer)}.",
         )
         for number, (got, right) in enumerate(zip(answer, wanted, strict=True), 1):
             expect_close(f"{said}: layer {number}", got, right, CLOSE)
@@ -705,10 +730,10 @@ def what_never_changes(student: Student):
         found = float(expect_array(student.said, answer, (1, 1))[0, 0])
         expect(
             abs(found - right) < 0.1,
-            "responses(activations, observations), where the activation goes evenly with what is "
-            f"observed, from 0.99999 to {0.99999 + change * (steps - 1):.7f}: the correlation is "
-            f"{found:.6g}, but {right} was expected. This neuron does change: only numbers that "
-            "are all equal never do.",
+            "responses(activations, observations) of a neuron whose activation is a straight line "
+            f"of the observed number, from 0.99999 to {0.99999 + change * (steps - 1):.7f}: the "
+            f"correlation is {found:.6g}, but should be {right}. A neuron that changes so little "
+            "should have its correlation, too: only numbers that are all equal never change.",
         )
 
 
@@ -788,9 +813,13 @@ def after_loop(student: Student, seed: int, steps: int, order: int = 700, **opti
     wanted = -(-steps // size) * size
     why = ""
     if isinstance(answer[1], int) and answer[1] < wanted:
-        why = " Rollout follows rollout as long as `ppo.steps` is less than the steps asked for"
+        why = " Another rollout should follow as long as `ppo.steps` is less than `steps`"
         early = options.get("target_kl", 1) is not None
-        why += ", also after an early stop, which ends the epochs of one rollout." if early else "."
+        why += (
+            ", also after an early stop, which should end the training on one rollout only."
+            if early
+            else "."
+        )
     expect(answer[1] == wanted, f"{said} made {answer[1]} steps, but should make {wanted}.{why}")
     return [expect_array(f"{said}: parameters", answer[0], (n,)), *answer[2:]]
 
@@ -814,37 +843,42 @@ def of_first_rollout(rollout: object) -> str:
     given = (rewards, values, starts, last, ended[-1], h.gamma, h.gae_lambda)
     made = mistaken(*given)
     right = made.pop("")
-    said = "\n  Written into the first rollout, before its first batch: "
+    said = "\n  The first rollout, when its first batch is taken, holds "
     if not np.allclose(found, right, 1e-4, 1e-4):
         if not found.any():
-            return f"{said}no advantages, they are still 0."
+            return f"{said}advantages that are all 0."
         fitting = [text for text, each in made.items() if np.allclose(found, each, 1e-4, 1e-4)]
-        fits = f": {fitting[0]}" if fitting else "."
-        return f"{said}advantages that are not those of task 13.1{fits}"
+        fits = f". {fitting[0]}" if fitting else "."
+        return (
+            f"{said}wrong advantages. They should be those of task 13.1 for its rewards, values, "
+            "last_values and ends (where `ended` is not 0), with gamma and gae_lambda of "
+            f"`ppo.hyperparameters`{fits}"
+        )
     after = np.vstack([values[1:], last[None]])
     wrong = {
-        "zeros.": 0 * right,
-        "the advantages alone: the critic learns advantages plus values.": right,
-        "the values alone: the critic learns advantages plus values.": values,
-        "the rewards: the critic learns advantages plus values.": rewards,
-        "advantages plus rewards: the critic learns advantages plus values.": right + rewards,
-        "advantages minus values: the critic learns their sum.": right - values,
-        "values minus advantages: the critic learns their sum.": values - right,
-        "reward plus gamma times the next value: the critic learns advantages plus values.": (
+        "zeros. They should be advantages plus values.": 0 * right,
+        "the advantages alone. They should be advantages plus values.": right,
+        "the values alone. They should be advantages plus values.": values,
+        "the rewards. They should be advantages plus values.": rewards,
+        "advantages plus rewards. They should be advantages plus values.": right + rewards,
+        "advantages minus values. They should be advantages plus values.": right - values,
+        "values minus advantages. They should be advantages plus values.": values - right,
+        "rewards plus gamma times the next values. They should be advantages plus values.": (
             rewards + h.gamma * (1 - ended) * after
         ),
-        "discounted sums of rewards: the critic learns advantages plus values.": (
+        "discounted sums of the later rewards. They should be advantages plus values.": (
             made[LAMBDA_OF_ONE] + values
         ),
     }
     fitting = [text for text, each in wrong.items() if np.allclose(returns, each, 1e-4, 1e-4)]
     if fitting:
-        return f"{said}right advantages, and as returns {fitting[0]}"
+        return f"{said}right advantages, but as returns {fitting[0]}"
     if np.allclose(returns, right + values, 1e-4, 1e-4):
         return (
-            f"{said}{RIGHT}. What differs comes later, such as epochs, batches, updates, the stop."
+            f"{said}{RIGHT}. So look at what follows: epochs, batches, updates, the early stop, "
+            "later rollouts."
         )
-    return f"{said}right advantages, and returns that are not advantages plus values."
+    return f"{said}right advantages, but returns that are not advantages plus values."
 
 
 @looping.check(4)
@@ -864,9 +898,10 @@ def one_batch_an_epoch(student: Student):
         away, moved = np.abs(got - right).max(), np.abs(right - begun).max()
         expect(
             away < 0.02 * moved,
-            f"{student.said}: the parameters end {away:.3g} away from the right ones (which "
-            f"move by {moved:.3g} in all). Each rollout needs its advantages and returns, "
-            f"{epochs} epochs, and an early stop where target_kl asks for one."
+            f"{student.said}: the largest difference of your parameters from the right ones is "
+            f"{away:.3g} (the right training moves them by up to {moved:.3g}). Each rollout should "
+            f"get its advantages and returns and {epochs} epoch{'s' * (epochs > 1)}, with the "
+            "early stop if target_kl is not None."
             + ("" if away < 0.02 * moved else of_first_rollout(rollout)),
         )
     options = {"n_epochs": 1, "batch_size": 400, "target_kl": None, **OUT_OF_TIME}
@@ -879,13 +914,13 @@ def one_batch_an_epoch(student: Student):
     expect(
         not written or RIGHT in written,
         f"{student.said}: both episodes of the rollout end because time runs out, the second one "
-        "with the last step. What comes after such a step belongs to another episode, "
-        f"too.{written}",
+        "with the last step. What comes after such a step belongs to another episode "
+        f"and should not count for the steps before it.{written}",
     )
     expect(
         away < 0.02 * moved,
-        f"{student.said}: the parameters end {away:.3g} away from the right ones (which move by "
-        f"{moved:.3g} in all).{written}",
+        f"{student.said}: the largest difference of your parameters from the right ones is "
+        f"{away:.3g} (the right training moves them by up to {moved:.3g}).{written}",
     )
 
 
@@ -897,9 +932,10 @@ def the_stop_ends_the_rollout(student: Student):
     sizes = after_loop(student, seed, 1024, **options)[2]
     expect(
         np.array_equal(sizes, [128] * 4),
-        f"{student.said}: the second batch of each rollout already has too large a divergence, so "
-        "2 batches of 128 steps of each of the 2 rollouts were expected, but those taken have "
-        f"{show(sizes)} steps.",
+        f"{student.said}: the numbers of steps in the batches taken are {show(sizes)}, but should "
+        "be [128, 128, 128, 128], for 2 batches from each of the 2 rollouts. The second batch of "
+        "each should have a divergence greater than 1.5 times target_kl, and an early stop should "
+        "end all epochs of a rollout.",
     )
 
 
@@ -913,25 +949,29 @@ def the_order_is_new(student: Student):
     )
     expect(
         np.array_equal(first, again),
-        f"{student.said}, called twice, gives different parameters: draw the orders from seed "
-        "alone.",
+        f"{student.said}, called twice, gives different parameters, but `seed` alone should decide "
+        "the orders.",
     )
     said = f"{student.said}, 512 steps in each rollout"
     expect(
         np.array_equal(sizes, [128] * 8),
-        f"{said}: the batches have {show(sizes)} steps, but should be 8 of 128.",
+        f"{said}: the numbers of steps in the batches are {show(sizes)}, but there should be 8 "
+        "batches of 128 steps.",
     )
     for epoch, part in enumerate(np.split(rows, 2), 1):
         expect(
             np.array_equal(np.sort(part), np.arange(512)),
             f"{said}: in epoch {epoch} each step should be in exactly one batch.",
         )
-    expect(not np.array_equal(*np.split(rows, 2)), f"{said}: both epochs have the same order.")
+    expect(
+        not np.array_equal(*np.split(rows, 2)),
+        f"{said}: both epochs have the same order, but each should have a new random one.",
+    )
     other = after_loop(student, seed, 512, order=701, **options)[0]
     expect(
         not np.array_equal(first, other),
-        f"{student.said} gives the same parameters with another seed: the order of the steps is to "
-        "be random, drawn from the seed.",
+        f"{student.said} gives the same parameters as with the seed 700, but another seed should "
+        "lead to another order of the steps, and so to other parameters.",
     )
 
 
@@ -952,7 +992,7 @@ def learns_as_the_reference_does(student: Student):
         yours, theirs = (float(np.mean(each)) for each in means.values())
         expect(
             yours >= share * theirs,
-            f"learn, {SEEDS} seeds of {steps} steps: the mean return in new episodes is "
-            f"{yours:.0f}, while the reference's is {theirs:.0f} of 500; {share:.0%} of that are "
-            "asked for.",
+            f"learn with {SEEDS} seeds, {steps} steps each: the mean return in new episodes is "
+            f"{yours:.0f}, but should be at least {share:.0%} of the reference's, which is "
+            f"{theirs:.0f} (500 is the most).",
         )

@@ -112,8 +112,8 @@ def evidence(student: Student, record: dict, variant: str):
         place = place[place.rfind(os.sep + "trainings" + os.sep) + 1 :]
     expect(
         place != os.path.join("trainings", variant),
-        f"{student.said}: the folder of a training of {variant!r} is {show(place)}, which is that "
-        "of the whole variation. Each training has one of its own in it: `str(run.path)`.",
+        f"{student.said}: the folder of a training of {variant!r} is {show(place)}, the folder of "
+        "the whole variation, but that of the training itself is asked for: `str(run.path)`.",
     )
     expect(
         place.startswith(os.path.join("trainings", variant) + os.sep),
@@ -155,18 +155,22 @@ def expect_training(student: Student, record: dict, environment: str, variant: s
         raise Wrong(f"{said} cannot be read ({error}).") from None
     wanted = {
         "algo": "ppo", "env": environment, "seed": seed_of(index), "steps": STEPS,
-        "episodes": EPISODES, "evaluations": EVALUATIONS, "given": settings_of(rate),
+        "episodes": EPISODES, "evaluations": EVALUATIONS, "params": settings_of(rate),
     }  # fmt: skip
-    for key, value in wanted.items():
-        got = getattr(settings, key)
-        name = {"given": "params"}.get(key, key)
-        why = ""
-        if key == "given" and isinstance(got, dict) and value.items() < got.items():
-            more = ", ".join(sorted(set(got) - set(value)))
-            why = f" This variation does not set {more}: another one's settings must not stay."
-        expect(
-            got == value, f"{said} has {name} {show(got, 200)} instead of {show(value, 200)}.{why}"
-        )
+    got = {key: settings.given if key == "params" else getattr(settings, key) for key in wanted}
+    wrong = " and ".join(
+        f"{key} {show(got[key], 200)} instead of {show(value, 200)}"
+        for key, value in wanted.items()
+        if got[key] != value
+    )
+    why = ""
+    if isinstance(got["params"], dict) and wanted["params"].items() < got["params"].items():
+        more = ", ".join(sorted(set(got["params"]) - set(wanted["params"])))
+        why = f" This variation does not set {more}: only its own settings should be used."
+    for key in ("episodes", "evaluations"):
+        if got[key] != wanted[key]:
+            why += f" `train` must be given {key}={key}."
+    expect(not wrong, f"{said} has {wrong}.{why}")
     return found, said
 
 
@@ -180,8 +184,9 @@ def varied(student: Student, environment: str, rates: dict, seeds: list[int]) ->
     count = len(rates) * len(seeds)
     expect(
         isinstance(answer, list) and len(answer) == count,
-        f"{student.said} with {len(rates)} variations and {len(seeds)} seeds must return a list of "
-        f"{count} dicts, not {show(answer)}.",
+        f"{student.said} with {len(rates)} variation{'s' * (len(rates) > 1)} and "
+        f"{len(seeds)} seed{'s' * (len(seeds) > 1)} should return a list of "
+        f"{count} dict{'s' * (count > 1)}, not {show(answer)}.",
     )
     for record in answer:
         expect_fields(student.said, record, "variant", "seed", "return", "folder")
@@ -202,7 +207,7 @@ def expect_same_numbers(said: str, found, reference) -> None:
         expect(
             same,
             f"{said} is not what PPO gives with these settings and this seed: the {name} of its "
-            f"post-evaluations are {show(got, 120)}, not {show(wanted, 120)}.",
+            f"post-evaluations are {show(got, 120)}, but should be {show(wanted, 120)}.",
         )
 
 
@@ -211,15 +216,19 @@ def mistaken_return(returns: np.ndarray) -> dict:
     means = returns.mean(axis=1)
     best = int(means.argmax())
     which = "the first and best" if best == 0 else "the best"
-    mistakes = {f"It is {which} of the post-evaluations: the last one is asked for.": means.max()}
+    mistakes = {
+        f"This is the mean of {which} post-evaluation, but the last one is asked for.": means.max()
+    }
     if best:
-        mistakes["It is the first of the post-evaluations: the last one is asked for."] = means[0]
+        mistakes[
+            "This is the mean of the first post-evaluation, but the last one is asked for."
+        ] = means[0]
     return mistakes | {
-        "It is the mean of all post-evaluations: the last one is asked for.": means.mean(),
-        "It is a single episode: the mean of the last post-evaluation is asked for.": returns[
-            -1, -1
-        ],
-        "It is the best episode: the mean of the last post-evaluation is asked for.": returns.max(),
+        "This is the mean of all post-evaluations, but the last one is asked for.": means.mean(),
+        "This is the return of the last episode, but the mean of the last post-evaluation is asked "
+        "for.": returns[-1, -1],
+        "This is the return of the best episode, but the mean of the last post-evaluation is asked "
+        "for.": returns.max(),
     }
 
 
@@ -243,13 +252,16 @@ def every_variation_with_every_seed(student: Student):
     answer = varied(student, "CartPole-v1", rates, seeds)
     records = {(record["variant"], record["seed"]): record for record in answer}
     places = {record["folder"] for record in answer}
-    expect(len(places) == len(answer), f"{student.said}: two trainings have the same folder.")
+    expect(
+        len(places) == len(answer),
+        f"{student.said}: at least two dicts name the same folder, but each should have its own.",
+    )
     for variant, index in itertools.product(rates, seeds):
         key = variant, seed_of(index)
         expect(
             key in records,
-            f"{student.said}: no training of {key[0]!r} with seed {key[1]}: the dicts name the "
-            f"variants and seeds {show(list(records), 300)}.",
+            f"{student.said}: a training of {key[0]!r} with seed {key[1]} is missing. The dicts "
+            f"name the variants and seeds {show(list(records), 300)}.",
         )
         found, said = expect_training(
             student, records[key], "CartPole-v1", variant, rates[variant], index
@@ -308,16 +320,22 @@ def read(student: Student, content: bytes) -> dict:
     files = {"training/events.out.tfevents.1.grader": as_bytes(content)}
     said = "read_indicators('training')"
     answer = student.run(with_files, "read_indicators", files, "training", said=said)
-    expect(isinstance(answer, dict), f"{said} must return a dict, not {show(answer)}.")
+    expect(isinstance(answer, dict), f"{said} should return a dict, not {show(answer)}.")
     return answer
 
 
 def compare_log(said: str, answer: dict, wanted: dict[str, tuple]) -> None:
     missing, more = sorted(set(wanted) - set(answer)), sorted(set(answer) - set(wanted))
-    expect(not missing, f"{said}: {missing} are missing.")
-    expect(not more, f"{said}: {more} are no indicators that are single numbers.")
+    expect(
+        not missing,
+        f"{said} leaves out {missing}, but all indicators that are single numbers are asked for.",
+    )
+    expect(
+        not more,
+        f"{said} has {more}, but only the indicators that are single numbers are asked for.",
+    )
     for name, columns in wanted.items():
-        got = expect_fields(f"{said}[{name!r}]", answer[name], "steps", "values")
+        got = expect_fields(f"{said}: {name!r}", answer[name], "steps", "values")
         for key, value, right in zip(("steps", "values"), got, columns, strict=True):
             expect_close(f"{said}[{name!r}]: {key}", value, right, CLOSE)
 
@@ -348,8 +366,11 @@ def a_long_log(student: Student):
     answer, said = read(student, event_file(entries_of(log))), "read_indicators(<10400 values>)"
     name = "train/approx_kl"
     expect(name in answer, f"{said}: {name!r} is missing.")
-    (kept,) = expect_fields(f"{said}[{name!r}]", answer[name], "steps")
-    expect(np.size(kept) != 10_000, f"{said} kept 10000 values of 10400: see size_guidance.")
+    (kept,) = expect_fields(f"{said}: {name!r}", answer[name], "steps")
+    expect(
+        np.size(kept) != 10_000,
+        f"{said} has 10000 of 10400 values, but should have all: see size_guidance.",
+    )
     compare_log(said, answer, log)
 
 
@@ -367,7 +388,8 @@ def stays_empty(student: Student) -> None:
     answer = read(student, event_file([("train/loss", 5, 0.5), (name, 5, nan), (name, 9, nan)]))
     expect(
         name in answer,
-        f"{student.said}: {name!r}, which holds nothing but NaN, is missing: it stays, empty.",
+        f"{student.said}: {name!r} is missing. It holds only NaN, but should stay, with two empty "
+        "arrays.",
     )
     for key, kept in zip(
         ("steps", "values"),
@@ -376,7 +398,8 @@ def stays_empty(student: Student) -> None:
     ):
         expect(
             np.size(kept) == 0,
-            f"{student.said}[{name!r}]: {key} is {show(kept)}, but nothing but NaN was logged.",
+            f"{student.said}[{name!r}]: {key} is {show(kept)}, but should be empty, since only NaN "
+            "was logged.",
         )
 
 
@@ -388,23 +411,25 @@ def compare_without_nan(student: Student, index: int, place: int) -> None:
     entries.append(("train/loss", 20_000, 0.5))  # a number at the same step
     log["train/loss"] = tuple(map(np.append, log["train/loss"], (20_000, 0.5)))
     answer, name = read(student, event_file(entries)), "train/explained_variance"
-    expect(name in answer, f"{student.said}: {name!r} is missing. Only its two NaN are left out.")
+    expect(
+        name in answer, f"{student.said}: {name!r} is missing. Only its two NaN should be left out."
+    )
     for key, kept in zip(
         ("steps", "values"),
-        expect_fields(f"{student.said}[{name!r}]", answer[name], "steps", "values"),
+        expect_fields(f"{student.said}: {name!r}", answer[name], "steps", "values"),
         strict=True,
     ):
         expect(
             np.size(kept) != len(log[name][0]) + 2,
-            f"{student.said}[{name!r}]: {key} has {np.size(kept)} entries: the two whose value is "
-            "NaN are to be left out, of the steps and of the values.",
+            f"{student.said}[{name!r}]: {key} has {np.size(kept)} entries, but the two whose "
+            "value is NaN should be left out, both in steps and in values.",
         )
     for other, (steps, _) in log.items():
-        (got,) = expect_fields(f"{student.said}[{other!r}]", answer.get(other), "steps")
+        (got,) = expect_fields(f"{student.said}: {other!r}", answer.get(other), "steps")
         expect(
             other == name or not np.array_equal(got, steps[steps != 20_000]) or 20_000 not in steps,
-            f"{student.said}[{other!r}]: the entry of step 20000 is missing. It is a number; "
-            f"NaN at this step is the value of {name!r}.",
+            f"{student.said}[{other!r}]: the entry of step 20000 is missing, but its value is "
+            f"a number. NaN at this step is the value of {name!r} only.",
         )
     compare_log(student.said, answer, log)
 
@@ -416,11 +441,11 @@ def kept_infinite(student: Student, index: int) -> None:
         values[1] = infinite
     answer = read(student, event_file(entries_of(log)))
     for name, (_, values) in log.items():
-        (got,) = expect_fields(f"{student.said}[{name!r}]", answer.get(name), "values")
+        (got,) = expect_fields(f"{student.said}: {name!r}", answer.get(name), "values")
         expect(
             np.size(got) == len(values) and np.isinf(np.ravel(got)[1]),
-            f"{student.said}[{name!r}]: the value {values[1]:g} is missing or another one, but "
-            "only NaN are left out.",
+            f"{student.said}[{name!r}]: there should be {len(values)} values, and the second one "
+            f"should be {values[1]:g}, since only NaN should be left out.",
         )
 
 
@@ -465,14 +490,15 @@ def last_and_best(student: Student):
         steps, returns = drawn_evaluations(index, means)
         last, best = measured(student, steps, returns, 100.0, "last", "best")
         mistakes = {
-            "It is the mean of the last column: a row of returns is a post-evaluation.": np.mean(
-                returns[:, -1]
-            ),
-            "It is the last episode, but the mean of the last row is asked for.": returns[-1, -1],
+            "This is the mean of the last column, but that of the last row is asked for: a row of "
+            "returns is a post-evaluation.": np.mean(returns[:, -1]),
+            "This is a single return, but the mean of the last row is asked for.": returns[-1, -1],
         }
         expect_close(f"{student.said}: last", last, returns[-1].mean(), CLOSE, mistakes)
         wanted = max(row.mean() for row in returns)
-        mistakes = {"It is the best episode, but the best mean is asked for.": returns.max()}
+        mistakes = {
+            "This is the return of the best episode, but the best mean is asked for.": returns.max()
+        }
         expect_close(f"{student.said}: best", best, wanted, CLOSE, mistakes)
 
 
@@ -486,7 +512,7 @@ def average_over_the_training(student: Student):
             area += (m[i - 1] + m[i]) / 2 * (steps[i] - steps[i - 1])
         wanted = area / (steps[-1] - steps[0]) if len(m) > 1 else m[0]
         mistakes = {
-            "Each post-evaluation counts alike, but they lie unequally far apart.": np.mean(m)
+            "This is the plain mean, but the post-evaluations are unequally far apart.": np.mean(m)
         }
         expect_close(f"{student.said}: average", average, wanted, CLOSE, mistakes)
 
@@ -527,7 +553,7 @@ def the_goal_itself_is_enough(student: Student):
     returns = np.array([[90.0, 80.0], [100.0, 100.0], [75.0, 125.0], [110.0, 100.0]])
     (solved,) = measured(student, steps, returns, 100.0, "solved")
     expect(solved is not None, f"{student.said}: solved is None, but 250 was expected.")
-    mistakes = {"A mean return that equals the goal reaches it, too: at least the goal.": 700}
+    mistakes = {"A mean return that equals the goal should count as reaching it, too.": 700}
     expect_close(f"{student.said}: solved", solved, 250, CLOSE, mistakes)
 
 
@@ -559,15 +585,17 @@ def mistaken_deviation(values: np.ndarray) -> dict:
     """What mistakes make of the deviation of more than one value."""
     sample = values.std(ddof=1)
     return {
-        "The deviation is divided by n instead of n - 1 (ddof=1).": values.std(),
-        "This is the variance: the deviation is its root.": sample**2,
-        "This is the variance, divided by n: the deviation is a root, and divides by n - 1.": (
+        "This deviation divides by n, but it should divide by n - 1 (ddof=1).": values.std(),
+        "This is the variance, but its square root is asked for.": sample**2,
+        "This variance divides by n, but the root of the one with n - 1 is asked for.": (
             values.var()
         ),
-        "This is the standard error of the mean: the deviation is not divided by the root of n.": (
+        "This is the standard error of the mean, but the standard deviation is asked for.": (
             sample / np.sqrt(len(values))
         ),
-        "This is the range, highest minus lowest.": np.ptp(values),
+        "This is the highest return minus the lowest, but the deviation is asked for.": np.ptp(
+            values
+        ),
     }
 
 
@@ -578,24 +606,24 @@ def mistaken_gain(name: str, means: dict, baseline: str) -> dict:
         lambda base, apart: apart(float(means[name]), base),
         base={
             "": float(means[baseline]),
-            "The gain is that over the best variation, not over the baseline.": max(every),
-            "The gain is that over the worst variation, not over the baseline.": min(every),
-            "The gain is that over the first variation, not over the baseline.": every[0],
-            "The gain is that over the mean of all variations, not over the baseline.": np.mean(
+            "The gain is over the best variation, but should be over the baseline.": max(every),
+            "The gain is over the worst variation, but should be over the baseline.": min(every),
+            "The gain is over the first variation, but should be over the baseline.": every[0],
+            "The gain is over the mean of all, but should be over the baseline.": np.mean(
                 every
             ),
         },
         apart={
             "": lambda mean, base: mean - base,
-            "The gain is turned around: it is the mean minus that of the baseline.":
+            "The gain has the wrong sign: that of the baseline should be subtracted from the mean.":
             lambda mean, base: base - mean,
-            "The gain is divided by the mean of the baseline: a difference is asked for, no share.":
+            "The gain is a share, but a difference of means is asked for.":
             lambda mean, base: (mean - base) / base,
-            "The gain is a percentage: a difference is asked for.":
+            "The gain is a percentage, but a difference of means is asked for.":
             lambda mean, base: 100 * (mean - base) / base,
-            "The gain is a quotient of means: a difference is asked for.":
+            "The gain is a quotient of means, but their difference is asked for.":
             lambda mean, base: mean / base,
-            "The gain is never negative here: a variation may be worse than the baseline.":
+            "The gain has no sign, but it should be negative if a variation is worse.":
             lambda mean, base: abs(mean - base),
         },
     )  # fmt: skip
@@ -612,9 +640,9 @@ def compare_table(student: Student, runs: list[dict], baseline: str, *keys: str)
     order = sorted(means, key=lambda name: -means[name])
     answer = student.call("table_of", runs, baseline)
     student.said = f"table_of(<{len(runs)} runs>, {baseline!r})"
-    expect(isinstance(answer, list), f"{student.said} must return a list, not {show(answer)}.")
+    expect(isinstance(answer, list), f"{student.said} should return a list, not {show(answer)}.")
     got = [expect_fields(student.said, row, "variant")[0] for row in answer]
-    expect(got == order, f"{student.said} has rows for {show(got, 150)} instead of {order}.")
+    expect(got == order, f"{student.said} has the rows {show(got, 150)}, but should have {order}.")
     for row, name in zip(answer, order, strict=True):
         values = np.array([float(value) for value in results[name].values()])
         wanted = {
@@ -629,7 +657,11 @@ def compare_table(student: Student, runs: list[dict], baseline: str, *keys: str)
                 sentence = f"{said}: deviation of a single run is {show(value)} instead of None."
                 expect(value is None, sentence)
             else:
-                mistakes = {"Several runs with the same seed count as one.": all_runs[name]}
+                mistakes = {
+                    "Several runs with the same variant and seed should count as one.": all_runs[
+                        name
+                    ]
+                }
                 if key == "deviation":
                     mistakes = mistaken_deviation(values)
                 if key == "gain":
@@ -680,16 +712,16 @@ def compare_chance(student: Student, first: list[float], second: list[float]) ->
     apart = [part / n - (total - part) / m for part in ways]
     hits = sum(abs(each) >= observed for each in apart)
     mistakes = {
-        "Ways with the same difference count, too, such as the one that really was.": sum(
+        "Ways whose difference equals the real one should count, too.": sum(
             abs(each) > observed for each in apart
         ) / len(ways),
-        "Only differences in one direction are counted.": sum(
+        "Only differences in one direction are counted, but both should count.": sum(
             each >= observed for each in apart
         ) / len(ways),
-        "Only differences in the other direction are counted.": sum(
+        "Differences in one direction only are counted, but both should count.": sum(
             -each >= observed for each in apart
         ) / len(ways),
-        "The way in which it really was counts, too.": (hits - 1) / len(ways),
+        "The way in which it really was should count, too.": (hits - 1) / len(ways),
     }  # fmt: skip
     answer = student.call("chance_of", first, second)
     student.said = f"chance_of({first}, {second})"
@@ -698,8 +730,8 @@ def compare_chance(student: Student, first: list[float], second: list[float]) ->
     whole = share * len(ways)
     expect(
         right or bool(np.abs(whole - np.round(whole)) < 1e-6),
-        f"{student.said} returned {show(answer)}, but {hits} / {len(ways)} was expected: there are "
-        f"{len(ways)} ways, each of which counts once, so the answer is a multiple of "
+        f"{student.said} returned {show(answer)}, but {hits} / {len(ways)} was expected. There are "
+        f"{len(ways)} ways, and each should count once, so the answer should be a multiple of "
         f"1 / {len(ways)}.",
     )
     expect_close(student.said, answer, hits / len(ways), CLOSE, mistakes)
@@ -749,12 +781,12 @@ def compare_phases(student: Student, steps, values, total: int, parts: int) -> N
         shown = f"{steps.tolist()}, {values.round(3).tolist()}, {total}, {parts}"
         student.said = f"phase_means({shown})"
     count = isinstance(answer, (list, np.ndarray)) and len(answer) == parts
-    expect(count, f"{student.said} must return a list of {parts}, not {show(answer)}.")
+    expect(count, f"{student.said} should return a list of {parts} means, not {show(answer)}.")
     for part, (got, right) in enumerate(zip(answer, wanted, strict=True)):
         said = f"{student.said}: part {part}"
         if right is None:
             only = "nothing but NaN" if np.isnan(values[inside(part)]).any() else "nothing"
-            expect(got is None, f"{said} holds {only}, but is {show(got)} instead of None.")
+            expect(got is None, f"{said} holds {only}, so it should be None, but is {show(got)}.")
         else:
             expect_close(said, got, right, CLOSE)
 
@@ -840,15 +872,18 @@ def expect_no_sign_at_limits(student: Student, level: float) -> None:
     ]
     answer = student.call("warning_signs", indicators, 3000, chosen)
     student.said = f"warning_signs(<indicators that are {level} on average>, 3000, <18 signs>)"
-    expect(isinstance(answer, list), f"{student.said} must return a list, not {show(answer)}.")
+    expect(isinstance(answer, list), f"{student.said} should return a list, not {show(answer)}.")
     for name, (_, side, limit) in chosen.items():
         why = "."
         if name.startswith("early"):
-            why = ", but the last third holds nothing."
+            why = (
+                ", although its indicator was not logged in the last third: step 2000 of 3000 is "
+                "in the second."
+            )
         elif limit == level:
-            why = ": a mean that equals the limit gives no sign."
+            why = ", although the mean of the last third equals the limit."
         elif level == 0:
-            why = ". A mean of 0 is a number like any other."
+            why = ". The mean of the last third is 0, a number like any other."
         elif name not in answer:
             others = [other for other in answer if other.split()[0] == name.split()[0]]
             why = (
@@ -863,7 +898,7 @@ def expect_no_sign_at_limits(student: Student, level: float) -> None:
     expect(
         once, f"{student.said} has {len(answer)} entries, but {len(wanted)} signs were expected."
     )
-    expect(answer == wanted, f"{student.said} is not in the order of the signs.")
+    expect(answer == wanted, f"{student.said} should give the signs in the order of `signs`.")
 
 
 @signs.check(3)
@@ -887,7 +922,7 @@ def ranks(numbers: np.ndarray) -> np.ndarray:
     return np.array([np.flatnonzero(order == number).mean() for number in numbers])
 
 
-EQUAL = "Equal numbers are to share the mean of their ranks: here they have other ranks."
+EQUAL = "Equal numbers should share the mean of their ranks, but here they have other ranks."
 
 
 def unshared(first: np.ndarray, second: np.ndarray, answer: object) -> float:
@@ -920,9 +955,11 @@ def compare_ranks(student: Student, first: np.ndarray, second: np.ndarray) -> No
     if not alike:
         orders = [np.argsort(each, kind="stable") for each in (first, second)]
         mistakes = {
-            "The numbers are correlated, not their ranks.": np.corrcoef(first, second)[0, 1],
+            "The numbers themselves are correlated, but their ranks should be.": np.corrcoef(
+                first, second
+            )[0, 1],
             EQUAL: unshared(first, second, answer),
-            "These are no ranks: np.argsort says where the smallest number stands, and so on.": (
+            "Positions of the sorted numbers (np.argsort) are correlated, but ranks should be.": (
                 np.corrcoef(*orders)[0, 1]
             ),
         }
@@ -959,25 +996,30 @@ def mistaken_within(numbers: np.ndarray, which: np.ndarray) -> dict:
         return (numbers - own) / np.array(by)
 
     return {
-        "The mean of all trainings is subtracted, not that of the variant.": numbers
+        "The mean of all trainings is subtracted, but that of the variant should be.": numbers
         - numbers.mean(),
-        "The mean of the variant is subtracted, and then divided by its deviation, too: subtract "
-        "only.": over(np.std),
-        "The mean of the variant is subtracted, and then divided by its deviation (n - 1), too: "
-        "subtract only.": over(lambda own: np.std(own, ddof=1)),
-        "The mean of the variant is subtracted, and then divided by its range, too: subtract "
-        "only.": over(np.ptp),
-        "The numbers are divided by the mean of the variant: subtract it.": numbers / own,
-        "The difference is divided by the mean of the variant, too: subtract only.": numbers / own
+        "The numbers are also divided by the standard deviation of the variant, but only its mean "
+        "should be subtracted.": over(np.std),
+        "The numbers are also divided by the standard deviation (n - 1) of the variant, but only "
+        "its mean should be subtracted.": over(lambda own: np.std(own, ddof=1)),
+        "The numbers are also divided by the range of the variant, but only its mean should be "
+        "subtracted.": over(np.ptp),
+        "The numbers are divided by the mean of the variant, but it should be subtracted.": numbers
+        / own,
+        "The difference is divided by the mean of the variant, but should stay as it is.": numbers
+        / own
         - 1,
-        "The median of the variant is subtracted, not its mean.": numbers
+        "The median of the variant is subtracted, but its mean should be.": numbers
         - np.array([np.median(numbers[which == kind]) for kind in which]),
-        "The sign is wrong: each number minus the mean.": own - numbers,
-        "The mean of the whole is added again: only subtract.": numbers - own + numbers.mean(),
-        "The sum over the variant is divided by the number of all trainings.": numbers
+        "The sign is wrong: the mean should be subtracted from each number.": own - numbers,
+        "The mean of all numbers is added, but nothing should be added.": numbers
+        - own
+        + numbers.mean(),
+        "The sum over the variant is divided by the number of all trainings, but should be "
+        "divided by the number of its own.": numbers
         - np.array([numbers[which == kind].sum() / many for kind in which]),
-        "The mean is taken over the means of the variants, not over the own variant.": numbers
-        - np.mean(list(right.values())),
+        "The mean of the means of all variants is subtracted, but that of the own variant should "
+        "be.": numbers - np.mean(list(right.values())),
     }
 
 
@@ -998,7 +1040,7 @@ def inside_variants(student: Student):
         expect_close(student.said, got, wanted, CLOSE, mistakes)
         expect(
             len(set(got[which == 0].tolist())) == 1 and np.array_equal(got, np.round(got, 9)),
-            f"{student.said} is not rounded to 9 decimals.",
+            f"{student.said} should be rounded to 9 decimals, so that equal numbers stay equal.",
         )
 
 
@@ -1056,30 +1098,37 @@ def mistaken_steps(curves: list[dict], points: int) -> dict:
         lambda start, end, spaced: spaced(start, end),
         start={
             "": first.max(),
-            "The steps begin where the first of all runs has a value: the last one has none there.":
+            "The steps begin at the smallest first step of a run, but should begin at the largest.":
             first.min(),
-            "The steps begin at 0, where no run has a value.": 0.0,
-            "The steps begin at the mean of the first steps of the runs.": first.mean(),
-            "The steps begin with the first run in the list.": first[0],
+            "The steps begin at 0, but should begin at the largest first step of a run.":
+            0.0,
+            "The steps begin at the mean of the runs' first steps, but should at the largest.":
+            first.mean(),
+            "The steps begin with the list's first run, but should with the one that begins last.":
+            first[0],
         },
         end={
             "": last.min(),
-            "The steps end where the last of all runs ends: others have ended before.": last.max(),
-            "The steps end at the mean of the last steps of the runs.": last.mean(),
-            "The steps end with the first run in the list.": last[0],
-            "The steps end with the last run in the list.": last[-1],
+            "The steps end at the largest last step of a run, but should end at the smallest.":
+            last.max(),
+            "The steps end at the mean of the runs' last steps, but should at the smallest.":
+            last.mean(),
+            "The steps end with the list's first run, but should with the one that ends first.":
+            last[0],
+            "The steps end with the list's last run, but should with the one that ends first.":
+            last[-1],
         },
         spaced={
             "": lambda start, end: np.linspace(start, end, points),
-            "The end itself is left out: np.linspace has it.":
+            "The end itself is left out, but should be the last step.":
             lambda start, end: np.linspace(start, end, points, endpoint=False),
-            "The beginning itself is left out: np.linspace has it.":
+            "The beginning itself is left out, but should be the first step.":
             lambda start, end: np.linspace(start, end, points + 1)[1:],
-            "The steps are spaced evenly by their logarithms.":
+            "The logarithms of the steps are evenly spaced, but the steps themselves should be.":
             lambda start, end: np.geomspace(max(start, 1e-9), end, points),
-            "The steps are rounded to whole numbers.":
+            "The steps are rounded to whole numbers, but should keep their fractions.":
             lambda start, end: np.round(np.linspace(start, end, points)),
-            "The steps are cut to whole numbers.":
+            "The steps are cut to whole numbers, but should keep their fractions.":
             lambda start, end: np.floor(np.linspace(start, end, points)),
         },
     )  # fmt: skip
@@ -1088,18 +1137,16 @@ def mistaken_steps(curves: list[dict], points: int) -> dict:
 def mistaken_values(group: list[dict], marks: np.ndarray) -> dict:
     """What mistakes make of the values of a group's runs at these steps."""
     read = {
-        "A straight line is drawn from value to value, which knows the future: take the last value "
-        "at or before each step.": lambda steps, best, _: np.interp(marks, steps, best),
-        "The next value is taken, which was not there yet: take the last one at or before each "
-        "step.": lambda steps, best, at: best[np.minimum(at + 1, len(best) - 1)],
-        "The value before the last one is taken at each step.": lambda steps, best, at: best[
-            np.maximum(at - 1, 0)
-        ],
-        "The nearest value is taken, which may come later: take the last one at or before each "
-        "step.": lambda steps, best, _: best[np.abs(marks[:, None] - steps).argmin(axis=1)],
-        "The last value of the run is taken at all steps.": lambda steps, best, at: best[
-            0 * at - 1
-        ],
+        "Straight lines are drawn from value to value, but the last one at or before each step is "
+        "asked for.": lambda steps, best, _: np.interp(marks, steps, best),
+        "The next value after each step is taken, but the last one at or before it is asked "
+        "for.": lambda steps, best, at: best[np.minimum(at + 1, len(best) - 1)],
+        "The value before the last one is taken, but the last one at or before each step is asked "
+        "for.": lambda steps, best, at: best[np.maximum(at - 1, 0)],
+        "The value nearest to each step is taken, but the last one at or before it is asked "
+        "for.": lambda steps, best, _: best[np.abs(marks[:, None] - steps).argmin(axis=1)],
+        "The last value of the run is taken everywhere, but the last one at or before each step is "
+        "asked for.": lambda steps, best, at: best[0 * at - 1],
     }
     found = {}
     for text, value in read.items():
@@ -1108,7 +1155,7 @@ def mistaken_values(group: list[dict], marks: np.ndarray) -> dict:
             steps, best = np.asarray(curve["steps"]), np.asarray(curve["best"])
             rows.append(value(steps, best, (marks[:, None] >= steps - 1e-9).sum(axis=1) - 1))
         found[text] = np.array(rows)
-    found["The mean over the runs is taken: each run has a row."] = np.mean(
+    found["The mean over the runs is taken, but each run should have a row of its own."] = np.mean(
         [
             np.asarray(c["best"])[(marks[:, None] >= c["steps"] - 1e-9).sum(axis=1) - 1]
             for c in group

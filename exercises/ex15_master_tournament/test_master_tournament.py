@@ -119,36 +119,37 @@ def say_where_it_begins(said: str, poses, expected: np.ndarray) -> None:
     rest = [np.allclose(poses[step][k], poses[step - 1][k], atol=1e-6) for k in range(2)]
     still = step > 0 and all(rest[k] for k in np.flatnonzero(wrong[step]))
     if np.allclose(poses[:both], expected[:both, ::-1], atol=1e-6):
-        cause = " The prey stands first in the poses: the predator comes first."
+        cause = " The prey stands first in the poses, but the predator should."
     elif step == 1 and len(poses) == len(expected) > 2 and np.allclose(poses[1:], expected[:-1]):
         cause = (
             " Each pose stands one place too late: the start is there twice, and the pose after "
             "the last step is missing."
         )
     elif twice_after_the_start(np.asarray(poses), expected):
-        cause = " Each pose after the start stands there twice: keep it once in each step."
+        cause = " Each pose after the start is there twice, but should be there once."
     elif still:
         cause = (
-            f" There the {who} {'stand' if wrong[step].all() else 'stands'} still. The wheels of "
-            "both robots are set before each arena.step(), and the poses are kept after it."
+            f" In your poses the {who} {'have' if wrong[step].all() else 'has'} not moved since "
+            f"poses[{step - 1}]. The wheels of both robots should be set before each arena.step(), "
+            "and the poses kept after it."
         )
     elif step == 1 and wrong[1].all():
         cause = (
-            " Both robots move wrongly from the first step on. Look, for example, whether the "
-            "networks are new ones and step once, whether each gets its own robot's observation "
-            "(24 numbers, the predator's first), and whether the action holds left and right wheel "
-            "of the predator, then those of the prey."
+            " Both robots' poses are wrong already after the first step. Check, for example, that "
+            "the networks are new and each makes one step, that each gets its own robot's "
+            "observation (24 numbers, the predator's come first), and that the action holds the "
+            "left and the right wheel of the predator, then those of the prey."
         )
     elif step > 1:
         cause = (
-            " Up to then all poses are right. Look, for example, whether each network is made once "
-            "and gets its own robot's observation of this very step, and the arena `maxsteps` "
-            "(robots sense the time)."
+            " All poses before it are right. Check, for example, that each network is made once "
+            "for the whole chase, that it gets its own robot's observation anew in each step, and "
+            "that the arena is made with max_steps=maxsteps (robots sense the time)."
         )
     expect(
         False,
-        f"{said}: poses[{step}] is wrong for the {who}: {got}, but {right} was expected "
-        f"(x, y, heading).{cause}",
+        f"{said}: poses[{step}] is wrong for the {who}. The {who.split()[0]}'s pose "
+        f"(x, y, heading) is {got}, but {right} was expected.{cause}",
     )
 
 
@@ -477,7 +478,10 @@ def measured(module, table, weights, seed, resamples):
 
     def measure(resample):
         if numpy.shape(resample) != weights.shape:
-            raise ValueError(f"the table to measure has the shape {numpy.shape(resample)}")
+            raise ValueError(
+                f"measure was given a table of shape {numpy.shape(resample)}, but the shape should "
+                f"be {weights.shape}"
+            )
         return float((weights * resample).sum())
 
     options = {} if resamples is None else {"resamples": resamples}
@@ -501,7 +505,9 @@ def compare_intervals(student: Student, index: int, cases: tuple, weigh) -> None
             mistakes |= mistaken_intervals(*draws)
             other = student.run(measured, table, weights, seed + 1, resamples, said=said)
             if np.array_equal(other, got) and got[0] != got[1]:
-                mistakes["The interval is the same for another rng: draw from the one given."] = got
+                mistakes[
+                    "The interval is the same for another rng, but the given one should decide."
+                ] = got
         expect_close(said, answer, expected, 1e-8, mistakes)
 
 

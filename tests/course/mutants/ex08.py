@@ -2,7 +2,7 @@
 
 
 # %% noise_forgotten loses 8.1
-# Forgets noiseStdDev, so that candidates lie far from the centre.
+# Leaves out the factor noiseStdDev: adds samples[b] itself to the centre, and subtracts it, instead of noiseStdDev * samples[b].
 # says: noiseStdDev is left out
 def candidates_around(centre, samples, noiseStdDev):
     both = np.stack([centre + samples, centre - samples], axis=1)
@@ -10,14 +10,14 @@ def candidates_around(centre, samples, noiseStdDev):
 
 
 # %% plus_before_minus loses 8.1
-# All candidates on the one side first, then all on the other.
+# Returns all plus candidates first and then all minus candidates, but the two candidates of a sample should be neighbours (rows 2 b and 2 b + 1).
 # says: All plus come before all minus
 def candidates_around(centre, samples, noiseStdDev):
     return np.concatenate([centre + noiseStdDev * samples, centre - noiseStdDev * samples])
 
 
 # %% best_is_lowest loses 8.2
-# The best candidate gets the lowest utility.
+# Gives the best candidate the utility -0.5 and the worst 0.5 instead of the other way round.
 # says: reverse order
 _utilities = utilities
 
@@ -27,14 +27,14 @@ def utilities(fitness):
 
 
 # %% order_for_ranks loses 8.2
-# Takes the order of the candidates for their ranks.
+# Takes the order of the candidates (as np.argsort gives it) for their ranks, but number i should come from the rank of candidate i.
 # says: An order and the places in it
 def utilities(fitness):
     return np.argsort(fitness, kind="stable") / (len(fitness) - 1) - 0.5
 
 
 # %% ties_share_a_rank loses 8.2
-# Equals share their mean rank.
+# Gives equal candidates the mean of their ranks, but of equals, the one that comes first should get the lower rank.
 _utilities = utilities
 
 
@@ -44,21 +44,21 @@ def utilities(fitness):
 
 
 # %% divided_by_samplesize loses 8.3
-# Divides by samplesize instead of twice as much.
+# Divides the sum by samplesize instead of by 2 * samplesize, so the gradient is twice as long as it should be.
 # says: twice what was expected
 def gradient(samples, utilities):
     return (utilities[0::2] - utilities[1::2]) @ samples / len(samples)
 
 
 # %% summed_utilities loses 8.3
-# Adds the two utilities of a sample instead of subtracting them.
+# Adds the two utilities of a sample, but the utility of its minus candidate should be subtracted from that of its plus candidate.
 # says: utilities of a sample are added
 def gradient(samples, utilities):
     return (utilities[0::2] + utilities[1::2]) @ samples / len(utilities)
 
 
 # %% asks_the_tools_own_gradient loses 8.3
-# The tool's own gradient is returned.
+# Uses the tool's own OpenAI-ES (botschool.evolution.algorithms.openaies), but the gradient should be computed by your own code.
 # says: write it yourself: botschool
 def gradient(samples, utilities):
     from botschool.evolution.algorithms import openaies
@@ -67,26 +67,26 @@ def gradient(samples, utilities):
 
 
 # %% decay_by_sign_missing loses 8.4
-# Knows only one kind of decay.
+# Adds 0.005 * centre for wdecay 2, too, but wdecay 2 asks for 0.005 * sign(centre).
 def descent(gradient, centre, wdecay):
     return -gradient + (0.005 * centre if wdecay else 0)
 
 
 # %% decay_pushes_away loses 8.4
-# Decay with the wrong sign.
+# Subtracts the pull instead of adding it, so that descending would make parameters larger instead of smaller.
 # says: The decay has the wrong sign
 # -     return -gradient + 0.005 * pull
 # +     return -gradient - 0.005 * pull
 
 
 # %% descends_on_fitness loses 8.4
-# Gives the gradient itself to the optimiser, which then reduces fitness.
+# Adds the gradient instead of subtracting it, so that the optimiser would reduce the fitness.
 # -     return -gradient + 0.005 * pull
 # +     return gradient + 0.005 * pull
 
 
 # %% changes_the_centre loses 8.5
-# Changes the array of the centre that it was given.
+# Changes the array `centre` that it is given, but the arguments should stay as they are.
 _adam = adam
 
 
@@ -97,7 +97,7 @@ def adam(centre, d, m, v, t, stepsize):
 
 
 # %% corrected_moments_kept loses 8.5
-# Hands the corrected m and v on to the next generation.
+# Returns the corrected m and v, but the m and v before the bias correction should be returned: only the step uses the corrected ones.
 def adam(centre, d, m, v, t, stepsize):
     m = (0.9 * m + 0.1 * d) / (1 - 0.9**t)
     v = (0.999 * v + 0.001 * d**2) / (1 - 0.999**t)
@@ -105,14 +105,14 @@ def adam(centre, d, m, v, t, stepsize):
 
 
 # %% epsilon_below_the_root loses 8.5
-# Adds the small number before the root is taken.
+# Adds 1e-8 before the root is taken, but it should be added to the root.
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # -     return centre - stepsize * step, m, v
 # +     return centre - stepsize * (m / (1 - 0.9**t)) / np.sqrt(v / (1 - 0.999**t) + 1e-8), m, v
 
 
 # %% no_bias_correction loses 8.5
-# Leaves the bias correction out.
+# Leaves out the bias correction, but for the step, m should be divided by 1 - 0.9^t and v by 1 - 0.999^t.
 # says: The correction of m and v .* is left out
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # -     return centre - stepsize * step, m, v
@@ -120,14 +120,14 @@ def adam(centre, d, m, v, t, stepsize):
 
 
 # %% no_epsilon loses 8.5
-# Leaves out the small number that stands below the fraction, and divides by 0.
+# Leaves out the 1e-8 that should be added to the root below the fraction, so that it may divide by 0.
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # -     return centre - stepsize * step, m, v
 # +     return centre - stepsize * (m / (1 - 0.9**t)) / np.sqrt(v / (1 - 0.999**t)), m, v
 
 
 # %% decay_forgotten loses 8.6
-# Hands no weight decay on to the optimiser.
+# Evolves without weight decay, whatever wdecay is, but `descent` should get the wdecay that evolve is given.
 # says: not handed on
 _evolve = evolve
 
@@ -137,13 +137,13 @@ def evolve(evaluate, centre, generations, seed, **hyperparameters):
 
 
 # %% generations_from_zero loses 8.6
-# Counts from 0 in Adam, whose correction then divides by 0.
+# Gets NaN in the first step, as from adam with t = 0, but t should be generation + 1, so 1 in the first step.
 # -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
 # +         centre, m, v = adam(centre, d, m, v, generation, stepsize)
 
 
 # %% history_of_the_best loses 8.6
-# The history holds the fitness of the best candidate instead of the mean.
+# Keeps the fitness of the best candidate in the history instead of the mean fitness of all candidates.
 # says: fitness of the best candidate
 _evolve = evolve
 
@@ -160,7 +160,7 @@ def evolve(evaluate, centre, generations, seed, **hyperparameters):
 
 
 # %% seeds_from_one loses 8.6
-# Counts the generations from 1, so that each meets the starting conditions of the next.
+# Counts the generations from 1 for the seed of evaluate: begins with seed + 1 instead of seed. Only the t of adam should count from 1.
 _evolve = evolve
 
 
@@ -172,7 +172,7 @@ def evolve(evaluate, centre, generations, seed, **hyperparameters):
 
 
 # %% fall_to_the_end loses 8.7
-# Compares only the highest point with the end, so that recovered falls are missed.
+# Measures only the fall from the highest point of the whole curve to its end, but the largest fall anywhere is asked for, even if the curve recovers.
 def stability(curve):
     curve = np.asarray(curve, dtype=float)
     peak, bottom, height = int(np.argmax(curve)), len(curve) - 1, np.ptp(curve)
@@ -183,7 +183,7 @@ def stability(curve):
 
 
 # %% falls_of_one_step loses 8.7
-# Looks only at falls from one generation to the next.
+# Looks only at falls from one value to the next, but a fall should be measured from the highest value so far.
 def stability(curve):
     curve = np.asarray(curve, dtype=float)
     steps = np.append(0, np.diff(curve))
@@ -195,7 +195,7 @@ def stability(curve):
 
 
 # %% limits_are_severe loses 8.7
-# Counts a drop that equals a limit to the worse verdict.
+# Gives a drop of exactly 0.1 or 0.3 the worse verdict instead of the better one.
 _stability = stability
 
 
@@ -207,13 +207,13 @@ def stability(curve):
 
 
 # %% smooth_keeps_the_length loses 8.7
-# The smoothed curve keeps its length, with zeros from beyond its ends.
+# Returns as many numbers as the curve has, with zeros for neighbours beyond its ends, but only whole windows should count: len(curve) - width + 1.
 def smooth(curve, width):
     return np.convolve(curve, np.full(width, 1 / width), mode="same")
 
 
 # %% known_by_heart loses 8.8
-# Returns controllers that were evolved before, with a little noise, and goes through the motions.
+# Returns parameters that were written down and then hardly moved, but train should evolve them from random first weights.
 KNOWN = {
     "CartPole-v0": """
     3 0 7 -8 2 -1 3 0 -4 2 -3 -3 -3 -2 7 5 2 -10 -11 -10 -3 0 -3 -2
@@ -235,7 +235,7 @@ def train(environment, seed):
 
 
 # %% steady_state loses 8.8
-# Evolves by the strategy of exercise 3 instead.
+# Evolves by the strategy of exercise 3 instead of by OpenAI-ES.
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
     size = robot.nbiases + robot.nweights
@@ -249,7 +249,7 @@ def train(environment, seed):
 
 
 # %% untrained loses 8.8
-# Gives up after one generation.
+# Evolves for one generation only, but many are needed to reach the goal.
 _evolve_8 = evolve
 
 
@@ -260,13 +260,13 @@ def train(environment, seed):
 
 
 # %% ranks_in_the_type_of_fitness loses 8.2
-# The result has the type of `fitness`: utilities of integers are cut off to 0.
+# Returns whole numbers if the fitness values are whole numbers, so that all utilities become 0, but fractions are asked for.
 # -     utilities = np.empty(len(fitness))
 # +     utilities = np.empty_like(fitness)
 
 
 # %% asks_the_tools_own_ranks loses 8.2
-# The tool's own ranks are taken for the utilities.
+# Uses the tool's own OpenAI-ES (botschool.evolution.algorithms.openaies), but the utilities should be computed by your own code.
 # says: write it yourself: botschool
 def utilities(fitness):
     from botschool.evolution.algorithms.openaies import ranks
@@ -277,7 +277,7 @@ def utilities(fitness):
 
 
 # %% descent_scales_the_centre loses 8.4
-# The pull is computed in the array of the centre, which the caller still needs.
+# Changes the array `centre` that it is given if wdecay is 1, but the arguments should stay as they are.
 # says: changed an array
 _descent = descent
 
@@ -290,7 +290,7 @@ def descent(gradient, centre, wdecay):
 
 
 # %% moments_of_the_run_before loses 8.6
-# The m and v of Adam are those of the run before: each run begins with zeros.
+# Goes on with the m and v of an earlier call of evolve, but each call should begin with m and v of zeros.
 MEMORY = {}
 _adam = adam
 
@@ -310,7 +310,7 @@ def evolve(
 
 
 # %% evaluates_twice loses 8.6
-# All candidates are evaluated twice, once for the utilities and once for the history.
+# Calls evaluate twice in each generation, but one call is asked for: both the utilities and the history should use what it returns.
 # says: called evaluate
 # -         history.append(float(np.mean(fitness)))
 # +         again = evaluate(candidates_around(centre, samples, noiseStdDev), seed + generation)
@@ -318,14 +318,14 @@ def evolve(
 
 
 # %% first_centre_moves loses 8.6
-# The steps are made in the array of the first centre, which belongs to the caller.
+# Changes the array `centre` that it is given, but the first centre should stay as it is.
 # says: changed the centre
 # -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
 # +         centre[:], m, v = adam(centre, d, m, v, generation + 1, stepsize)
 
 
 # %% no_places_without_a_fall loses 8.7
-# A curve that never falls has no bottom and no peak.
+# Returns None as bottom and peak of a curve that never falls instead of 0.
 _stability = stability
 
 
@@ -335,7 +335,7 @@ def stability(curve):
 
 
 # %% the_curve_is_shifted loses 8.7
-# The curve is brought to begin at 0 in the array that was given.
+# Changes the array `curve` that it is given, but it should stay as it is.
 # says: changed an array
 _stability = stability
 
@@ -347,8 +347,8 @@ def stability(curve):
 
 
 # %% another_strategy_and_a_show_call loses 8.8
-# The strategy of exercise 3 finds the controller, and one generation of evolve with steps of 0.
-# says: not by this algorithm
+# Finds the controller by the strategy of exercise 3 and calls evolve for one generation with steps of 0, but OpenAI-ES should find it.
+# says: should be evolved by OpenAI-ES
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
     generations, noise = (60, 0.3) if "CartPole" in environment else (400, 0.1)
@@ -361,8 +361,8 @@ def train(environment, seed):
 
 
 # %% short_steps_from_a_found_centre loses 8.8
-# The strategy of exercise 3 finds the controller, and evolve with tiny steps hardly moves it.
-# says: not by this algorithm
+# Finds the controller by the strategy of exercise 3 and hardly moves it by OpenAI-ES with tiny steps, but OpenAI-ES should find it.
+# says: should be evolved by OpenAI-ES
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
     generations, noise = (60, 0.3) if "CartPole" in environment else (400, 0.1)
@@ -376,7 +376,7 @@ def train(environment, seed):
 
 
 # %% the_best_of_the_pairs loses 8.8
-# The centre jumps to the best candidate: no gradient is estimated.
+# Moves the centre to the best candidate so far instead of along the estimated gradient.
 # says: Return a centre: the steps of the algorithm lead to it
 def train(environment, seed):
     robot, rng = Robot(environment), np.random.default_rng(seed)
@@ -392,7 +392,7 @@ def train(environment, seed):
 
 
 # %% one_run_for_all_seeds loses 8.8
-# The seed is not used: every training is the one with seed 1.
+# Evolves in the same way for every seed, but another seed should give another evolution.
 # says: begin with the same candidates
 _train = train
 
@@ -402,7 +402,7 @@ def train(environment, seed):
 
 
 # %% remembered_run loses 8.8
-# The centre of the first training is kept, and returned for every seed.
+# Keeps the centre of the first training and returns it for every seed, but each call should evolve a new one.
 # says: without any call of robot.evaluate
 FOUND = {}
 _train = train
@@ -415,7 +415,7 @@ def train(environment, seed):
 
 
 # %% seeds_of_its_own loses 8.8
-# The random numbers do not come from the seed: no training can be repeated.
+# Draws random numbers that do not follow from the seed, so that no training can be repeated, but the seed should decide about all of them.
 # says: begins with other candidates
 _train = train
 
@@ -425,14 +425,14 @@ def train(environment, seed):
 
 
 # %% one_side_only loses 8.1
-# Both candidates of a sample lie on the same side of the centre.
+# Puts both candidates of a sample on the plus side, but row 2 b + 1 should be centre - noiseStdDev * samples[b].
 # says: this
 # -     candidates[1::2] = centre - noiseStdDev * samples
 # +     candidates[1::2] = centre + noiseStdDev * samples
 
 
 # %% centre_scaled loses 8.1
-# The noise multiplies the centre instead of being added.
+# Multiplies noiseStdDev * samples[b] by the centre, too, before it is added or subtracted; noiseStdDev * samples[b] alone is asked for.
 # says: this
 # -     candidates[0::2] = centre + noiseStdDev * samples
 # -     candidates[1::2] = centre - noiseStdDev * samples
@@ -441,14 +441,14 @@ def train(environment, seed):
 
 
 # %% ranks_from_zero_to_one loses 8.2
-# The ranks are not centred: they run from 0 to 1.
+# Returns utilities from 0 to 1 instead of from -0.5 to 0.5.
 # says: this
 # -     utilities[np.argsort(fitness, kind="stable")] = np.linspace(-0.5, 0.5, len(fitness))
 # +     utilities[np.argsort(fitness, kind="stable")] = np.linspace(0, 1, len(fitness))
 
 
 # %% standardised_fitness loses 8.2
-# The utilities are the standardised fitness, not ranks.
+# Standardises the fitness (mean 0, standard deviation 1) instead of ranking it.
 # says: this
 # -     utilities[np.argsort(fitness, kind="stable")] = np.linspace(-0.5, 0.5, len(fitness))
 # +     fitness = np.asarray(fitness, dtype=float)
@@ -456,7 +456,7 @@ def train(environment, seed):
 
 
 # %% later_equals_lower loses 8.2
-# Of equals, the one that comes last gets the lower rank.
+# Gives equal candidates their ranks in reverse order, but of equals, the one that comes first should get the lower rank.
 # says: this
 # -     utilities[np.argsort(fitness, kind="stable")] = np.linspace(-0.5, 0.5, len(fitness))
 # +     order = np.argsort(np.asarray(fitness)[::-1], kind="stable")
@@ -464,7 +464,7 @@ def train(environment, seed):
 
 
 # %% halves_for_pairs loses 8.3
-# Takes the first half of the utilities for the plus side and the second for the minus side.
+# Takes the first half of the utilities for plus and the second half for minus, but plus and minus alternate: utilities 2 b and 2 b + 1 belong to sample b.
 # says: this
 # -     weights = utilities[0::2] - utilities[1::2]
 # +     half = len(utilities) // 2
@@ -472,21 +472,21 @@ def train(environment, seed):
 
 
 # %% decay_ten_times_as_strong loses 8.4
-# The decay is ten times as strong.
+# Takes 0.05 as the factor of the pull instead of 0.005.
 # says: this
 # -     return -gradient + 0.005 * pull
 # +     return -gradient + 0.05 * pull
 
 
 # %% kinds_of_decay_exchanged loses 8.4
-# The two kinds of decay are exchanged.
+# Exchanges the two kinds of decay, but wdecay 1 should pull by 0.005 * centre and wdecay 2 by 0.005 * sign(centre).
 # says: this
 # -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
 # +     pull = {0: np.zeros(len(centre)), 2: centre, 1: np.sign(centre)}[wdecay]
 
 
 # %% decays_exchanged_in_adam loses 8.5
-# The decay rates of m and v are exchanged.
+# Exchanges the factors of m and v, but 0.9 and 0.1 belong to m, 0.999 and 0.001 to v.
 # says: this
 # -     m = 0.9 * m + 0.1 * d
 # -     v = 0.999 * v + 0.001 * d**2
@@ -497,20 +497,20 @@ def train(environment, seed):
 
 
 # %% adam_climbs loses 8.5
-# The step goes along d, not against it.
+# Adds the step to the centre instead of subtracting it.
 # says: this
 # -     return centre - stepsize * step, m, v
 # +     return centre + stepsize * step, m, v
 
 
 # %% one_seed_for_all_generations loses 8.6
-# All generations are evaluated with the same seed.
+# Gives evaluate the same seed in all generations, but generation g should have seed + g.
 # -         fitness = evaluate(candidates_around(centre, samples, noiseStdDev), seed + generation)
 # +         fitness = evaluate(candidates_around(centre, samples, noiseStdDev), seed)
 
 
 # %% samples_drawn_once loses 8.6
-# The samples are drawn once, and are the same in every generation.
+# Uses the same samples in all generations, but each generation should draw new ones from rng.
 # -     for generation in range(generations):
 # -         samples = rng.standard_normal((samplesize, len(centre)))
 # +     samples = rng.standard_normal((samplesize, len(centre)))
@@ -518,13 +518,13 @@ def train(environment, seed):
 
 
 # %% median_in_the_history loses 8.6
-# The history holds the median of the candidates, not the mean.
+# Keeps the median fitness of the candidates in the history instead of the mean.
 # -         history.append(float(np.mean(fitness)))
 # +         history.append(float(np.median(fitness)))
 
 
 # %% divided_at_the_ends loses 8.7
-# The mean goes over the neighbours that there are, and the curve keeps its length.
+# Takes means over fewer than width neighbours at the ends, so that the curve keeps its length, but only whole windows should count.
 # -     return np.convolve(curve, np.full(width, 1 / width), mode="valid")
 # +     window = np.ones(width)
 # +     counts = np.convolve(np.ones(len(curve)), window, mode="same")
@@ -532,28 +532,28 @@ def train(environment, seed):
 
 
 # %% fall_by_the_height loses 8.7
-# The fall is a share of the height that it fell from, not of the whole range.
+# Divides the fall by the value at the peak instead of by max - min of the whole curve.
 # says: this
 # -     height = curve.max() - curve.min()
 # +     height = curve[peak]
 
 
 # %% last_bottom loses 8.7
-# Of equal falls the last one counts.
+# Takes the last of equal falls for the bottom (also of falls of 0, in a curve that never falls), but the first one is asked for.
 # says: this
 # -     bottom = int(np.argmax(falls))
 # +     bottom = len(falls) - 1 - int(np.argmax(falls[::-1]))
 
 
 # %% last_peak loses 8.7
-# Of equal heights before the fall the last one is the peak.
+# Takes the last of equal heights before the fall for the peak, but the first one is asked for.
 # says: this
 # -     peak = int(np.argmax(curve[: bottom + 1]))
 # +     peak = bottom - int(np.argmax(curve[: bottom + 1][::-1]))
 
 
 # %% old_m loses 8.5
-# Steps with the m of the generation before.
+# Makes the step with the m of the generation before instead of the new m.
 # says: this
 def adam(centre, d, m, v, t, stepsize):
     new_m = 0.9 * m + 0.1 * d
@@ -563,7 +563,7 @@ def adam(centre, d, m, v, t, stepsize):
 
 
 # %% one_size_for_all loses 8.5
-# Keeps one v for all parameters, the mean of the squares.
+# Takes the mean of d squared over all parameters for v, but each parameter should have a v from its own d.
 # says: this
 def adam(centre, d, m, v, t, stepsize):
     m = 0.9 * m + 0.1 * d
@@ -573,7 +573,7 @@ def adam(centre, d, m, v, t, stepsize):
 
 
 # %% epsilon_before_correction loses 8.5
-# Adds 1e-8 to the root of the uncorrected v.
+# Adds 1e-8 to the root of v before the bias correction instead of to the root of the corrected v.
 # says: this
 def adam(centre, d, m, v, t, stepsize):
     m = 0.9 * m + 0.1 * d
@@ -583,7 +583,7 @@ def adam(centre, d, m, v, t, stepsize):
 
 
 # %% clipped_step loses 8.5
-# Cuts every step to stepsize at most.
+# Limits the step of each parameter to stepsize, but Adam's step should not be limited.
 # says: this
 def adam(centre, d, m, v, t, stepsize):
     m = 0.9 * m + 0.1 * d
@@ -593,35 +593,35 @@ def adam(centre, d, m, v, t, stepsize):
 
 
 # %% sizes_for_squares loses 8.5
-# Averages the size of d, not its square.
+# Takes the absolute value of d in v instead of the square of d.
 # says: this
 # -     v = 0.999 * v + 0.001 * d**2
 # +     v = 0.999 * v + 0.001 * np.abs(d)
 
 
 # %% correction_multiplied loses 8.5
-# Multiplies by the shares instead of dividing.
+# Multiplies m by 1 - 0.9^t and v by 1 - 0.999^t for the bias correction instead of dividing by them.
 # says: this
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # +     step = (m * (1 - 0.9**t)) / (np.sqrt(v * (1 - 0.999**t)) + 1e-8)
 
 
 # %% d_for_m loses 8.5
-# Steps along d, not along its mean.
+# Makes the step with d itself instead of with the corrected m.
 # says: this
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # +     step = d / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 
 
 # %% same_share_for_both loses 8.5
-# Corrects v with 0.9 as well.
+# Divides v by 1 - 0.9^t for the bias correction instead of by 1 - 0.999^t.
 # says: this
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # +     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.9**t)) + 1e-8)
 
 
 # %% gradient_of_the_scaled loses 8.6
-# Multiplies the samples by noiseStdDev before the gradient as well.
+# Makes the gradient noiseStdDev times as long as it should be: `gradient` should get the samples as rng draws them, not multiplied by noiseStdDev.
 # says: this
 # -         samples = rng.standard_normal((samplesize, len(centre)))
 # -         fitness = evaluate(candidates_around(centre, samples, noiseStdDev), seed + generation)
@@ -630,7 +630,7 @@ def adam(centre, d, m, v, t, stepsize):
 
 
 # %% returns_the_best loses 8.6
-# Returns the centre of the generation with the best mean.
+# Returns the centre after the generation with the best mean fitness instead of the centre after the last generation.
 # says: this
 # -     return {"centre": centre, "history": history}
 # +     return {"centre": best, "history": history}
@@ -643,14 +643,14 @@ def adam(centre, d, m, v, t, stepsize):
 
 
 # %% looks_at_the_centre_too loses 8.6
-# Evaluates the centre as well and keeps its fitness.
+# Keeps the fitness of the centre in the history, from another call of evaluate, instead of the mean fitness of the candidates.
 # says: this
 # -         history.append(float(np.mean(fitness)))
 # +         history.append(float(evaluate(centre[None], seed + generation)[0]))
 
 
 # %% decays_the_start loses 8.6
-# Pulls the first centre at every generation.
+# Computes the weight decay from the first centre in all generations instead of from the present centre.
 # says: this
 # -         d = descent(gradient(samples, utilities(fitness)), centre, wdecay)
 # +         d = descent(gradient(samples, utilities(fitness)), start, wdecay)
@@ -659,21 +659,21 @@ def adam(centre, d, m, v, t, stepsize):
 
 
 # %% rng_of_each_generation loses 8.6
-# Makes a new generator in each generation.
+# Makes a new generator from seed + g in each generation g, but one generator from seed should draw all samples.
 # says: this
 # -         samples = rng.standard_normal((samplesize, len(centre)))
 # +         samples = np.random.default_rng(seed + generation).standard_normal((samplesize, len(centre)))
 
 
 # %% m_forgotten loses 8.6
-# Begins every generation with m and v of zeros.
+# Begins each generation with m and v of zeros instead of with those that adam returned in the generation before.
 # says: this
 # -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
 # +         centre, _, _ = adam(centre, d, m, v, generation + 1, stepsize)
 
 
 # %% range_until_then loses 8.7
-# Divides each fall by the height of the curve until then.
+# Divides each fall by max - min of the curve up to there instead of by max - min of the whole curve.
 # says: this
 def stability(curve):
     curve = np.asarray(curve, float)
@@ -690,7 +690,7 @@ def stability(curve):
 
 
 # %% highest_from_zero loses 8.7
-# Begins with a highest value of 0.
+# Begins with 0 as the highest value so far, so that a negative curve seems to fall from 0, but it should begin with the first value of the curve.
 # says: this
 def stability(curve):
     highest, high_at, fall, bottom, peak = 0.0, 0, 0.0, 0, 0
@@ -708,28 +708,28 @@ def stability(curve):
 
 
 # %% smooths_in_stability loses 8.7
-# Smooths the curve first.
+# Smooths the curve (means of two neighbours) before it looks for falls, but the curve should be judged as it is given.
 # says: this
 # -     curve = np.asarray(curve, dtype=float)
 # +     curve = smooth(np.asarray(curve, dtype=float), 2)
 
 
 # %% height_from_the_start loses 8.7
-# Divides by the rise from the first value.
+# Divides the fall by max - the first value instead of by max - min.
 # says: this
 # -     height = curve.max() - curve.min()
 # +     height = curve.max() - curve[0]
 
 
 # %% bottom_is_the_lowest loses 8.7
-# Takes the lowest value for the bottom.
+# Takes the place of the lowest value for the bottom, but the place of the largest fall is asked for.
 # says: this
 # -     bottom = int(np.argmax(falls))
 # +     bottom = int(np.argmin(curve))
 
 
 # %% peak_of_a_rise loses 8.7
-# Says the last index for a curve that never falls.
+# Returns the last index as bottom and peak of a curve that never falls instead of 0.
 # says: this
 # -     return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
 # +     if drop == 0:
@@ -738,7 +738,7 @@ def stability(curve):
 
 
 # %% stacked_last loses 8.1
-# Stacks the two sides along the last axis and reshapes.
+# Mixes the numbers of both candidates of a sample within each row (as np.stack with axis=-1 and a reshape do), but each row should be one candidate.
 # says: this
 def candidates_around(centre, samples, noiseStdDev):
     both = np.stack([centre + noiseStdDev * samples, centre - noiseStdDev * samples], axis=-1)
@@ -746,7 +746,7 @@ def candidates_around(centre, samples, noiseStdDev):
 
 
 # %% minus_of_the_next loses 8.1
-# Subtracts the next sample instead of the same one.
+# Subtracts the sample before, samples[b - 1], in row 2 b + 1 instead of samples[b].
 # says: this
 def candidates_around(centre, samples, noiseStdDev):
     rows = []
@@ -757,7 +757,7 @@ def candidates_around(centre, samples, noiseStdDev):
 
 
 # %% scaled_samples_in_place loses 8.1
-# Multiplies the samples that it was given by noiseStdDev.
+# Changes the array `samples` that it is given, but the arguments should stay as they are.
 # says: changed
 def candidates_around(centre, samples, noiseStdDev):
     samples *= noiseStdDev
@@ -767,7 +767,7 @@ def candidates_around(centre, samples, noiseStdDev):
 
 
 # %% variance_for_deviation loses 8.1
-# Takes noiseStdDev for a variance.
+# Multiplies the samples by the square root of noiseStdDev instead of by noiseStdDev itself, the standard deviation.
 # says: this
 def candidates_around(centre, samples, noiseStdDev):
     out = np.repeat(np.sqrt(noiseStdDev) * samples, 2, axis=0)
@@ -776,7 +776,7 @@ def candidates_around(centre, samples, noiseStdDev):
 
 
 # %% around_zero loses 8.1
-# Mirrors the plus candidate at 0, not at the centre.
+# Returns minus the plus candidate as the minus candidate (mirrored at 0, not at the centre), but row 2 b + 1 should be centre - noiseStdDev * samples[b].
 # says: this
 def candidates_around(centre, samples, noiseStdDev):
     out = np.empty((2 * len(samples), len(centre)))
@@ -786,7 +786,7 @@ def candidates_around(centre, samples, noiseStdDev):
 
 
 # %% same_rank_for_equals loses 8.2
-# Gives equals the same rank.
+# Gives all equal candidates the lowest of their ranks, but only the first of them should get it, and the others higher ones in their order.
 # says: lowest rank
 def utilities(fitness):
     fitness = np.asarray(fitness)
@@ -795,7 +795,7 @@ def utilities(fitness):
 
 
 # %% rank_by_dictionary loses 8.2
-# Looks ranks up by the fitness, so that the last rank of equals counts for all.
+# Gives all equal candidates the highest of their ranks, but only the last of them should get it, and the others lower ones in their order.
 # says: highest rank
 def utilities(fitness):
     rank = {value: i for i, value in enumerate(sorted(fitness))}
@@ -803,7 +803,7 @@ def utilities(fitness):
 
 
 # %% whole_fitness loses 8.2
-# Ranks the whole numbers of the fitness.
+# Cuts the fitness off to whole numbers before ranking it, but it should be ranked as it is.
 # says: this
 def utilities(fitness):
     order = np.argsort(np.asarray(fitness).astype(int), kind="stable")
@@ -813,7 +813,7 @@ def utilities(fitness):
 
 
 # %% sorts_the_argument loses 8.2
-# Sorts the fitness that it was given.
+# Changes the array `fitness` that it is given, but it should stay as it is.
 # says: changed an array
 def utilities(fitness):
     order = np.argsort(fitness, kind="stable")
@@ -824,7 +824,7 @@ def utilities(fitness):
 
 
 # %% best_half_only loses 8.2
-# Sets the utilities of the worse half to 0.
+# Sets the utilities of the worse half to 0, but they should be negative, down to -0.5 for the worst.
 # says: this
 def utilities(fitness):
     order = np.argsort(fitness, kind="stable")
@@ -834,7 +834,7 @@ def utilities(fitness):
 
 
 # %% all_equal_zero loses 8.2
-# Returns zeros if all fitness is equal.
+# Returns zeros if all candidates have the same fitness, but equals should have different ranks, too, in their order.
 # says: All get 0
 def utilities(fitness):
     fitness = np.asarray(fitness)
@@ -847,28 +847,28 @@ def utilities(fitness):
 
 
 # %% signs_of_the_differences loses 8.3
-# Counts only which side won.
+# Weights each sample by the sign of the difference of its two utilities instead of by the difference itself.
 # says: this
 def gradient(samples, utilities):
     return np.sign(utilities[0::2] - utilities[1::2]) @ samples / len(utilities)
 
 
 # %% over_parameters loses 8.3
-# Divides by the number of parameters.
+# Divides the sum by twice the number of parameters instead of by 2 * samplesize.
 # says: this
 def gradient(samples, utilities):
     return (utilities[0::2] - utilities[1::2]) @ samples / (2 * samples.shape[1])
 
 
 # %% plus_only loses 8.3
-# Uses the utilities of the plus candidates only.
+# Leaves out the utilities of the minus candidates and divides by samplesize, but utilities[2 b] - utilities[2 b + 1] and 2 * samplesize are asked for.
 # says: this
 def gradient(samples, utilities):
     return 2 * utilities[0::2] @ samples / len(utilities)
 
 
 # %% winners_only loses 8.3
-# Adds only those samples whose plus candidate won.
+# Leaves out the samples whose minus candidate did better, but they should count with their negative weights.
 # says: this
 def gradient(samples, utilities):
     weights = utilities[0::2] - utilities[1::2]
@@ -876,7 +876,7 @@ def gradient(samples, utilities):
 
 
 # %% unit_length loses 8.3
-# Divides the gradient by its length.
+# Returns a gradient of length 1, but the length should be as the formula gives it.
 # says: this
 def gradient(samples, utilities):
     g = (utilities[0::2] - utilities[1::2]) @ samples / len(utilities)
@@ -884,7 +884,7 @@ def gradient(samples, utilities):
 
 
 # %% zero_counts_as_positive loses 8.4
-# Pulls a parameter that is 0.
+# Adds 0.005 where the centre is 0 (wdecay 2), but there should be no pull on a parameter that is 0.
 # says: this
 def descent(gradient, centre, wdecay):
     if wdecay == 0:
@@ -895,7 +895,7 @@ def descent(gradient, centre, wdecay):
 
 
 # %% negates_in_place loses 8.4
-# Turns the gradient that it was given around.
+# Changes the array `gradient` that it is given, but the arguments should stay as they are.
 # says: changed an array
 def descent(gradient, centre, wdecay):
     gradient *= -1
@@ -907,21 +907,21 @@ def descent(gradient, centre, wdecay):
 
 
 # %% returns_the_gradient_itself loses 8.4
-# Multiplies by wdecay.
+# Adds 0.005 * wdecay * centre, but wdecay only says which kind of pull is asked for: with wdecay 2 it should be 0.005 * sign(centre).
 # says: this
 def descent(gradient, centre, wdecay):
     return -gradient + 0.005 * wdecay * centre
 
 
 # %% size_for_sign loses 8.4
-# Pulls by the absolute values.
+# Adds 0.005 times the absolute value of the centre for wdecay 2 instead of 0.005 * sign(centre).
 # says: this
 def descent(gradient, centre, wdecay):
     return -gradient + 0.005 * {0: 0 * centre, 1: centre, 2: np.abs(centre)}[wdecay]
 
 
 # %% counts_its_own_steps loses 8.5
-# Counts its calls instead of using t.
+# Takes the number of its own calls for t instead of the argument t.
 # says: stays from call to call
 _steps = 0
 
@@ -936,13 +936,13 @@ def adam(centre, d, m, v, t, stepsize):
 
 
 # %% at_least_one loses 8.6
-# Makes a generation even if none was asked for.
+# Makes a generation even if generations is 0, but then it should return the first centre and an empty history.
 # -     for generation in range(generations):
 # +     for generation in range(max(generations, 1)):
 
 
 # %% truncated_smooth loses 8.7
-# Keeps the type of the curve, so that means of whole numbers lose their fractions.
+# Cuts the means of whole numbers off to whole numbers, but their fractions should stay.
 # says: cut off
 def smooth(curve, width):
     curve = np.asarray(curve)
@@ -953,7 +953,7 @@ def smooth(curve, width):
 
 
 # %% cumulated_sum_loses_first loses 8.7
-# Takes differences of running sums and loses the first mean.
+# Leaves out the first mean, that of the first width numbers: there should be len(curve) - width + 1 means.
 # says: first one is missing
 def smooth(curve, width):
     sums = np.cumsum(curve, dtype=float)
@@ -961,7 +961,7 @@ def smooth(curve, width):
 
 
 # %% rounded_drop loses 8.7
-# Rounds the drop before the verdict.
+# Moves the limits of the verdicts to about 0.15 and 0.35 (rounding the drop to one digit does so) instead of deciding at exactly 0.1 and 0.3.
 # says: is rounded to one digit
 # -     if drop <= 0.1:
 # +     if round(drop, 1) <= 0.1:
@@ -970,20 +970,20 @@ def smooth(curve, width):
 
 
 # %% flat_within_a_thousandth loses 8.7
-# Calls a curve flat whose height is below 0.001.
+# Returns the drop 0 for a curve that is almost flat but falls; only a curve that never falls should have the drop 0.
 # -     drop = float(falls[bottom] / height) if height > 0 else 0.0
 # +     drop = float(falls[bottom] / height) if height > 1e-3 else 0.0
 
 
 # %% start_without_seed loses 8.8
-# Starts from the same centre for every seed.
+# Starts from the same centre for every seed, but the first weights should be drawn from the seed.
 # says: begin at the same centre
 # -     weights = 0.1 * np.random.default_rng(seed).standard_normal(robot.nweights)
 # +     weights = 0.1 * np.random.default_rng(0).standard_normal(robot.nweights)
 
 
 # %% best_candidate loses 8.8
-# Returns the best candidate, not a centre.
+# Returns the best candidate of all instead of a centre.
 # says: returned a candidate
 # -     def evaluate(candidates, seed):
 # -         return robot.evaluate(candidates, seed, episodes=10)
@@ -999,7 +999,7 @@ def smooth(curve, width):
 
 
 # %% climbs_a_hill loses 8.8
-# Keeps the best candidate of each generation instead of following the gradient.
+# Moves the centre to the best candidate of each generation instead of along the estimated gradient.
 # says: returned a candidate
 # -     run = evolve(evaluate, centre, generations, seed, noiseStdDev=0.2, stepsize=0.05)
 # -     return run["centre"]
@@ -1012,7 +1012,7 @@ def smooth(curve, width):
 
 
 # %% unstable_in_evolve loses 8.6
-# Ranks anew in evolve, by a sort that may exchange equals.
+# Ranks candidates of equal fitness in another order, but of equals, the one that comes first should get the lower rank, as in `utilities`.
 # says: equal fitness
 # -         d = descent(gradient(samples, utilities(fitness)), centre, wdecay)
 # +         u = np.argsort(np.argsort(fitness)) / (2 * samplesize - 1) - 0.5
@@ -1020,13 +1020,13 @@ def smooth(curve, width):
 
 
 # %% decay_of_one_kind loses 8.6
-# Hands on whether there is decay, not which.
+# Uses the decay of wdecay 1 for wdecay 2, too, but `descent` should get the wdecay that evolve is given.
 # -         d = descent(gradient(samples, utilities(fitness)), centre, wdecay)
 # +         d = descent(gradient(samples, utilities(fitness)), centre, int(bool(wdecay)))
 
 
 # %% last_generation_left_out loses 8.6
-# Returns the centre before the last step.
+# Leaves out the step of the last generation, but the centre after that step should be returned.
 # says: last step is missing
 # -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
 # +         if generation < generations - 1:
@@ -1034,46 +1034,46 @@ def smooth(curve, width):
 
 
 # %% default_noise loses 8.6
-# Takes noiseStdDev 0.02, whatever is asked for.
+# Uses the noiseStdDev 0.02, whatever is asked for, but candidates_around should get the noiseStdDev that evolve is given.
 # says: noiseStdDev is not handed on
 # -         fitness = evaluate(candidates_around(centre, samples, noiseStdDev), seed + generation)
 # +         fitness = evaluate(candidates_around(centre, samples, 0.02), seed + generation)
 
 
 # %% history_of_one_side loses 8.6
-# The history holds the mean fitness of the plus candidates only.
+# Keeps the mean fitness of the plus candidates alone in the history instead of that of all candidates.
 # -         history.append(float(np.mean(fitness)))
 # +         history.append(float(np.mean(fitness[0::2])))
 
 
 # %% rounded_history loses 8.6
-# Rounds the history to three places.
+# Rounds the numbers of the history to three decimal places, but they should not be rounded.
 # -         history.append(float(np.mean(fitness)))
 # +         history.append(round(float(np.mean(fitness)), 3))
 
 
 # %% median_filter loses 8.7
-# Takes the median of neighbours.
+# Takes the median of the neighbours instead of their mean.
 def smooth(curve, width):
     return np.array([np.median(curve[i : i + width]) for i in range(len(curve) - width + 1)])
 
 
 # %% percent loses 8.7
-# Gives the drop in percent.
+# Returns the drop in percent, but a share is asked for (0.2, not 20).
 # says: percent
 # -     return {"drop": drop, "bottom": bottom, "peak": peak, "verdict": verdict}
 # +     return {"drop": 100 * drop, "bottom": bottom, "peak": peak, "verdict": verdict}
 
 
 # %% drop_of_two_places loses 8.7
-# Rounds the drop to two places.
+# Rounds the drop to two decimal places, but it should not be rounded.
 # says: It is rounded
 # -     drop = float(falls[bottom] / height) if height > 0 else 0.0
 # +     drop = round(float(falls[bottom] / height), 2) if height > 0 else 0.0
 
 
 # %% short_verdict loses 8.7
-# Shortens the verdicts.
+# Shortens the verdicts to 'mild' and 'severe' instead of 'mild regressions' and 'severe regressions'.
 # says: 'mild'
 # -     verdict = "severe regressions"
 # +     verdict = "severe"
@@ -1082,20 +1082,20 @@ def smooth(curve, width):
 
 
 # %% width_too_narrow loses 8.7
-# Divides by width + 1.
+# Divides the sums by width + 1 instead of by width.
 # -     return np.convolve(curve, np.full(width, 1 / width), mode="valid")
 # +     return np.convolve(curve, np.full(width, 1 / (width + 1)), mode="valid")
 
 
 # %% shrinks_the_gradient loses 8.4
-# Pulls the gradient, not the centre.
+# Computes the pull from the gradient (wdecay 1) and its sign (wdecay 2) instead of from the centre and its sign.
 def descent(gradient, centre, wdecay):
     pull = {0: np.zeros(len(centre)), 1: gradient, 2: np.sign(gradient)}[wdecay]
     return -gradient + 0.005 * pull
 
 
 # %% best_plus_side loses 8.8
-# Returns the plus candidate of the last generation's best pair.
+# Returns the best plus candidate of the last generation instead of a centre.
 # says: returned a candidate
 # -     def evaluate(candidates, seed):
 # -         return robot.evaluate(candidates, seed, episodes=10)
@@ -1110,27 +1110,27 @@ def descent(gradient, centre, wdecay):
 
 
 # %% same_samples_for_all_seeds loses 8.8
-# Draws only the first weights from the seed.
+# Uses the same samples for every seed, but the samples should follow from the seed, as the first weights do.
 # says: the same samples
 # -     run = evolve(evaluate, centre, generations, seed, noiseStdDev=0.2, stepsize=0.05)
 # +     run = evolve(evaluate, centre, generations, 7, noiseStdDev=0.2, stepsize=0.05)
 
 
 # %% from_nothing loses 8.8
-# Starts from zeros, whatever the seed is.
+# Starts from zeros for every seed, but the first weights should be drawn from the seed.
 # says: begin at the same centre
 # -     centre = np.concatenate([np.zeros(robot.nbiases), weights])
 # +     centre = np.zeros(robot.nbiases + robot.nweights)
 
 
 # %% pendulum_ends_early loses 8.8
-# Evolves Pendulum for as few generations as CartPole.
+# Evolves Pendulum for 80 generations only, but it needs more.
 # -     generations = 80 if "CartPole" in environment else 600
 # +     generations = 80
 
 
 # %% minus_first_and_scaled_centre loses 8.1
-# noiseStdDev multiplies the centre, too, and minus comes before plus.
+# Multiplies the centre by noiseStdDev, too, and puts the minus candidate first; only the samples should be multiplied, and the plus candidate should come first.
 # says: multiplies the samples alone, not the centre, too. Minus comes before plus
 def candidates_around(centre, samples, noiseStdDev):
     rows = []
@@ -1140,7 +1140,7 @@ def candidates_around(centre, samples, noiseStdDev):
 
 
 # %% ranks_begin_at_one loses 8.2
-# The ranks begin at 1, but the worst has the rank 0.
+# Counts the ranks from 1, but the worst candidate should have the rank 0.
 # says: this
 def utilities(fitness):
     ranks = np.argsort(np.argsort(fitness, kind="stable"), kind="stable") + 1
@@ -1148,14 +1148,14 @@ def utilities(fitness):
 
 
 # %% divided_by_their_number loses 8.2
-# The ranks are divided by n: divide by the highest rank, n - 1.
+# Divides the ranks by n instead of by the highest rank, n - 1.
 # says: this
 def utilities(fitness):
     return np.argsort(np.argsort(fitness, kind="stable"), kind="stable") / len(fitness) - 0.5
 
 
 # %% from_minus_one_to_one loses 8.2
-# The utilities run from -1 to 1: divide them by 2.
+# Returns utilities from -1 to 1 instead of from -0.5 to 0.5, so all are twice as large as they should be.
 # says: this
 def utilities(fitness):
     ranks = np.argsort(np.argsort(fitness, kind="stable"), kind="stable")
@@ -1163,7 +1163,7 @@ def utilities(fitness):
 
 
 # %% scaled_fitness loses 8.2
-# The fitness is scaled to -0.5 and 0.5: only its ranks are to count.
+# Scales the fitness itself to the range from -0.5 to 0.5, but only the ranks should count.
 # says: only its ranks
 def utilities(fitness):
     span = np.ptp(fitness) or 1.0
@@ -1171,7 +1171,7 @@ def utilities(fitness):
 
 
 # %% sorted_from_the_best loses 8.2
-# The candidates are sorted from the best to the worst: the worst is to have the rank 0.
+# Ranks the candidates from the best to the worst, but the worst should have the rank 0 and the best the rank n - 1.
 # says: this
 def utilities(fitness):
     ranks = np.empty(len(fitness))
@@ -1180,56 +1180,56 @@ def utilities(fitness):
 
 
 # %% added_and_by_samplesize loses 8.3
-# Adds the two utilities of a sample, and divides by samplesize.
+# Adds the two utilities of a sample instead of subtracting the second from the first, and divides by samplesize instead of by 2 * samplesize.
 # says: are added.* divided by samplesize
 def gradient(samples, utilities):
     return (utilities[0::2] + utilities[1::2]) @ samples / len(samples)
 
 
 # %% square_and_size_for_decay loses 8.4
-# Pulls by the square of the centre, or by its absolute value.
+# Takes the square of the centre (wdecay 1) and its absolute value (wdecay 2) for the pull instead of the centre and its sign.
 # says: square of the centre
 # -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
 # +     pull = {0: np.zeros(len(centre)), 1: centre**2, 2: np.abs(centre)}[wdecay]
 
 
 # %% only_m_corrected loses 8.5
-# The bias correction of v is left out: divide v by 1 - 0.999**t.
+# Leaves out the bias correction of v, but v should be divided by 1 - 0.999^t for the step.
 # says: this
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # +     step = (m / (1 - 0.9**t)) / (np.sqrt(v) + 1e-8)
 
 
 # %% corrects_with_the_next_t loses 8.5
-# Corrects with t + 1, but t counts from 1 already.
+# Corrects with t + 1 instead of with t, but t counts from 1 already.
 # says: this
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # +     step = (m / (1 - 0.9 ** (t + 1))) / (np.sqrt(v / (1 - 0.999 ** (t + 1))) + 1e-8)
 
 
 # %% square_of_the_length loses 8.5
-# v holds the squares of all parameters added up: each parameter has a v of its own.
+# Takes the sum of d squared over all parameters for v, but each parameter should have a v from its own d.
 # says: this
 # -     v = 0.999 * v + 0.001 * d**2
 # +     v = 0.999 * v + 0.001 * np.sum(d**2)
 
 
 # %% shares_not_raised loses 8.5
-# The correction multiplies 0.9 and 0.999 by t, where they are raised to the power t.
+# Multiplies 0.9 and 0.999 by t in the bias correction instead of taking their powers, 0.9^t and 0.999^t.
 # says: raised to
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # +     step = (m / (1 - 0.9 * t)) / (np.sqrt(np.abs(v / (1 - 0.999 * t))) + 1e-8)
 
 
 # %% twice_the_first_generation loses 8.6
-# Adam's t is 1 in the first two generations: it is generation + 1.
+# Gives adam the t 1 in the first two generations, then 2, 3 and so on, but t should be generation + 1.
 # says: this
 # -         centre, m, v = adam(centre, d, m, v, generation + 1, stepsize)
 # +         centre, m, v = adam(centre, d, m, v, max(1, generation), stepsize)
 
 
 # %% best_candidate_of_all loses 8.6
-# Returns the best candidate, but the last centre is asked for.
+# Returns the best candidate of all generations, but the centre after the last generation is asked for.
 # says: best of all candidates|Returns the best candidate
 def evolve(
     evaluate, centre, generations, seed, samplesize=20, noiseStdDev=0.02, stepsize=0.01, wdecay=0
@@ -1249,7 +1249,7 @@ def evolve(
 
 
 # %% fitness_of_the_new_centre loses 8.6
-# The history holds the fitness of the centre after the step, not the mean of the candidates.
+# Keeps the fitness of the centre after the step in the history instead of the mean fitness of the candidates.
 # says: centre after the step
 # -         history.append(float(np.mean(fitness)))
 # -         d = descent(gradient(samples, utilities(fitness)), centre, wdecay)
@@ -1260,27 +1260,27 @@ def evolve(
 
 
 # %% one_window_too_few loses 8.7
-# The last window of smooth is missing: there are len(curve) - width + 1.
+# Leaves out the last mean, that of the last width numbers: there should be len(curve) - width + 1 means.
 # says: last window
 def smooth(curve, width):
     return [float(np.mean(curve[i : i + width])) for i in range(len(curve) - width)]
 
 
 # %% peak_of_the_whole_curve loses 8.7
-# The peak is the highest value of the whole curve, not up to the bottom.
+# Takes the highest value of the whole curve for the peak instead of the highest value up to the bottom.
 # says: this|not of the whole curve
 # -     peak = int(np.argmax(curve[: bottom + 1]))
 # +     peak = int(np.argmax(curve))
 
 
 # %% returns_the_dict_of_evolve loses 8.8
-# Returns all that evolve returns, not only the centre.
+# Returns the whole dict of evolve, but only its centre is asked for.
 # says: return its 'centre'
 # -     return run["centre"]
 # +     return run
 
 # %% samples_of_length_one loses 8.1
-# Divides each sample by its length.
+# Divides each sample by its length, but the samples should be used as they are.
 # says: used as they are
 # -     candidates[0::2] = centre + noiseStdDev * samples
 # -     candidates[1::2] = centre - noiseStdDev * samples
@@ -1289,77 +1289,77 @@ def smooth(curve, width):
 # +     candidates[1::2] = centre - noiseStdDev * samples
 
 # %% sorted_utilities loses 8.2
-# Returns the utilities in order, not each in the place of its candidate.
+# Returns the utilities in rising order from -0.5 to 0.5, but number i should be the utility of candidate i.
 # says: this
 # -     utilities[np.argsort(fitness, kind="stable")] = np.linspace(-0.5, 0.5, len(fitness))
 # +     utilities[np.arange(len(fitness))] = np.linspace(-0.5, 0.5, len(fitness))
 
 # %% one_number_for_all loses 8.3
-# Adds everything up, so that a single number comes back.
+# Adds everything up to a single number, but the gradient should have one number for each parameter: add up over the samples only.
 # says: single number
 # -     return weights @ samples / len(utilities)
 # +     return np.sum(weights[:, None] * samples) / len(utilities)
 
 # %% sign_of_the_gradient loses 8.4
-# Pulls by the sign of the gradient, not by that of the centre.
+# Takes the sign of the gradient for the pull of wdecay 2 instead of the sign of the centre.
 # says: sign of the (gradient|centre)
 # -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
 # +     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(gradient)}[wdecay]
 
 # %% centre_of_length_one loses 8.4
-# The pull of wdecay 1 is divided by the length of the centre.
+# Divides the centre by its length for the pull of wdecay 1, but 0.005 * centre is asked for.
 # says: divided by (its|the) length
 # -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
 # +     length = np.linalg.norm(centre)
 # +     pull = {0: np.zeros(len(centre)), 1: centre / length, 2: np.sign(centre)}[wdecay]
 
 # %% noise_in_the_samples loses 8.6
-# noiseStdDev comes in twice: the samples are multiplied by it already.
+# Multiplies the samples by noiseStdDev before candidates_around does so, too, but the samples should be used as rng draws them.
 # says: times as far from the right centre|comes in twice
 # -         samples = rng.standard_normal((samplesize, len(centre)))
 # +         samples = noiseStdDev * rng.standard_normal((samplesize, len(centre)))
 
 # %% one_neighbour_more loses 8.7
-# Each window of smooth has one number more than width.
+# Takes width + 1 numbers for each mean (but for the last, at the end of the curve) instead of width.
 # says: this|one more
 # -     return np.convolve(curve, np.full(width, 1 / width), mode="valid")
 # +     places = range(len(curve) - width + 1)
 # +     return np.array([np.mean(curve[i : i + width + 1]) for i in places])
 
 # %% size_of_the_peak loses 8.7
-# The fall is divided by the absolute value of the peak, not by the whole range.
+# Divides the fall by the absolute value of the peak instead of by max - min of the whole curve.
 # says: absolute value of the peak|height that it fell from
 # -     height = curve.max() - curve.min()
 # +     height = abs(curve[peak])
 
 # %% severe_from_a_half loses 8.7
-# Only a drop of more than 0.5 is severe.
+# Calls drops between 0.3 and about 0.5 'mild regressions', but every drop of more than 0.3 should be 'severe regressions'.
 # says: the limit is 0.3
 # -     elif drop <= 0.3:
 # +     elif drop <= 0.5:
 
 # %% returns_the_first_centre loses 8.8
-# Returns the first centre instead of the one that evolve returns.
+# Returns the first centre, where the evolution begins, instead of the one to which it leads.
 # says: the first centre of these
 # -     return run["centre"]
 # +     return centre
 
 # %% minimises_fitness loses 8.8
-# Turns the fitness around, so that evolve looks for the worst.
+# Moves the centre to where fitness is lower (as with the fitness negated), but fitness should rise.
 # says: fitness is to rise
 # -         return robot.evaluate(candidates, seed, episodes=10)
 # +         return -robot.evaluate(candidates, seed, episodes=10)
 
 
 # %% last_fall_with_its_peak loses 8.7
-# Of equal falls the last one counts, with its peak.
+# Takes the last of equal falls, with its peak, but the first one is asked for.
 # says: with its peak
 # -     bottom = int(np.argmax(falls))
 # +     bottom = len(falls) - 1 - int(np.argmax(falls[::-1])) if falls.any() else 0
 
 
 # %% mean_of_three_centres loses 8.8
-# Returns the mean of the centres of three evolutions, which is none of them.
+# Returns the mean of the centres of three evolutions, but one of these centres is asked for.
 # says: none of their centres
 # -     run = evolve(evaluate, centre, generations, seed, noiseStdDev=0.2, stepsize=0.05)
 # -     return run["centre"]
@@ -1369,7 +1369,7 @@ def smooth(curve, width):
 
 
 # %% equals_share_a_rank loses 8.2
-# Equal candidates get the same rank, and the highest rank is that of the different values.
+# Gives equal candidates the same rank, so that there are only as many ranks as different values, but each candidate should have a rank of its own.
 # says: this
 def utilities(fitness):
     values = sorted({float(each) for each in fitness})
@@ -1378,7 +1378,7 @@ def utilities(fitness):
 
 
 # %% sign_of_the_whole_centre loses 8.4
-# Takes the centre divided by its length for its sign: each element has a sign of its own.
+# Divides the centre by its length for the pull of wdecay 2 instead of taking the sign of each element.
 # says: this
 # -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
 # +     sign = centre / max(np.linalg.norm(centre), 1e-300)
@@ -1386,7 +1386,7 @@ def utilities(fitness):
 
 
 # %% ends_of_a_window_count_half loses 8.7
-# Smooths by the trapezoid rule: the two ends of a window count half.
+# Counts the two ends of each window half, as the trapezoid rule does, but all numbers of a window should count alike.
 # says: this
 # -     return np.convolve(curve, np.full(width, 1 / width), mode="valid")
 # +     weights = np.ones(width)
@@ -1395,21 +1395,21 @@ def utilities(fitness):
 
 
 # %% power_of_the_difference loses 8.5
-# Divides by (1 - 0.9)^t and (1 - 0.999)^t: only 0.9 and 0.999 are raised to the power t.
+# Divides by (1 - 0.9)^t and (1 - 0.999)^t for the bias correction instead of by 1 - 0.9^t and 1 - 0.999^t.
 # says: this
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # +     step = (m / (1 - 0.9) ** t) / (np.sqrt(v / (1 - 0.999) ** t) + 1e-8)
 
 
 # %% pairs_that_overlap loses 8.3
-# Sample b is weighted by utilities b and b + 1, but its two are those at 2 b and 2 b + 1.
+# Weights sample b by utilities[b] - utilities[b + 1] instead of by utilities[2 b] - utilities[2 b + 1].
 # says: this
 # -     weights = utilities[0::2] - utilities[1::2]
 # +     weights = utilities[: len(samples)] - utilities[1 : len(samples) + 1]
 
 
 # %% unstable_order_of_equals loses 8.2
-# Ranks with an argsort that is not stable: of equals, the first does not always have the lower rank.
+# Gives equal candidates their ranks in another order (as np.argsort without kind='stable' may do), but of equals, the one that comes first should get the lower rank.
 # says: in another order
 def utilities(fitness):
     fitness = np.asarray(fitness, dtype=float)
@@ -1419,14 +1419,14 @@ def utilities(fitness):
 
 
 # %% divided_by_size loses 8.3
-# Divides by the number of elements in samples (samples.size), not by that of the candidates.
+# Divides the sum by the number of elements of samples (samplesize * n) instead of by the number of candidates, 2 * samplesize.
 # says: this
 # -     return weights @ samples / len(utilities)
 # +     return weights @ samples / samples.size
 
 
 # %% decays_added_up loses 8.4
-# With wdecay 2, both pulls act: that in proportion to the centre belongs to wdecay 1 alone.
+# Adds both pulls for wdecay 2, 0.005 * centre and 0.005 * sign(centre), but only the second is asked for.
 # says: this
 # -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
 # -     return -gradient + 0.005 * pull
@@ -1439,14 +1439,14 @@ def utilities(fitness):
 
 
 # %% correction_after_the_root loses 8.5
-# The bias correction divides the root of v: correct v first, and take the root then.
+# Divides the root of v by 1 - 0.999^t, but v should be divided by it before the root is taken.
 # says: this
 # -     step = (m / (1 - 0.9**t)) / (np.sqrt(v / (1 - 0.999**t)) + 1e-8)
 # +     step = (m / (1 - 0.9**t)) / (np.sqrt(v) / (1 - 0.999**t) + 1e-8)
 
 
 # %% pairs_around_the_last_candidate loses 8.1
-# Lays each pair around the last candidate of the pair before, not around the centre.
+# Puts each pair around the last candidate of the pair before instead of around the centre.
 # says: this
 import numpy as np
 
@@ -1461,3 +1461,7 @@ def candidates_around(centre, samples, noiseStdDev):
         place = place - 2 * leg
         rows.append(place)
     return np.array(rows)
+# %% zero_counts_as_negative loses 8.4
+# Subtracts 0.005 where the centre is 0 (wdecay 2), but there should be no pull on a parameter that is 0.
+# -     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.sign(centre)}[wdecay]
+# +     pull = {0: np.zeros(len(centre)), 1: centre, 2: np.where(centre > 0, 1.0, -1.0)}[wdecay]

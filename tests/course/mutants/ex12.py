@@ -2,15 +2,15 @@
 
 
 # %% softmax_over_everything loses 12.1
-# One sum for all steps, instead of one for each.
-# says: each row has its own
+# Divides by one sum over all rows, but each row should be divided by its own sum.
+# says: each row should be divided by its own
 def softmax(scores):
     powers = np.exp(np.asarray(scores, dtype=np.float64) - np.max(scores))
     return powers / powers.sum()
 
 
 # %% softmax_overflows loses 12.1
-# The powers of large scores are more than a computer can hold.
+# Takes exponentials of large scores that a floating-point number cannot hold, but the largest score of each row should be subtracted first.
 # says: np.exp of a large number|infinity minus infinity
 def softmax(scores):
     with np.errstate(all="ignore"):
@@ -19,14 +19,14 @@ def softmax(scores):
 
 
 # %% dart_counted_from_the_end loses 12.2
-# Lays the probabilities on the ruler from the last to the first.
+# Gives action 0 the upper end of the ruler and the last action the lower end, but the probabilities should be laid down from action 0 on.
 def choose(probabilities, rng):
     beyond = np.cumsum(np.asarray(probabilities)[::-1]) > rng.random()
     return len(probabilities) - 1 - int(np.argmax(beyond))
 
 
 # %% most_probable_action loses 12.2
-# Takes the most probable action, so that nothing new is ever tried.
+# Always takes the most probable action, but it should be drawn at random with these probabilities.
 # says: this
 def choose(probabilities, rng):
     rng.random()
@@ -34,13 +34,13 @@ def choose(probabilities, rng):
 
 
 # %% uniform_choice loses 12.2
-# All actions are equally probable, whatever the policy says.
+# Gives all actions the same probability, but they should be drawn with the probabilities given.
 def choose(probabilities, rng):
     return int(rng.random() * len(probabilities))
 
 
 # %% last_reward_missing loses 12.3
-# Leaves out the reward of the step that ends the episode.
+# Leaves out the reward of the step that ends the episode, but all rewards should be added up.
 # says: one less than expected
 # -             observation, reward, terminated, truncated, _ = env.step(action)
 # -             total += float(reward)
@@ -58,20 +58,20 @@ def choose(probabilities, rng):
 
 
 # %% negative_rewards_left_out loses 12.3
-# Adds up only the rewards that are positive.
+# Adds up only the positive rewards, but negative ones count, too.
 # says: Negative rewards are left out
 # -             total += float(reward)
 # +             total += max(0.0, float(reward))
 
 
 # %% whole_rewards loses 12.3
-# Rounds each reward towards 0.
+# Cuts off the fraction of each reward, but the rewards should be added up as they are.
 # -             total += float(reward)
 # +             total += int(reward)
 
 
 # %% never_cut loses 12.3
-# Hands actions on without cutting them to the limits.
+# Gives the environment actions beyond the limits of its action space, but they should be cut to these limits first.
 def run_episode(environment, act, seed, maxsteps=200):
     observations, actions, total = [], [], 0.0
     with gymnasium.make(environment) as env:
@@ -87,7 +87,7 @@ def run_episode(environment, act, seed, maxsteps=200):
 
 
 # %% never_truncated loses 12.3
-# Goes on when an episode is truncated.
+# Goes on after the environment's own limit of steps, but the episode should end when terminated or truncated is True.
 # -             observation, reward, terminated, truncated, _ = env.step(action)
 # +             observation, reward, terminated, _, _ = env.step(action)
 # -             if terminated or truncated:
@@ -95,7 +95,7 @@ def run_episode(environment, act, seed, maxsteps=200):
 
 
 # %% no_limit_of_steps loses 12.3
-# Runs to the end of the episode, however long that is.
+# Goes on after maxsteps steps, but an episode should have at most maxsteps steps.
 _run_episode = run_episode
 
 
@@ -104,7 +104,7 @@ def run_episode(environment, act, seed, maxsteps=200):
 
 
 # %% records_cut_actions loses 12.3
-# Records the actions as the environment got them, cut to the limits.
+# Records the actions cut to the limits, but they should be recorded as act chose them.
 _run_episode = run_episode
 
 
@@ -117,7 +117,7 @@ def run_episode(environment, act, seed, maxsteps=200):
 
 
 # %% records_the_next_observation loses 12.3
-# Records what was observed after each action instead of before it.
+# Leaves out the observation that reset returns, so that the others stand one row too early; what was seen before each step is asked for.
 # says: one place too early
 _run_episode = run_episode
 
@@ -129,7 +129,7 @@ def run_episode(environment, act, seed, maxsteps=200):
 
 
 # %% reset_without_seed loses 12.3
-# The episode does not begin where the seed says: reset gets another seed, or none.
+# Begins the episode as reset(seed=seed + 1) does, but reset(seed=seed) is asked for.
 _run_episode = run_episode
 
 
@@ -138,7 +138,7 @@ def run_episode(environment, act, seed, maxsteps=200):
 
 
 # %% keeps_everything loses 12.4
-# Learns from all episodes, good or bad.
+# Keeps all episodes, but only those with a return of at least the bound should be kept.
 # says: All episodes are kept
 _elite = elite
 
@@ -149,20 +149,20 @@ def elite(episodes, percentile):
 
 
 # %% keeps_only_above_the_bound loses 12.4
-# Drops the episodes that are exactly at the bound.
+# Leaves out the episodes whose return equals the bound, but a return of at least the bound is asked for.
 # says: this
 # -     kept = [episode for episode in episodes if episode["return"] >= bound]
 # +     kept = [episode for episode in episodes if episode["return"] > bound]
 
 
 # %% keeps_the_worst loses 12.4
-# Learns from the worst episodes.
+# Keeps the episodes with a return of at most the bound, but those with at least the bound are asked for.
 # -     kept = [episode for episode in episodes if episode["return"] >= bound]
 # +     kept = [episode for episode in episodes if episode["return"] <= bound]
 
 
 # %% gradient_cut_off loses 12.5
-# Goes through NumPy, where torch cannot follow.
+# Gives the right loss, but a gradient of 0 for every score: torch should be able to follow the whole computation from the scores to the loss.
 # says: torch cannot follow the loss back|this
 _cross_entropy = cross_entropy
 
@@ -173,7 +173,7 @@ def cross_entropy(scores, actions):
 
 
 # %% loss_of_the_library loses 12.5
-# Calls torch's own cross-entropy.
+# Uses torch's own cross_entropy, but you should write this loss yourself.
 from torch.nn.functional import cross_entropy as ready_made
 
 
@@ -182,7 +182,7 @@ def cross_entropy(scores, actions):
 
 
 # %% summed_surprise loses 12.5
-# The sum over the steps instead of the mean.
+# Adds up the surprises of all steps instead of taking their mean.
 # says: a sum for a mean
 _cross_entropy = cross_entropy
 
@@ -192,7 +192,7 @@ def cross_entropy(scores, actions):
 
 
 # %% surprise_overflows loses 12.5
-# The powers of large scores are more than a computer can hold.
+# Takes exponentials of large scores that a floating-point number cannot hold, so that the loss is NaN, but the scores may be large.
 def cross_entropy(scores, actions):
     powers = torch.exp(scores)
     shares = powers / powers.sum(dim=1, keepdim=True)
@@ -200,7 +200,7 @@ def cross_entropy(scores, actions):
 
 
 # %% gradients_pile_up loses 12.6
-# Never sets the gradients back to zero.
+# Adds the gradients of each update to all that were there before (zero_grad clears them), but each update should use its own gradients alone.
 # says: zero_grad
 # -         value = loss(network(inputs), wanted)
 # -         optimiser.zero_grad()
@@ -208,7 +208,7 @@ def cross_entropy(scores, actions):
 
 
 # %% losses_after_each_update loses 12.6
-# Reports the losses after the updates instead of before.
+# Leaves out the loss before the first update, so that the others stand one place too early; the loss before each update is asked for.
 _improve = improve
 
 
@@ -218,21 +218,21 @@ def improve(network, optimiser, observations, actions, loss, updates):
 
 
 # %% constant_forgotten loses 12.7
-# Leaves the constant out: the gradients are right, but it is no density.
+# Leaves out the constant ln(2 pi) / 2, but it should be added for each number of the action.
 def gaussian_loss(means, log_deviation, actions):
     distance = (actions - means) / torch.exp(log_deviation)
     return (distance**2 / 2 + log_deviation).sum(dim=1).mean()
 
 
 # %% variance_for_deviation loses 12.7
-# Takes the parameter for the logarithm of the variance.
+# Multiplies the noise by exp(log_deviation / 2) instead of exp(log_deviation).
 # says: logarithm of the variance
 def gaussian_action(mean, log_deviation, rng):
     return mean + np.exp(log_deviation / 2) * rng.standard_normal(len(mean))
 
 
 # %% evolved_instead loses 12.8
-# Learns by another algorithm: it varies the parameters at random and keeps the better ones.
+# Varies the parameters at random and keeps the better ones, but the policy should learn by your losses.
 def train(environment, seed):
     rng = np.random.default_rng(seed)
     outputs = 2 if environment == "CartPole-v1" else 1
@@ -253,7 +253,7 @@ def train(environment, seed):
 
 
 # %% known_by_heart loses 12.8
-# Returns a policy that was worked out beforehand.
+# Returns parameters that do not come from training, but the policy should be learnt in the environment that gymnasium.make gives.
 def train(environment, seed):
     signs = np.array([0.1, 0.4, 3.0, 1.0])
     outputs = 2 if environment == "CartPole-v1" else 1
@@ -269,7 +269,7 @@ def train(environment, seed):
 
 
 # %% never_learns loses 12.8
-# Returns the parameters of the beginning.
+# Trains for one iteration only, but training should go on until the mean return of an iteration reaches the goal.
 _train = train
 
 
@@ -278,7 +278,7 @@ def train(environment, seed):
 
 
 # %% ppo_by_hand loses 12.8
-# Learns well, but by another algorithm: PPO's clipped ratio, over all episodes.
+# Learns by PPO from all episodes, but the policy should learn from the elite by cross_entropy and gaussian_loss.
 def train(environment, seed):
     torch.manual_seed(seed)
     rng = np.random.default_rng(seed)
@@ -322,7 +322,7 @@ def train(environment, seed):
 
 
 # %% returns_made_up loses 12.8
-# Returns a learning curve that no episode had.
+# Gives returns that no episode had, but the returns of all episodes are asked for.
 _train = train
 
 
@@ -333,21 +333,21 @@ def train(environment, seed):
 
 
 # %% log_softmax_of_the_tensor loses 12.5
-# The logarithms of the probabilities are those of torch.
+# Uses the tensor's own log_softmax, but you should write this loss without it.
 # says: write it yourself: torch\.Tensor\.log_softmax
 def cross_entropy(scores, actions):
     return -scores.log_softmax(1)[torch.arange(len(actions)), actions].mean()
 
 
 # %% log_prob_of_categorical loses 12.5
-# The logarithms of the probabilities are those of torch's distribution.
+# Uses log_prob of torch's Categorical, but you should write this loss yourself.
 # says: write it yourself
 def cross_entropy(scores, actions):
     return -torch.distributions.Categorical(logits=scores).log_prob(actions).mean()
 
 
 # %% log_prob_of_normal loses 12.7
-# The logarithm of the density is that of torch's distribution.
+# Uses log_prob of torch's Normal, but you should write this loss yourself.
 # says: write it yourself
 def gaussian_loss(means, log_deviation, actions):
     normal = torch.distributions.Normal(means, log_deviation.exp())
@@ -355,14 +355,14 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% absolute_scores loses 12.1
-# Scores count by their absolute value: bad actions are as probable as good ones.
+# Uses the absolute values of the scores, so that -2 counts as much as 2, but the scores should keep their signs.
 # says: this
 # -     scores = np.asarray(scores, dtype=np.float64)
 # +     scores = np.abs(np.asarray(scores, dtype=np.float64))
 
 
 # %% softmax_of_whole_numbers loses 12.1
-# The probabilities have the type of the scores: those of integers are cut off to 0.
+# Gives whole numbers if the scores are whole numbers, so that probabilities below 1 become 0, but floats are asked for.
 # says: type of the scores
 # -     return powers / powers.sum(axis=-1, keepdims=True)
 # +     return (powers / powers.sum(axis=-1, keepdims=True)).astype(np.result_type(given))
@@ -372,33 +372,33 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% two_darts loses 12.2
-# Throws a dart at each action instead of one at the ruler.
+# Compares each sum with a random number of its own, but one u = rng.random() for all of them is asked for.
 # -     beyond = np.cumsum(probabilities) > rng.random()
 # +     beyond = np.cumsum(probabilities) > rng.random(len(probabilities))
 
 
 # %% act_sees_the_first_observation loses 12.3
-# The policy is asked with the observation of the start in every step.
+# Calls act with the first observation in every step, but act should get the latest one.
 # -             action = act(observation)
 # +             action = act(observation if not observations else observations[0])
 
 
 # %% cut_to_one loses 12.3
-# Actions are cut to between -1 and 1, whatever the limits of the space are.
+# Cuts the actions to between -1 and 1, but the limits of the action space are asked for.
 # says: this
 # -                 action = np.clip(action, space.low, space.high).astype(space.dtype)
 # +                 action = np.clip(action, -1, 1).astype(space.dtype)
 
 
 # %% one_list_for_all_observations loses 12.3
-# The same array is kept for each step: all observations are the last one.
+# Gives the last recorded observation in all rows, but what was seen before each step is asked for.
 # -             observations.append(observation)
 # +             observations.append(observation)
 # +             observations = [observation] * len(observations)
 
 
 # %% bound_of_the_elite loses 12.4
-# The bound is the worst return that was kept, not the percentile.
+# Gives the lowest return of the kept episodes as the bound, but np.percentile(returns, percentile) is asked for.
 # -     return {
 # -         "observations": np.concatenate([episode["observations"] for episode in kept]),
 # -         "actions": np.concatenate([episode["actions"] for episode in kept]),
@@ -412,7 +412,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% a_share_of_the_episodes loses 12.4
-# Keeps a fixed number of episodes, although several may have the return of the bound.
+# Keeps a fixed number of episodes, but all with at least the bound should be kept, also if several have the same return.
 # -     kept = [episode for episode in episodes if episode["return"] >= bound]
 # +     count = max(1, round(len(episodes) * (1 - percentile / 100)))
 # +     order = np.argsort([-episode["return"] for episode in episodes], kind="stable")
@@ -420,7 +420,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% best_first loses 12.4
-# The kept episodes stand in the order of their returns, not of the list.
+# Sorts the kept episodes by their returns, the best first, but they should stay in the order of the list.
 # says: this
 # -     kept = [episode for episode in episodes if episode["return"] >= bound]
 # +     kept = [episode for episode in episodes if episode["return"] >= bound]
@@ -428,7 +428,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% elite_sorts_the_list loses 12.4
-# Sorts the caller's list of episodes.
+# Sorts the list of episodes that it gets, but this list should stay as it is.
 # says: in place
 # -     bound = float(np.percentile([episode["return"] for episode in episodes], percentile))
 # -     kept = [episode for episode in episodes if episode["return"] >= bound]
@@ -438,14 +438,14 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% surprise_by_the_actions loses 12.5
-# The mean divides by the number of numbers, not of steps.
+# Divides the sum of the surprises by the number of all scores, but it should be divided by the number of steps.
 # says: this
 # -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
 # +     return (torch.logsumexp(scores, dim=1) - chosen).sum() / scores.numel()
 
 
 # %% confidence_for_surprise loses 12.5
-# The sign is wrong: the loss falls when the actions become less probable.
+# Gives the mean of ln p(a), but minus this mean is asked for.
 # says: this
 # -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
 # +     return (chosen - torch.logsumexp(scores, dim=1)).mean()
@@ -460,14 +460,14 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% in_batches_of_32 loses 12.6
-# Each update looks at 32 of the steps, not at all of them.
+# Uses no more than the first 32 steps in each update, but all steps should be used.
 # -         value = loss(network(inputs), wanted)
 # +         some = torch.arange(len(inputs))[:32]
 # +         value = loss(network(inputs[some]), wanted[some])
 
 
 # %% learning_rate_of_its_own loses 12.6
-# Makes an optimiser of its own instead of using the one that is given.
+# Uses an optimiser of its own instead of the one that it gets.
 # -     losses = []
 # -     for _ in range(updates):
 # +     losses = []
@@ -476,27 +476,27 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% one_noise_for_all_actuators loses 12.7
-# All actuators get the same noise.
+# Draws one random number for all actuators, but each should have its own.
 # -     return mean + np.exp(log_deviation) * rng.standard_normal(len(mean))
 # +     return mean + np.exp(log_deviation) * rng.standard_normal()
 
 
 # %% mean_over_the_actuators loses 12.7
-# The mean goes over the actuators, too, where the formula adds them up.
+# Takes the mean over the actuators, too, but their surprises should be added up.
 # says: this
 # -     return surprise.sum(dim=1).mean()
 # +     return surprise.mean()
 
 
 # %% half_is_forgotten loses 12.7
-# The squared distance is not halved.
+# Divides the squared distance by sigma^2, but it should be divided by 2 sigma^2.
 # says: this
 # -     surprise = distance**2 / 2 + log_deviation + np.log(2 * np.pi) / 2
 # +     surprise = distance**2 + log_deviation + np.log(2 * np.pi) / 2
 
 
 # %% learns_nothing_of_the_deviation loses 12.7
-# No gradient reaches the deviation: it is detached.
+# Gives the right loss, but a gradient of 0 for log_deviation: torch should be able to follow it to the loss, too.
 # -     distance = (actions - means) / torch.exp(log_deviation)
 # -     surprise = distance**2 / 2 + log_deviation + np.log(2 * np.pi) / 2
 # +     log_deviation = log_deviation.detach()
@@ -505,7 +505,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% one_training_for_all_seeds loses 12.8
-# Each training is the one with the seed 1.
+# Trains with the seed 1 whatever `seed` is, but `seed` should decide about all random numbers.
 # -     torch.manual_seed(seed)
 # -     rng = np.random.default_rng(seed)
 # +     seed = 1
@@ -514,7 +514,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% weights_never_seeded loses 12.8
-# The weights do not come from the seed: no training can be repeated.
+# Draws the first weights of the network without the seed, but the same seed should give the same training.
 # -     torch.manual_seed(seed)
 # -     rng = np.random.default_rng(seed)
 # +     torch.seed()
@@ -522,7 +522,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% found_at_random_and_trained_for_show loses 12.8
-# A random search finds the policy; the losses then change it at a learning rate of nearly 0.
+# Finds the policy by a random search, and the losses hardly change it, but the policy should learn by your losses.
 _train = train
 
 
@@ -567,40 +567,40 @@ def train(environment, seed, iterations=50, episodes=20, **others):
 
 
 # %% shares_of_the_scores loses 12.1
-# Divides the shifted scores by their sum, without the exponential.
+# Subtracts the smallest score of each row and divides by the sum, but the exponentials of the scores should be divided by their sum.
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = scores - scores.min(axis=-1, keepdims=True) + 1e-12
 # %% one_action_too_far loses 12.2
-# Gives the action after the one that the dart hits.
+# Returns one more than the action that the dart hits, even after the last action.
 # -     return int(np.argmax(beyond)) if beyond.any() else len(probabilities) - 1
 # +     return int(np.argmax(beyond)) + 1 if beyond.any() else len(probabilities) - 1
 # %% discounted_return loses 12.3
-# The return is discounted by 0.99 in each step.
+# Discounts the rewards by 0.99 in each step, but they should be added up as they are.
 # -             total += float(reward)
 # +             total += float(reward) * 0.99 ** (len(actions) - 1)
 # %% second_reset_without_seed loses 12.3
-# Resets a second time, without the seed, and so begins another episode.
+# Resets the environment a second time, so that the episode does not begin as reset(seed=seed) does.
 # -         observation, _ = env.reset(seed=seed)
 # +         env.reset(seed=seed)
 # +         observation, _ = env.reset()
 # %% bound_of_the_lengths loses 12.4
-# The bound is the percentile of the lengths instead of the returns.
+# Takes the percentile of the episodes' numbers of steps, but that of their returns is asked for.
 # -     bound = float(np.percentile([episode["return"] for episode in episodes], percentile))
 # +     bound = float(np.percentile([len(episode["actions"]) for episode in episodes], percentile))
 # %% percentile_upside_down loses 12.4
-# The percentile counts from the best episode.
+# Counts the percentile from the highest return, but np.percentile(returns, percentile), which counts from the lowest, is asked for.
 # -     bound = float(np.percentile([episode["return"] for episode in episodes], percentile))
 # +     bound = float(np.percentile([episode["return"] for episode in episodes], 100 - percentile))
 # %% probability_for_surprise loses 12.5
-# The loss is one minus the probability of the action.
+# Takes 1 minus the probability of each action that was done, but minus the logarithm of the probability is asked for.
 # -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
 # +     return (1 - torch.exp(chosen - torch.logsumexp(scores, dim=1))).mean()
 # %% normalised_over_steps loses 12.5
-# The probabilities add up to 1 over the steps instead of the actions.
+# Adds up the exponentials over the steps (dim=0), but they should be added up over the actions (dim=1).
 # -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
 # +     return (torch.logsumexp(scores, dim=0)[actions] - chosen).mean()
 # %% one_gradient_for_all_updates loses 12.6
-# One gradient is used for all updates.
+# Uses the gradients of the first update in all updates, but each update should compute its own.
 # -         optimiser.zero_grad()
 # -         value.backward()
 # -         optimiser.step()
@@ -609,50 +609,50 @@ def train(environment, seed, iterations=50, episodes=20, **others):
 # +             value.backward()
 # +         optimiser.step()
 # %% same_loss_each_time loses 12.6
-# The first loss is returned for each update.
+# Returns the first loss for each update, but the loss before each update is asked for.
 # -         losses.append(value.item())
 # +         losses.append(losses[0] if losses else value.item())
 # %% noise_without_exponential loses 12.7
-# Multiplies the noise by the logarithm of the deviation.
+# Multiplies the noise by log_deviation instead of exp(log_deviation).
 # -     return mean + np.exp(log_deviation) * rng.standard_normal(len(mean))
 # +     return mean + np.asarray(log_deviation) * rng.standard_normal(len(mean))
 # %% deviation_not_in_the_density loses 12.7
-# The logarithm of the deviation is not added to the loss.
+# Leaves out ln sigma (log_deviation), but it should be added for each number of the action.
 # -     surprise = distance**2 / 2 + log_deviation + np.log(2 * np.pi) / 2
 # +     surprise = distance**2 / 2 + np.log(2 * np.pi) / 2
 # %% steps_summed loses 12.7
-# The sum goes over the steps and the mean over the actuators.
+# Adds up over the steps and takes the mean over the actuators, but it should be the other way round.
 # -     return surprise.sum(dim=1).mean()
 # +     return surprise.sum(dim=0).mean()
 # %% trains_on_all_episodes loses 12.8
-# The network learns from all episodes instead of the elite.
+# Learns from all episodes instead of the elite.
 # -         best = elite(found, percentile)
 # +         best = elite(found, 0)
 
 
 # %% dart_on_the_border loses 12.2
-# Stops as soon as the sum has reached the dart.
+# Takes the first action whose sum is at least u, but the sum should be greater than u.
 # says: must be greater than u
 # -     beyond = np.cumsum(probabilities) > rng.random()
 # +     beyond = np.cumsum(probabilities) >= rng.random()
 
 
 # %% divides_by_the_largest loses 12.1
-# Divides by the largest score, which changes the probabilities; subtracting it does not.
+# Divides the scores by the largest absolute score of their row, which changes the probabilities, instead of subtracting the largest score.
 # says: this
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.exp(scores / np.abs(scores).max(axis=-1, keepdims=True))
 
 
 # %% scores_without_exponential loses 12.1
-# Divides the scores by their sum: the exponential is missing.
+# Divides the absolute values of the scores by their sum, but the exponentials of the scores should be divided by their sum.
 # says: this
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.abs(scores)
 
 
 # %% no_gradient_for_the_step loses 12.6
-# The optimiser's step finds no gradient: backward is missing, too late, or cleared before it.
+# Leaves the parameters as they are, but optimiser.step() should change them by the gradients that backward has computed.
 # says: this
 # -         optimiser.zero_grad()
 # -         value.backward()
@@ -663,7 +663,7 @@ def train(environment, seed, iterations=50, episodes=20, **others):
 
 
 # %% first_kept_episode loses 12.4
-# Returns the first one of the kept episodes only.
+# Returns only the first of the kept episodes, but the steps of all kept episodes are asked for.
 # says: this
 # -         "observations": np.concatenate([episode["observations"] for episode in kept]),
 # -         "actions": np.concatenate([episode["actions"] for episode in kept]),
@@ -672,7 +672,7 @@ def train(environment, seed, iterations=50, episodes=20, **others):
 
 
 # %% every_action_of_every_step loses 12.5
-# Takes the scores of all the actions done, in every step, not the one of each step's own.
+# Takes the scores of all recorded actions in each step, as scores[:, actions] does, but each step should count only its own action.
 # says: this
 # -     chosen = scores[torch.arange(len(actions)), actions]
 # -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
@@ -680,105 +680,105 @@ def train(environment, seed, iterations=50, episodes=20, **others):
 
 
 # %% actions_always_float loses 12.6
-# Whole actions become numbers of float32, too.
+# Turns whole actions into float32, too, but int64 is asked for.
 # says: this
 # -     wanted = torch.as_tensor(np.asarray(actions), dtype=torch.int64 if whole else torch.float32)
 # +     wanted = torch.as_tensor(np.asarray(actions), dtype=torch.float32)
 
 
 # %% one_action_too_early loses 12.2
-# Counts the sums below the dart and takes one off: the action before the right one.
+# Returns the action before the one that the dart hits (0 stays 0), but the action that the dart hits is asked for.
 # says: this
 def choose(probabilities, rng):
     return max(0, int(np.sum(np.cumsum(probabilities) < rng.random())) - 1)
 
 
 # %% sigma_is_no_parameter loses 12.8
-# The optimiser does not get ln sigma, so it stays as it is at the beginning.
+# Leaves ln sigma as it is at the beginning, but the optimiser should change it, too.
 # says: ln sigma is the same number in all calls of gaussian_loss
 # -     optimiser = torch.optim.Adam([*network.parameters(), log_deviation], lr=learning_rate)
 # +     optimiser = torch.optim.Adam(network.parameters(), lr=learning_rate)
 
 
 # %% noise_of_the_beginning loses 12.8
-# ln sigma is learnt, but the actions are drawn with that of the beginning.
+# Draws all actions with the ln sigma of the beginning, but gaussian_action should get the one that is learnt.
 # says: always acts with one deviation
 # -         parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
 # +         parameters, spread = parameters_of(network), np.zeros(noutputs)
 
 
 # %% starts_of_the_first_iteration loses 12.8
-# Each iteration begins its episodes with the seeds of the first one.
+# Begins the episodes of each iteration with the seeds of the first one, but `seed + i * starts + e % starts` is asked for.
 # says: all iterations begin their episodes with the seeds of the first one
 # -         first = seed + iteration * starts
 # +         first = seed
 
 
 # %% starts_one_further_in_each_iteration loses 12.8
-# The iteration is added to the seed, and not the iteration times the starts.
+# Adds the iteration i to the seed of an episode, but i * starts should be added.
 # says: share most of their starts
 # -         first = seed + iteration * starts
 # +         first = seed + iteration
 
 
 # %% starts_without_the_seed loses 12.8
-# The seeds of the episodes do not depend on that of the training.
+# Leaves `seed` out of the seeds of the episodes, but `seed + i * starts + e % starts` is asked for.
 # says: begins its episodes with the same seeds
 # -         first = seed + iteration * starts
 # +         first = iteration * starts
 
 
 # %% nothing_for_the_rest_of_the_ruler loses 12.2
-# Gives action 0 where rounding leaves a gap between the last sum and the dart.
+# Returns action 0 if no sum is greater than u (by rounding), but the last action is asked for.
 # says: the last action owns the rest of the ruler
 # -     return int(np.argmax(beyond)) if beyond.any() else len(probabilities) - 1
 # +     return int(np.argmax(beyond))
 
 
 # %% one_largest_score_for_all_steps loses 12.1
-# Subtracts the largest score of all steps from each of them, so that small ones become 0 / 0.
-# says: Each row has its own largest score
+# Subtracts the same number from all rows, so that rows of much lower scores become 0 / 0 = NaN, but each row's own largest score should be subtracted.
+# says: from each row its own largest score
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.exp(scores - scores.max())
 
 
 # %% action_after_the_right_one loses 12.2
-# Takes the action after the one on which the dart lands.
+# Returns the action after the one that the dart hits (the last stays the last), but the action that the dart hits is asked for.
 # says: this
 # -     return int(np.argmax(beyond)) if beyond.any() else len(probabilities) - 1
 # +     return min(int(np.argmax(beyond)) + 1, len(probabilities) - 1) if beyond.any() else len(beyond) - 1
 
 
 # %% actions_always_whole loses 12.6
-# Actions of any kind become whole numbers of int64.
+# Turns all actions into int64, but float32 is asked for if they are not whole.
 # -     wanted = torch.as_tensor(np.asarray(actions), dtype=torch.int64 if whole else torch.float32)
 # +     wanted = torch.as_tensor(np.asarray(actions), dtype=torch.int64)
 
 
 # %% mean_subtracted_from_the_scores loses 12.1
-# The mean of the scores is subtracted, not the largest one, so large scores overflow.
-# says: not the largest one of their row
+# Subtracts another number than the largest score of each row, so that exponentials of large scores overflow and give NaN.
+# says: the largest score of each row should be subtracted
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.exp(scores - scores.mean(axis=-1, keepdims=True))
 
 
 # %% tiny_number_against_0 loses 12.5
-# A tiny number is added to the probability, which hides how improbable an action is.
+# Keeps the probability under the logarithm at 1e-10 or more, so that large surprises come out too small; ln p(a) should be computed from the scores.
 # says: no surprise is larger
 # -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
 # +     return -torch.log(torch.exp(chosen - torch.logsumexp(scores, dim=1)) + 1e-10).mean()
 
 
 # %% one_column_is_whole loses 12.6
-# Actions with a single column are taken for whole numbers, whatever they are.
+# Turns actions with a single column into int64, but float32 is asked for if they are not whole.
 # says: this|with actions of torch.float32
 # -     whole = np.issubdtype(np.asarray(actions).dtype, np.integer)
 # +     whole = np.asarray(actions).ndim == 1 or np.shape(actions)[1] == 1
 
 
 # %% acts_as_in_the_beginning loses 12.8
-# The parameters that choose the actions are taken once, before the first iteration.
-# says: the policy that acts stays as it was
+# Acts with the parameters of the beginning in all iterations, but each iteration should act with those learnt so far.
+# says: should be taken from the network again
 # -     for iteration in range(iterations):
 # -         parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
 # +     parameters, spread = parameters_of(network), log_deviation.detach().numpy().copy()
@@ -786,29 +786,29 @@ def choose(probabilities, rng):
 
 
 # %% scores_are_cut loses 12.1
-# Cuts large scores off against overflow, which makes them equally probable: shift them.
+# Cuts large scores off at about 500, which makes them equally probable, instead of subtracting the largest score of each row.
 # says: this
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.exp(np.clip(scores, -500, 500))
 
 
 # %% place_among_the_sorted loses 12.2
-# Returns the place among the sorted probabilities instead of the action.
+# Returns a place among the probabilities sorted from the largest to the smallest, but the action itself is asked for.
 # says: this
 # -     beyond = np.cumsum(probabilities) > rng.random()
 # +     beyond = np.cumsum(np.sort(probabilities)[::-1]) > rng.random()
 
 
 # %% mean_reward loses 12.3
-# The return is the mean reward of a step instead of the sum.
-# says: this|mean of the rewards is not
+# Gives the mean of the rewards instead of their sum.
+# says: this|This is the mean of the rewards
 # -     return {"observations": np.array(observations), "actions": np.array(actions), "return": total}
 # +     mean = total / len(actions)
 # +     return {"observations": np.array(observations), "actions": np.array(actions), "return": mean}
 
 
 # %% observations_normalised loses 12.6
-# Normalises the observations before they reach the network.
+# Normalises the observations before the network gets them, but the network should get them as they are.
 # says: this
 # -     inputs = torch.as_tensor(np.asarray(observations), dtype=torch.float32)
 # +     seen = np.asarray(observations)
@@ -816,21 +816,21 @@ def choose(probabilities, rng):
 
 
 # %% scores_cut_at_700 loses 12.1
-# Scores are cut off at 700 against overflow.
+# Cuts large scores off at about 700, which makes them equally probable, instead of subtracting the largest score of each row.
 # says: cut off at a limit
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.exp(np.clip(scores, -700, 700))
 
 
 # %% rounded_dart loses 12.2
-# The dart is rounded to one place.
+# Rounds u to one decimal place, but u should be used as it is.
 # says: this
 # -     beyond = np.cumsum(probabilities) > rng.random()
 # +     beyond = np.cumsum(probabilities) > round(rng.random(), 1)
 
 
 # %% observation_at_the_end loses 12.3
-# The observation at the end is recorded, too: one row more than actions.
+# Records the observation after the last step, too, but only what was seen before each step is asked for.
 # says: this|Its last row is what was seen after the last step
 # -     return {"observations": np.array(observations), "actions": np.array(actions), "return": total}
 # +     observations.append(observation)
@@ -838,91 +838,91 @@ def choose(probabilities, rng):
 
 
 # %% cut_to_half_the_limits loses 12.3
-# Actions are cut to half of the limits.
+# Cuts the actions to half of the limits of the action space instead of the limits themselves.
 # says: this
 # -                 action = np.clip(action, space.low, space.high).astype(space.dtype)
 # +                 action = np.clip(action, space.low / 2, space.high / 2).astype(space.dtype)
 
 
 # %% largest_reward loses 12.3
-# The return is the largest reward.
+# Gives the largest reward, or 0 if all are negative, but the sum of the rewards is asked for.
 # says: this
 # -             total += float(reward)
 # +             total = max(total, float(reward))
 
 
 # %% limits_of_the_first_actuator loses 12.3
-# The limits of the first actuator are taken for all of them.
+# Cuts all actuators to the limits of the first one, but each should be cut to its own.
 # says: this
 # -                 action = np.clip(action, space.low, space.high).astype(space.dtype)
 # +                 action = np.clip(action, space.low[0], space.high[0]).astype(space.dtype)
 
 
 # %% one_step_more loses 12.3
-# Makes one step more than maxsteps.
+# Makes up to maxsteps + 1 steps, but an episode should have at most maxsteps steps.
 # says: this
 # -         for _ in range(maxsteps):
 # +         for _ in range(maxsteps + 1):
 
 
 # %% percentile_for_a_share loses 12.4
-# The bound is a quantile: the percentile is taken for a share from 0 to 1.
+# Divides the percentile by 100, but np.percentile needs it as it is, from 0 to 100.
 # says: this
 # -     bound = float(np.percentile([episode["return"] for episode in episodes], percentile))
 # +     bound = float(np.percentile([e["return"] for e in episodes], percentile / 100))
 
 
 # %% mean_for_the_bound loses 12.4
-# The bound is the mean of the returns, whatever the percentile.
+# Takes the mean of the returns as the bound, whatever the percentile, but np.percentile(returns, percentile) is asked for.
 # says: this
 # -     bound = float(np.percentile([episode["return"] for episode in episodes], percentile))
 # +     bound = float(np.mean([episode["return"] for episode in episodes]))
 
 
 # %% observations_of_all loses 12.4
-# The observations are those of all episodes; only the actions are those of the elite.
+# Gives the observations of all episodes, but only those of the kept episodes are asked for.
 # says: this
 # -         "observations": np.concatenate([episode["observations"] for episode in kept]),
 # +         "observations": np.concatenate([episode["observations"] for episode in episodes]),
 
 
 # %% actions_as_floats loses 12.4
-# Whole actions become floats.
+# Turns whole actions into floats, but they should stay whole numbers.
 # says: this|actions must stay whole numbers
 # -         "actions": np.concatenate([episode["actions"] for episode in kept]),
 # +         "actions": np.concatenate([episode["actions"] for episode in kept]).astype(float),
 
 
 # %% scores_with_the_wrong_sign loses 12.5
-# The scores enter the sum with the wrong sign.
+# Adds up the exponentials of minus the scores, but those of the scores themselves are asked for.
 # says: this
 # -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
 # +     return (torch.logsumexp(-scores, dim=1) - chosen).mean()
 
 
 # %% largest_for_the_sum loses 12.5
-# The largest score is taken for the logarithm of the sum.
+# Takes the largest score instead of the logarithm of the sum of the exponentials.
 # says: this
 # -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
 # +     return (scores.max(dim=1).values - chosen).mean()
 
 
 # %% last_step_only loses 12.5
-# Only the last step counts, not the mean.
+# Gives the surprise of the last step only, but the mean over all steps is asked for.
 # says: this
 # -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
 # +     return (torch.logsumexp(scores, dim=1) - chosen)[-1]
 
 
 # %% action_of_the_highest_score loses 12.5
-# The action with the highest score is taken for the one that was done.
+# Takes the highest score of each step, but the score of the action that was done is asked for.
 # says: this
 # -     chosen = scores[torch.arange(len(actions)), actions]
 # +     chosen = scores.max(dim=1).values
 
 
 # %% last_loss_for_all loses 12.6
-# The last loss is returned for each update.
+# Returns the last loss for each update, but the loss before each update is asked for.
 # says: this
 # -         losses.append(value.item())
 # -     return losses
@@ -931,7 +931,7 @@ def choose(probabilities, rng):
 
 
 # %% mean_of_the_losses_so_far loses 12.6
-# Gives the mean of the losses so far.
+# Returns the mean of the losses so far for each update, but the loss before this update alone is asked for.
 # says: this
 # -         losses.append(value.item())
 # -     return losses
@@ -940,42 +940,42 @@ def choose(probabilities, rng):
 
 
 # %% variance_in_the_square loses 12.7
-# The distance is divided by the variance, not by the deviation.
+# Divides the squared distance by 2 sigma^4, but it should be divided by 2 sigma^2.
 # says: this
 # -     distance = (actions - means) / torch.exp(log_deviation)
 # +     distance = (actions - means) / torch.exp(log_deviation) ** 2
 
 
 # %% sigma_for_its_logarithm loses 12.7
-# sigma itself is added, not ln sigma.
+# Adds sigma itself instead of ln sigma.
 # says: this
 # -     surprise = distance**2 / 2 + log_deviation + np.log(2 * np.pi) / 2
 # +     surprise = distance**2 / 2 + torch.exp(log_deviation) + np.log(2 * np.pi) / 2
 
 
 # %% uniform_noise loses 12.7
-# The noise is even (rng.uniform), not Gaussian.
+# Draws uniform noise from -1 to 1, but Gaussian noise (rng.standard_normal) is asked for.
 # says: this
 # -     return mean + np.exp(log_deviation) * rng.standard_normal(len(mean))
 # +     return mean + np.exp(log_deviation) * rng.uniform(-1, 1, len(mean))
 
 
 # %% action_cut_when_drawn loses 12.7
-# The action is cut to -1..1 here: that is left to run_episode.
+# Cuts the action to between -1 and 1, but gaussian_action should return it as it was drawn.
 # says: this
 # -     return mean + np.exp(log_deviation) * rng.standard_normal(len(mean))
 # +     return np.clip(mean + np.exp(log_deviation) * rng.standard_normal(len(mean)), -1, 1)
 
 
 # %% number_for_the_loss loses 12.5
-# The loss is a plain number (.item()): torch needs a tensor, to go back to the scores.
+# Returns a plain number, but the loss should be a tensor, so that torch can compute gradients through it.
 # says: this
 # -     return (torch.logsumexp(scores, dim=1) - chosen).mean()
 # +     return (torch.logsumexp(scores, dim=1) - chosen).mean().item()
 
 
 # %% two_numbers_for_each_choice loses 12.2
-# Draws two random numbers for each action and uses the second one: one is asked for.
+# Draws two random numbers in each call and uses the second one, but only one should be drawn.
 # says: this
 # -     beyond = np.cumsum(probabilities) > rng.random()
 # +     rng.random()
@@ -983,21 +983,21 @@ def choose(probabilities, rng):
 
 
 # %% quotient_of_starts loses 12.8
-# Episode e begins with the seed of e // starts, not of e % starts: all of an iteration begin alike.
+# Uses e // starts in the seed of episode e, but e % starts is asked for.
 # says: right only if starts is 1
 # -         found = [run_episode(environment, act, first + e % starts) for e in range(episodes)]
 # +         found = [run_episode(environment, act, first + e // starts) for e in range(episodes)]
 
 
 # %% scores_divided_by_100 loses 12.1
-# Divides the scores by 100 before the exponential: this changes the probabilities.
+# Divides the scores by 100 before the exponential, which changes the probabilities, instead of subtracting the largest score.
 # says: this
 # -     powers = np.exp(scores - scores.max(axis=-1, keepdims=True))
 # +     powers = np.exp(scores / 100)
 
 
 # %% gumbel_noise loses 12.2
-# Draws a random number for each action (Gumbel noise), but the dart is the only one.
+# Adds Gumbel noise to the logarithms of the probabilities, but the action should come from a single u = rng.random().
 # says: this
 # -     beyond = np.cumsum(probabilities) > rng.random()
 # -     return int(np.argmax(beyond)) if beyond.any() else len(probabilities) - 1
@@ -1007,7 +1007,7 @@ def choose(probabilities, rng):
 
 
 # %% sigma_in_the_root_as_it_is loses 12.7
-# Takes half the logarithm of 2 pi sigma: sigma is squared there, so that ln sigma counts whole.
+# Adds only half of ln sigma, as in ln(2 pi sigma) / 2, but the whole of ln sigma is asked for.
 # says: this
 def gaussian_loss(means, log_deviation, actions):
     variance = torch.exp(2 * log_deviation)
@@ -1018,7 +1018,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% deviation_without_gradient loses 12.7
-# Takes sigma out of torch (detach, numpy), so that the distance gives log_deviation no gradient.
+# Leaves the distance divided by sigma out of the gradient of log_deviation: torch should be able to follow this sigma, too (no .detach() or NumPy).
 # says: this
 def gaussian_loss(means, log_deviation, actions):
     sigma = torch.from_numpy(np.exp(log_deviation.detach().numpy()))
@@ -1030,7 +1030,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% constant_of_one_number loses 12.7
-# The constant ln(2 pi) / 2 counts once, but it counts for each number of the action.
+# Adds the constant ln(2 pi) / 2 once for each step, but it should be added for each number of the action.
 # says: this
 # -     surprise = distance**2 / 2 + log_deviation + np.log(2 * np.pi) / 2
 # -     return surprise.sum(dim=1).mean()
@@ -1039,7 +1039,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% density_before_its_logarithm loses 12.7
-# Multiplies the densities first: they underflow to 0, and the loss is infinite.
+# Computes the density before its logarithm: far from the mean it is rounded to 0 and the loss becomes infinite, but the formula needs no density.
 # says: this|the logarithm of 0
 def gaussian_loss(means, log_deviation, actions):
     sigma = log_deviation.exp()
@@ -1049,7 +1049,7 @@ def gaussian_loss(means, log_deviation, actions):
 
 
 # %% chosen_scores_cut_off loses 12.5
-# Makes a new tensor of the scores of the chosen actions, which cuts them off from the network.
+# Leaves the scores of the chosen actions out of the gradient: torch should be able to follow them to the loss, too (no .item(), .detach() or torch.tensor).
 # says: this
 def cross_entropy(scores, actions):
     chosen = torch.tensor([scores[t, a].item() for t, a in enumerate(actions)])
@@ -1059,8 +1059,8 @@ def cross_entropy(scores, actions):
 
 
 # %% best_episode_ends_it loses 12.8
-# Ends training when the best episode of an iteration reaches the goal, not their mean.
-# says: training goes on until
+# Ends training when the best episode of an iteration reaches the goal, but the mean return of the iteration should reach it.
+# says: training should go on until
 # -         if np.mean(returns[-1]) >= goal:
 # -             break
 # +         if np.max(returns[-1]) >= goal:
@@ -1070,7 +1070,7 @@ def cross_entropy(scores, actions):
 
 
 # %% largest_score_on_one_side loses 12.5
-# Subtracts the largest score under the logarithm, but not from the score of the chosen action.
+# Subtracts the largest score under the logarithm only, but it should also be subtracted from the score of the chosen action.
 # says: this
 def cross_entropy(scores, actions):
     largest = scores.max(dim=1, keepdim=True).values
@@ -1080,7 +1080,7 @@ def cross_entropy(scores, actions):
 
 
 # %% gradients_cleared_once loses 12.6
-# The gradients are cleared once, before the loop: each update adds its own to those before.
+# Sets the gradients to zero only before the first update, so that later updates add theirs to them, but each should use its own alone.
 # says: this
 # -     for _ in range(updates):
 # -         value = loss(network(inputs), wanted)

@@ -1,7 +1,7 @@
 """Wrong solutions of exercise 13; building.py describes how a case is written."""
 
 # %% end_of_the_wrong_step loses 13.1
-# Takes the first step of an episode for its last one.
+# Takes the first step of an episode for its last one, but step t is the last one if step t + 1 starts an episode.
 _advantages = advantages
 
 
@@ -11,7 +11,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% ends_ignored loses 13.1
-# Lets the TD errors after an end count for the actions before it.
+# Ignores the ends of episodes: values and TD errors of the next episode count for the steps before its start.
 # says: Ends of episodes on the way .* are left out
 _advantages = advantages
 
@@ -22,7 +22,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% lambda_forgotten loses 13.1
-# Later TD errors count less by gamma alone.
+# Leaves out gae_lambda: later TD errors are multiplied by gamma alone at each step, but should be by gamma * gae_lambda.
 # says: gae_lambda is left out
 _advantages = advantages
 
@@ -32,7 +32,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% last_end_ignored loses 13.1
-# Does not look whether the last step ended its episode.
+# Treats the last step of the rollout as if its episode went on, even where dones is 1.
 _advantages = advantages
 
 
@@ -41,7 +41,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% last_value_forgotten loses 13.1
-# Takes the rollout for over: nothing comes after its last step.
+# Leaves out the value of what comes after the last step, but where dones is 0, last_values should count there.
 # says: \(last_values\) is left out
 _advantages = advantages
 
@@ -51,7 +51,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% one_step_only loses 13.1
-# Stops at the first TD error.
+# Takes only the TD error of the step itself and leaves out those of the later steps.
 _advantages = advantages
 
 
@@ -60,49 +60,49 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% errors_leak loses 13.1
-# The TD errors of another episode count for the actions before its start.
+# Adds the TD errors of the next episode to the advantages of the one before, but where n_t is 0 they should be left out.
 # says: TD errors leak over ends
 # -         following = error + gamma * gae_lambda * goes_on * following
 # +         following = error + gamma * gae_lambda * following
 
 
 # %% values_leak loses 13.1
-# Takes the value of another episode's start for what comes after an end.
+# Adds the next value to the TD error even where the episode ended, but where n_t is 0 it should be left out.
 # says: Values leak over ends
 # -         error = rewards[t] + gamma * goes_on * next_values - values[t]
 # +         error = rewards[t] + gamma * next_values - values[t]
 
 
 # %% ends_bootstrapped loses 13.1
-# Adds the critic's value after ends, where no reward comes any more.
+# Adds gamma times the value where episodes ended by themselves, too, but only those that the time limit cut should get it.
 # says: Ends are bootstrapped as well
 def bootstrapped(rewards, terminated, truncated, final_values, gamma):
     return rewards + gamma * np.maximum(terminated, truncated) * final_values
 
 
 # %% both_bootstrapped loses 13.1
-# Adds the critic's value though the episode ended in the very step at which time ran out.
+# Adds gamma times the value in steps that are both terminated and truncated, but an episode that ended by itself should get nothing.
 # says: both terminated and truncated
 def bootstrapped(rewards, terminated, truncated, final_values, gamma):
     return rewards + gamma * truncated * final_values
 
 
 # %% undiscounted_bootstrap loses 13.1
-# Adds the critic's value without the discount of one step.
+# Adds the critic's value without multiplying it by gamma.
 # says: gamma is left out
 def bootstrapped(rewards, terminated, truncated, final_values, gamma):
     return rewards + truncated * (1 - terminated) * final_values
 
 
 # %% never_bootstrapped loses 13.1
-# Takes the time limit for an end.
+# Returns the rewards as they are, but where time ran out gamma times the critic's value should be added.
 # says: Nothing is added
 def bootstrapped(rewards, terminated, truncated, final_values, gamma):
     return np.array(rewards)
 
 
 # %% bootstrapped_in_place loses 13.1
-# Changes the rewards of the rollout itself.
+# Changes the array of rewards that it is given, but should make a new one.
 # says: has changed the rewards
 def bootstrapped(rewards, terminated, truncated, final_values, gamma):
     rewards += gamma * truncated * (1 - terminated) * final_values
@@ -110,7 +110,7 @@ def bootstrapped(rewards, terminated, truncated, final_values, gamma):
 
 
 # %% asks_stable_baselines loses 13.1, 13.4, 13.6
-# Hands in what Stable-Baselines3 and torch compute.
+# Lets a function of Stable-Baselines3 or torch give the answer, but it should be computed with NumPy.
 import torch
 from gymnasium import spaces
 from stable_baselines3.common.buffers import RolloutBuffer
@@ -139,7 +139,7 @@ def explained_variance(values, returns):
 
 
 # %% always_clipped loses 13.2
-# Takes the clipped product always, instead of the smaller one of the two.
+# Always takes the clipped product instead of the smaller one of the two products.
 _policy_loss = policy_loss
 
 
@@ -151,7 +151,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% clips_the_logarithm loses 13.2
-# Counts as clipped what is far from 0 in the logarithm.
+# Counts in clip_fraction the steps whose ln(ratio) is farther than clip_range from 0, instead of those whose ratio is farther than clip_range from 1.
 _policy_loss = policy_loss
 
 
@@ -161,7 +161,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% not_normalised loses 13.2
-# Takes the advantages as they are.
+# Takes the advantages as they are, but in a batch of more than one step they should be normalised.
 # says: not normalised
 def policy_loss(log_prob, old_log_prob, advantages, clip_range):
     ratio = np.exp(log_prob - old_log_prob)
@@ -171,7 +171,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% population_deviation loses 13.2
-# The deviation divides by N.
+# Divides by N in the standard deviation of the advantages, but should divide by N - 1 (ddof=1).
 _policy_loss = policy_loss
 
 
@@ -182,7 +182,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% sign_of_the_loss loses 13.2
-# Makes the surrogate small instead of large.
+# Returns the loss with the opposite sign, but it should be minus the mean of the smaller products.
 # says: Only the sign
 _policy_loss = policy_loss
 
@@ -193,7 +193,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% single_step_normalised loses 13.2
-# Normalises a batch of a single step, which leaves nothing of it.
+# Returns the loss 0 for a batch of one step, but there the advantage should be taken as it is, without normalising.
 _policy_loss = policy_loss
 
 
@@ -203,21 +203,21 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% limit_counts_as_clipped loses 13.2
-# Counts a ratio as clipped that is exactly at the limit.
-# says: not farther than it
+# Counts in clip_fraction also ratios that are exactly clip_range away from 1, but only those that are farther should count.
+# says: only those that are farther
 # -         "clip_fraction": float(np.mean(np.abs(ratio - 1) > clip_range)),
 # +         "clip_fraction": float(np.mean(np.abs(ratio - 1) >= clip_range)),
 
 
 # %% zero_clips_nothing loses 13.3
-# Takes a clip range of 0 for none.
+# Treats clip_range_vf=0 like None and clips nothing, but with 0 the values should not be allowed to move at all.
 # says: allows no movement
 # -     if clip_range_vf is not None:
 # +     if clip_range_vf:
 
 
 # %% half_the_square loses 13.3
-# Halves the squared difference, as some do.
+# Returns half the mean squared difference, but the whole mean squared difference is asked for.
 # says: half of what was expected
 _value_loss = value_loss
 
@@ -227,7 +227,7 @@ def value_loss(values, old_values, returns, clip_range_vf=None):
 
 
 # %% value_clipped_around_the_return loses 13.3
-# Clips the error instead of the movement.
+# Clips the error (the difference of values and returns) instead of the movement (the difference of values and old_values).
 _value_loss = value_loss
 
 
@@ -238,7 +238,7 @@ def value_loss(values, old_values, returns, clip_range_vf=None):
 
 
 # %% value_never_clipped loses 13.3
-# Ignores the clipping.
+# Ignores clip_range_vf and never clips, but the movement of the values away from old_values should be clipped.
 # says: is not clipped
 _value_loss = value_loss
 
@@ -248,7 +248,7 @@ def value_loss(values, old_values, returns, clip_range_vf=None):
 
 
 # %% entropy_in_bits loses 13.4
-# Takes the logarithm to the base 2.
+# Takes logarithms to the base 2 instead of natural logarithms.
 # says: in bits
 _entropy_of_choices = entropy_of_choices
 
@@ -258,7 +258,7 @@ def entropy_of_choices(scores):
 
 
 # %% entropy_of_nothing loses 13.4
-# An action of probability 0 makes the entropy no number.
+# Returns NaN where an action has the probability 0, but such an action should add nothing to the entropy.
 def entropy_of_choices(scores):
     with np.errstate(all="ignore"):
         powers = np.exp(scores - scores.max(axis=1, keepdims=True))
@@ -267,7 +267,7 @@ def entropy_of_choices(scores):
 
 
 # %% entropy_of_one_actuator loses 13.4
-# The mean over the actuators instead of the sum.
+# Takes the mean over the actuators instead of the sum.
 _entropy_of_gaussians = entropy_of_gaussians
 
 
@@ -276,7 +276,7 @@ def entropy_of_gaussians(log_deviation):
 
 
 # %% asks_later loses 13.4, 13.5, 13.6
-# Hands in what Stable-Baselines3 and torch compute.
+# Takes the answer from a library function instead of computing it with NumPy.
 def entropy_of_gaussians(log_deviation):
     import torch
 
@@ -297,13 +297,13 @@ def explained_variance(values, returns):
 
 
 # %% simple_estimate loses 13.5
-# The mean of minus the logarithm, which is right only on average.
+# Takes the mean of -ln(ratio), but the mean of (ratio - 1) - ln(ratio) is asked for.
 def approx_kl(log_prob, old_log_prob):
     return float(np.mean(old_log_prob - log_prob))
 
 
 # %% stops_after_the_update loses 13.5
-# Makes one more update with the batch that was too far.
+# Counts the update of the first batch whose divergence is too great, but this batch should make no update any more.
 # says: one more than expected
 _updates_made = updates_made
 
@@ -314,7 +314,7 @@ def updates_made(divergences, target_kl):
 
 
 # %% stops_at_the_target loses 13.5
-# Stops at the target itself instead of one and a half times as much.
+# Stops at a divergence greater than target_kl, but only one greater than 1.5 times target_kl should stop the training.
 _updates_made = updates_made
 
 
@@ -323,7 +323,7 @@ def updates_made(divergences, target_kl):
 
 
 # %% stops_the_epoch_only loses 13.5
-# Ends the epoch, and begins the next one.
+# Ends only the epoch when a divergence is too great, but the later epochs should make no updates, either.
 _updates_made = updates_made
 
 
@@ -332,19 +332,19 @@ def updates_made(divergences, target_kl):
 
 
 # %% stops_when_equal loses 13.5
-# Stops at a divergence that equals the limit.
+# Stops at a divergence that is equal to 1.5 times target_kl, but only a greater one should stop the training.
 # -             if target_kl is not None and divergence > 1.5 * target_kl:
 # +             if target_kl is not None and divergence >= 1.5 * target_kl:
 
 
 # %% zero_target_never_stops loses 13.5
-# Takes a target of 0 for none.
+# Treats target_kl=0 like None and never stops, but every divergence greater than 0 should stop the training then.
 # -             if target_kl is not None and divergence > 1.5 * target_kl:
 # +             if target_kl and divergence > 1.5 * target_kl:
 
 
 # %% entropy_is_punished loses 13.6
-# Adds the entropy to the loss instead of subtracting it.
+# Adds ent_coef times the mean entropy to the loss instead of subtracting it.
 # says: The entropy is added
 _total_loss = total_loss
 
@@ -354,20 +354,20 @@ def total_loss(policy_loss, value_loss, entropies, ent_coef, vf_coef):
 
 
 # %% squared_correlation loses 13.6
-# Takes the squared correlation for the explained variance.
+# Returns the squared correlation of values and returns, but 1 - var(returns - values) / var(returns) is asked for.
 def explained_variance(values, returns):
     return float(np.corrcoef(values.ravel(), returns.ravel())[0, 1] ** 2)
 
 
 # %% covariance loses 13.7
-# The covariance, which depends on the units.
+# Returns the covariance, but the correlation is asked for (the covariance divided by both standard deviations).
 def responses(activations, observations):
     h, x = activations - activations.mean(axis=0), observations - observations.mean(axis=0)
     return h.T @ x / len(h)
 
 
 # %% linear_layers loses 13.7
-# Forgets tanh between the layers.
+# Gives the next layer the sums W x + b as they are, but should give it the activations tanh(W x + b).
 # -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
 # -         activations.append(observations)
 # +         observations = observations @ np.asarray(weights).T + biases
@@ -375,7 +375,7 @@ def responses(activations, observations):
 
 
 # %% nothing_to_follow loses 13.7
-# Divides by 0 where something never changes.
+# Divides by 0, or by a mere rounding error, where a neuron or an observed number never changes, but the correlation should be 0 there.
 def responses(activations, observations):
     h, x = activations - activations.mean(axis=0), observations - observations.mean(axis=0)
     with np.errstate(all="ignore"):
@@ -383,7 +383,7 @@ def responses(activations, observations):
 
 
 # %% returns_for_advantages loses 13.1
-# The values are added again: it gives the returns that the critic learns, not the advantages.
+# Returns advantages plus values (the returns that the critic learns), but the advantages alone are asked for.
 # says: this
 # -         result[t] = following
 # -     return result
@@ -392,14 +392,14 @@ def responses(activations, observations):
 
 
 # %% no_discount loses 13.1
-# gamma is left out of the TD error.
+# Leaves gamma out of the TD error: the next value is added without being multiplied by gamma.
 # says: this
 # -         error = rewards[t] + gamma * goes_on * next_values - values[t]
 # +         error = rewards[t] + goes_on * next_values - values[t]
 
 
 # %% standardised_over_the_rollout loses 13.1
-# The advantages are normalised already here.
+# Normalises the advantages (minus their mean, divided by their deviation), but they should be returned as they are.
 # says: this
 # -         result[t] = following
 # -     return result
@@ -408,14 +408,14 @@ def responses(activations, observations):
 
 
 # %% ratio_upside_down loses 13.2
-# The ratio is that of the old probability to the new one.
+# Divides the old probability by the new one, but the ratio should be the new probability divided by the old one.
 # says: this
 # -     ratio = np.exp(log_prob - old_log_prob)
 # +     ratio = np.exp(old_log_prob - log_prob)
 
 
 # %% clips_the_product loses 13.2
-# The product of ratio and advantage is clipped, not the ratio.
+# Clips the product of ratio and advantage to 1 - clip_range ... 1 + clip_range, but only the ratio should be clipped.
 # says: this
 # -     clipped = np.clip(ratio, 1 - clip_range, 1 + clip_range)
 # -     return {
@@ -426,21 +426,21 @@ def responses(activations, observations):
 
 
 # %% sum_over_the_batch loses 13.2
-# The loss is the sum over the batch, not the mean.
+# Takes the sum of the smaller products over the batch as the loss, but their mean is asked for.
 # says: this
 # -         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).mean()),
 # +         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).sum()),
 
 
 # %% clipped_upwards_only loses 13.2
-# Only ratios above 1 + clip_range count as clipped.
+# Counts in clip_fraction only ratios above 1 + clip_range, but those below 1 - clip_range should count, too.
 # says: this
 # -         "clip_fraction": float(np.mean(np.abs(ratio - 1) > clip_range)),
 # +         "clip_fraction": float(np.mean(ratio - 1 > clip_range)),
 
 
 # %% larger_of_two_value_losses loses 13.3
-# Takes the larger one of the clipped and the unclipped loss, as some libraries do.
+# Takes for each step the larger one of the clipped and the unclipped squared difference, but with clip_range_vf the clipped one is asked for.
 # says: this
 # -     return float(np.mean((returns - predictions) ** 2))
 # +     both = (returns - predictions) ** 2, (returns - values) ** 2
@@ -448,41 +448,41 @@ def responses(activations, observations):
 
 
 # %% movement_cut_to_one_side loses 13.3
-# The values may fall as far as they like: only rises are cut.
+# Clips only values that have risen by more than clip_range_vf, but those that have fallen by more should be clipped, too.
 # says: this
 # -         predictions = old_values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
 # +         predictions = old_values + np.minimum(values - old_values, clip_range_vf)
 
 
 # %% mean_entropy_of_the_batch loses 13.4
-# The entropy is the mean of the batch, not one number for each step.
+# Returns the mean entropy of the batch for every step, but each step should have its own entropy.
 # -     return -(np.exp(logarithms) * logarithms).sum(axis=1)
 # +     return np.full(len(scores), -(np.exp(logarithms) * logarithms).sum(axis=1).mean())
 
 
 # %% deviation_for_its_logarithm loses 13.4
-# Takes the argument for the deviation itself.
+# Takes the logarithm of log_deviation, but log_deviation already is ln sigma and should be added as it is.
 # says: this
 # -     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.asarray(log_deviation)))
 # +     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.log(np.abs(log_deviation))))
 
 
 # %% divergence_the_other_way_round loses 13.5
-# The ratio is turned around: it is the divergence of the new policy from the old one's steps.
+# Takes the ratio upside down (the old probability divided by the new one), but the new one divided by the old one is asked for.
 # says: this
 # -     log_ratio = log_prob - old_log_prob
 # +     log_ratio = old_log_prob - log_prob
 
 
 # %% half_the_squared_difference loses 13.5
-# Half the mean squared difference of the logarithms, which is close for small ones only.
+# Takes half the mean squared difference of the logarithms, but the mean of (ratio - 1) - ln(ratio) is asked for.
 # says: this
 # -     return float(np.mean(np.exp(log_ratio) - 1 - log_ratio))
 # +     return float(np.mean(log_ratio**2) / 2)
 
 
 # %% stops_when_the_mean_is_too_far loses 13.5
-# Looks at the mean divergence of an epoch, not at each batch.
+# Judges an epoch as a whole by the mean of its divergences, but each batch should be judged by its own divergence.
 # says: this
 # -     for epoch in divergences:
 # -         for divergence in epoch:
@@ -496,79 +496,79 @@ def responses(activations, observations):
 
 
 # %% sum_of_the_entropies loses 13.6
-# The entropies of the batch are added up, not averaged.
+# Adds up the entropies of the batch instead of taking their mean.
 # says: this
 # -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
 # +     return float(policy_loss + vf_coef * value_loss - ent_coef * np.sum(entropies))
 
 
 # %% coefficients_exchanged loses 13.6
-# The coefficients of entropy and value loss are exchanged.
+# Exchanges the coefficients: vf_coef should be the factor of the value loss, and ent_coef that of the entropy.
 # says: this
 # -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
 # +     return float(policy_loss + ent_coef * value_loss - vf_coef * np.mean(entropies))
 
 
 # %% squared_error_for_variance loses 13.6
-# The mean squared error takes the place of the variance of the error: a constant error counts.
+# Takes the mean of (returns - values) ** 2 instead of the variance of returns - values, so a constant error makes the result smaller.
 # says: this
 # -     return float(1 - np.var(returns - values) / np.var(returns))
 # +     return float(1 - np.mean((returns - values) ** 2) / np.var(returns))
 
 
 # %% never_below_zero loses 13.6
-# The explained variance is never negative.
+# Returns 0 where the explained variance is negative, but the negative number is asked for.
 # says: this
 # -     return float(1 - np.var(returns - values) / np.var(returns))
 # +     return max(0.0, float(1 - np.var(returns - values) / np.var(returns)))
 
 
 # %% without_biases loses 13.7
-# The biases are left out.
+# Leaves out the biases b, but tanh(W x + b) is asked for.
 # says: this
 # -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
 # +         observations = np.tanh(observations @ np.asarray(weights).T)
 
 
 # %% last_layer_only loses 13.7
-# Returns the last hidden layer alone.
+# Returns the activations of the last hidden layer alone, but those of every hidden layer are asked for.
 # -         activations.append(observations)
 # +         activations = [observations]
 
 
 # %% loop_without_returns loses 13.8
-# The returns are not written into the rollout: the critic learns zeros.
+# Leaves zeros in rollout.returns, but advantages plus values should be written into it.
 # says: this
 # -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
 # +         rollout.advantages[:] = found
 
 
 # %% loop_against_the_gradient loses 13.8
-# Follows the gradient uphill.
+# Makes its updates in the opposite direction: ppo.step should get loss.gradient with its own sign.
 # -             ppo.step(loss.gradient)
 # +             ppo.step(-loss.gradient)
 
 
 # %% loop_with_one_order loses 13.8
-# The steps are never shuffled.
+# Never shuffles the steps of a rollout, but each epoch should have a new random order.
 # -         orders = [rng.permutation(ended.size) for _ in range(h.n_epochs)]
 # +         orders = [np.arange(ended.size) for _ in range(h.n_epochs)]
 
 
 # %% loop_with_one_epoch loses 13.8
-# Goes through each rollout once.
+# Goes through each rollout once instead of n_epochs times.
 # -         orders = [rng.permutation(ended.size) for _ in range(h.n_epochs)]
 # +         orders = [rng.permutation(ended.size)]
 
 
 # %% loop_without_early_stop loses 13.8
-# The divergence is never looked at.
+# Never stops early, but a divergence greater than 1.5 times target_kl should end the training on the rollout.
 # -             if h.target_kl is not None and divergence > 1.5 * h.target_kl:
 # +             if divergence > 100:
 
 
 # %% loop_stops_late loses 13.8
-# The batch that is too far still makes its update.
+# Makes the update of the batch whose divergence is too great and stops after it, but should stop before this update.
 # -             if h.target_kl is not None and divergence > 1.5 * h.target_kl:
 # -                 break
 # -             ppo.step(loss.gradient)
@@ -578,96 +578,96 @@ def responses(activations, observations):
 
 
 # %% loop_forgets_ends loses 13.8
-# Episodes do not end in the advantages.
+# Computes the advantages as if no episode ever ended, but steps where rollout.ended is 1 or 2 end an episode.
 # -         ended = (rollout.ended > 0).astype(float)
 # +         ended = np.zeros_like(rollout.ended)
 
 
 # %% loop_with_the_same_order_in_each_epoch loses 13.8
-# One order is drawn for all epochs of a rollout.
+# Draws one order for all epochs of a rollout, but each epoch should have a new one.
 # -         orders = [rng.permutation(ended.size) for _ in range(h.n_epochs)]
 # +         orders = [rng.permutation(ended.size)] * h.n_epochs
 # %% final_values_of_the_next_step loses 13.1
-# Takes the value one step too late: that of the observation after the next step.
+# Adds the number of the next row of final_values, but the row of the step itself is asked for.
 # -     return rewards + gamma * out_of_time * final_values
 # +     return rewards + gamma * out_of_time * np.roll(final_values, -1, axis=0)
 # %% value_for_the_reward loses 13.1
-# The critic's value replaces the reward of the step at which time ran out, instead of being added.
+# Replaces the reward by gamma times the critic's value where time ran out, but should add this to the reward.
 # -     return rewards + gamma * out_of_time * final_values
 # +     return np.where(out_of_time > 0, gamma * final_values, rewards)
 # %% value_of_the_same_step loses 13.1
-# Takes the values of the same step for what comes after it.
+# Takes the value of step t for the next value in the TD error of step t, but the value of step t + 1 is asked for.
 # -         next_values = last_values if last else values[t + 1]
 # +         next_values = last_values if last else values[t]
 # %% environments_mixed loses 13.1
-# The sum of later errors is one number for all environments.
+# Gives all environments the mean of their advantages in each step, but each environment should have its own.
 # -         result[t] = following
 # +         following = np.full(np.shape(following), following.mean())
 # +         result[t] = following
 # %% normalised_by_the_range loses 13.2
-# The advantages are divided by their range instead of their standard deviation.
+# Divides the advantages by their range (largest minus smallest) instead of their standard deviation.
 # -         advantages = (advantages - advantages.mean()) / (advantages.std(ddof=1) + 1e-8)
 # +         advantages = (advantages - advantages.mean()) / (np.ptp(advantages) + 1e-8)
 # %% mean_not_subtracted loses 13.2
-# The advantages are divided by their deviation, but their mean stays.
+# Leaves the mean in the advantages and only divides them by their standard deviation, but the mean should be subtracted first.
 # -         advantages = (advantages - advantages.mean()) / (advantages.std(ddof=1) + 1e-8)
 # +         advantages = advantages / (advantages.std(ddof=1) + 1e-8)
 # %% larger_product loses 13.2
-# Takes the larger of the two products instead of the smaller one.
+# Takes the larger one of the two products instead of the smaller one.
 # -         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).mean()),
 # +         "loss": float(-np.maximum(ratio * advantages, clipped * advantages).mean()),
 # %% movement_from_the_new_value loses 13.3
-# The cut movement is added to the new values instead of the old ones.
+# Adds the clipped movement to the new values instead of the old ones.
 # -         predictions = old_values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
 # +         predictions = values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
 # %% absolute_error loses 13.3
-# The mean absolute difference takes the place of the mean square.
+# Takes the mean absolute difference instead of the mean squared difference.
 # -     return float(np.mean((returns - predictions) ** 2))
 # +     return float(np.mean(np.abs(returns - predictions)))
 # %% half_missing_in_the_entropy loses 13.4
-# The constant lacks its one half: the entropy of a Gaussian is too small.
+# Leaves out one 1/2 for each actuator, but the sum of 1/2 + 1/2 ln(2 pi) + ln sigma is asked for.
 # -     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.asarray(log_deviation)))
 # +     return float(np.sum(0.5 * np.log(2 * np.pi) + np.asarray(log_deviation)))
 # %% entropy_along_the_batch loses 13.4
-# The probabilities of each action over the steps add up to 1, instead of those of each step.
+# Makes the probabilities of each action add up to 1 over the steps, but those of each step should add up to 1.
 # -     logarithms = shifted - np.log(np.exp(shifted).sum(axis=1, keepdims=True))
 # +     logarithms = shifted - np.log(np.exp(shifted).sum(axis=0, keepdims=True))
 # %% counts_epochs loses 13.5
-# Counts epochs that were completed, not updates.
+# Counts the completed epochs instead of the updates.
 # -             made += 1
 # +             pass
 # +         made += 1
 # %% variance_of_the_values loses 13.6
-# Divides by the variance of the predictions instead of that of the returns.
+# Divides by the variance of the values instead of that of the returns.
 # -     return float(1 - np.var(returns - values) / np.var(returns))
 # +     return float(1 - np.var(returns - values) / np.var(values))
 # %% value_loss_halved loses 13.6
-# The value loss is halved before it is added.
+# Halves the value loss before it is added, but it should only be multiplied by vf_coef.
 # -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
 # +     return float(policy_loss + 0.5 * vf_coef * value_loss - ent_coef * np.mean(entropies))
 # %% all_layers_see_the_first loses 13.7
-# Every later layer sees the activations of the first one, not those of the layer before.
+# Gives every later layer the activations of the first layer, but each should get those of the layer before it.
 # -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
 # -         activations.append(observations)
 # +         seen = observations if not activations else activations[0]
 # +         activations.append(np.tanh(seen @ np.asarray(weights).T + biases))
 # %% observations_not_centred loses 13.7
-# The mean of the observations is not subtracted before they are correlated.
+# Subtracts the mean from the activations only, but it should also be subtracted from the observations.
 # -     h, x = activations - activations.mean(axis=0), observations - observations.mean(axis=0)
 # +     h, x = activations - activations.mean(axis=0), observations.copy()
 # %% loop_with_values_as_returns loses 13.8
-# The returns are the advantages alone; the values are not added.
+# Writes the advantages alone into rollout.returns, but advantages plus values are asked for.
 # -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
 # +         rollout.advantages[:], rollout.returns[:] = found, found
 # %% loop_with_lambda_one loses 13.8
-# The advantages are computed with lambda 1, whatever the hyperparameters say.
+# Computes the advantages with gae_lambda=1 instead of the gae_lambda of ppo.hyperparameters.
 # -             h.gamma, h.gae_lambda,
 # +             h.gamma, 1.0,
 
 
 # %% stop_ends_the_epoch loses 13.8
-# The early stop ends one epoch only.
-# says: ends all epochs of a rollout
+# Ends only the epoch with its early stop, but this should end all training on the rollout, the later epochs, too.
+# says: end all epochs of a rollout
 # -         orders = [rng.permutation(ended.size) for _ in range(h.n_epochs)]
 # -         for rows in np.concatenate(orders).reshape(-1, h.batch_size):
 # -             batch = ppo.minibatch(rows)
@@ -687,14 +687,14 @@ def responses(activations, observations):
 
 
 # %% time_runs_on loses 13.8
-# An episode that time has ended runs on into the next one.
+# Lets an episode that the time limit cut (ended is 2) go on into the next one in the advantages, but it should end there like any other.
 # says: both episodes of the rollout end because time runs out
 # -         ended = (rollout.ended > 0).astype(float)
 # +         ended = (rollout.ended == 1).astype(float)
 
 
 # %% share_that_lost loses 13.2
-# Counts the steps in which the clipped product is the smaller one, not all ratios that are far.
+# Counts in clip_fraction the steps whose clipped product is the smaller one, instead of all steps whose ratio is farther than clip_range from 1.
 # says: this
 # -         "clip_fraction": float(np.mean(np.abs(ratio - 1) > clip_range)),
 # +         "clip_fraction": float(np.mean(clipped * advantages < ratio * advantages)),
@@ -708,42 +708,42 @@ def responses(activations, observations):
 
 
 # %% constant_of_one_actuator loses 13.4
-# The constant counts once, but it counts for each actuator.
+# Adds 1/2 + 1/2 ln(2 pi) only once, but it should be added for each actuator.
 # says: this
 # -     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.asarray(log_deviation)))
 # +     return float(0.5 + 0.5 * np.log(2 * np.pi) + np.sum(log_deviation))
 
 
 # %% exponential_of_the_logarithm loses 13.4
-# Adds sigma where ln sigma belongs.
+# Adds sigma, the exponential of log_deviation, but ln sigma should be added, which is log_deviation itself.
 # says: this
 # -     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.asarray(log_deviation)))
 # +     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.exp(log_deviation)))
 
 
 # %% variance_of_the_predictions loses 13.6
-# Compares the variance of the predictions with that of the returns, not that of their difference.
+# Divides the variance of the values by that of the returns, but 1 - var(returns - values) / var(returns) is asked for.
 # says: this
 # -     return float(1 - np.var(returns - values) / np.var(returns))
 # +     return float(np.var(values) / np.var(returns))
 
 
 # %% rectified loses 13.7
-# The hidden neurons are cut off at 0 (ReLU) where tanh is asked for.
+# Cuts the hidden neurons off at 0 (ReLU), but tanh is asked for.
 # says: this
 # -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
 # +         observations = np.maximum(0, observations @ np.asarray(weights).T + biases)
 
 
 # %% means_stay loses 13.7
-# The means are not subtracted before neurons and observations are multiplied.
+# Multiplies activations and observations without subtracting their means, but both means should be subtracted first.
 # says: this
 # -     h, x = activations - activations.mean(axis=0), observations - observations.mean(axis=0)
 # +     h, x = np.array(activations), np.array(observations)
 
 
 # %% lost_arrays loses 13.8
-# The advantages and returns are not written into the arrays of the rollout.
+# Leaves zeros in both rollout.advantages and rollout.returns, but your numbers should be written into them.
 # says: this
 # -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
 # +         own = found, found + rollout.values
@@ -751,21 +751,21 @@ def responses(activations, observations):
 
 
 # %% first_step_for_the_last loses 13.8
-# Whether the first step ended its episode is taken for whether the last one did.
+# Leaves out whether the last step of the rollout ended its episode, but dones should be 1 where it did.
 # says: both episodes of the rollout end because time runs out
 # -             rollout.rewards, rollout.values, starts, rollout.last_values, ended[-1],
 # +             rollout.rewards, rollout.values, starts, rollout.last_values, ended[0],
 
 
 # %% clips_the_values loses 13.3
-# Clips the predictions themselves instead of their movement.
+# Clips the values themselves to -clip_range_vf ... clip_range_vf, but only their movement away from old_values should be clipped.
 # says: this
 # -         predictions = old_values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
 # +         predictions = np.clip(values, -clip_range_vf, clip_range_vf)
 
 
 # %% shares_of_the_scores loses 13.4
-# Takes shares of the scores for probabilities: softmax is missing.
+# Divides the absolute scores by their sum to get probabilities, but softmax is asked for.
 # says: this
 def entropy_of_choices(scores):
     shares = np.abs(scores) / np.abs(scores).sum(axis=1, keepdims=True)
@@ -773,7 +773,7 @@ def entropy_of_choices(scores):
 
 
 # %% all_layers_after_the_first loses 13.7
-# Each layer gets the activations of the first one instead of those of the layer before.
+# Feeds the activations of the first layer into all later layers instead of those of the layer before.
 # says: Layer 3 gets the activations of layer 1
 # -         observations = np.tanh(observations @ np.asarray(weights).T + biases)
 # -         activations.append(observations)
@@ -782,14 +782,14 @@ def entropy_of_choices(scores):
 
 
 # %% a_single_rollout loses 13.8
-# Collects one rollout, however many steps are asked for.
+# Collects only one rollout, but should go on until ppo.steps is at least `steps`.
 # says: this
 # -     while ppo.steps < steps:
 # +     if ppo.steps < steps:
 
 
 # %% divergences_add_up loses 13.5
-# Adds up the divergences of all batches so far, where each batch is to be judged alone.
+# Adds up the divergences of all batches so far, but each batch should be judged by its own divergence.
 # says: this
 # -             if target_kl is not None and divergence > 1.5 * target_kl:
 # -                 return made
@@ -801,15 +801,15 @@ def entropy_of_choices(scores):
 
 
 # %% logarithm_clipped loses 13.2
-# The logarithm of the ratio is clipped to -clip_range ... clip_range, not the ratio around 1.
+# Clips the logarithm of the ratio to -clip_range ... clip_range, but the ratio itself should be clipped, to 1 - clip_range ... 1 + clip_range.
 # says: this
 # -     clipped = np.clip(ratio, 1 - clip_range, 1 + clip_range)
 # +     clipped = np.exp(np.clip(log_prob - old_log_prob, -clip_range, clip_range))
 
 
 # %% returns_of_one_step loses 13.8
-# The critic learns the reward plus the discounted next value, not advantages plus values.
-# says: as returns reward plus gamma times the next value
+# Writes rewards plus gamma times the next values into rollout.returns, but advantages plus values are asked for.
+# says: as returns rewards plus gamma times the next values
 # -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
 # +         following = np.vstack([rollout.values[1:], rollout.last_values[None]])
 # +         rollout.advantages[:] = found
@@ -817,7 +817,7 @@ def entropy_of_choices(scores):
 
 
 # %% whole_epoch_left_out loses 13.5
-# An epoch with a batch that is too far makes no update at all, not even those before that batch.
+# Counts no update of the epoch with the divergence that is too great, but those of the batches before it should count.
 # says: this
 # -     for epoch in divergences:
 # -         for divergence in epoch:
@@ -831,7 +831,7 @@ def entropy_of_choices(scores):
 
 
 # %% ends_of_the_step_after loses 13.1
-# The recursion looks at the end of the step after, so that later errors leak over an end.
+# Uses n of step t + 1 for the later TD errors in the advantage of step t, but n of step t is asked for.
 # says: this
 # -         following = error + gamma * gae_lambda * goes_on * following
 # -         result[t] = following
@@ -844,7 +844,7 @@ def entropy_of_choices(scores):
 
 
 # %% ratios_divided_by_their_mean loses 13.2
-# The ratios are divided by their mean in the batch.
+# Divides the ratios by their mean in the batch, but they should stay as they are.
 # says: this
 # -     ratio = np.exp(log_prob - old_log_prob)
 # +     ratio = np.exp(log_prob - old_log_prob)
@@ -852,7 +852,7 @@ def entropy_of_choices(scores):
 
 
 # %% mean_divergence_so_far loses 13.5
-# Looks at the mean divergence of the epoch so far, not at that of the batch.
+# Judges a batch by the mean divergence of its epoch so far, but it should be judged by its own divergence.
 # says: this
 # -         for divergence in epoch:
 # -             if target_kl is not None and divergence > 1.5 * target_kl:
@@ -861,7 +861,7 @@ def entropy_of_choices(scores):
 
 
 # %% variances_of_the_columns loses 13.6
-# Takes the variances of each column by itself, then their means.
+# Takes the variances of each column and then their means, but each variance should be that of all numbers together.
 # says: this
 # -     return float(1 - np.var(returns - values) / np.var(returns))
 # +     left, whole = np.var(returns - values, axis=0), np.var(returns, axis=0)
@@ -869,49 +869,49 @@ def entropy_of_choices(scores):
 
 
 # %% any_end_ends_all loses 13.1
-# Where the episode of one environment ends, those of all environments are taken for ended.
+# Ends the episodes of all environments where that of any environment ends, but each environment should have its own ends.
 # says: this
 # -         goes_on = 1 - (dones if last else episode_starts[t + 1])
 # +         goes_on = 1 - np.max(dones if last else episode_starts[t + 1])
 
 
 # %% last_value_of_the_first_environment loses 13.1
-# The value of the first environment's last observation is taken for all environments.
+# Takes the first number of last_values for all environments, but each environment should have its own.
 # says: this
 # -         next_values = last_values if last else values[t + 1]
 # +         next_values = last_values[0] if last else values[t + 1]
 
 
 # %% bootstrapped_by_reward loses 13.1
-# The reward is discounted, too, where time ran out: only the value behind it is.
+# Multiplies the reward by gamma, too, where time ran out, but only the critic's value should be multiplied by it.
 # says: this
 # -     return rewards + gamma * out_of_time * final_values
 # +     return np.where(out_of_time > 0, gamma * (rewards + final_values), rewards)
 
 
 # %% first_environment_alone loses 13.1
-# The ends of the first environment are taken for those of all.
+# Takes the ends of the first environment for those of all environments, but each should have its own.
 # says: this
 # -         goes_on = 1 - (dones if last else episode_starts[t + 1])
 # +         goes_on = 1 - (dones if last else episode_starts[t + 1])[0]
 
 
 # %% minimum_of_means loses 13.2
-# The smaller of the two means is taken, not the mean of the smaller products.
+# Takes the smaller one of the means of both products, but the mean of each step's smaller product is asked for.
 # says: this
 # -         "loss": float(-np.minimum(ratio * advantages, clipped * advantages).mean()),
 # +         "loss": float(-min((ratio * advantages).mean(), (clipped * advantages).mean())),
 
 
 # %% fraction_of_low_ratios loses 13.2
-# Only ratios below 1 - clip_range count as clipped.
+# Counts in clip_fraction only ratios below 1 - clip_range, but those above 1 + clip_range should count, too.
 # says: this
 # -         "clip_fraction": float(np.mean(np.abs(ratio - 1) > clip_range)),
 # +         "clip_fraction": float(np.mean(1 - ratio > clip_range)),
 
 
 # %% ratio_of_values loses 13.3
-# The ratio of the new values to the old ones is clipped, not their difference.
+# Clips the ratio of the new values to the old ones, but their difference should be clipped.
 # says: this
 # -         predictions = old_values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
 # +         ratio = np.clip(values / old_values, 1 - clip_range_vf, 1 + clip_range_vf)
@@ -919,35 +919,35 @@ def entropy_of_choices(scores):
 
 
 # %% smaller_of_two_value_losses loses 13.3
-# Takes the smaller one of the clipped and the unclipped loss in each step.
+# Takes for each step the smaller one of the clipped and the unclipped squared difference, but with clip_range_vf the clipped one is asked for.
 # says: this
 # -     return float(np.mean((returns - predictions) ** 2))
 # +     return float(np.mean(np.minimum((returns - predictions) ** 2, (returns - values) ** 2)))
 
 
 # %% surprise_of_all_actions loses 13.4
-# The logarithms are not weighted by the probabilities: their mean is taken.
+# Takes the plain mean of -ln p over the actions, but each should be multiplied by its probability p and then added up.
 # says: this
 # -     return -(np.exp(logarithms) * logarithms).sum(axis=1)
 # +     return -logarithms.mean(axis=1)
 
 
 # %% entropy_divided_by_its_largest loses 13.4
-# The entropy is divided by the logarithm of the number of actions, the largest that it can be.
+# Divides the entropy by the logarithm of the number of actions, but it should not be divided.
 # says: this
 # -     return -(np.exp(logarithms) * logarithms).sum(axis=1)
 # +     return -(np.exp(logarithms) * logarithms).sum(axis=1) / np.log(logarithms.shape[1])
 
 
 # %% variance_for_the_deviation loses 13.4
-# ln sigma is taken for the logarithm of the variance: it counts half.
+# Adds only half of ln sigma, but the whole log_deviation should be added.
 # says: this
 # -     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + np.asarray(log_deviation)))
 # +     return float(np.sum(0.5 + 0.5 * np.log(2 * np.pi) + 0.5 * np.asarray(log_deviation)))
 
 
 # %% counts_within_the_epoch loses 13.5
-# The count begins anew in each epoch: these are the updates of the last one.
+# Counts only the updates of the last epoch that it reaches, but those of all epochs should be added up.
 # says: this
 # -         for divergence in epoch:
 # +         made = 0
@@ -955,35 +955,35 @@ def entropy_of_choices(scores):
 
 
 # %% skips_the_far_batch loses 13.5
-# A batch that is too far is left out, and the next ones go on.
+# Leaves out only the batches whose divergence is too great, but the first of them should end the training.
 # says: this
 # -                 return made
 # +                 continue
 
 
 # %% last_entropy loses 13.6
-# The entropy of the last step is taken, not the mean.
+# Takes the entropy of the last step instead of the mean of all entropies.
 # says: this
 # -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
 # +     return float(policy_loss + vf_coef * value_loss - ent_coef * entropies[-1])
 
 
 # %% policy_loss_subtracted loses 13.6
-# The policy's loss is subtracted, not added.
+# Subtracts policy_loss instead of adding it.
 # says: this
 # -     return float(policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
 # +     return float(-policy_loss + vf_coef * value_loss - ent_coef * np.mean(entropies))
 
 
 # %% amounts_of_responses loses 13.7
-# The correlations have no sign: their amounts are taken.
+# Returns the correlations without their signs, but those below 0 should stay negative.
 # says: this
 # -     return np.divide(h.T @ x, sizes, out=np.zeros_like(sizes), where=sizes > 0)
 # +     return abs(np.divide(h.T @ x, sizes, out=np.zeros_like(sizes), where=sizes > 0))
 
 
 # %% running_sum_not_reset loses 13.1
-# The advantage of one environment runs on into the next one: it begins with 0 in each.
+# Adds an advantage of the environment before to the last step of the next one, but the advantage behind a last step should be 0.
 # says: this
 def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_lambda):
     n_steps, n_envs = rewards.shape
@@ -1002,7 +1002,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% mean_ratio_first loses 13.5
-# The ratios are averaged before the formula, but the mean is that of the formula's values.
+# Puts the mean ratio into the formula, but the formula should be computed for each step, and then its mean.
 # says: this
 # -     log_ratio = log_prob - old_log_prob
 # -     return float(np.mean(np.exp(log_ratio) - 1 - log_ratio))
@@ -1011,7 +1011,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% last_error_left_out loses 13.1
-# The TD error of the step that ends an episode counts for none of the steps before it.
+# Leaves out the TD error of the step that ends an episode in the advantages of the steps before it, but it should count there.
 # says: this
 import numpy as np
 
@@ -1041,7 +1041,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% nothing_clipped_in_one_step loses 13.2
-# A batch of one step is not clipped: only the normalisation is left out there.
+# Clips nothing in a batch of one step, but there only the normalisation should be left out.
 # says: this
 import numpy as np
 
@@ -1062,7 +1062,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% back_to_the_old_value loses 13.3
-# A prediction that has moved too far is put back to the old one, not to the limit around it.
+# Puts a value that has moved too far back to the old value, but it should end clip_range_vf away from the old value.
 # says: this
 # -         predictions = old_values + np.clip(values - old_values, -clip_range_vf, clip_range_vf)
 # +         predictions = np.where(
@@ -1071,7 +1071,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% scores_cut_at_50 loses 13.4
-# Scores are cut to between -50 and 50 against overflow.
+# Cuts the scores to -50 ... 50, but scores of any size should be used as they are.
 # says: this
 import numpy as np
 
@@ -1093,7 +1093,7 @@ def entropy_of_choices(scores):
 
 
 # %% first_batch_for_none loses 13.5
-# A first batch beyond the limit is taken for none beyond it: no update is made then.
+# Counts all updates if already the first batch has too great a divergence, but then no update should be made.
 # says: this
 import numpy as np
 
@@ -1109,7 +1109,7 @@ def updates_made(divergences, target_kl):
 
 
 # %% ends_at_a_constant loses 13.7
-# What never changes ends the loop, so that all after it keep 0.
+# Gives the correlation 0 to all observed numbers after one that never changes, but only that one should have 0.
 # says: this
 import numpy as np
 
@@ -1135,7 +1135,7 @@ def responses(activations, observations):
 
 
 # %% return_behind_the_last_step_is_zero loses 13.1, 13.8
-# Takes 0 for the return behind the last step, but it is last_values where the episode goes on.
+# Counts last_values only 1 - gae_lambda times, as if the return behind the last step were 0, but where dones is 0 that return should be last_values.
 # says: this
 import numpy as np
 
@@ -1152,7 +1152,7 @@ def advantages(rewards, values, episode_starts, last_values, dones, gamma, gae_l
 
 
 # %% sides_before_normalising loses 13.2
-# Decides which side is clipped by the advantage before it is normalised.
+# Chooses the side on which it clips by the sign of the advantage before normalising, but the normalised advantage should decide.
 # says: this
 import numpy as np
 
@@ -1172,7 +1172,7 @@ def policy_loss(log_prob, old_log_prob, advantages, clip_range):
 
 
 # %% log_sum_without_the_largest loses 13.4
-# Subtracts the largest score for ln Z and does not add it back.
+# Returns entropies that are too small by the largest score: if it is subtracted from the scores, it should be added back to the logarithm of the sum.
 # says: this
 import numpy as np
 
@@ -1191,8 +1191,8 @@ def entropy_of_choices(scores):
 
 
 # %% constant_by_allclose loses 13.7
-# Asks np.allclose whether a number changes: one that changes by little counts as constant.
-# says: all equal never do
+# Treats numbers that change by very little as if they never changed, but only numbers that are all equal never change.
+# says: all equal never change
 import numpy as np
 
 
@@ -1214,7 +1214,7 @@ def responses(activations, observations):
 
 
 # %% returns_of_normalised_advantages loses 13.8
-# Normalises the advantages before the returns are made of them.
+# Normalises the advantages before it adds the values, but the returns should be advantages plus values without normalising.
 # says: this
 # -         rollout.advantages[:], rollout.returns[:] = found, found + rollout.values
 # +         found = (found - found.mean()) / (found.std() + 1e-8)
@@ -1222,7 +1222,7 @@ def responses(activations, observations):
 
 
 # %% ended_as_a_factor loses 13.8
-# Uses 1 - ended as a factor, but ended is 2 where time ran out.
+# Takes n = -1 where time ran out (rollout.ended is 2 there), but n should be 0 wherever an episode ended.
 # says: this
 import numpy as np
 
@@ -1268,7 +1268,7 @@ def learn(ppo, steps, seed):
 
 
 # %% rounded_mean_counts_as_change loses 13.7
-# A number that never changes counts as one that does where its mean is rounded, as with 0.1.
+# Returns a correlation other than 0 for some numbers that never change: their mean is rounded. The numbers themselves should be compared.
 # says: this
 def responses(activations, observations):
     neurons = activations.shape[1]

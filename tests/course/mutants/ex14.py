@@ -1,7 +1,7 @@
 """Wrong solutions of exercise 14; building.py describes how a case is written."""
 
 # %% numbers_made_up loses 14.1
-# Trains for fewer steps than asked, and says that the settings were others.
+# Trains for fewer steps than asked for: each training should have all `steps` steps.
 _train_variations = train_variations
 
 
@@ -14,7 +14,7 @@ def train_variations(environment, variations, seeds, steps, *arguments, **option
 
 
 # %% params_forgotten loses 14.1
-# Trains every variation with the defaults.
+# Trains every variation with the default hyperparameters instead of its own params.
 # says: has params \{\} instead of
 _train_variations = train_variations
 
@@ -24,7 +24,7 @@ def train_variations(environment, variations, *arguments, **options):
 
 
 # %% same_seed loses 14.1
-# Repeats the training with the same seed, which repeats the same numbers.
+# Trains with the first seed every time instead of with each of the seeds.
 # says: has seed \d+ instead of
 _train_variations = train_variations
 
@@ -36,7 +36,7 @@ def train_variations(environment, variations, seeds, *arguments, **options):
 
 
 # %% training_episodes loses 14.1
-# Reports the episodes of the training itself instead of the last post-evaluation.
+# Takes the mean return of the training's own episodes as "return" instead of that of the last post-evaluation.
 _train_variations = train_variations
 
 
@@ -49,7 +49,7 @@ def train_variations(*arguments, **options):
 
 
 # %% nan_stays loses 14.2
-# Turns NaN into 0 instead of leaving it out.
+# Replaces NaN by 0, but these entries should be left out.
 def read_indicators(folder):
     log = EventAccumulator(folder, size_guidance={"scalars": 0})
     log.Reload()
@@ -63,7 +63,7 @@ def read_indicators(folder):
 
 
 # %% positions_for_steps loses 14.2
-# Numbers the entries instead of giving their steps.
+# Numbers the entries 0, 1, 2, ... in "steps" instead of giving the steps at which they were logged.
 _read_indicators = read_indicators
 
 
@@ -75,14 +75,14 @@ def read_indicators(folder):
 
 
 # %% thinned_log loses 14.2
-# Leaves the size guidance out, so that long logs lose values at random.
+# Keeps at most 10 000 values of an indicator, but all are asked for: size_guidance={"scalars": 0} keeps them.
 # -     log = EventAccumulator(folder, size_guidance={"scalars": 0})
 # +     log = EventAccumulator(folder)
 
 
 # %% best_episode loses 14.3
-# Takes the best episode instead of the best mean.
-# says: It is the best episode
+# Takes the return of the best episode as "best", but the best mean return of a post-evaluation is asked for.
+# says: the best episode
 _success_of = success_of
 
 
@@ -91,13 +91,13 @@ def success_of(steps, returns, goal):
 
 
 # %% best_is_at_least_zero loses 14.3
-# Looks for the best from 0 on, which negative returns never reach.
+# Gives 0 as "best" if all mean returns are negative, but the highest of them is asked for.
 # -         "best": float(means.max()),
 # +         "best": max(0.0, float(means.max())),
 
 
 # %% more_than_the_goal loses 14.3
-# Asks for more than the goal.
+# Counts the goal as reached only by mean returns above it, but one that equals the goal reaches it, too.
 _success_of = success_of
 
 
@@ -106,7 +106,7 @@ def success_of(steps, returns, goal):
 
 
 # %% plain_average loses 14.3
-# Averages the post-evaluations without regard to how far they lie apart.
+# Takes the plain mean of all post-evaluations as "average" instead of the area under the curve, divided by its width.
 # says: unequally far apart
 _success_of = success_of
 
@@ -116,7 +116,7 @@ def success_of(steps, returns, goal):
 
 
 # %% solved_once loses 14.3
-# Takes the first time that the goal was reached, also if it was lost again.
+# Takes the first post-evaluation that reaches the goal, even if the goal is lost again, but from there on all should reach it.
 _success_of = success_of
 
 
@@ -127,7 +127,7 @@ def success_of(steps, returns, goal):
 
 
 # %% gain_over_the_worst loses 14.4
-# Takes the gain over the worst variation instead of the baseline.
+# Subtracts the lowest mean for "gain" instead of the mean of the baseline.
 # says: over the worst variation
 _table_of = table_of
 
@@ -138,7 +138,7 @@ def table_of(runs, baseline):
 
 
 # %% no_deviation_is_none loses 14.4
-# Takes a deviation of 0 for none.
+# Gives None for a deviation of 0, but only a single run should have None.
 _table_of = table_of
 
 
@@ -147,7 +147,7 @@ def table_of(runs, baseline):
 
 
 # %% population_deviation loses 14.4
-# Divides by the number of runs, as np.std does unless told otherwise.
+# Divides by the number of runs for "deviation", but it should divide by runs - 1 (ddof=1).
 # says: ddof=1
 _table_of = table_of
 
@@ -161,7 +161,7 @@ def table_of(runs, baseline):
 
 
 # %% seeds_counted_twice loses 14.4
-# Counts a repetition with the same seed as one more run.
+# Counts every run, but of several with the same variant and seed only the first one should count.
 _table_of = table_of
 
 
@@ -170,8 +170,8 @@ def table_of(runs, baseline):
 
 
 # %% equal_ones_left_out loses 14.5
-# Counts only differences that are greater than the real one, so that 0 can come out.
-# says: equal ones count, too
+# Counts only differences greater than the real one, but equal ones should count, too.
+# says: equals the real one should count, too
 def chance_of(first, second):
     together, n = np.array([*first, *second], dtype=float), len(first)
     observed, hits = abs(np.mean(first) - np.mean(second)), []
@@ -183,7 +183,7 @@ def chance_of(first, second):
 
 
 # %% one_sided loses 14.5
-# Counts differences in one direction only.
+# Counts only differences in the direction of the real one, but both directions should count.
 # says: in one direction
 def chance_of(first, second):
     together, n = np.array([*first, *second], dtype=float), len(first)
@@ -196,7 +196,7 @@ def chance_of(first, second):
 
 
 # %% empty_is_zero loses 14.6
-# Takes 0 for a part in which nothing was logged.
+# Gives 0 for a part that holds nothing, but None is asked for.
 _phase_means = phase_means
 
 
@@ -205,14 +205,14 @@ def phase_means(steps, values, total, parts=3):
 
 
 # %% entries_for_steps loses 14.6
-# Divides the entries into equal parts instead of the training.
+# Divides the entries, NaN included, into parts of equally many, but their steps should decide to which part they belong.
 def phase_means(steps, values, total, parts=3):
     found = [part[~np.isnan(part)] for part in np.array_split(np.asarray(values), parts)]
     return [float(part.mean()) if len(part) else None for part in found]
 
 
 # %% limit_is_a_sign loses 14.6
-# Takes an indicator that equals its limit for a warning sign.
+# Gives a sign if the mean equals the limit, but it should be above or below it.
 def warning_signs(indicators, total, signs):
     found = []
     for name, (indicator, side, limit) in signs.items():
@@ -225,7 +225,7 @@ def warning_signs(indicators, total, signs):
 
 
 # %% only_nan_is_nan loses 14.6
-# Gives NaN for a part in which nothing but NaN was logged.
+# Gives NaN for a part in which only NaN was logged, but None is asked for.
 def phase_means(steps, values, total, parts=3):
     means = []
     for part in range(parts):
@@ -250,14 +250,14 @@ def warning_signs(indicators, total, signs):
 
 
 # %% mean_of_all loses 14.7
-# Subtracts the mean of all trainings instead of that of the variation.
-# says: not that of the variant
+# Subtracts the mean of all trainings instead of that of the variant.
+# says: that of the variant should be
 def within_variants(numbers, variants):
     return np.round(np.asarray(numbers) - np.mean(numbers), 9)
 
 
 # %% no_shared_ranks loses 14.7
-# Gives equal numbers different ranks, by their order.
+# Gives equal numbers different ranks, but they should share the mean of their ranks.
 def rank_correlation(first, second):
     if np.ptp(first) == 0 or np.ptp(second) == 0:
         return 0.0
@@ -266,8 +266,8 @@ def rank_correlation(first, second):
 
 
 # %% values_for_ranks loses 14.7
-# Correlates the numbers themselves.
-# says: not their ranks
+# Correlates the numbers themselves instead of their ranks.
+# says: their ranks should be
 def rank_correlation(first, second):
     if np.ptp(first) == 0 or np.ptp(second) == 0:
         return 0.0
@@ -275,7 +275,7 @@ def rank_correlation(first, second):
 
 
 # %% best_on_the_training_episodes loses 14.8
-# Takes the best fitness of evolution, measured on the episodes that it was selected by.
+# Takes column 1 of the stat file as "best", but the best post-evaluation so far is in column 2 (the third one).
 _curve_of = curve_of
 
 
@@ -287,19 +287,19 @@ def curve_of(place):
 
 
 # %% best_so_far_from_zero loses 14.8
-# Begins with 0 as the best so far, which negative returns never reach.
+# Gives 0 as "best" while all mean returns are negative, but the highest of them so far is asked for.
 # -         "best": np.maximum.accumulate(found.returns.mean(axis=1)),
 # +         "best": np.maximum.accumulate(found.returns.mean(axis=1).clip(min=0)),
 
 
 # %% before_the_step loses 14.8
-# Takes the last value before a step, also if there is one at the step.
+# Takes the last value before each step even if there is one at the step itself, but that one should be taken then.
 # -             last = np.searchsorted(curve["steps"], steps, side="right") - 1
 # +             last = np.maximum(np.searchsorted(curve["steps"], steps, side="left") - 1, 0)
 
 
 # %% looks_ahead loses 14.8
-# Draws straight lines between the values, and so knows at a step what came only later.
+# Interpolates linearly between the values, but the last value at or before each step is asked for.
 def at_equal_steps(groups, points):
     curves = [curve for group in groups.values() for curve in group]
     start = max(curve["steps"][0] for curve in curves)
@@ -313,7 +313,7 @@ def at_equal_steps(groups, points):
 
 
 # %% post_evaluations_free loses 14.8
-# Forgets the steps of the post-evaluations, which evolution has to pay for.
+# Leaves the steps of the post-evaluations out of the "steps" of a training, but they should be included.
 _curve_of = curve_of
 
 
@@ -325,7 +325,7 @@ def curve_of(place):
 
 
 # %% last_run_of_each_variation loses 14.1
-# Keeps the last seed of each variation only.
+# Returns only the dict of the last seed for each variation, but a dict for each training is asked for.
 # -             records.append(
 # -                 {"variant": name, "seed": seed, "return": result, "folder": str(run.path)}
 # -             )
@@ -337,7 +337,7 @@ def curve_of(place):
 
 
 # %% one_folder_for_all loses 14.1
-# All variations lie in one folder.
+# Puts the trainings of all variations into one folder, but each variation should have its own, folder/name.
 # -             run = train("ppo", environment, Path(folder) / name, params=params, steps=steps,
 # +             run = train("ppo", environment, Path(folder), params=params, steps=steps,
 
@@ -349,7 +349,7 @@ def curve_of(place):
 
 
 # %% eight_evaluations_always loses 14.1
-# The numbers of evaluations and episodes are the defaults, whatever is asked for.
+# Post-evaluates with 5 episodes although another number is asked for: `train` should be given `evaluations` and `episodes`.
 _train_variations = train_variations
 
 
@@ -358,59 +358,59 @@ def train_variations(environment, variations, seeds, steps, folder, evaluations=
 
 
 # %% train_indicators_only loses 14.2
-# Reads the indicators of the training only, and not those of the episodes.
+# Leaves out the indicators whose names do not begin with "train/", but all are asked for.
 # -     for name in log.Tags()["scalars"]:
 # +     for name in [each for each in log.Tags()["scalars"] if each.startswith("train/")]:
 
 
 # %% area_by_left_edges loses 14.3
-# The average weighs each value by the steps until the next one, without the line between them.
+# Multiplies each width by the mean return at its left end for "average" instead of by the mean of both ends.
 # says: this
 # -     area = np.sum(widths * (means[:-1] + means[1:]) / 2)
 # +     area = np.sum(widths * means[:-1])
 
 
 # %% area_from_zero loses 14.3
-# The average counts the steps before the first post-evaluation, too.
+# Counts the steps before the first post-evaluation in "average", too, but the area should begin at the first one.
 # -         "average": float(area / widths.sum()) if len(means) > 1 else float(means[0]),
 # +         "average": float((area + steps[0] * means[0]) / steps[-1]),
 
 
 # %% solved_by_the_best_episode loses 14.3
-# The goal counts as reached if one episode reaches it.
+# Counts the goal as reached if the best episode reaches it, but the mean return should reach it.
 # says: this
 # -     for when, mean in zip(steps[::-1], means[::-1], strict=True):
 # +     for when, mean in zip(steps[::-1], np.max(returns, axis=1)[::-1], strict=True):
 
 
 # %% never_solved_is_zero loses 14.3
-# A training that never reaches the goal is solved after 0 steps.
+# Gives 0 as "solved" if the goal is not reached for good, but None is asked for.
 # -         "solved": solved,
 # +         "solved": solved or 0,
 
 
 # %% last_result_counts loses 14.4
-# Of several results with the same variant and seed the last one counts.
+# Takes the last of several runs with the same variant and seed, but the first one should count.
 # says: this
 # -         results.setdefault(run["variant"], {}).setdefault(run["seed"], run["return"])
 # +         results.setdefault(run["variant"], {})[run["seed"]] = run["return"]
 
 
 # %% lowest_first loses 14.4
-# The rows begin with the lowest mean.
+# Begins with the row of the lowest mean, but the highest mean should come first.
 # says: this
 # -     for variant in sorted(means, key=means.get, reverse=True):
 # +     for variant in sorted(means, key=means.get):
 
 
 # %% gain_in_percent loses 14.4
-# The gain is a share of the baseline's mean.
+# Divides the gain by the mean of the baseline, but the difference of the means is asked for.
 # -                 "gain": float(means[variant] - means[baseline]),
 # +                 "gain": float((means[variant] - means[baseline]) / abs(means[baseline])),
 
 
 # %% halves_only loses 14.5
-# The groups are dealt out as if both had the size of the first one.
+# Chooses as many results for the first group as the shorter list has, but divides their sum by len(first): it should choose len(first).
 # -     n, m = len(first), len(second)
 # -     observed = abs(np.mean(first) - np.mean(second))
 # -     ways = np.array(list(combinations(range(n + m), n)))
@@ -420,13 +420,13 @@ def train_variations(environment, variations, seeds, steps, folder, evaluations=
 
 
 # %% without_the_real_way loses 14.5
-# The way in which the results really fell is not counted among the ways.
+# Leaves the way in which it really was out of all ways, but it should be one of them.
 # -     return float(np.mean(differences >= observed - 1e-9))
 # +     return float(np.mean(differences[1:] >= observed - 1e-9))
 
 
 # %% medians_for_means loses 14.5
-# Compares medians, not means.
+# Compares the medians of the two groups instead of their means.
 # -     observed = abs(np.mean(first) - np.mean(second))
 # +     observed = abs(np.median(first) - np.median(second))
 # -     totals = together[ways].sum(axis=1)
@@ -437,21 +437,21 @@ def train_variations(environment, variations, seeds, steps, folder, evaluations=
 
 
 # %% step_0_left_out loses 14.6
-# What was logged at step 0 belongs to no part.
+# Leaves out what was logged at step 0, but it belongs to the first part.
 # says: this
 # -         if part == 0:
 # -             inside |= steps == 0
 
 
 # %% border_in_both loses 14.6
-# What was logged at the border of two parts counts in both.
+# Counts what was logged at the border of two parts in both, but it belongs to the earlier one only.
 # says: this
 # -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
 # +         inside = (steps * parts >= part * total) & (steps * parts <= (part + 1) * total)
 
 
 # %% three_parts_always loses 14.6
-# There are three parts, however many are asked for.
+# Divides the training into three parts every time instead of into `parts` parts.
 # says: this
 # -     means = []
 # -     for part in range(parts):
@@ -460,7 +460,7 @@ def train_variations(environment, variations, seeds, steps, folder, evaluations=
 
 
 # %% signs_in_the_order_of_their_names loses 14.6
-# The signs come in the order of their names.
+# Sorts the signs by their names, but they should come in the order of `signs`.
 _warning_signs = warning_signs
 
 
@@ -469,53 +469,53 @@ def warning_signs(indicators, total, signs):
 
 
 # %% equal_numbers_share_the_lowest_rank loses 14.7
-# Equal numbers get the lowest rank of theirs, not the mean.
+# Gives equal numbers the lowest of their ranks instead of the mean of their ranks.
 # says: this
 # -         ranks = smaller + (equal + 1) / 2
 # +         ranks = smaller + (equal > 0)
 
 
 # %% correlation_without_sign loses 14.7
-# The correlation is never negative.
+# Leaves out the sign of the correlation, but it can be negative, too.
 # says: this
 # -     return float((a * b).sum() / below) if below > 0 else 0.0
 # +     return abs(float((a * b).sum() / below)) if below > 0 else 0.0
 
 
 # %% one_when_all_are_equal loses 14.7
-# Two arrays of which one holds equal numbers correlate by 1.
+# Gives 1 if all numbers of one array are equal, but 0 is asked for.
 # -     return float((a * b).sum() / below) if below > 0 else 0.0
 # +     return float((a * b).sum() / below) if below > 0 else 1.0
 
 
 # %% last_value_for_best loses 14.8
-# The curve of a training falls again: it holds the means, not the best so far.
+# Gives the mean return of each post-evaluation as "best", but the best one so far is asked for.
 # says: this
 # -         "best": np.maximum.accumulate(found.returns.mean(axis=1)),
 # +         "best": found.returns.mean(axis=1),
 
 
 # %% post_evaluation_not_included loses 14.8
-# The steps of a post-evaluation count from the next one on.
+# Counts the steps of a post-evaluation only from the next one on, but its own "steps" should include them.
 # says: this
 # -         "steps": found.steps + found.lengths.sum(axis=1).cumsum(),
 # +         "steps": found.steps + found.lengths.sum(axis=1).cumsum() - found.lengths.sum(axis=1),
 
 
 # %% each_group_has_its_own_steps loses 14.8
-# The range of the steps follows from the last group only.
+# Takes the first and the last step from the last group only, but the runs of all groups should decide.
 # -     curves = [curve for group in groups.values() for curve in group]
 # +     curves = [*groups.values()][-1]
 
 
 # %% steps_shared_by_the_seeds loses 14.1
-# Divides the steps by the number of seeds.
+# Divides `steps` by the number of seeds, but each training should have all `steps` steps.
 # -             run = train("ppo", environment, Path(folder) / name, params=params, steps=steps,
 # +             run = train("ppo", environment, Path(folder) / name, params=params, steps=steps // len(seeds),
 
 
 # %% settings_kept_from_the_last_variation loses 14.1
-# Settings of one variation stay for the next one, which does not set them.
+# Keeps settings of earlier variations for the next one, but each should have only its own.
 # -     for name, params in variations.items():
 # -         for seed in seeds:
 # +     params = {}
@@ -525,25 +525,25 @@ def warning_signs(indicators, total, signs):
 
 
 # %% steps_from_zero loses 14.2
-# Steps count from the first entry.
+# Subtracts the first step of an indicator from its steps, but the steps as they were logged are asked for.
 # -             "steps": np.array([entry.step for entry in entries]),
 # +             "steps": np.array([entry.step - entries[0].step for entry in entries]),
 
 
 # %% times_for_steps loses 14.2
-# Each value stands at the step of the entry before it was filtered.
+# Gives the values after a NaN the steps of earlier entries, but each value should keep its own step.
 # -             "steps": np.array([entry.step for entry in entries]),
 # +             "steps": np.array([entry.step for entry in log.Scalars(name)][: len(entries)]),
 
 
 # %% area_by_right_edges loses 14.3
-# The area under the curve is made of rectangles as high as their right edge, not of trapezoids.
+# Multiplies each width by the mean return at its right end for "average" instead of by the mean of both ends.
 # -     area = np.sum(widths * (means[:-1] + means[1:]) / 2)
 # +     area = np.sum(widths * means[1:])
 
 
 # %% solved_at_the_last_failure loses 14.3
-# Gives the steps of the last post-evaluation below the goal instead of the next one.
+# Gives the steps of the last post-evaluation below the goal instead of those of the next one.
 # -         if mean < goal:
 # -             break
 # -         solved = int(when)
@@ -554,7 +554,7 @@ def warning_signs(indicators, total, signs):
 
 
 # %% median_for_mean loses 14.4
-# The median of the returns takes the place of the mean.
+# Takes the median of the returns instead of their mean.
 # -     means = {variant: np.mean(list(found.values())) for variant, found in results.items()}
 # +     means = {variant: np.median(list(found.values())) for variant, found in results.items()}
 
@@ -566,25 +566,25 @@ def warning_signs(indicators, total, signs):
 
 
 # %% gain_turned_around loses 14.4
-# The gain is the baseline's mean minus the variation's.
+# Subtracts the variation's mean from the baseline's, but the baseline's should be subtracted from the variation's.
 # -                 "gain": float(means[variant] - means[baseline]),
 # +                 "gain": float(means[baseline] - means[variant]),
 
 
 # %% sums_for_means loses 14.5
-# Compares the sums of the two groups, not the means.
+# Compares the difference of the sums in each way with the real difference of the means, but means should be compared with means.
 # -     differences = abs(totals / n - (together.sum() - totals) / m)
 # +     differences = abs(totals - (together.sum() - totals))
 
 
 # %% total_of_the_last_step loses 14.6
-# Divides the steps up to the last entry into parts, not those of the whole training.
+# Divides the steps up to the last entry into parts instead of all `total` steps of the training.
 # -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
 # +         inside = (steps * parts > part * steps.max()) & (steps * parts <= (part + 1) * steps.max())
 
 
 # %% covariance_of_ranks loses 14.7
-# The covariance of the ranks is not divided by their deviations.
+# Gives the covariance of the ranks instead of their correlation.
 # -     return float((a * b).sum() / below) if below > 0 else 0.0
 # +     return float((a * b).mean()) if below > 0 else 0.0
 
@@ -596,26 +596,26 @@ def warning_signs(indicators, total, signs):
 
 
 # %% ends_where_the_last_ends loses 14.8
-# The steps go on to the end of the longest run.
+# Ends the steps at the largest last step of a run, but they should end at the smallest.
 # -     end = min(curve["steps"][-1] for curve in curves)
 # +     end = max(curve["steps"][-1] for curve in curves)
 
 
 # %% starts_at_the_first loses 14.8
-# The steps begin where the first run has its first value.
+# Begins the steps at the smallest first step of a run, but they should begin at the largest.
 # -     start = max(curve["steps"][0] for curve in curves)
 # +     start = min(curve["steps"][0] for curve in curves)
 
 
 # %% whole_parts loses 14.6
-# Divides the steps as whole numbers, so that the last steps are in no part.
+# Rounds total / parts down to a whole number, so that parts may be too short and the last steps in none.
 # says: this
 # -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
 # +         inside = (steps > part * (total // parts)) & (steps <= (part + 1) * (total // parts))
 
 
 # %% seeds_counted_over_all_variants loses 14.4
-# A seed that another variation has had, too, is left out.
+# Leaves out a run if another variation already has its seed, but only runs with the same variant and seed should count once.
 # says: this
 # -         results.setdefault(run["variant"], {}).setdefault(run["seed"], run["return"])
 # +         mine = results.setdefault(run["variant"], {})
@@ -629,7 +629,7 @@ def warning_signs(indicators, total, signs):
 
 
 # %% order_for_ranks loses 14.7
-# Takes what argsort gives for the ranks: it is the order of the trainings.
+# Takes the positions that np.argsort gives for ranks, but a rank is the place of a number in the sorted order.
 # says: this
 def rank_correlation(first, second):
     if np.ptp(first) == 0 or np.ptp(second) == 0:
@@ -638,7 +638,7 @@ def rank_correlation(first, second):
 
 
 # %% neighbours_only loses 14.7
-# Groups only neighbours of the same variation, though they come in any order.
+# Subtracts the mean of neighbours with the same variant, but the mean of all numbers of the variant is asked for.
 # says: this
 def within_variants(numbers, variants):
     numbers, found, begin = np.asarray(numbers, dtype=float), [], 0
@@ -650,7 +650,7 @@ def within_variants(numbers, variants):
 
 
 # %% sorted_by_variant loses 14.7
-# The answer is in the order of the variations, not of the numbers.
+# Sorts the answer by variant, but it should be in the order of `numbers`.
 # says: this
 def within_variants(numbers, variants):
     numbers, names, found = np.asarray(numbers, dtype=float), np.array(variants), []
@@ -660,14 +660,14 @@ def within_variants(numbers, variants):
 
 
 # %% exact_comparison loses 14.5
-# Leaves the tolerance out: equal differences count only if they are equal to the last bit.
+# Leaves out some differences that equal the real one up to rounding, but those smaller by up to 1e-9 should count, too.
 # says: this
 # -     return float(np.mean(differences >= observed - 1e-9))
 # +     return float(np.mean(differences >= observed))
 
 
 # %% sums_compared loses 14.5
-# Compares sums where means are asked for: the larger group has the larger sum.
+# Compares the sums of the two groups instead of their means.
 # says: this
 # -     observed = abs(np.mean(first) - np.mean(second))
 # +     observed = abs(np.sum(first) - np.sum(second))
@@ -676,7 +676,7 @@ def within_variants(numbers, variants):
 
 
 # %% random_deals loses 14.5
-# Deals at random some thousand times, but every way is to be counted exactly once.
+# Deals the results out at random many times, but every way should be counted exactly once.
 # says: multiple of
 # -     ways = np.array(list(combinations(range(n + m), n)))
 # +     rng = np.random.default_rng(0)
@@ -684,49 +684,49 @@ def within_variants(numbers, variants):
 
 
 # %% average_of_one_run loses 14.8
-# A group is averaged, but each run is to keep its own row.
+# Averages over the runs of a group, but each run should have a row of its own.
 # says: this
 # -         found[name] = np.array(reached)
 # +         found[name] = np.mean(reached, axis=0)
 
 
 # %% borders_belong_to_the_next loses 14.6
-# What was logged on the border of two parts counts for the later one, not for the earlier one.
+# Counts what was logged at the end of a part in the next one, and at `total` in none, but it belongs to the part that ends there.
 # says: this
 # -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
 # +         inside = (steps * parts >= part * total) & (steps * parts < (part + 1) * total)
 
 
 # %% number_of_the_post_evaluation loses 14.3
-# Gives the number of the post-evaluation where its steps are asked for.
+# Gives the number of the post-evaluation as "solved" instead of its steps.
 # says: this
 # -     for when, mean in zip(steps[::-1], means[::-1], strict=True):
 # +     for when, mean in reversed(list(enumerate(means))):
 
 
 # %% every_episode_reaches_the_goal loses 14.3
-# Asks every episode to reach the goal, not their mean.
+# Counts the goal as reached only if every episode reaches it, but it is enough if the mean return does.
 # says: this
 # -     for when, mean in zip(steps[::-1], means[::-1], strict=True):
 # +     for when, mean in zip(steps[::-1], np.min(returns, axis=1)[::-1], strict=True):
 
 
 # %% gain_over_the_best loses 14.4
-# The gain is that over the best variation, not over the baseline.
+# Subtracts the highest mean for "gain" instead of the mean of the baseline.
 # says: this
 # -                 "gain": float(means[variant] - means[baseline]),
 # +                 "gain": float(means[variant] - max(means.values())),
 
 
 # %% rows_by_name loses 14.4
-# The rows are in the order of the names, not of the means.
+# Sorts the rows by the names of the variations, but the highest mean should come first.
 # says: this
 # -     for variant in sorted(means, key=means.get, reverse=True):
 # +     for variant in sorted(means):
 
 
 # %% nan_counts loses 14.6
-# What is NaN is not left out.
+# Counts NaN in the mean of a part, so that the mean is NaN, but NaN should not count.
 # says: this
 # -         these = values[inside & ~np.isnan(values)]
 # +         these = values[inside]
@@ -740,14 +740,14 @@ def within_variants(numbers, variants):
 
 
 # %% ranks_turned_around loses 14.7
-# One of the two is ranked from the largest number on, so the sign is wrong.
+# Gives the correlation with the wrong sign: the smallest number should have rank 1 in both arrays.
 # says: this
 # -     return float((a * b).sum() / below) if below > 0 else 0.0
 # +     return -float((a * b).sum() / below) if below > 0 else 0.0
 
 
 # %% formula_without_ties loses 14.7
-# Takes the short formula with squared differences of the ranks, which is wrong with equal numbers.
+# Uses the short formula with the squared differences of the ranks, but it is wrong if there are equal numbers.
 # says: this
 # -     return float((a * b).sum() / below) if below > 0 else 0.0
 # +     n = len(a)
@@ -755,14 +755,14 @@ def within_variants(numbers, variants):
 
 
 # %% evenly_spaced_logarithms loses 14.8
-# The logarithms of the steps are evenly spaced, not the steps.
+# Spaces the logarithms of the steps evenly instead of the steps themselves.
 # says: this
 # -     steps = np.linspace(start, end, points)
 # +     steps = np.geomspace(start, end, points)
 
 
 # %% all_ways_of_halves loses 14.5
-# Deals out two halves whatever the sizes of the two lists are.
+# Deals the results out to two halves, but the groups should have the sizes of the two lists.
 # says: this
 # -     n, m = len(first), len(second)
 # -     observed = abs(np.mean(first) - np.mean(second))
@@ -772,64 +772,64 @@ def within_variants(numbers, variants):
 
 
 # %% variations_folder_in_the_record loses 14.1
-# The record holds the folder of the variation, and not that of the training.
-# says: which is that of the whole variation
+# Gives the folder of the whole variation as "folder" instead of that of the training, str(run.path).
+# says: the folder of the whole variation
 # -                 {"variant": name, "seed": seed, "return": result, "folder": str(run.path)}
 # +                 {"variant": name, "seed": seed, "return": result, "folder": f"{folder}/{name}"}
 
 
 # %% time_of_day_for_steps loses 14.2
-# Takes the time of day at which a value was logged for its steps.
+# Gives the times at which the values were logged (wall_time) as "steps" instead of their steps.
 # says: this
 # -             "steps": np.array([entry.step for entry in entries]),
 # +             "steps": np.array([entry.wall_time for entry in entries]),
 
 
 # %% last_of_the_episodes loses 14.3
-# Takes the mean over the post-evaluations of the last episode, not over the last post-evaluation.
+# Takes the mean of the last column of `returns` as "last" instead of that of the last row: a row is a post-evaluation.
 # says: a row of returns is a post-evaluation
 # -         "last": float(means[-1]),
 # +         "last": float(np.mean(returns, axis=0)[-1]),
 
 
 # %% repeated_runs_counted loses 14.4
-# Counts runs that were repeated with the same seed.
-# says: Several runs with the same seed count as one
+# Counts every run of a variation in "runs", but several with the same seed should count as one.
+# says: with the same variant and seed should count as one
 # -                 "runs": len(values),
 # +                 "runs": sum(run["variant"] == variant for run in runs),
 
 
 # %% one_way_less_in_the_sum loses 14.5
-# Leaves out the way in which it really was.
+# Divides by the number of all ways, but does not count the way in which it really was: it should count, too.
 # says: this
 # -     return float(np.mean(differences >= observed - 1e-9))
 # +     return float((np.sum(differences >= observed - 1e-9) - 1) / len(differences))
 
 
 # %% last_value_for_the_mean loses 14.6
-# A sign looks at the last value, not at the mean of the last third.
+# Compares the last value with the limit instead of the mean of the last third.
 # says: this
 # -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
 # +         late = logged["values"][-1] if len(logged["values"]) else None
 
 
 # %% limit_gives_a_sign loses 14.6
-# A mean that equals the limit gives a sign.
-# says: equals the limit gives no sign
+# Counts a mean that equals the limit as a sign, but it should give none.
+# says: although the mean of the last third equals the limit
 # -         if late is not None and (late > limit if side == "above" else late < limit):
 # +         if late is not None and (late >= limit if side == "above" else late <= limit):
 
 
 # %% argsort_for_ranks loses 14.7
-# Takes the order of the numbers for their ranks.
-# says: np.argsort says where the smallest number stands
+# Correlates positions as np.argsort gives them: these say where the smallest number stands, and so on, but are not ranks.
+# says: of the sorted numbers
 # -         ranks = smaller + (equal + 1) / 2
 # +         ranks = np.argsort(numbers) + 1.0 + 0 * (smaller + equal)
 
 
 # %% divided_by_the_deviation loses 14.7
-# The numbers of a variation are divided by their deviation, too.
-# says: subtract only
+# Divides by the standard deviation of the variation, too, but only its mean should be subtracted.
+# says: only its mean should be subtracted
 def within_variants(numbers, variants, _within=within_variants):
     found, names = _within(numbers, variants), np.array(variants)
     sizes = {name: np.std(np.asarray(numbers)[names == name]) for name in set(variants)}
@@ -838,8 +838,8 @@ def within_variants(numbers, variants, _within=within_variants):
 
 
 # %% from_the_first_value_to_the_last_end loses 14.8
-# The steps begin where the first of all runs has a value, and end where the last one ends.
-# says: this|others have ended before
+# Takes the smallest first step and the largest last step of all runs, but the largest first and the smallest last are asked for.
+# says: this|should end at the smallest
 # -     start = max(curve["steps"][0] for curve in curves)
 # -     end = min(curve["steps"][-1] for curve in curves)
 # +     start = min(curve["steps"][0] for curve in curves)
@@ -847,14 +847,14 @@ def within_variants(numbers, variants, _within=within_variants):
 
 
 # %% one_entry_for_each_step loses 14.2
-# Of several entries of the same step only the last one is kept.
+# Keeps only the last of several entries with the same step, but all of them should stay.
 # says: this
 # -         entries = [entry for entry in log.Scalars(name) if not np.isnan(entry.value)]
 # +         entries = {e.step: e for e in log.Scalars(name) if not np.isnan(e.value)}.values()
 
 
 # %% parts_of_equally_many_entries loses 14.6
-# Cuts the entries into parts of equally many: the steps do not decide.
+# Divides the entries without NaN into parts of equally many, but their steps should decide to which part they belong.
 # says: this
 # -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
 # -         if part == 0:
@@ -864,7 +864,7 @@ def within_variants(numbers, variants, _within=within_variants):
 
 
 # %% one_deviation_for_all loses 14.4
-# All variations get the same deviation, pooled from all of their runs.
+# Gives all variations the same deviation, computed from the runs of all, but each should have its own.
 # says: this
 _table_14 = table_of
 
@@ -878,15 +878,15 @@ def table_of(runs, baseline):
 
 
 # %% negative_values_left_out loses 14.2
-# Values below 0 are left out.
+# Leaves out values below 0, but only NaN should be left out.
 # says: this
 # -         entries = [entry for entry in log.Scalars(name) if not np.isnan(entry.value)]
 # +         entries = [entry for entry in log.Scalars(name) if entry.value >= 0]
 
 
 # %% indicator_with_nan_left_out loses 14.2
-# An indicator with a NaN somewhere is left out as a whole.
-# says: this|Only its two NaN are left out
+# Leaves out an indicator as a whole if one of its values is NaN, but only such entries should be left out.
+# says: this|Only its two NaN should
 # -     for name in log.Tags()["scalars"]:
 # -         entries = [entry for entry in log.Scalars(name) if not np.isnan(entry.value)]
 # +     for name in log.Tags()["scalars"]:
@@ -896,7 +896,7 @@ def table_of(runs, baseline):
 
 
 # %% steps_with_nan_left_out_everywhere loses 14.2
-# A step at which one indicator is NaN is left out of all indicators.
+# Leaves a step out of all indicators if one of them is NaN there, but only the entry that is NaN should be left out.
 # says: this
 # -     for name in log.Tags()["scalars"]:
 # -         entries = [entry for entry in log.Scalars(name) if not np.isnan(entry.value)]
@@ -907,21 +907,21 @@ def table_of(runs, baseline):
 
 
 # %% names_without_groups loses 14.2
-# The names are cut at the slash: what stands before it is left out.
+# Leaves out the part of a name before the slash, but whole names such as "train/loss" are asked for.
 # says: this
 # -         indicators[name] = {
 # +         indicators[name.split("/")[-1]] = {
 
 
 # %% nan_of_the_values_only loses 14.2
-# NaN is left out of the values, but its steps stay.
-# says: this|the two whose value is NaN are to be left out
+# Leaves NaN out of "values" but keeps its step in "steps": both should be left out.
+# says: this|the two whose value is NaN should be left out
 # -             "steps": np.array([entry.step for entry in entries]),
 # +             "steps": np.array([entry.step for entry in log.Scalars(name)]),
 
 
 # %% first_of_each_step loses 14.2
-# Of several entries of the same step only the first one is kept.
+# Keeps only the first of several entries with the same step, but all of them should stay.
 # says: this
 # -         entries = [entry for entry in log.Scalars(name) if not np.isnan(entry.value)]
 # +         entries, seen = [], set()
@@ -932,35 +932,35 @@ def table_of(runs, baseline):
 
 
 # %% steps_of_the_first_indicator loses 14.2
-# All indicators get the steps of the first one.
+# Gives all indicators the steps of the first one, but each should have its own.
 # says: this
 # -             "steps": np.array([entry.step for entry in entries]),
 # +             "steps": np.array([e.step for e in log.Scalars(log.Tags()["scalars"][0])]),
 
 
 # %% average_of_one_is_zero loses 14.3
-# With a single post-evaluation the average is 0, not its mean return.
+# Gives 0 as "average" if there is only one post-evaluation, but its mean return is asked for.
 # says: this
 # -         "average": float(area / widths.sum()) if len(means) > 1 else float(means[0]),
 # +         "average": float(area / widths.sum()) if len(means) > 1 else 0.0,
 
 
 # %% average_by_steps_as_weights loses 14.3
-# The means are weighted by their own steps, not by the steps between them.
+# Weights the mean returns by their steps for "average" instead of taking the area under the curve, divided by its width.
 # says: this
 # -         "average": float(area / widths.sum()) if len(means) > 1 else float(means[0]),
 # +         "average": float(np.average(means, weights=steps) if len(means) > 1 else means[0]),
 
 
 # %% best_without_the_last loses 14.3
-# The best is looked for before the last post-evaluation only.
+# Leaves the last post-evaluation out of "best", but it should count, too.
 # says: this
 # -         "best": float(means.max()),
 # +         "best": float(means[:-1].max() if len(means) > 1 else means[0]),
 
 
 # %% solved_if_the_last_is loses 14.3
-# Gives the first time that the goal was reached if the last post-evaluation reaches it, too.
+# Takes the first post-evaluation that reaches the goal if the last one does, but those in between should reach it, too.
 # says: this
 # -     return {
 # -         "last": float(means[-1]),
@@ -971,42 +971,42 @@ def table_of(runs, baseline):
 
 
 # %% solved_is_minus_one loses 14.3
-# Gives -1 where the goal was never reached for good: None is asked for.
+# Gives -1 as "solved" if the goal is not reached for good, but None is asked for.
 # says: this
 # -         "solved": solved,
 # +         "solved": -1 if solved is None else solved,
 
 
 # %% median_of_the_last_one loses 14.3
-# The last is the median of the last post-evaluation, not its mean.
+# Takes the median of the last post-evaluation as "last" instead of its mean.
 # says: this
 # -         "last": float(means[-1]),
 # +         "last": float(np.median(returns[-1])),
 
 
 # %% solved_steps_since_the_start loses 14.3
-# Gives the steps since the first post-evaluation, not those since the start of the training.
+# Counts the steps of "solved" from the first post-evaluation instead of from the start of the training.
 # says: this
 # -         solved = int(when)
 # +         solved = int(when) - int(steps[0])
 
 
 # %% runs_of_the_whole_table loses 14.4
-# The runs are all those of the table, not those of the variation.
+# Counts the runs of all variations in "runs" instead of those of the row's variation.
 # says: this
 # -                 "runs": len(values),
 # +                 "runs": sum(map(len, results.values())),
 
 
 # %% deviation_zero_for_one loses 14.4
-# The deviation of a single run is 0, not None.
+# Gives 0 as the deviation of a single run, but None is asked for.
 # says: this|single run is 0 instead of None
 # -                 "deviation": float(np.std(values, ddof=1)) if len(values) > 1 else None,
 # +                 "deviation": float(np.std(values, ddof=1)) if len(values) > 1 else 0.0,
 
 
 # %% gain_over_the_next_row loses 14.4
-# The gain is that over the next row of the table, not over the baseline.
+# Subtracts the mean of the next row for "gain" instead of the mean of the baseline.
 # says: this
 # -                 "gain": float(means[variant] - means[baseline]),
 # +                 "gain": float(
@@ -1015,7 +1015,7 @@ def table_of(runs, baseline):
 
 
 # %% best_result_of_a_seed loses 14.4
-# Of several results with the same variant and seed the highest one counts.
+# Takes the highest of several returns with the same variant and seed, but the first one should count.
 # says: this
 # -         results.setdefault(run["variant"], {}).setdefault(run["seed"], run["return"])
 # +         own = results.setdefault(run["variant"], {})
@@ -1023,7 +1023,7 @@ def table_of(runs, baseline):
 
 
 # %% mean_result_of_a_seed loses 14.4
-# Of several results with the same variant and seed the mean counts.
+# Takes the mean of several returns with the same variant and seed, but only the first one should count.
 # says: this
 # -         results.setdefault(run["variant"], {}).setdefault(run["seed"], run["return"])
 # +         own = [r for r in runs if r["variant"] == run["variant"]]
@@ -1032,35 +1032,35 @@ def table_of(runs, baseline):
 
 
 # %% baseline_first loses 14.4
-# The baseline has the first row, whatever its mean.
+# Begins with the row of the baseline, whatever its mean, but the highest mean should come first.
 # says: this
 # -     for variant in sorted(means, key=means.get, reverse=True):
 # +     for variant in sorted(means, key=lambda v: (v == baseline, means[v]), reverse=True):
 
 
 # %% equal_returns_count_once loses 14.4
-# Runs with the same return count once, whatever their seeds.
+# Counts runs of a variation with the same return only once, but runs with different seeds should all count.
 # says: this
 # -         values = list(results[variant].values())
 # +         values = list(dict.fromkeys(results[variant].values()))
 
 
 # %% last_of_the_part loses 14.6
-# The last value of a part is taken, not the mean.
+# Takes the last value of a part instead of the mean.
 # says: this
 # -         means.append(float(these.mean()) if len(these) else None)
 # +         means.append(float(these[-1]) if len(these) else None)
 
 
 # %% median_of_the_part loses 14.6
-# The median of a part is taken, not the mean.
+# Takes the median of a part instead of the mean.
 # says: this
 # -         means.append(float(these.mean()) if len(these) else None)
 # +         means.append(float(np.median(these)) if len(these) else None)
 
 
 # %% nan_spoils_the_part loses 14.6
-# A part with a NaN gives None: only the NaN itself does not count.
+# Gives None for a part with a NaN in it, but the mean of its other values is asked for.
 # says: this
 # -         means.append(float(these.mean()) if len(these) else None)
 # +         spoiled = np.isnan(values[inside]).any()
@@ -1068,7 +1068,7 @@ def table_of(runs, baseline):
 
 
 # %% gaps_left_out loses 14.6
-# Parts that hold nothing are left out of the list.
+# Leaves parts that hold nothing out of the list, but None should stand in their place.
 # says: this
 # -         means.append(float(these.mean()) if len(these) else None)
 # +         if len(these):
@@ -1076,28 +1076,28 @@ def table_of(runs, baseline):
 
 
 # %% gap_keeps_the_last_mean loses 14.6
-# A part that holds nothing gets the mean of the part before it.
+# Gives a part that holds nothing the mean of the part before it, but None is asked for.
 # says: this
 # -         means.append(float(these.mean()) if len(these) else None)
 # +         means.append(float(these.mean()) if len(these) else means[-1] if means else None)
 
 
 # %% nan_is_zero_in_the_mean loses 14.6
-# NaN counts as 0 in the mean of a part.
+# Counts NaN as 0 in the mean of a part, but NaN should not count.
 # says: this
 # -         these = values[inside & ~np.isnan(values)]
 # +         these = np.nan_to_num(values[inside])
 
 
 # %% all_until_then loses 14.6
-# A part holds all that was logged until its end, not from its own beginning on.
+# Takes all that was logged until the end of a part, but only what was logged within the part should count.
 # says: this
 # -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
 # +         inside = steps * parts <= (part + 1) * total
 
 
 # %% missing_is_a_sign loses 14.6
-# An indicator that was not logged in the last third counts as 0.
+# Takes 0 for an indicator that was not logged in the last third, but it should give no sign.
 # says: this
 # -         if late is not None and (late > limit if side == "above" else late < limit):
 # +         late = late or 0.0
@@ -1105,28 +1105,28 @@ def table_of(runs, baseline):
 
 
 # %% second_third loses 14.6
-# A sign looks at the second third, not at the last one.
+# Looks for signs in the second third instead of the last.
 # says: this
 # -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
 # +         late = phase_means(logged["steps"], logged["values"], total, 3)[1]
 
 
 # %% last_half loses 14.6
-# A sign looks at the last half of the training, not at the last third.
+# Looks for signs in the last half of the training instead of its last third.
 # says: this
 # -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
 # +         late = phase_means(logged["steps"], logged["values"], total, 2)[-1]
 
 
 # %% end_of_the_log loses 14.6
-# The last third is that of what was logged, not that of the training.
-# says: this|the last third holds nothing
+# Takes the last third of the steps up to the last entry, but the last third of all `total` steps is asked for.
+# says: this|was not logged in the last third
 # -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
 # +         late = phase_means(logged["steps"], logged["values"], max(logged["steps"]), 3)[-1]
 
 
 # %% any_value_gives_a_sign loses 14.6
-# A single value of the last third beyond the limit gives a sign: its mean is asked for.
+# Gives a sign if a single value of the last third is beyond the limit, but the mean of the last third should be.
 # says: this
 # -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
 # +         steps, values = np.asarray(logged["steps"]), np.asarray(logged["values"])
@@ -1135,35 +1135,35 @@ def table_of(runs, baseline):
 
 
 # %% steps_of_training_twice loses 14.8
-# The steps are added up once more, though they are counted from the start already.
+# Adds up the training steps of all post-evaluations so far, but these already count from the start of the training.
 # says: this
 # -         "steps": found.steps + found.lengths.sum(axis=1).cumsum(),
 # +         "steps": found.steps.cumsum() + found.lengths.sum(axis=1).cumsum(),
 
 
 # %% best_of_all_at_once loses 14.8
-# The best of the whole training stands everywhere, also before it was reached.
+# Gives the best of the whole training everywhere as "best", but the best so far is asked for.
 # says: this
 # -         "best": np.maximum.accumulate(found.returns.mean(axis=1)),
 # +         "best": np.full(len(found.steps), found.returns.mean(axis=1).max()),
 
 
 # %% number_of_the_generation loses 14.8
-# The steps of evolution are the numbers of its generations.
+# Numbers the generations 1, 2, 3, ... in "steps" instead of taking column 0 of the stat file.
 # says: this
 # -         return {"steps": stat[:, 0], "best": stat[:, 2]}
 # +         return {"steps": np.arange(1, len(stat) + 1), "best": stat[:, 2]}
 
 
 # %% best_run_of_each_group loses 14.8
-# A group has the row of its best run only: each run has one.
+# Takes the best value of a group's runs at each step, but each run should have a row of its own.
 # says: this
 # -         found[name] = np.array(reached)
 # +         found[name] = np.array(reached).max(axis=0)
 
 
 # %% different_hands_only loses 14.5
-# Counts ways that give the same numbers only once.
+# Counts ways that give a group the same numbers only once, but every way should count.
 # says: this
 # -     ways = np.array(list(combinations(range(n + m), n)))
 # -     totals = together[ways].sum(axis=1)
@@ -1172,22 +1172,22 @@ def table_of(runs, baseline):
 
 
 # %% zero_is_nothing loses 14.6
-# Takes a mean of exactly 0 for one that is missing.
-# says: A mean of 0 is a number
+# Gives no sign if the mean is exactly 0, but 0 is a number like any other.
+# says: a number like any other
 # -         if late is not None and (late > limit if side == "above" else late < limit):
 # +         if late and (late > limit if side == "above" else late < limit):
 
 
 # %% infinite_left_out loses 14.2
-# Leaves out infinite values, too, but only NaN are to be left out.
+# Leaves out infinite values, too, but only NaN should be left out.
 # says: only NaN
 # -         entries = [entry for entry in log.Scalars(name) if not np.isnan(entry.value)]
 # +         entries = [entry for entry in log.Scalars(name) if np.isfinite(entry.value)]
 
 
 # %% settings_updated_in_one_dict loses 14.1
-# One dict of settings is updated from variation to variation, so that those of one stay for the next.
-# says: must not stay
+# Trains a variation with settings that only an earlier one has, but each should have only its own.
+# says: only its own settings
 from pathlib import Path
 
 from botschool.rl.training import train
@@ -1218,7 +1218,7 @@ def train_variations(environment, variations, seeds, steps, folder, evaluations=
 
 
 # %% solved_by_a_crossing loses 14.3
-# Takes only a post-evaluation that follows one below the goal: a training that is at the goal from the first one on is solved, too.
+# Gives None as "solved" if all post-evaluations reach the goal, but the steps of the first one are asked for.
 # says: this
 # -     for when, mean in zip(steps[::-1], means[::-1], strict=True):
 # -         if mean < goal:
@@ -1230,14 +1230,14 @@ def train_variations(environment, variations, seeds, steps, folder, evaluations=
 
 
 # %% width_from_zero loses 14.3
-# Divides the area by the last step, not by the width from the first to the last.
+# Divides the area by the last step instead of the width from the first post-evaluation to the last.
 # says: this
 # -         "average": float(area / widths.sum()) if len(means) > 1 else float(means[0]),
 # +         "average": float(area / steps[-1]) if len(means) > 1 else float(means[0]),
 
 
 # %% repetitions_in_the_gain loses 14.4
-# The mean of the baseline that is subtracted counts repeated seeds, too.
+# Counts repeated seeds in the baseline's mean for "gain", but only the first run with each seed should count.
 # says: this
 import numpy as np
 
@@ -1266,7 +1266,7 @@ def table_of(runs, baseline):
 
 
 # %% pairs_are_swapped loses 14.5
-# Exchanges the two results of each place only: all ways to deal the results out are asked for.
+# Exchanges only results at the same place of both lists, but all ways to deal the results out should count.
 # says: this
 from itertools import product
 
@@ -1289,7 +1289,7 @@ def chance_of(first, second):
 
 
 # %% last_third_of_the_log loses 14.6
-# The last third is that of what was logged, not of the training.
+# Looks for signs in the last third of what was logged instead of the last third of the training.
 # -         late = phase_means(logged["steps"], logged["values"], total, 3)[-1]
 # +         if len(logged["steps"]) == 0:
 # +             continue
@@ -1297,7 +1297,7 @@ def chance_of(first, second):
 
 
 # %% not_solved_at_step_0 loses 14.3
-# Takes the step 0 for not solved.
+# Passes over step 0, but if the goal is reached from step 0 on, "solved" should be 0.
 # says: this
 import numpy as np
 
@@ -1318,8 +1318,8 @@ def success_of(steps, returns, goal):
 
 
 # %% nothing_but_nan_is_missing loses 14.2
-# Leaves out an indicator that holds nothing but NaN: it stays, with empty arrays.
-# says: it stays, empty
+# Leaves out an indicator that holds only NaN, but it should stay, with two empty arrays.
+# says: should stay, with two empty arrays
 # -         indicators[name] = {
 # -             "steps": np.array([entry.step for entry in entries]),
 # -             "values": np.array([entry.value for entry in entries]),
@@ -1333,7 +1333,7 @@ def success_of(steps, returns, goal):
 
 
 # %% folder_by_the_seed loses 14.1
-# Makes the folder's number of the seed, not of the place among the trainings.
+# Ends the name of the folder with the seed, but the folder that `train` has made is asked for: str(run.path).
 # says: this
 # -             records.append(
 # -                 {"variant": name, "seed": seed, "return": result, "folder": str(run.path)}
@@ -1345,7 +1345,7 @@ def success_of(steps, returns, goal):
 
 
 # %% nan_of_all_indicators_so_far loses 14.2
-# Leaves out, in each indicator, the steps of NaN in those before it.
+# Leaves a step out of an indicator if an earlier indicator is NaN there, but only the entry that is NaN should be left out.
 # says: NaN at this step
 import math
 
@@ -1371,7 +1371,7 @@ def read_indicators(folder):
 
 
 # %% ends_with_whole_pieces loses 14.3
-# Weights both ends with a whole piece instead of half of it (np.gradient).
+# Weights the first and the last mean return with the whole width beside them, but half of it is asked for.
 # says: this
 import numpy as np
 
@@ -1398,7 +1398,7 @@ def success_of(steps, returns, goal):
 
 
 # %% sorted_before_repetitions_are_left_out loses 14.4
-# Sorts the runs first, so that of a repeated seed the lowest return counts, not the first.
+# Takes the lowest of several returns with the same variant and seed, but the first one should count.
 # says: this
 from statistics import mean, stdev
 
@@ -1426,7 +1426,7 @@ def table_of(runs, baseline):
 
 
 # %% first_result_never_exchanged loses 14.5
-# Leaves the first result in its group, which is right for groups of the same size only.
+# Leaves the first result in its group in all ways, but it should be dealt out, too: the two groups may differ in size.
 # says: this
 # -     ways = np.array(list(combinations(range(n + m), n)))
 # +     ways = np.array([(0, *rest) for rest in combinations(range(1, n + m), n - 1)])
@@ -1442,7 +1442,7 @@ def table_of(runs, baseline):
 
 
 # %% last_sign_of_an_indicator loses 14.6
-# Keeps the last sign of each indicator only.
+# Gives only the last of the signs of the same indicator, but each sign should count for itself.
 # says: another one of the same
 def warning_signs(indicators, total, signs):
     rules = {tag: (sign, side, limit) for sign, (tag, side, limit) in signs.items()}
@@ -1462,7 +1462,7 @@ def warning_signs(indicators, total, signs):
 
 
 # %% means_while_they_change loses 14.7
-# Takes the means from the array that it is changing.
+# Subtracts means of numbers that are partly changed already, but the means of the given numbers are asked for.
 # says: this
 import numpy as np
 
@@ -1476,14 +1476,14 @@ def within_variants(numbers, variants):
 
 
 # %% best_so_far_of_each_episode loses 14.8
-# Takes the best so far of each episode by itself, then their mean.
+# Takes the best so far of each episode and then the mean, but the best mean of a post-evaluation so far is asked for.
 # says: this
 # -         "best": np.maximum.accumulate(found.returns.mean(axis=1)),
 # +         "best": np.maximum.accumulate(found.returns, axis=0).mean(axis=1),
 
 
 # %% equal_steps_of_each_group loses 14.8
-# Takes start and end of the runs of each group, not of all runs.
+# Takes the first and the last step from the runs of each group, but those of all groups together should decide.
 # says: this
 import bisect
 
@@ -1506,7 +1506,7 @@ def at_equal_steps(groups, points):
 
 
 # %% boundary_in_the_next_part loses 14.6
-# What was logged exactly at the end of a part counts in the next part.
+# Counts what was logged at the border of two parts in the later one, but it belongs to the earlier one.
 # says: this
 # -         inside = (steps * parts > part * total) & (steps * parts <= (part + 1) * total)
 # -         if part == 0:

@@ -1,7 +1,7 @@
 """Wrong solutions of exercise 15; building.py describes how a case is written."""
 
 # %% caught_or_not loses 15.1
-# A predator that catches the prey has a fitness of 1, however long it takes.
+# Gives the predator a fitness of 1 for every catch, however long it takes, but 1 - T / maxsteps is asked for.
 _chase = chase
 
 
@@ -11,7 +11,7 @@ def chase(predator, prey, maxsteps=2000):
 
 
 # %% caught_when_done loses 15.1
-# Takes every end of an episode for a catch.
+# Gives True for "caught" even if the time is up and the prey was not caught.
 _chase = chase
 
 
@@ -20,7 +20,7 @@ def chase(predator, prey, maxsteps=2000):
 
 
 # %% memory_goes_on loses 15.1
-# Uses the networks of a chase again in the next one, with what they remember.
+# Begins a chase with what the networks remember from an earlier one, but each chase should begin with new networks.
 # says: from call to call
 _robot = robot
 _known = {}
@@ -34,7 +34,7 @@ def robot(genotype):
 
 
 # %% minds_swapped loses 15.1
-# Gives the predator what the prey senses, and the other way round.
+# Gives the predator's network what the prey senses, and the prey's network what the predator senses.
 def chase(predator, prey, maxsteps=2000):
     arena = arenas.make("predprey", max_steps=maxsteps)
     networks = robot(predator), robot(prey)
@@ -49,7 +49,7 @@ def chase(predator, prey, maxsteps=2000):
 
 
 # %% poses_not_copied loses 15.1
-# Keeps a window on the arena instead of the poses of each step.
+# Gives the last poses for every step, but those at the start and after each step are asked for (arena.robots changes: copy it each time).
 # says: Keep a copy each time \(.copy\(\)\)
 _chase = chase
 
@@ -61,7 +61,7 @@ def chase(predator, prey, maxsteps=2000):
 
 
 # %% fitness_of_the_prey loses 15.2
-# Gives what the prey gets.
+# Gives the prey's fitness instead of the predator's.
 # says: 1 minus what was expected
 _tournament = tournament
 
@@ -71,7 +71,7 @@ def tournament(predators, prey, maxsteps=2000):
 
 
 # %% individuals_together loses 15.2
-# Puts both generations first, then both individuals.
+# Puts the axes in the order (G, H, n, m), but (G, n, H, m) is asked for.
 # says: right, but their shape is
 _tournament = tournament
 
@@ -81,7 +81,7 @@ def tournament(predators, prey, maxsteps=2000):
 
 
 # %% only_contemporaries loses 15.2
-# Lets only those of the same generation meet.
+# Gives 0 for predators and prey of different generations, but the fitness of all pairs is asked for.
 _tournament = tournament
 
 
@@ -92,34 +92,34 @@ def tournament(predators, prey, maxsteps=2000):
 
 
 # %% prey_outside loses 15.2
-# Goes through the pairs prey by prey, but reads the fitness predator by predator.
+# Fills the table predator by predator with results in the order prey by prey, so that they belong to other pairs.
 # -     pairs = np.array([(i, j) for i in range(len(hunters)) for j in range(len(hunted))])
 # +     pairs = np.array([(i, j) for j in range(len(hunted)) for i in range(len(hunters))])
 
 
 # %% failures_left_out loses 15.3
-# Averages over the chases in which the prey is caught only.
+# Leaves chases with a fitness of 0 out of the mean, but all chases count.
 # -     mean = table.mean(axis=(1, 3))
 # +     caught = np.maximum((table > 0).sum(axis=(1, 3)), 1)
 # +     mean = table.sum(axis=(1, 3)) / caught
 
 
 # %% prey_not_turned loses 15.3
-# Leaves the predators in the rows of the matrix of the prey.
+# Leaves the generations of predators in the rows of the prey's matrix, but its rows should be the generations of prey.
 # says: transpose it
 # -     return {"predators": mean, "prey": 1 - mean.T}
 # +     return {"predators": mean, "prey": 1 - mean}
 
 
 # %% prey_want_to_be_caught loses 15.3
-# Gives the prey the fitness of the predators.
+# Gives the predators' fitness in the prey's matrix, but 1 minus that is asked for.
 # says: 1 minus what was expected
 # -     return {"predators": mean, "prey": 1 - mean.T}
 # +     return {"predators": mean, "prey": mean.T}
 
 
 # %% asks_the_tool loses 15.3, 15.5, 15.7
-# Hands in the answers of the tool's own tournament.
+# Gives the answers of botschool.analysis.tournament instead of those that the task describes.
 from botschool.analysis import tournament as tool
 
 
@@ -140,7 +140,7 @@ def interval(table, measure, rng, resamples=300):
 
 
 # %% ancient_with_the_present loses 15.4
-# Counts the present competitors among the ancient and the future ones.
+# Counts the present competitors among both the ancient and the future ones, but they belong to neither.
 _profile = profile
 
 
@@ -152,7 +152,7 @@ def profile(matrix):
 
 
 # %% competitors_in_rows loses 15.4
-# Takes the rows of the matrix for the competitors.
+# Averages over column g for generation g, but its competitors are in row g.
 # says: 'future': are the two exchanged
 _profile = profile
 
@@ -162,7 +162,7 @@ def profile(matrix):
 
 
 # %% against_the_first loses 15.5
-# Compares each generation with the first one instead of its predecessor.
+# Compares each generation with the first one for "historical" and "global", but a comparison with its predecessor is asked for.
 _progress = progress
 
 
@@ -173,7 +173,7 @@ def progress(matrix):
 
 
 # %% draws_are_won loses 15.5
-# Takes a draw for a match that was won.
+# Counts a draw as a match that was won, but nobody wins a draw.
 # -     wins = matrix > matrix.T
 # +     wins, count = matrix >= matrix.T, len(matrix)
 # -         for c in range(len(matrix))
@@ -181,7 +181,7 @@ def progress(matrix):
 
 
 # %% equal_is_not_better loses 15.5
-# Counts only those who do better, and nothing for a draw.
+# Counts a case in which both do equally well as 0 in "share", but it should count half.
 # says: this
 _progress = progress
 
@@ -192,7 +192,7 @@ def progress(matrix):
 
 
 # %% one_way_round loses 15.5
-# Knows cycles in one direction only.
+# Counts only cycles in which a beats b, b beats c and c beats a (a < b < c), but those the other way round count, too.
 # -     wins = matrix > matrix.T
 # +     wins, count = matrix > matrix.T, len(matrix)
 # -         (wins[a, b] and wins[b, c] and wins[c, a]) or (wins[b, a] and wins[c, b] and wins[a, c])
@@ -202,7 +202,7 @@ def progress(matrix):
 
 
 # %% present_is_ancient loses 15.5
-# Counts the competitors of the present among the ancient ones.
+# Counts the present competitors among the ancient ones, but only those with k < g are ancient.
 _progress = progress
 
 
@@ -215,7 +215,7 @@ def progress(matrix):
 
 
 # %% first_competitors_only loses 15.6
-# Holds the other side still in the first generation alone.
+# Takes only generation 0 of the side that is held still, but the mean over all its generations is asked for.
 _red_queen = red_queen
 
 
@@ -225,7 +225,7 @@ def red_queen(matrix):
 
 
 # %% sides_mistaken loses 15.6
-# Takes its own part for that of the others.
+# Gives the part of the others as "own", and the own part as "others".
 # says: 'others': are the two exchanged
 _red_queen = red_queen
 
@@ -236,7 +236,7 @@ def red_queen(matrix):
 
 
 # %% steps_added_up loses 15.6
-# Adds up what each generation gains on the competitors of its own time.
+# Adds up the gains from each generation to the next against competitors of those two times, but a comparison with generation 0 against all competitors is asked for.
 _red_queen = red_queen
 
 
@@ -248,7 +248,7 @@ def red_queen(matrix):
 
 
 # %% the_rest_is_theirs loses 15.6
-# Takes for the part of the others what is missing to the change.
+# Takes the change minus the own part as "others", but the two parts need not add up to the change.
 _red_queen = red_queen
 
 
@@ -258,7 +258,7 @@ def red_queen(matrix):
 
 
 # %% bell_shaped loses 15.7
-# A bell-shaped distribution is assumed: mean and 1.96 standard deviations.
+# Gives the mean of the measures plus and minus 1.96 standard deviations, but their 2.5 % and 97.5 % quantiles are asked for.
 _interval = interval
 
 
@@ -274,7 +274,7 @@ def interval(table, measure, rng, resamples=300):
 
 
 # %% the_same_for_all loses 15.7
-# The same individuals are drawn for all generations.
+# Draws only n predators and m prey in each resample, the same for all generations, but the sizes (G, n) and (H, m) are asked for.
 def interval(table, measure, rng, resamples=300):
     measures = []
     for _ in range(resamples):
@@ -287,7 +287,7 @@ def interval(table, measure, rng, resamples=300):
 
 
 # %% without_replacement loses 15.7
-# The individuals are drawn without replacement: the same ones in another order.
+# Draws without replacement, so that each resample holds all individuals in another order, but drawing with replacement is asked for.
 class _Shuffled:
     def __init__(self, rng):
         self._rng = rng
@@ -304,7 +304,7 @@ def interval(table, measure, rng, resamples=300):
 
 
 # %% after_the_step loses 15.8
-# Looks at walls and at the distance after each step instead of before it.
+# Measures "wall" and "distance" at the end of each step instead of its beginning.
 _describe = describe
 
 
@@ -318,7 +318,7 @@ def describe(poses):
 
 
 # %% facing_a_right_angle loses 15.8
-# Counts the other robot as faced when it is anywhere in front.
+# Counts the other robot as faced if it is less than 90 degrees to the left or right, but less than 45 degrees is asked for.
 _describe = describe
 
 
@@ -330,7 +330,7 @@ def describe(poses):
 
 
 # %% per_step loses 15.8
-# Measures speed by step and not by second.
+# Gives the speed in mm per step instead of mm per second.
 # says: 0\.1 times what was expected
 _describe = describe
 
@@ -341,7 +341,7 @@ def describe(poses):
 
 
 # %% rest_is_backwards loses 15.8
-# Takes standing still for driving backwards.
+# Counts a step without movement along the heading as backwards, but the movement should be below 0.
 _describe = describe
 
 
@@ -354,7 +354,7 @@ def describe(poses):
 
 
 # %% turning_leaps loses 15.8
-# Takes a step from 359 to 1 degree for nearly a whole turn.
+# Takes the plain difference of two headings, so that from 359 to 1 degree counts as 358 degrees, but the short way around is asked for.
 _describe = describe
 
 
@@ -364,7 +364,7 @@ def describe(poses):
 
 
 # %% two_walls_only loses 15.8
-# Forgets the walls above and to the right.
+# Leaves out the upper and the right wall, but all four walls count.
 _describe = describe
 
 
@@ -375,7 +375,7 @@ def describe(poses):
 
 
 # %% wall_after_the_step loses 15.8
-# Looks at the wall at the end of each step.
+# Measures "wall" at the end of each step instead of its beginning.
 _describe = describe
 
 
@@ -388,7 +388,7 @@ def describe(poses):
 
 
 # %% wall_includes_its_limit loses 15.8
-# Counts a robot exactly 300 mm from a wall as near.
+# Counts a robot exactly 300 mm from a wall as near, but nearer than 300 mm is asked for.
 # says: this
 _describe = describe
 
@@ -401,81 +401,81 @@ def describe(poses):
 
 
 # %% quantiles_of_ninety loses 15.7
-# The quantiles are those of 90 %, 0.05 and 0.95.
+# Takes the quantiles 0.05 and 0.95, which hold 90 % of the measures, but 0.025 and 0.975 are asked for.
 # says: this
 # -     low, high = np.quantile(measures, [0.025, 0.975])
 # +     low, high = np.quantile(measures, [0.05, 0.95])
 
 
 # %% predators_alone_are_drawn loses 15.7
-# Only the predators are drawn anew; the prey stay as they are.
+# Resamples only the predators and leaves the prey as they are, but both should be drawn anew.
 # says: this
 # -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
 # +         measures.append(measure(drawn))
 
 
 # %% prey_drawn_first loses 15.7
-# The prey are drawn before the predators, which gives other individuals.
+# Draws the prey before the predators, but the predators should be drawn first.
 # says: this
 # -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
 # +         hunted, hunters = rng.integers(m, size=(columns, m)), rng.integers(n, size=(rows, n))
 
 
 # %% smallest_and_largest loses 15.7
-# The smallest and the largest measure are returned instead of the quantiles.
+# Returns the smallest and the largest measure instead of the quantiles.
 # says: this
 # -     low, high = np.quantile(measures, [0.025, 0.975])
 # +     low, high = np.min(measures), np.max(measures)
 
 
 # %% last_individual_never_drawn loses 15.7
-# The last individual of a generation is never drawn.
+# Never draws the last of several individuals, but all should be drawn: rng.integers(n) gives numbers from 0 to n - 1.
 # -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
 # +         hunters = rng.integers(max(n - 1, 1), size=(rows, n))
 # +         hunted = rng.integers(max(m - 1, 1), size=(columns, m))
 
 
 # %% last_pose_missing loses 15.1
-# The poses after the last step are missing.
+# Leaves out the poses after the last step, but those at the start and after each of the T steps are asked for.
 # -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # +     return {"poses": np.array(poses[:-1]), "caught": arena.terminated, "fitness": float(fitness)}
 
 
 # %% two_thousand_steps_always loses 15.1
-# A chase lasts up to 2000 steps, whatever is asked for.
+# Lets a chase last up to 2000 steps, but at most maxsteps steps are asked for.
 # -     arena = arenas.make("predprey", max_steps=maxsteps)
 # +     arena = arenas.make("predprey", max_steps=2000)
 
 
 # %% one_prey_a_generation loses 15.2
-# Only the first prey of each generation plays, and its result stands for all.
+# Gives the result against the first prey of a generation for all its prey, but each of them should play.
 # -     pairs = np.array([(i, j) for i in range(len(hunters)) for j in range(len(hunted))])
 # +     m = len(prey[0])
 # +     pairs = np.array([(i, j // m * m) for i in range(len(hunters)) for j in range(len(hunted))])
 
 
 # %% two_thousand_in_the_tournament loses 15.2
-# The tournament's chases last up to 2000 steps, whatever is asked for.
+# Lets the tournament's chases last up to 2000 steps, but at most maxsteps steps are asked for.
 # -     fitness = play(hunters, hunted, pairs, maxsteps)
 # +     fitness = play(hunters, hunted, pairs, 2000)
 
 
 # %% best_individuals loses 15.3
-# Each generation counts by its best individual, not by the mean.
+# Counts only the best predator of a generation against each prey, but the mean over all individuals is asked for.
 # says: this
 # -     mean = table.mean(axis=(1, 3))
 # +     mean = table.max(axis=1).mean(axis=2)
 
 
 # %% mean_of_the_first_only loses 15.3
-# Averages over the predators, and takes the first prey for all.
+# Counts only the first prey of each generation, but the mean over all individuals is asked for.
 # says: this
 # -     mean = table.mean(axis=(1, 3))
 # +     mean = table.mean(axis=1)[:, :, 0]
 
 
 # %% future_and_ancient_swapped loses 15.4
-# Ancient and future competitors are exchanged.
+# Gives the means over future competitors as "ancient", and those over ancient ones as "future".
 # says: this
 # -         "ancient": np.array([matrix[g, :g].mean() for g in range(1, count)]),
 # +         "ancient": np.array([matrix[g, g + 1 :].mean() for g in range(count - 1)]),
@@ -484,265 +484,265 @@ def describe(poses):
 
 
 # %% last_generation_only loses 15.4
-# The ancient are only those of the generation before.
+# Counts only the generation just before as ancient, but all earlier ones are ancient.
 # says: this
 # -         "ancient": np.array([matrix[g, :g].mean() for g in range(1, count)]),
 # +         "ancient": np.array([matrix[g, g - 1] for g in range(1, count)]),
 
 
 # %% global_without_the_present loses 15.5
-# Global progress leaves out the competitors of the same generation.
+# Leaves the competitors of generation g out of "global", but those of all generations are asked for.
 # says: this
 # -         "global": gain.mean(axis=1),
 # +         "global": np.array([np.delete(row, g).mean() for g, row in enumerate(gain, 1)]),
 
 
 # %% share_of_the_means loses 15.5
-# The share counts generations whose mean progress is positive, not the single cases.
+# Counts for "share" the generations whose mean gain is above 0 (a mean of 0 counts nothing), but single cases should be counted.
 # says: this
 # -         "share": float(np.mean((cases > 0) + 0.5 * (cases == 0))),
 # +         "share": float(np.mean([row.mean() > 0 for row in ancient])),
 
 
 # %% every_triple_twice loses 15.5
-# The cycles are counted in both directions, but divided by the groups of one order only.
+# Gives twice the share of the cycles, but each cycle should count once.
 # says: this
 # -     return float(np.mean(triples)) if triples else 0.0
 # +     return 2 * float(np.mean(triples)) if triples else 0.0
 
 
 # %% no_group_is_a_cycle loses 15.5
-# Without a group of three the share is 1, not 0.
+# Gives 1 if there is no group of three generations, but 0 is asked for.
 # -     return float(np.mean(triples)) if triples else 0.0
 # +     return float(np.mean(triples)) if triples else 1.0
 
 
 # %% change_from_generation_to_generation loses 15.6
-# The change is that from each generation to the next one, not that since the first.
+# Gives the change from each generation to the next, but that since the first generation is asked for.
 # says: this
 # -         "change": np.diag(matrix)[1:] - matrix[0, 0],
 # +         "change": np.diff(np.diag(matrix)),
 
 
 # %% own_against_the_present loses 15.6
-# Its own part is that against the competitors of its own time only.
+# Takes only the competitors of generation g for "own", but the mean over those of all generations is asked for.
 # says: this
 # -         "own": (matrix[1:] - matrix[0]).mean(axis=1),
 # +         "own": np.diag(matrix[1:, 1:]) - matrix[0, 1:],
 
 
 # %% one_draw_for_both_sides loses 15.7
-# The individuals drawn of the predators are those drawn of the prey.
+# Takes the numbers that were drawn for the predators for the prey, too, but the prey should have numbers of their own.
 # -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
 # +         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
 # +         hunted[: len(hunters), : hunters.shape[1]] = hunters[: len(hunted), : hunted.shape[1]] % m
 
 
 # %% three_hundred_always loses 15.7
-# Draws 300 times, whatever is asked for.
+# Draws 300 resamples, whatever `resamples` is.
 # -     for _ in range(resamples):
 # +     for _ in range(300):
 
 
 # %% signed_turning loses 15.8
-# Turns to the left and to the right cancel out.
+# Keeps the sign of the turning, so that turns to the left and to the right cancel out, but it should be left out.
 # says: this
 # -         "turning": np.abs(turned).mean(axis=0) / 0.1,
 # +         "turning": turned.mean(axis=0) / 0.1,
 
 
 # %% speed_of_the_whole_way loses 15.8
-# The speed is that of the straight line from the start to the end.
+# Gives the speed along the straight line from the start to the end, but the mean of the speeds of all steps is asked for.
 # -         "speed": np.linalg.norm(moved, axis=-1).mean(axis=0) / 0.1,
 # +         "speed": np.linalg.norm(moved.mean(axis=0), axis=-1) / 0.1,
 # %% prey_first loses 15.1
-# Writes the wheels of the prey before those of the predator.
+# Puts the prey's wheels first in the action, but the predator's wheels should come first.
 # -         arena.action = np.concatenate(wheels)
 # +         arena.action = np.concatenate(wheels[::-1])
 # %% start_pose_missing loses 15.1
-# The poses at the start are missing; those after each step are there.
+# Leaves out the poses at the start, but those at the start and after each of the T steps are asked for.
 # -     poses, fitness = [arena.robots.copy()], 0.0
 # +     poses, fitness = [], 0.0
 # %% generations_of_both_first loses 15.2
-# Reads the table as if the generations of both sides came first, then the individuals.
+# Reshapes the list of results to (G, H, n, m), but its order is that of (G, n, H, m), the shape that is asked for.
 # -     return fitness.reshape(len(predators), len(predators[0]), len(prey), len(prey[0]))
 # +     return fitness.reshape(len(predators), len(prey), len(predators[0]), len(prey[0]))
 # %% divided_by_the_predators_only loses 15.3
-# The sum over individuals is divided by the predators only.
+# Divides the sum over all pairs by n, the number of predators, instead of n times m.
 # -     mean = table.mean(axis=(1, 3))
 # +     mean = table.sum(axis=(1, 3)) / table.shape[1]
 # %% wins_above_one_half loses 15.5
-# A match counts as won above one half, not above the return match.
+# Takes a match as won by a if f(a, b) is above 0.5, but f(a, b) should be compared with f(b, a).
 # -     wins = matrix > matrix.T
 # +     wins = matrix > 0.5
 # %% others_of_rows loses 15.6
-# The part of the others is the mean over competitors instead of over the side's own generations.
+# Averages over the competitors for "others", but the mean over the generations of the side is asked for.
 # -         "others": (matrix[:, 1:] - matrix[:, :1]).mean(axis=0),
 # +         "others": (matrix[:, 1:] - matrix[:, :1]).mean(axis=1)[1:],
 # %% drawn_once_for_all_resamples loses 15.7
-# The individuals are drawn once, before the resamples, so that all resamples are the same.
+# Takes the same drawn individuals in all resamples, but they should be drawn anew for each resample.
 # -     for _ in range(resamples):
 # -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
 # +     hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
 # +     for _ in range(resamples):
 # %% heading_after loses 15.8
-# Takes the heading at the end of a step for its direction.
+# Takes the heading at the end of each step instead of that at its beginning (so that "turning" is 0).
 # -     heading = before[..., 2]
 # +     heading = after[..., 2]
 # %% facing_to_the_left loses 15.8
-# Counts the other robot as faced only if it is to the left of the heading.
+# Counts the other robot as faced only if it is to the left of the heading, but the right counts, too.
 # -         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0),
 # +         "facing": (
 # +             (ahead > np.cos(np.pi / 4) * apart)
 # +             & (to_other[..., 1] * np.cos(heading) > to_other[..., 0] * np.sin(heading))
 # +         ).mean(axis=0),
 # %% angle_not_wrapped_in_facing loses 15.8
-# The angle to the other robot is not wrapped, so that 350 degrees do not count as 10.
+# Takes the plain difference of direction and heading for "facing", so that 350 degrees do not count as -10, but the short way around is asked for.
 # -         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0),
 # +         "facing": (
 # +             np.abs(np.arctan2(to_other[..., 1], to_other[..., 0]) - heading) < np.pi / 4
 # +         ).mean(axis=0),
 # %% next_generation_only loses 15.4
-# The future competitors are those of the next generation only.
+# Counts only the generation just after as future, but all later ones are future.
 # -         "future": np.array([matrix[g, g + 1 :].mean() for g in range(count - 1)]),
 # +         "future": np.array([matrix[g, g + 1] for g in range(count - 1)]),
 # %% fitness_of_the_prey_in_a_chase loses 15.1
-# The fitness of a chase is the prey's, 1 minus the predator's.
+# Gives the prey's fitness, 1 minus the predator's, but the predator's is asked for.
 # says: this
 # -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # +     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": 1 - float(fitness)}
 # %% both_sense_as_the_predator loses 15.1
-# Both networks get what the predator senses, the first 24 numbers.
+# Gives both networks what the predator senses, but the prey's network should get the last 24 numbers of arena.observation.
 # says: this
 # -             network.observation = observation
 # +             network.observation = arena.observation[:24]
 # %% start_counted_as_a_step loses 15.1
-# The fitness counts the poses for the steps, which are one fewer.
+# Counts one step too many for the fitness of a catch: T steps have T + 1 poses, and 1 - T / maxsteps is asked for.
 # says: this
 # -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # +     fitness = 1 - len(poses) / maxsteps if arena.terminated else 0.0
 # +     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # %% caught_if_paid loses 15.1
-# Takes a fitness above 0 for a catch: a catch in the very last step is worth 0, too.
+# Gives False for "caught" if the prey is caught in the very last step; such a catch is worth 0, but it is a catch.
 # says: worth 0
 # -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # +     return {"poses": np.array(poses), "caught": fitness > 0, "fitness": float(fitness)}
 # %% left_for_right loses 15.1
-# The left wheel gets the action of the right one, and the other way round.
+# Exchanges the left and the right wheel of both robots, but the left one should come first in the action.
 # says: this
 # -         arena.action = np.concatenate(wheels)
 # +         arena.action = np.concatenate([pair[::-1] for pair in wheels])
 # %% headings_in_degrees loses 15.1
-# The headings of the poses are in degrees, not in rad.
+# Gives the headings in degrees instead of rad.
 # says: this
 # -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # +     poses = np.array(poses)
 # +     poses[..., 2] = np.degrees(poses[..., 2])
 # +     return {"poses": poses, "caught": arena.terminated, "fitness": float(fitness)}
 # %% robots_before_steps loses 15.1
-# The poses have the robots on the first axis, and the steps on the second one.
+# Puts the robots on the first axis of "poses" and the steps on the second, but the shape (T + 1, 2, 3) is asked for.
 # says: this
 # -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # +     poses = np.swapaxes(poses, 0, 1)
 # +     return {"poses": poses, "caught": arena.terminated, "fitness": float(fitness)}
 # %% each_has_its_own_prey loses 15.2
-# Each predator meets one prey of a generation only, that of its own number, and its result stands for all.
+# Gives the result of predator i against prey i of a generation for all prey of that generation, but each pair should play.
 # says: this
 # -     pairs = np.array([(i, j) for i in range(len(hunters)) for j in range(len(hunted))])
 # +     n, m = len(predators[0]), len(prey[0])
 # +     pairs = np.array([(i, j // m * m + min(i % n, m - 1)) for i in range(len(hunters))
 # +                       for j in range(len(hunted))])
 # %% one_predator_a_generation loses 15.2
-# Only the first predator of each generation plays, and its result stands for all.
+# Gives the results of the first predator of a generation for all its predators, but each of them should play.
 # says: this
 # -     return fitness.reshape(len(predators), len(predators[0]), len(prey), len(prey[0]))
 # +     table = fitness.reshape(len(predators), len(predators[0]), len(prey), len(prey[0]))
 # +     table[:] = table[:, :1]
 # +     return table
 # %% median_for_mean loses 15.3
-# This is the median over the individuals, not the mean.
+# Takes the median over the individuals instead of the mean.
 # says: this
 # -     mean = table.mean(axis=(1, 3))
 # +     mean = np.median(table, axis=(1, 3))
 # %% present_among_the_ancient loses 15.4
-# The present competitors count among the ancient ones.
+# Counts the present competitors among the ancient ones, but only those of earlier generations are ancient.
 # says: this
 # -         "ancient": np.array([matrix[g, :g].mean() for g in range(1, count)]),
 # +         "ancient": np.array([matrix[g, :g + 1].mean() for g in range(1, count)]),
 # %% present_in_the_future loses 15.4
-# The present competitors count among the future ones.
+# Counts the present competitors among the future ones, but only those of later generations are future.
 # says: this
 # -         "future": np.array([matrix[g, g + 1 :].mean() for g in range(count - 1)]),
 # +         "future": np.array([matrix[g, g:].mean() for g in range(count - 1)]),
 # %% ancient_down_a_column loses 15.4
-# The mean over ancient competitors goes down a column: competitors are the columns of a row.
+# Averages over column g for "ancient", but the competitors of generation g are in row g.
 # says: this
 # -         "ancient": np.array([matrix[g, :g].mean() for g in range(1, count)]),
 # +         "ancient": np.array([matrix[:g, g].mean() for g in range(1, count)]),
 # %% divided_by_all_generations loses 15.4
-# The sum over ancient competitors is divided by the number of all generations, not by that of the ancient ones.
+# Divides the sum over ancient competitors by G, but the number of ancient generations is asked for.
 # says: this
 # -         "ancient": np.array([matrix[g, :g].mean() for g in range(1, count)]),
 # +         "ancient": np.array([matrix[g, :g].sum() / count for g in range(1, count)]),
 # %% very_last_generation_left_out loses 15.4
-# The very last generation is left out of the future.
+# Leaves the very last generation out of the future ones (unless it is the only one), but all later generations are future.
 # says: this
 # -         "future": np.array([matrix[g, g + 1 :].mean() for g in range(count - 1)]),
 # +         "future": np.array(
 # +             [matrix[g, g + 1 : max(count - 1, g + 2)].mean() for g in range(count - 1)]
 # +         ),
 # %% present_of_all_times loses 15.4
-# The present is the mean over the competitors of all times.
+# Gives the mean over the competitors of all times as "present", but only those of its own generation are asked for.
 # says: this
 # -         "present": np.diag(matrix).copy(),
 # +         "present": matrix.mean(axis=1),
 # %% ancient_to_the_predecessor loses 15.5
-# The ancient competitors of generation g are those before g - 1: the last one of them is left out.
+# Leaves generation g - 1 out of the ancient competitors (unless it is the only one), but all k < g count.
 # says: this
 # -     ancient = [row[:g] for g, row in enumerate(gain, 1)]
 # +     ancient = [row[:max(g - 1, 1)] for g, row in enumerate(gain, 1)]
 # %% draws_left_out loses 15.5
-# Cases in which both do equally well are left out of the share: they count half.
+# Leaves cases in which both do equally well out of "share" (and gives 0 if all are such cases), but they should count half.
 # says: this
 # -         "share": float(np.mean((cases > 0) + 0.5 * (cases == 0))),
 # +         "share": float(np.sum(cases > 0) / max(np.sum(cases != 0), 1)),
 # %% draws_count_fully loses 15.5
-# Cases in which both do equally well count fully in the share: they count half.
+# Counts a case in which both do equally well fully in "share", but it should count half.
 # says: this
 # -         "share": float(np.mean((cases > 0) + 0.5 * (cases == 0))),
 # +         "share": float(np.mean(cases >= 0)),
 # %% share_of_all_competitors loses 15.5
-# The share counts all competitors, not the ancient ones alone.
+# Counts the cases with all competitors for "share", but only those with ancient competitors are asked for.
 # says: this
 # -         "share": float(np.mean((cases > 0) + 0.5 * (cases == 0))),
 # +         "share": float(np.mean((gain > 0) + 0.5 * (gain == 0))),
 # %% share_of_shares loses 15.5
-# The share is the mean of the shares of the generations: all cases count alike.
+# Takes the mean of the shares of the single generations as "share", but all cases should count alike.
 # says: this
 # -         "share": float(np.mean((cases > 0) + 0.5 * (cases == 0))),
 # +         "share": float(np.mean([np.mean((row > 0) + 0.5 * (row == 0)) for row in ancient])),
 # %% neighbouring_columns loses 15.5
-# Neighbouring columns are compared: a generation is a row, its competitors are the columns.
+# Compares neighbouring columns of the matrix instead of neighbouring rows.
 # says: this
 # -     gain = np.diff(matrix, axis=0)
 # +     gain = np.diff(matrix, axis=1).T
 # %% compared_with_the_first loses 15.5
-# Each generation is compared with the first one, not with its predecessor.
+# Compares each generation with the first one instead of its predecessor.
 # says: this
 # -     gain = np.diff(matrix, axis=0)
 # +     gain = matrix[1:] - matrix[0]
 # %% global_by_one_less loses 15.5
-# Global progress is divided by G - 1, not by G.
+# Divides global progress by G - 1 instead of G.
 # says: this
 # -         "global": gain.mean(axis=1),
 # +         "global": gain.sum(axis=1) / len(gain),
 # %% global_over_the_generations loses 15.5
-# Global progress is the mean over generations for each competitor: take that over competitors for each generation.
+# Gives the mean over the generations for each competitor as "global", but the mean over the competitors for each generation is asked for.
 # says: this
 # -         "global": gain.mean(axis=1),
 # +         "global": gain.mean(axis=0)[1:],
 # %% cycles_of_neighbours loses 15.5
-# Only groups of three neighbouring generations are looked at.
+# Counts only groups of three neighbouring generations, but all groups of three are asked for.
 # says: this
 # -         for c in range(len(matrix))
 # -         for b in range(c)
@@ -751,84 +751,84 @@ def describe(poses):
 # +         for b in [c - 1]
 # +         for a in [c - 2]
 # %% divided_by_ordered_triples loses 15.5
-# The number of cycles is divided by that of all ordered triples, not by that of the groups of three.
+# Divides the number of cycles by G ** 3 instead of the number of groups of three.
 # says: this
 # -     return float(np.mean(triples)) if triples else 0.0
 # +     return float(np.sum(triples)) / len(matrix) ** 3
 # %% own_against_those_of_its_time loses 15.6
-# Its own part adds up what each generation gains on its predecessor against the competitors of its own time.
+# Adds up for "own" the gains of each generation on its predecessor against competitors of its own time, but a comparison with generation 0 against all competitors is asked for.
 # says: this
 # -         "own": (matrix[1:] - matrix[0]).mean(axis=1),
 # +         "own": np.cumsum([matrix[g, g] - matrix[g - 1, g] for g in range(1, len(matrix))]),
 # %% own_against_the_ancient loses 15.6
-# Its own part is the mean over the ancient competitors only, not over those of all generations.
+# Takes only the ancient competitors for "own", but the mean over those of all generations is asked for.
 # says: this
 # -         "own": (matrix[1:] - matrix[0]).mean(axis=1),
 # +         "own": np.array([(matrix[g, :g] - matrix[0, :g]).mean() for g in range(1, len(matrix))]),
 # %% own_without_the_first_competitors loses 15.6
-# Its own part leaves out the competitors of the first generation.
+# Leaves the competitors of generation 0 out of "own", but the mean over those of all generations is asked for.
 # says: this
 # -         "own": (matrix[1:] - matrix[0]).mean(axis=1),
 # +         "own": (matrix[1:, 1:] - matrix[0, 1:]).mean(axis=1),
 # %% change_as_a_share loses 15.6
-# The change is divided by the first fitness.
+# Divides the change by f(0, 0), but the difference alone is asked for.
 # says: this
 # -         "change": np.diag(matrix)[1:] - matrix[0, 0],
 # +         "change": np.diag(matrix)[1:] / matrix[0, 0] - 1,
 # %% generations_are_drawn loses 15.7
-# Whole generations are drawn, not the individuals of each generation.
+# Draws whole generations instead of the individuals of each generation.
 # says: this
 # -         drawn = table[np.arange(rows)[:, None], hunters]
 # -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
 # +         a, b = rng.integers(rows, size=rows), rng.integers(columns, size=columns)
 # +         measures.append(measure(table[a][:, :, b]))
 # %% percentile_of_shares loses 15.7
-# np.percentile takes per cent: 2.5 and 97.5, not 0.025 and 0.975.
+# Takes the quantiles 0.00025 and 0.00975, but 0.025 and 0.975 are asked for (np.percentile takes per cent: 2.5 and 97.5).
 # says: this
 # -     low, high = np.quantile(measures, [0.025, 0.975])
 # +     low, high = np.percentile(measures, [0.025, 0.975])
 # %% first_row_for_all_generations loses 15.7
-# All generations get the individuals that were drawn for the first one.
+# Gives all generations the individuals that were drawn for the first one, but each generation should have its own.
 # says: this
 # -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
 # +         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
 # +         hunters[:], hunted[:] = hunters[0], hunted[0]
 # %% prey_alone_are_drawn loses 15.7
-# Only the prey are drawn anew; the predators stay as they are.
+# Resamples only the prey and leaves the predators as they are, but both should be drawn anew.
 # says: this
 # -         drawn = table[np.arange(rows)[:, None], hunters]
 # +         drawn = table
 # %% one_resample_fewer loses 15.7
-# There is one resample fewer than asked for.
+# Draws one resample fewer than `resamples`.
 # says: this
 # -     for _ in range(resamples):
 # +     for _ in range(resamples - 1):
 # %% entries_are_drawn loses 15.7
-# Single entries of the table are drawn, not individuals.
+# Draws single entries of the table instead of individuals.
 # says: this
 # -         drawn = table[np.arange(rows)[:, None], hunters]
 # -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
 # +         flat = table.reshape(-1)
 # +         measures.append(measure(flat[rng.integers(flat.size, size=table.shape)]))
 # %% resamples_of_resamples loses 15.7
-# Each resample is drawn from the one before it, not from the table.
+# Draws each resample from the one before it instead of the table.
 # says: this
 # -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
 # +         table = drawn[:, :, np.arange(columns)[:, None], hunted]
 # +         measures.append(measure(table))
 # %% high_before_low loses 15.7
-# Low and high are exchanged.
+# Returns the upper end before the lower one, but (low, high) is asked for.
 # says: this
 # -     return float(low), float(high)
 # +     return float(high), float(low)
 # %% mirrored_at_the_measure loses 15.7
-# The interval is mirrored at the measure of the table: the quantiles themselves are asked for.
+# Mirrors the interval at the measure of the given table, but the quantiles themselves are asked for.
 # says: this
 # -     return float(low), float(high)
 # +     middle = measure(table)
 # +     return float(2 * middle - high), float(2 * middle - low)
 # %% same_prey_for_all_resamples loses 15.7
-# The prey are drawn once, before the resamples, so that all resamples have the same.
+# Takes the same drawn prey in all resamples, but they should be drawn anew for each resample.
 # says: this
 # -     measures = []
 # +     measures = []
@@ -836,84 +836,84 @@ def describe(poses):
 # -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
 # +         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], always]))
 # %% entries_for_quantiles loses 15.7
-# Low and high are entries of the sorted measures; np.quantile goes on between two of them.
+# Takes two entries of the sorted measures as low and high, but np.quantile is asked for, which interpolates between entries.
 # says: this
 # -     low, high = np.quantile(measures, [0.025, 0.975])
 # +     measures.sort()
 # +     low, high = measures[int(0.025 * resamples)], measures[int(0.975 * resamples)]
 # %% standard_errors_ddof_1 loses 15.7
-# This is the mean plus and minus 1.96 standard errors (ddof=1), which tells how sure the mean is: quantiles are asked for.
+# Gives the mean of the measures plus and minus 1.96 standard errors (ddof=1), but their 2.5 % and 97.5 % quantiles are asked for.
 # says: this
 # -     low, high = np.quantile(measures, [0.025, 0.975])
 # +     error = np.std(measures, ddof=1) / np.sqrt(resamples)
 # +     low, high = np.mean(measures) - 1.96 * error, np.mean(measures) + 1.96 * error
 # %% standard_errors loses 15.7
-# This is the mean plus and minus 1.96 standard errors, which tells how sure the mean is: quantiles are asked for.
+# Gives the mean of the measures plus and minus 1.96 standard errors, but their 2.5 % and 97.5 % quantiles are asked for.
 # says: this
 # -     low, high = np.quantile(measures, [0.025, 0.975])
 # +     error = np.std(measures) / np.sqrt(resamples)
 # +     low, high = np.mean(measures) - 1.96 * error, np.mean(measures) + 1.96 * error
 # %% middle_half loses 15.7
-# Half of the measures lie between these two, not 95 %.
+# Takes the quantiles 0.25 and 0.75, which hold half of the measures, but 0.025 and 0.975 are asked for.
 # says: this
 # -     low, high = np.quantile(measures, [0.025, 0.975])
 # +     low, high = np.quantile(measures, [0.25, 0.75])
 # %% bell_shaped_ddof_1 loses 15.7
-# A bell-shaped distribution is assumed: mean and 1.96 standard deviations (ddof=1).
+# Gives the mean of the measures plus and minus 1.96 standard deviations (ddof=1), but their 2.5 % and 97.5 % quantiles are asked for.
 # says: this
 # -     low, high = np.quantile(measures, [0.025, 0.975])
 # +     low, high = np.mean(measures) + np.array([-1.96, 1.96]) * np.std(measures, ddof=1)
 # %% measures_the_table_itself loses 15.7
-# The table itself is measured each time, not the resample.
+# Measures the given table each time instead of the table of those who were drawn.
 # -         measures.append(measure(drawn[:, :, np.arange(columns)[:, None], hunted]))
 # +         measures.append(measure(table))
 # %% speed_by_the_poses loses 15.8
-# The way is divided by the number of poses, which are one more than the steps.
+# Divides by the number of poses for "speed", but the number of steps is one smaller.
 # says: this
 # -         "speed": np.linalg.norm(moved, axis=-1).mean(axis=0) / 0.1,
 # +         "speed": np.linalg.norm(moved, axis=-1).sum(axis=0) / len(poses) / 0.1,
 # %% sign_left_out_at_the_end loses 15.8
-# Turns to the left and to the right cancel out: the sign is left out after the mean, not before it.
+# Leaves out the sign of the mean turning, so that turns to the left and to the right cancel out; it should be left out in each step.
 # says: this
 # -         "turning": np.abs(turned).mean(axis=0) / 0.1,
 # +         "turning": np.abs(turned.mean(axis=0)) / 0.1,
 # %% faced_by_the_other loses 15.8
-# The two robots are exchanged in facing.
+# Exchanges the two robots in "facing", but the predator should come first.
 # says: this
 # -         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0),
 # +         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0)[::-1],
 # %% walls_of_all_poses loses 15.8
-# Walls are counted for all poses, the last one included: a step begins at each of them but the last.
+# Counts all poses for "wall", the last one included, but no step begins at the last one.
 # says: this
 # -     to_wall = np.minimum(before[..., :2], 3000 - before[..., :2]).min(axis=-1)
 # +     to_wall = np.minimum(poses[..., :2], 3000 - poses[..., :2]).min(axis=-1)
 # %% distance_of_all_poses loses 15.8
-# The distance is the mean over all poses, the last one included: no step begins there.
+# Averages the distance over all poses, the last one included, but no step begins at the last one.
 # says: this
 # -         "distance": float(apart[:, 0].mean()),
 # +         "distance": float(np.linalg.norm(poses[:, 0, :2] - poses[:, 1, :2], axis=-1).mean()),
 # %% distance_of_the_rims loses 15.8
-# The distance is that between the rims of the robots, not between their centres.
+# Subtracts the radii of both robots from the distance, but that of their centres is asked for.
 # says: this
 # -         "distance": float(apart[:, 0].mean()),
 # +         "distance": float(apart[:, 0].mean()) - 170,
 # %% middle_for_the_corner loses 15.8
-# The walls are looked for as if 0 were in the middle of the arena.
+# Measures "wall" as if 0 were in the middle of the arena, but it is at the lower left corner.
 # says: this
 # -     to_wall = np.minimum(before[..., :2], 3000 - before[..., :2]).min(axis=-1)
 # +     to_wall = (1500 - np.abs(before[..., :2])).min(axis=-1)
 # %% turning_in_degrees loses 15.8
-# The turning is in degrees per second, not in rad.
+# Gives the turning in degrees per second instead of rad per second.
 # says: this
 # -         "turning": np.abs(turned).mean(axis=0) / 0.1,
 # +         "turning": np.degrees(np.abs(turned)).mean(axis=0) / 0.1,
 # %% facing_45_degrees_in_all loses 15.8
-# The other robot counts as faced within 22.5 degrees to each side, 45 in all.
+# Counts the other robot as faced within 22.5 degrees to each side, but 45 degrees to each side are asked for.
 # says: this
 # -         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0),
 # +         "facing": (ahead > np.cos(np.pi / 8) * apart).mean(axis=0),
 # %% facing_at_the_end loses 15.8
-# Facing is that at the end of each step, not at its beginning.
+# Measures "facing" at the end of each step instead of its beginning.
 # says: this
 # -     to_other = before[:, ::-1, :2] - before[..., :2]
 # -     apart = np.linalg.norm(to_other, axis=-1)
@@ -922,24 +922,24 @@ def describe(poses):
 # +     apart = np.linalg.norm(to_other, axis=-1)
 # +     ahead = to_other[..., 0] * np.cos(after[..., 2]) + to_other[..., 1] * np.sin(after[..., 2])
 # %% headings_wrapped_in_place loses 15.8
-# Wraps the headings in the caller's own array of poses.
+# Changes the headings in the array of poses that it is given, but that should stay as it is.
 # says: changed its argument
 # -     before, after = poses[:-1], poses[1:]
 # +     poses[..., 2] %= 2 * np.pi
 # +     before, after = poses[:-1], poses[1:]
 # %% left_wheels_first loses 15.1
-# The action holds the left wheels of both robots, then the right ones: the predator's two wheels come first.
+# Puts the left wheels of both robots first in the action, then the right ones, but the predator's two wheels should come first.
 # says: this
 # -         arena.action = np.concatenate(wheels)
 # +         arena.action = np.stack(wheels, axis=1).ravel()
 # %% start_always_counted_as_a_step loses 15.1
-# The fitness comes from the number of poses, which is one more than the steps.
+# Gives 1 - (T + 1) / maxsteps as the fitness of every chase, but T is one fewer than the poses, and without a catch the fitness is 0.
 # says: one fewer than the poses
 # -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # +     fitness = 1 - len(poses) / maxsteps
 # +     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # %% observed_once loses 15.1
-# The networks sense the start in every step: what they sense is read once, before the loop.
+# Gives the networks what they sense at the start in every step instead of what they sense in that step.
 # says: this
 # -     while not arena.done:
 # +     seen = np.split(arena.observation.copy(), 2)
@@ -947,56 +947,56 @@ def describe(poses):
 # -         for network, observation in zip(networks, np.split(arena.observation, 2), strict=True):
 # +         for network, observation in zip(networks, seen, strict=True):
 # %% prey_drawn_from_n loses 15.7
-# The prey are drawn among n individuals, the number of the predators: a generation of prey has m.
+# Draws the prey's numbers below n, but a generation of prey has m individuals.
 # says: this
 # -         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(m, size=(columns, m))
 # +         hunters, hunted = rng.integers(n, size=(rows, n)), rng.integers(n, size=(columns, m))
 # %% sides_exchanged_in_play loses 15.2
-# The predators play as prey, and the prey as predators.
+# Lets the predators play as prey, and the prey as predators, but the predators should come first in play.
 # says: this
 # -     fitness = play(hunters, hunted, pairs, maxsteps)
 # +     fitness = play(hunted, hunters, pairs[:, ::-1], maxsteps)
 # %% a_generation_twice_in_a_group loses 15.5
-# A group may hold a generation twice here: it has three different ones.
+# Counts groups that hold a generation more than once, too, but the three generations of a group should be different.
 # says: this
 # -         for b in range(c)
 # -         for a in range(b)
 # +         for b in range(c + 1)
 # +         for a in range(b + 1)
 # %% two_matches_make_a_cycle loses 15.5
-# Two matches are looked at here: a cycle needs three, of each generation with each other.
+# Counts a group as a cycle by its matches of a with b and of b with c alone, but that of c with a decides, too.
 # says: this
 # -         (wins[a, b] and wins[b, c] and wins[c, a]) or (wins[b, a] and wins[c, b] and wins[a, c])
 # +         (wins[a, b] and wins[b, c]) or (wins[b, a] and wins[c, b])
 # %% movement_to_the_other_is_forwards loses 15.8
-# Backwards is taken as away from the other robot: it is against the robot's own heading.
+# Counts movement away from the other robot as backwards, but movement against the robot's own heading is asked for.
 # says: this
 # -     forward = moved[..., 0] * np.cos(heading) + moved[..., 1] * np.sin(heading)
 # +     other = before[:, ::-1, :2] - before[..., :2]
 # +     forward = (moved * other).sum(axis=-1)
 # %% cosine_of_45_rad loses 15.8
-# np.cos takes rad: 45 degrees are not 45 rad.
+# Counts the other robot as faced within 58 degrees to each side instead of 45. (np.cos takes rad: np.cos(45) is the cosine of about 58 degrees.)
 # says: this
 # -         "facing": (ahead > np.cos(np.pi / 4) * apart).mean(axis=0),
 # +         "facing": (ahead > np.cos(45) * apart).mean(axis=0),
 
 
 # %% prey_reshaped loses 15.3
-# The matrix of the prey is reshaped: this does not exchange rows and columns.
+# Gives the prey's matrix the right shape, but with its numbers in another order: it is reshaped where it should be transposed.
 # says: reshaped where it should be transposed
 # -     return {"predators": mean, "prey": 1 - mean.T}
 # +     return {"predators": mean, "prey": (1 - mean).reshape(mean.shape[::-1])}
 
 
 # %% own_part_of_the_historical_progress loses 15.6
-# Adds up the historical progress for the own part.
+# Adds up the historical progress for "own", but the gains on the competitors of all generations are asked for.
 # says: this
 # -         "own": (matrix[1:] - matrix[0]).mean(axis=1),
 # +         "own": np.cumsum(progress(matrix)["historical"]),
 
 
 # %% networks_anew_in_each_step loses 15.1
-# The networks are made anew in each step, and so remember nothing.
+# Takes the networks' memory away before each step, but they should keep it for the whole chase.
 # says: this
 # -         for network, observation in zip(networks, np.split(arena.observation, 2), strict=True):
 # +         networks = robot(predator), robot(prey)
@@ -1004,7 +1004,7 @@ def describe(poses):
 
 
 # %% action_of_the_step_before loses 15.1
-# The action of a step is done in the next one: the first step stands still.
+# Carries out each action one step late (both robots stand still in the first step), but it should be set before arena.step().
 # says: this
 # -         arena.action = np.concatenate(wheels)
 # -         fitness += arena.step()
@@ -1013,7 +1013,7 @@ def describe(poses):
 
 
 # %% steps_left_for_the_fitness loses 15.1
-# The fitness is the number of steps left, not their share of all steps.
+# Gives the number of steps that are left as the fitness, but their share of maxsteps is asked for.
 # says: this
 # -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # +     left = maxsteps - len(poses) + 1
@@ -1021,7 +1021,7 @@ def describe(poses):
 
 
 # %% poses_without_headings loses 15.1
-# The poses have x and y only: the heading is left out.
+# Leaves the headings out of "poses", but x, y and heading of each robot are asked for.
 # says: this
 # -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # +     poses = np.array(poses)[..., :2]
@@ -1029,7 +1029,7 @@ def describe(poses):
 
 
 # %% prey_first_in_the_poses loses 15.1
-# The prey is the first robot in the poses: the predator comes first.
+# Puts the prey first in "poses", but the predator should come first.
 # says: this|The prey stands first in the poses
 # -     return {"poses": np.array(poses), "caught": arena.terminated, "fitness": float(fitness)}
 # +     poses = np.array(poses)[:, ::-1].copy()
@@ -1037,7 +1037,7 @@ def describe(poses):
 
 
 # %% networks_step_twice loses 15.1
-# Each network makes two steps in each step of the arena.
+# Lets each network make two steps in each step of the arena, but one is asked for.
 # says: this
 # -             wheels.append(network.step().copy())
 # +             network.step()
@@ -1045,21 +1045,21 @@ def describe(poses):
 
 
 # %% prey_stands_still loses 15.1
-# Only the predator is moved: the prey's wheels are 0.
+# Lets the prey stand still with its wheels at 0, but they should get what the prey's network gives.
 # says: this
 # -         arena.action = np.concatenate(wheels)
 # +         arena.action = np.concatenate([wheels[0], 0 * wheels[1]])
 
 
 # %% half_of_the_resamples loses 15.7
-# Half as many resamples are drawn as are asked for.
+# Draws half as many resamples as are asked for.
 # says: this
 # -     for _ in range(resamples):
 # +     for _ in range(resamples // 2):
 
 
 # %% pairs_by_generations loses 15.2
-# The pairs are listed generation by generation on both sides, but the table is filled predator by predator.
+# Fills the places [g, i, h, j] with results in the order g, h, i, j, so that they belong to other pairs.
 # says: this
 import numpy as np
 
@@ -1080,7 +1080,7 @@ def tournament(predators, prey, maxsteps=2000):
 
 
 # %% draws_do_not_count loses 15.5
-# Draws are left out of the share: each counts half.
+# Leaves cases in which both do equally well out of "share" (and gives 0.5 if all are such cases), but they should count half.
 # says: this
 import numpy as np
 
@@ -1103,14 +1103,14 @@ def progress(matrix):
 
 
 # %% unwrapped_between_robots loses 15.8
-# Leaps of the heading are mended from robot to robot (np.unwrap without axis=0), not from step to step.
+# Unwraps the headings from robot to robot instead of from step to step (np.unwrap needs axis=0).
 # says: this
 # -     turned = (after[..., 2] - heading + np.pi) % (2 * np.pi) - np.pi
 # +     turned = np.diff(np.unwrap(poses[..., 2]), axis=0)
 
 
 # %% draws_for_a_cycle loses 15.5
-# Three draws count as a cycle, but in a draw nobody wins.
+# Counts a group as a cycle also if a does not beat b, b does not beat c and c does not beat a, but in a draw nobody wins.
 # says: this
 from itertools import combinations
 
@@ -1130,7 +1130,7 @@ def cycles(matrix):
 
 
 # %% one_array_for_all_predators loses 15.2
-# Fills one array for all predators, so that all have the results of the last one.
+# Gives the results of the very last predator for all predators, but each should have its own. (If you fill one array again and again, keep a copy each time.)
 # says: this
 import numpy as np
 
@@ -1153,7 +1153,7 @@ def tournament(predators, prey, maxsteps=2000):
 
 
 # %% one_minus_in_the_view loses 15.3
-# Changes the transposed view in place, so that the predators' matrix is 1 minus itself, too.
+# Gives 1 minus the mean also in the predators' matrix, but only the prey's should have it. (An array and its transpose .T share their numbers.)
 # says: this
 import numpy as np
 
@@ -1168,7 +1168,7 @@ def master(table):
 
 
 # %% future_backwards loses 15.4
-# Gives the future competitors from the last generation to the first.
+# Gives "future" from generation G - 2 down to 0, but it should begin with generation 0.
 # says: this
 import numpy as np
 
@@ -1187,14 +1187,14 @@ def profile(matrix):
 
 
 # %% share_of_generation_means loses 15.5
-# Counts the generations with a mean above 0, not the cases.
+# Counts for "share" the generations whose mean gain is above 0 (a mean of 0 counts half), but single cases should be counted.
 # says: this
 # -     cases = np.concatenate(ancient)
 # +     cases = np.array([row.mean() for row in ancient])
 
 
 # %% one_direction_for_facing loses 15.8
-# Takes the direction from predator to prey for both robots.
+# Takes the direction from predator to prey for both robots, but the prey's should lead to the predator.
 # says: this
 import numpy as np
 
@@ -1221,7 +1221,7 @@ def describe(poses):
 
 
 # %% walls_of_x_and_y_apart loses 15.8
-# Counts x and y as a case each for the walls.
+# Counts a step with only x or only y near a wall half in "wall", but it should count fully.
 # says: this
 # -     to_wall = np.minimum(before[..., :2], 3000 - before[..., :2]).min(axis=-1)
 # +     to_wall = np.minimum(before[..., :2], 3000 - before[..., :2])
@@ -1230,7 +1230,7 @@ def describe(poses):
 
 
 # %% means_until_that_generation loses 15.6
-# Takes the means over the generations up to g, not over all.
+# Takes the means over generations 0 to g, but those over all generations are asked for.
 # says: this
 import numpy as np
 
@@ -1243,3 +1243,9 @@ def red_queen(matrix):
         own.append(np.mean([matrix[g, k] - matrix[0, k] for k in range(g + 1)]))
         others.append(np.mean([matrix[k, g] - matrix[k, 0] for k in range(g + 1)]))
     return {"change": np.array(change), "own": np.array(own), "others": np.array(others)}
+# %% read_by_generations_then_transposed loses 15.2
+# Reads the list of results in the order g, h, i, j instead of g, i, h, j: the shape is right, but numbers belong to other pairs.
+# says: this
+# -     return fitness.reshape(len(predators), len(predators[0]), len(prey), len(prey[0]))
+# +     shape = len(predators), len(prey), len(predators[0]), len(prey[0])
+# +     return fitness.reshape(shape).transpose(0, 2, 1, 3)
