@@ -227,9 +227,10 @@ def register_robot() -> None:
 #         env.py                    the class
 #         balance_bot.urdf          the robot
 #
-# `env.py` holds what you have written above, so two files are left. Whoever imports the package
-# wants to find the name registered; but the class, and with it PyBullet, is only loaded when
-# somebody makes the environment. So give `entry_point` as a text, "module:class".
+# `env.py` holds your class BalanceBotEnv, so two files are left. (Functions and numbers of your own
+# that stand outside the class do not get there: keep what its methods need inside it.) Whoever
+# imports the package wants to find the name registered; but the class, and with it PyBullet, is
+# only loaded when somebody makes the environment. So give `entry_point` as a text, "module:class".
 
 
 # %%
